@@ -52,6 +52,7 @@ mod number;
 mod picture;
 mod post;
 mod preflight;
+mod remarks;
 mod render;
 mod report;
 mod restart;

@@ -2,7 +2,6 @@
 
 import os
 import sys
-import tempfile
 from functools import lru_cache
 from pathlib import Path
 
@@ -26,9 +25,9 @@ def render_one(job, form, out):
     except postform.Error as error:
         return job.name, f"error: {error}"
     # whole or not at all, also where two workers get the same job
-    with tempfile.NamedTemporaryFile("w", dir=out, delete=False) as file:
-        file.write(program.program)
-    os.replace(file.name, to)
+    part = out / f".{job.stem}.{os.getpid()}"
+    part.write_text(program.program)
+    os.replace(part, to)
     return job.name, program.verdict
 
 

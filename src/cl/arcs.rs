@@ -109,7 +109,7 @@ pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut S
             let help = "no control ends it on an arc; put a straight motion between CUTCOM/OFF and the arc where that is wrong";
             job.notes.warn(
                 Code::PL008,
-                "CUTCOM/OFF stands before an arc, and ends with the straight motion after it",
+                "CUTCOM/OFF comes before an arc: compensation ends with the straight motion after it",
                 help,
             );
         }

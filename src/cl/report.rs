@@ -2,6 +2,7 @@
 
 use super::dialect::{Dialect, Sense};
 use crate::diag::{Code, Diag, Location};
+use crate::remarks::Remarks;
 use crate::toolpath::Place;
 
 /// What was noticed besides the events.
@@ -21,6 +22,14 @@ pub struct Report {
 
 /// Most facts, warnings and unknown words that are kept.
 const MOST_FACTS: usize = 100;
+
+impl Report {
+    /// Adds what another reader noticed.
+    pub(crate) fn add(&mut self, remarks: Remarks) {
+        self.facts.extend(remarks.facts);
+        self.warnings.extend(remarks.warnings);
+    }
+}
 
 /// The report, and the place in the file that is read.
 pub(super) struct Notes<'r> {

@@ -16,6 +16,7 @@ mod tools;
 use std::io::{Read, Seek};
 
 use crate::diag::{Code, Diag};
+pub use crate::remarks::Remarks as Report;
 use crate::toolpath::{About, Event, Hold, Place, ReadError, Sink, Start, Units};
 use archive::Archive;
 use convert::Convert;
@@ -26,15 +27,6 @@ use document::Document;
 pub struct Options {
     /// The job's name or label, where the document has several.
     pub job: Option<String>,
-}
-
-/// What a document says besides its toolpath.
-#[derive(Clone, Debug, Default)]
-pub struct Report {
-    /// Facts for whoever looks at the job: FreeCAD's version, the job, its order.
-    pub facts: Vec<String>,
-    /// What is left out or read in a way that the document does not say.
-    pub warnings: Vec<Diag>,
 }
 
 /// Reads the job of a document.

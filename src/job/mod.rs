@@ -18,6 +18,7 @@ use crate::diag::Diag;
 use crate::error::Error;
 use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
 use crate::nci::{self, read_nci};
+use crate::remarks::Remarks;
 use crate::toolpath::json::{read_document, read_document_again, read_lines};
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
@@ -335,10 +336,9 @@ fn read_once(
         Format::JsonLines => read_lines(input, sink),
         Format::Cl => read_cl(input, &cl_options(reading), report, sink),
         Format::Nci => {
-            let mut own = nci::Report::default();
+            let mut own = Remarks::default();
             let read = read_nci(input, &nci::Options { units: reading.units }, &mut own, sink);
-            report.facts.extend(own.facts);
-            report.warnings.extend(own.warnings);
+            report.add(own);
             read
         }
         _ => read_document(input, sink),
@@ -386,10 +386,9 @@ fn read_document_of_freecad(
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
     use crate::freecad::{self, read_freecad};
-    let mut own = freecad::Report::default();
+    let mut own = Remarks::default();
     let read = read_freecad(input, &freecad::Options { job: reading.job.clone() }, &mut own, sink);
-    report.facts.extend(own.facts);
-    report.warnings.extend(own.warnings);
+    report.add(own);
     read
 }
 

@@ -3,9 +3,10 @@
 use super::drilling::{Drilling, Open};
 use super::records::Record;
 use super::tool::{Ahead, change};
-use super::{Options, Report, wrong};
+use super::{Options, wrong};
 use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
+use crate::remarks::Remarks;
 use crate::toolpath::{Event, Hold, Place, ReadError, Side, Sink, Start, Stop, Units};
 
 pub(super) type Done<T = ()> = Result<T, ReadError>;
@@ -18,7 +19,7 @@ const MOST_FACTS: usize = 20;
 /// Takes records in their order.
 pub struct Convert<'r, 's> {
     hold: Hold<'s>,
-    report: &'r mut Report,
+    report: &'r mut Remarks,
     units: Option<Units>,
     place: Place,
     started: bool,
@@ -32,7 +33,7 @@ pub struct Convert<'r, 's> {
 }
 
 impl<'r, 's> Convert<'r, 's> {
-    pub fn new(options: &Options, report: &'r mut Report, sink: &'s mut dyn Sink) -> Self {
+    pub fn new(options: &Options, report: &'r mut Remarks, sink: &'s mut dyn Sink) -> Self {
         Convert {
             hold: Hold::new(sink),
             report,
@@ -110,9 +111,7 @@ impl<'r, 's> Convert<'r, 's> {
                 Ok(())
             }
             1013 => {
-                let Some(values) = record.first_values(3) else {
-                    return record.values(3).map(drop).map_err(Into::into);
-                };
+                let values = record.first_values(3)?;
                 self.ahead.diameter = Some(values[1]);
                 self.ahead.corner = Some(values[2]);
                 Ok(())

@@ -13,6 +13,7 @@ mod tool;
 use std::io::Read;
 
 use crate::diag::{Code, Diag};
+use crate::remarks::Remarks;
 use crate::toolpath::{ReadError, Sink, Units};
 use convert::Convert;
 use records::Records;
@@ -24,15 +25,6 @@ pub struct Options {
     pub units: Option<Units>,
 }
 
-/// What a file contains besides its toolpath.
-#[derive(Clone, Debug, Default)]
-pub struct Report {
-    /// For whoever looks at the job: the file in Mastercam, the values for its post.
-    pub facts: Vec<String>,
-    /// What is left out.
-    pub warnings: Vec<Diag>,
-}
-
 /// Reads a file and pushes its events.
 ///
 /// # Errors
@@ -40,7 +32,7 @@ pub struct Report {
 pub fn read_nci(
     input: impl Read,
     options: &Options,
-    report: &mut Report,
+    report: &mut Remarks,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
     let mut records = Records::new(input);

@@ -25,28 +25,26 @@ impl Record {
     /// # Errors
     /// One is no number, or there are too few.
     pub fn values(&self, least: usize) -> Result<Vec<f64>, Box<Diag>> {
-        let values: Option<Vec<f64>> = self
-            .text
-            .split_whitespace()
-            .map(|word| word.parse().ok().filter(|value: &f64| value.is_finite()))
-            .collect();
-        match values {
-            Some(values) if values.len() >= least => Ok(values),
-            Some(values) => {
-                let message = format!("record {} has {} values, and needs {least}", self.code, values.len());
-                Err(wrong(Code::PI001, message, "let Mastercam write the file again", self.line + 1))
-            }
-            None => {
-                let message = format!("record {} has a value that is no number", self.code);
-                Err(wrong(Code::PI001, message, "let Mastercam write the file again", self.line + 1))
-            }
-        }
+        self.numbers(self.text.split_whitespace(), least)
     }
 
     /// The first values; words after them may be anything.
-    pub fn first_values(&self, count: usize) -> Option<Vec<f64>> {
-        let values: Option<Vec<f64>> = self.text.split_whitespace().take(count).map(|word| word.parse().ok()).collect();
-        values.filter(|values| values.len() == count)
+    ///
+    /// # Errors
+    /// As [`Record::values`].
+    pub fn first_values(&self, count: usize) -> Result<Vec<f64>, Box<Diag>> {
+        self.numbers(self.text.split_whitespace().take(count), count)
+    }
+
+    fn numbers<'t>(&self, words: impl Iterator<Item = &'t str>, least: usize) -> Result<Vec<f64>, Box<Diag>> {
+        let values: Option<Vec<f64>> =
+            words.map(|word| word.parse().ok().filter(|value: &f64| value.is_finite())).collect();
+        let message = match values {
+            Some(values) if values.len() >= least => return Ok(values),
+            Some(values) => format!("record {} has {} values, and needs {least}", self.code, values.len()),
+            None => format!("record {} has a value that is no number", self.code),
+        };
+        Err(wrong(Code::PI001, message, "let Mastercam write the file again", self.line + 1))
     }
 }
 

@@ -4,7 +4,7 @@ use super::records::Record;
 use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
-use crate::toolpath::{FeedMode, First, Spindle, SpindleTurn, Tool, ToolChange};
+use crate::toolpath::{FeedMode, Spindle, SpindleTurn, Tool, ToolChange};
 
 /// What records before a tool change say of it.
 #[derive(Clone, Debug, Default)]
@@ -72,22 +72,16 @@ pub fn change(record: &Record, values: &[f64], ahead: &Ahead) -> Result<ToolChan
         corner_radius: ahead.corner.filter(|radius| *radius > 0.0),
         length_offset: register(6, "length register")?,
         diameter_offset: register(5, "diameter register")?,
-        turret: None,
         name: ahead.name.clone().filter(|name| !name.is_empty() && name != "Undefined"),
-        comment: None,
-        data: Vec::new(),
+        ..Tool::default()
     };
     Ok(ToolChange {
         name: ahead.comment.clone(),
         tool: Some(tool),
         spindle: Some(spindle),
         coolant: Some(coolant(values[9], record.line)?),
-        work: None,
-        feed: None,
-        plunge: None,
         feed_mode: Some(FeedMode::PerMinute),
         comment: ahead.comment.clone(),
-        set: Vec::new(),
-        first: First::Nothing,
+        ..ToolChange::default()
     })
 }

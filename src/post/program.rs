@@ -34,6 +34,18 @@ impl Program {
         &self.rendered.notes
     }
 
+    /// The same, and what the verdict is about: what differs, or is not proven.
+    #[doc(hidden)]
+    pub fn findings(&self) -> Vec<Diag> {
+        [self.rendered.notes.clone(), self.verdict.diags("the program")].concat()
+    }
+
+    /// The name that form and job give its file.
+    #[doc(hidden)]
+    pub fn file_name(&self) -> &str {
+        &self.rendered.file_name
+    }
+
     /// Which form line and which item of the job printed each line; empty unless [`Options::trace`](super::Options::trace)
     /// asked for it.
     pub fn trace(&self) -> &[TraceLine] {

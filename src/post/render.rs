@@ -26,7 +26,20 @@ impl Post {
     /// # Errors
     /// The job can't be read or is wrong, or asks for what the form can't print. The program does something else than the job
     /// asks for, by the rules of the control that the form names: [`ErrorKind::Proof`].
-    pub fn render(&self, mut job: Job<'_>, options: &Options) -> Result<Program, Error> {
+    pub fn render(&self, job: Job<'_>, options: &Options) -> Result<Program, Error> {
+        let program = self.tried(job, options)?;
+        match &options.proof {
+            Some(proof) => self.refused(&program.verdict, proof).map_or(Ok(program), Err),
+            None => Ok(program),
+        }
+    }
+
+    /// The same, with programs that do something else than the job asks for: the verdict says so.
+    ///
+    /// # Errors
+    /// As [`Post::render`], but for [`ErrorKind::Proof`].
+    #[doc(hidden)]
+    pub fn tried(&self, mut job: Job<'_>, options: &Options) -> Result<Program, Error> {
         let (mut text, mut trace) = (Vec::new(), Vec::new());
         if options.proof.is_some() {
             job.hold()?;

@@ -119,7 +119,7 @@ impl Post {
         })
     }
 
-    /// The verdict on a program that was just printed; one that must not run is an error.
+    /// The verdict on a program that was just printed.
     pub(super) fn proven(
         &self,
         mut job: Job<'_>,
@@ -128,15 +128,19 @@ impl Post {
         proof: &Proof,
     ) -> Result<Verdict, Error> {
         let proven = self.verify_with(job.again(), Cursor::new(text), options, proof)?;
-        let verdict = self.located(proven, job, options)?.verdict;
-        let diags = match &verdict {
-            Verdict::Different(findings) => findings.iter().map(|finding| finding.diag("the program")).collect(),
+        Ok(self.located(proven, job, options)?.verdict)
+    }
+
+    /// Why a program with this verdict must not run. `None`: it may.
+    pub(super) fn refused(&self, verdict: &Verdict, proof: &Proof) -> Option<Error> {
+        let diags = match verdict {
+            Verdict::Different(_) => verdict.diags("the program"),
             Verdict::NotProven(unproven) if proof.required => {
                 vec![Diag::new(Code::PV020, verdict.to_string()).help(&unproven.help)]
             }
-            _ => return Ok(verdict),
+            _ => return None,
         };
-        Err(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
+        Some(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
     }
 
     /// The same with the form lines of its findings, by printing the job once more if there are any. `options` are those that the

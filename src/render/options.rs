@@ -26,6 +26,47 @@ pub struct Clock {
     pub time: String,
 }
 
+impl Clock {
+    /// Reads a day, as `2026-03-31`, or a day and a time, as `2026-03-31T14:05`; a blank in place of the T and seconds are read,
+    /// too. `None`: it is neither, or there is no such day or time.
+    pub fn parse(text: &str) -> Option<Clock> {
+        let (date, time) = match text.split_once(['T', ' ']) {
+            Some((date, time)) => (date, Some(time)),
+            None => (text, None),
+        };
+        let [year, month, day] = numbers(date, '-', &[4, 2, 2])?[..] else { return None };
+        let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+        let days = match month {
+            1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
+            4 | 6 | 9 | 11 => 30,
+            2 => 28 + u32::from(leap),
+            _ => return None,
+        };
+        let of_day = match time {
+            Some(time) => {
+                let read = numbers(time, ':', &[2, 2]).or_else(|| numbers(time, ':', &[2, 2, 2]))?;
+                if read[0] > 23 || read[1..].iter().any(|part| *part > 59) {
+                    return None;
+                }
+                time.get(..5)?
+            }
+            None => "",
+        };
+        (1..=days).contains(&day).then(|| Clock { date: date.to_owned(), time: of_day.to_owned() })
+    }
+}
+
+/// Numbers of so many digits each.
+fn numbers(text: &str, between: char, digits: &[usize]) -> Option<Vec<u32>> {
+    let parts: Vec<&str> = text.split(between).collect();
+    let fits =
+        |(part, digits): (&&str, &usize)| part.len() == *digits && part.bytes().all(|byte| byte.is_ascii_digit());
+    if parts.len() != digits.len() || !parts.iter().zip(digits).all(fits) {
+        return None;
+    }
+    parts.iter().map(|part| part.parse().ok()).collect()
+}
+
 /// What a caller may choose.
 #[derive(Clone, Debug, Default)]
 pub struct Options {

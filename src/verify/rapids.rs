@@ -103,21 +103,24 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;
     let count = s.job.legs().count();
-    let is_mill = s.machine == Machine::Mill && !s.switches && line != 0;
-    let goes_across = |rapids: &[Rapid]| is_mill && rapids.iter().any(|rapid| rapid.unknown & 0b11 != 0b11);
-    let moves =
-        |(at, (leg, rapids)): &(usize, (&Leg, &[Rapid]))| !leg.lengths.is_empty() || *at > 0 && goes_across(rapids);
-    for (_, (leg, _)) in passage.legs().enumerate().filter(moves) {
+    // before a cut of a mill a rapid across counts, too, whose height is unknown; and the job moves where it has rapids
+    let by_rapids = s.machine == Machine::Mill && !s.switches && line != 0;
+    let moves = |at: usize, leg: &Leg, rapids: &[Rapid]| {
+        !leg.lengths.is_empty() || by_rapids && at > 0 && rapids.iter().any(|rapid| rapid.unknown & 0b11 != 0b11)
+    };
+    let is_own = |at: usize, rapids: &[Rapid]| !by_rapids || at == 0 || at + 1 == count || !rapids.is_empty();
+    for (at, (leg, rapids)) in passage.legs().enumerate() {
+        if !moves(at, leg, rapids) {
+            continue;
+        }
         let was = is_frame(&before.0, &leg.frame) && before.0.tool.is_some();
-        let known: Vec<Option<f64>> = s
+        let own = s
             .job
             .legs()
             .enumerate()
-            .filter(|(at, (own, rapids))| {
-                is_frame(&own.frame, &leg.frame) && (!is_mill || *at == 0 || !rapids.is_empty() || at + 1 == count)
-            })
-            .map(|(_, leg)| leg)
-            .flat_map(|(own, _)| match own.lengths.is_empty() {
+            .filter(|(at, (own, rapids))| is_frame(&own.frame, &leg.frame) && is_own(*at, rapids));
+        let known: Vec<Option<f64>> = own
+            .flat_map(|(_, (own, _))| match own.lengths.is_empty() {
                 // with the tool that cut before, the job keeps its length
                 true if was => vec![before.1],
                 true => vec![None],

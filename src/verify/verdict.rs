@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::finding::Finding;
+use crate::diag::Diag;
 use crate::toolpath;
 
 macro_rules! allowed {
@@ -130,6 +131,16 @@ impl Verdict {
             notes,
             ..Unproven::default()
         }))
+    }
+
+    /// What it is about, as findings: what differs, or what is not proven. `program`: what the program is called.
+    pub(crate) fn diags(&self, program: &str) -> Vec<Diag> {
+        let found = match self {
+            Verdict::Different(findings) => findings,
+            Verdict::NotProven(unproven) => &unproven.notes,
+            _ => return Vec::new(),
+        };
+        found.iter().map(|finding| finding.diag(program)).collect()
     }
 
     /// The verdict on a program that was not compared.

@@ -332,7 +332,7 @@ fn compensation_waits_for_a_straight_motion_in_the_plane() {
         "CUTCOM/LEFT\nGOTO/1,0,10\nCUTCOM/OFF\nMOVARC/1,1,10,0,0,1,1\nGOTO/2,1,10\nRAPID\nGOTO/2,1,20\nRAPID\nGOTO/5,5,20",
     );
     assert_eq!(lines[..4], ["G1 G41 X1. D1 F100.", "G17 G3 X2. Y1. I0 J1.", "G0 Z20.", "G40 X5. Y5."]);
-    assert!(lines[4].starts_with("PL008 CUTCOM/OFF stands before an arc"));
+    assert!(lines[4].starts_with("PL008 CUTCOM/OFF comes before an arc"));
     assert!(error("CUTCOM/LEFT\nMOVARC/0,1,10,0,0,1,1\nGOTO/1,1,10").starts_with("PL004 cutter compensation can't"));
 }
 

@@ -14,7 +14,7 @@ use super::args::CheckArgs;
 use super::files;
 use super::report::{Reporter, place_in, stopped};
 use super::say::say;
-use super::{Ending, inputs, many, output};
+use super::{Ending, many, output};
 
 /// Reads jobs and prints what is in them.
 pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
@@ -22,13 +22,12 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
         return output::shown(|out| out.write_all(SCHEMA.as_bytes()));
     }
     let reporter = &Reporter::new(colour);
-    if let ([job], false) = (args.jobs.as_slice(), args.jobs.iter().any(|job| job.is_dir())) {
+    if let Some(job) = many::single(&args.jobs) {
         let (text, ending) = checked(job, args, reporter)?;
         output::standard_output(|out| out.write_all(text.as_bytes()))?;
         return Ok(ending);
     }
     let jobs = many::jobs(&args.jobs)?;
-    inputs::are_many();
     many::run(None, jobs, |job| files::name(job), "job", |job| checked(job, args, reporter))
 }
 

@@ -1,20 +1,15 @@
 //! Day and time of printing: those of --date, of SOURCE_DATE_EPOCH, else of the place where postform runs.
 
-use jiff::civil::{Date, DateTime};
+use jiff::civil::DateTime;
 use jiff::{Timestamp, Zoned};
 use postform::internals::render::Clock;
 
 /// Reads --date.
 pub fn parse(text: &str) -> Result<Clock, String> {
-    let wrong = |_| "write a day, as 2026-03-31, or with its time, as 2026-03-31T14:05".to_owned();
-    if text.contains(':') {
-        return text.parse::<DateTime>().map(of).map_err(wrong);
-    }
-    let day = text.parse::<Date>().map_err(wrong)?;
-    Ok(Clock { date: day.to_string(), time: String::new() })
+    Clock::parse(text).ok_or_else(|| "write a day, as 2026-03-31, or with its time, as 2026-03-31T14:05".to_owned())
 }
 
-/// The clock, where nobody gave --date.
+/// The clock, without --date.
 pub fn now() -> Result<Clock, String> {
     const EPOCH: &str = "SOURCE_DATE_EPOCH";
     let Ok(seconds) = std::env::var(EPOCH) else { return Ok(of(Zoned::now().datetime())) };

@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_result_is_taken_as_soon_as_those_before_it_are() {
+    fn results_are_taken_in_order_while_others_are_made() {
         let taken = Mutex::new(Vec::new());
         let work = |n: u64| {
             thread::sleep(Duration::from_millis(n % 3));

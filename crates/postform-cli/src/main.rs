@@ -15,6 +15,7 @@ mod each;
 mod explain;
 mod files;
 mod fmt;
+mod folders;
 mod forms;
 mod identity;
 mod inputs;

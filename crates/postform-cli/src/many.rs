@@ -6,14 +6,22 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use super::each::each_in_order;
+use super::folders::jobs_in;
 use super::progress::Progress;
 use super::report::count;
 use super::say::{kept, message, say};
-use super::test::jobs_in;
 use super::{Ending, files, output};
 
 /// Failed jobs that the last line names.
 const MOST_NAMED: usize = 10;
+
+/// The job that arguments name, where it is one and no folder.
+pub fn single(paths: &[PathBuf]) -> Option<&Path> {
+    match paths {
+        [path] if !path.is_dir() => Some(path),
+        _ => None,
+    }
+}
 
 /// The jobs that arguments name: files, and in folders all jobs in them and below.
 ///
@@ -42,12 +50,6 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
         jobs.extend(found);
     }
     Ok(jobs)
-}
-
-/// A JSON document on a line of its own.
-pub fn line(document: &str) -> String {
-    let value: serde_json::Value = serde_json::from_str(document).unwrap_or_default();
-    format!("{value}\n")
 }
 
 /// Works on each item, several at a time. What `work` returns as text is written to standard output, its messages to standard

@@ -201,8 +201,17 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// A JSON document for people's terminals, too: what would steer one is escaped, and reads back as it was.
 pub fn json(document: &serde_json::Value) -> String {
-    let mut text = String::new();
-    for c in format!("{document:#}").chars() {
+    safe(&format!("{document:#}"))
+}
+
+/// The same on one line.
+pub fn json_line(document: &serde_json::Value) -> String {
+    safe(&document.to_string())
+}
+
+fn safe(document: &str) -> String {
+    let mut text = String::with_capacity(document.len() + 1);
+    for c in document.chars() {
         // line ends are the layout: in strings they are escaped already
         if c != '\n' && steers(c) {
             text += &format!("\\u{:04x}", u32::from(c));

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::say::is_kept;
+
 /// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// How often the line is drawn in a second.
@@ -35,7 +37,8 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        let begins = stderr().is_terminal().then(|| Instant::now() + PATIENCE);
+        // work of many shows how far all of it is
+        let begins = (stderr().is_terminal() && !is_kept()).then(|| Instant::now() + PATIENCE);
         Progress { bar, begins: Mutex::new(begins) }
     }
 

@@ -18,6 +18,11 @@ pub fn say(report: &str) {
     });
 }
 
+/// Are messages of this thread kept?
+pub fn is_kept() -> bool {
+    KEPT.with_borrow(Option::is_some)
+}
+
 /// Does some work and returns the messages of this thread in place of writing them, so that those of several threads stay apart.
 pub fn kept<R>(work: impl FnOnce() -> R) -> (R, String) {
     KEPT.set(Some(String::new()));

@@ -22,12 +22,12 @@ use super::rendered::{denied, rendered};
 use super::report::{Reporter, stopped};
 use super::spool::Spool;
 use super::verdict::Sides;
-use super::{Ending, inputs, many, output};
+use super::{Ending, many, output};
 
 /// Compares a program with its job, or with each of several jobs the program that a form prints of it.
 pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let reporter = &Reporter::new(colour);
-    if let ([job], false) = (args.jobs.as_slice(), args.jobs.iter().any(|job| job.is_dir())) {
+    if let Some(job) = many::single(&args.jobs) {
         files::check_format(job, &args.read)?;
         if job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
             return Err("error: job and program can't both be standard input".into());
@@ -48,28 +48,25 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     if args.nc.is_some() {
         return Err("error: --nc takes one job".into());
     }
-    let jobs = many::jobs(&args.jobs)?;
     let mut forms: HashMap<PathBuf, Prepared> = HashMap::new();
-    for job in &jobs {
-        let form = form_of(args, &Config::near(job)?).ok_or_else(no_form)?;
-        if let Entry::Vacant(entry) = forms.entry(form) {
-            let prepared = prepare(entry.key(), &args.options, job, reporter)?;
+    let mut items = Vec::new();
+    for job in many::jobs(&args.jobs)? {
+        let config = Config::near(&job)?;
+        let form = form_of(args, &config).ok_or_else(no_form)?;
+        if let Entry::Vacant(entry) = forms.entry(form.clone()) {
+            let prepared = prepare(entry.key(), &args.options, &job, reporter)?;
             let Some(prepared) = prepared else { return Ok(Ending::Findings) };
             entry.insert(prepared);
         }
+        items.push((job, form, config));
     }
-    inputs::are_many();
     many::run(
         args.at_a_time,
-        jobs,
-        |job| files::name(job),
+        items,
+        |(job, ..)| files::name(job),
         "job",
-        |job| {
-            let config = Config::near(job)?;
-            let form = form_of(args, &config).ok_or_else(no_form)?;
-            let made = forms.get_key_value(&form).map(|(form, prepared)| (form.as_path(), prepared));
-            let (text, ending) = tried(job, args, made, &config, reporter)?;
-            Ok((if args.format == VerifyFormat::Json { many::line(&text) } else { text }, ending))
+        |(job, form, config)| {
+            tried(job, args, forms.get(form).map(|prepared| (form.as_path(), prepared)), config, reporter)
         },
     )
 }
@@ -161,7 +158,7 @@ fn tried(
             if let Some((fitted, fitting)) = on_machine {
                 document["machine"] = fitting.document(&fitted);
             }
-            output::json(&document)
+            if many::single(&args.jobs).is_some() { output::json(&document) } else { output::json_line(&document) }
         }
     };
     Ok((text, if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings }))

@@ -40,7 +40,7 @@ export interface Options {
   units?: "mm" | "inch";
   /** Units of a job that does not give them. */
   assumeUnits?: "mm" | "inch";
-  /** The day, or the day and time, that the program prints: `2026-03-31T14:05`. */
+  /** The day, or the day and time, for forms that print it: `2026-03-31T14:05`; else the clock's. */
   date?: string;
   /** Run the program and compare it with the job. */
   verify?: boolean;
@@ -50,7 +50,7 @@ export interface Options {
 export interface Program {
   program: string;
   fileName: string;
-  /** Its first words are `identical`, `equivalent`, `not proven` or `not verified`. */
+  /** Its first words are `identical`, `equivalent` or `not proven`. */
   verdict: string;
   findings: Finding[];
 }
@@ -84,7 +84,8 @@ export class Postform {
 
   /** Prints a job and verifies the program. */
   async render(form: Text, job: Text, options: Options = {}, files: Record<string, string> = {}): Promise<Program> {
-    const { refused, ...program } = await this.ask({ command: "render", form, files, job, options });
+    const now = new Date(Date.now() - new Date().getTimezoneOffset() * 60_000).toISOString().slice(0, 16);
+    const { refused, ...program } = await this.ask({ command: "render", form, files, job, options: { date: now, ...options } });
     if (refused) {
       const error = new PostformError(program.verdict, program.findings);
       throw Object.assign(error, { program: program.program, verdict: program.verdict });

@@ -43,5 +43,5 @@ test("a broken job is an error with its line", async () => {
     assert.equal(error.findings.at(-1).code, "PJ007");
     return true;
   });
-  await assert.rejects(postform.render(form, job, { units: "cm" }), PostformError);
+  for (const options of [{ units: "cm" }, { date: "today" }, { nothing: 1 }]) await assert.rejects(postform.render(form, job, options), PostformError);
 });

@@ -1,22 +1,18 @@
 //! Posts and what they print.
 
-use std::io::Cursor;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use postform::internals::post::shipped;
-use postform::internals::render::Clock;
+use postform::internals::sema::MOST_TEXT;
 use postform::toolpath::Units;
-use postform::{NoFiles, Options, Proof, Source, Verdict};
-use pyo3::exceptions::{PyOSError, PyValueError};
+use postform::{Clock, NoFiles, Options, Source, Verdict};
+use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::findings::{Finding, Refused, all, finding, raised, with_findings};
 use crate::jobs::Given;
 use crate::spelt;
-
-/// Largest form, in bytes: a longer file is none.
-const LARGEST_FORM: u64 = 1 << 20;
 
 /// A form that prints programs.
 #[pyclass(frozen, module = "postform")]
@@ -42,24 +38,53 @@ impl Program {
     }
 }
 
-/// How a job is printed.
-struct Asked {
-    given: Given,
-    options: Options,
+/// The keywords of `render` and `render_text`.
+#[derive(Default)]
+struct Keywords {
+    properties: Vec<(String, String)>,
+    set: Vec<(String, f64)>,
+    program: Option<u32>,
     units: Option<Units>,
-    verify: bool,
+    date: Option<String>,
+    assume_units: Option<Units>,
+    unverified: bool,
 }
 
-/// The keywords of `render` and `render_text`.
-struct Keywords<'py> {
-    properties: Option<Bound<'py, PyDict>>,
-    set: Option<Bound<'py, PyDict>>,
-    program: Option<u32>,
-    units: Option<String>,
-    date: Option<String>,
-    assume_units: Option<String>,
-    verify: bool,
+impl Keywords {
+    fn of(given: Option<&Bound<'_, PyDict>>) -> PyResult<Keywords> {
+        let mut keywords = Keywords::default();
+        for (name, value) in given.into_iter().flatten() {
+            let name: String = name.extract()?;
+            // None is a keyword that is not given, but of one that takes yes or no
+            if value.is_none() && name != "verify" {
+                continue;
+            }
+            match name.as_str() {
+                "properties" => {
+                    for (name, value) in value.cast::<PyDict>()? {
+                        keywords.properties.push((name.extract()?, spelt(&value)?));
+                    }
+                }
+                "set" => {
+                    for (name, value) in value.cast::<PyDict>()? {
+                        keywords.set.push((name.extract()?, value.extract()?));
+                    }
+                }
+                "program" => keywords.program = Some(value.extract()?),
+                "units" => keywords.units = Some(units_of(&value.extract::<String>()?)?),
+                "date" => keywords.date = Some(value.extract()?),
+                "assume_units" => keywords.assume_units = Some(units_of(&value.extract::<String>()?)?),
+                "verify" => keywords.unverified = !value.extract::<bool>()?,
+                other => {
+                    return Err(PyTypeError::new_err(format!("there is no keyword {other:?} (known: {KEYWORDS})")));
+                }
+            }
+        }
+        Ok(keywords)
+    }
 }
+
+const KEYWORDS: &str = "properties, set, program, units, date, assume_units, verify";
 
 #[pymethods]
 impl Post {
@@ -106,42 +131,26 @@ impl Post {
     }
 
     /// Prints a job and verifies the program.
-    #[pyo3(signature = (job, *, properties=None, set=None, program=None, units=None, date=None, assume_units=None, verify=true))]
-    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    #[pyo3(signature = (job, **keywords))]
     fn render(
         &self,
         py: Python<'_>,
         job: &Bound<'_, PyAny>,
-        properties: Option<Bound<'_, PyDict>>,
-        set: Option<Bound<'_, PyDict>>,
-        program: Option<u32>,
-        units: Option<String>,
-        date: Option<String>,
-        assume_units: Option<String>,
-        verify: bool,
+        keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Program> {
-        let keywords = Keywords { properties, set, program, units, date, assume_units, verify };
-        self.print(py, self.asked(py, Given::of(job)?, keywords)?)
+        self.print(py, Given::of(job)?, Keywords::of(keywords)?)
     }
 
     /// The same for the text of a job.
-    #[pyo3(signature = (text, format, *, properties=None, set=None, program=None, units=None, date=None, assume_units=None, verify=true))]
-    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    #[pyo3(signature = (text, format, **keywords))]
     fn render_text(
         &self,
         py: Python<'_>,
         text: &str,
         format: &str,
-        properties: Option<Bound<'_, PyDict>>,
-        set: Option<Bound<'_, PyDict>>,
-        program: Option<u32>,
-        units: Option<String>,
-        date: Option<String>,
-        assume_units: Option<String>,
-        verify: bool,
+        keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Program> {
-        let keywords = Keywords { properties, set, program, units, date, assume_units, verify };
-        self.print(py, self.asked(py, Given::text(text, format)?, keywords)?)
+        self.print(py, Given::text(text, format)?, Keywords::of(keywords)?)
     }
 
     /// The verdict about a program.
@@ -169,69 +178,34 @@ impl Post {
 }
 
 impl Post {
-    fn asked(&self, py: Python<'_>, given: Given, keywords: Keywords<'_>) -> PyResult<Asked> {
+    fn print(&self, py: Python<'_>, given: Given, keywords: Keywords) -> PyResult<Program> {
         let mut options = Options::default();
-        options.proof = None;
+        options.proof = options.proof.filter(|_| !keywords.unverified);
         options.program = keywords.program;
-        options.units = keywords.units.as_deref().map(units_of).transpose()?;
+        options.units = keywords.units;
         options.job_file = given.file_name();
-        for (name, value) in keywords.properties.iter().flatten() {
-            options.properties.push((name.extract()?, spelt(&value)?));
-        }
-        for (name, value) in keywords.set.iter().flatten() {
-            let name: String = name.extract()?;
-            options.set_value(&name, value.extract()?).map_err(|error| raised(py, error))?;
+        options.properties = keywords.properties;
+        for (name, value) in keywords.set {
+            options.set_value(&name, value).map_err(|error| raised(py, error))?;
         }
         let date = match keywords.date {
             None if self.0.says_time() => Some(now(py)?),
             date => date,
         };
-        options.clock = date.map(|date| clock(py, &date)).transpose()?;
-        let units = keywords.assume_units.as_deref().map(units_of).transpose()?;
-        Ok(Asked { given, options, units, verify: keywords.verify })
-    }
-
-    fn print(&self, py: Python<'_>, asked: Asked) -> PyResult<Program> {
-        let job = || {
-            let mut job = asked.given.job()?;
-            job.reading.units = asked.units;
-            Ok::<_, PyErr>(job)
-        };
-        let done = py.detach(|| {
-            let mut text = Vec::new();
-            let rendered = match self.0.render_to(job()?, &asked.options, &mut text) {
-                Ok(rendered) => rendered,
-                Err(error) => return Ok(Err(error)),
-            };
-            let proven = match asked.verify {
-                true => Some(self.0.verify_with(job()?, Cursor::new(&text), &asked.options, &Proof::default())),
-                false => None,
-            };
-            Ok::<_, PyErr>(Ok((text, rendered, proven.transpose())))
+        options.clock = date.as_deref().map(clock).transpose()?;
+        let tried = py.detach(|| {
+            let mut job = given.job()?;
+            job.reading.units = keywords.assume_units;
+            Ok::<_, PyErr>(self.0.tried(job, &options))
         })?;
-        let (text, rendered, proven) = done.map_err(|error| raised(py, error))?;
-        let program = String::from_utf8_lossy(&text).into_owned();
-        let files = self.0.files();
-        let mut findings: Vec<Finding> = rendered.notes.iter().map(|diag| finding(diag, files)).collect();
-        let verdict = match proven.map_err(|error| raised(py, error))? {
-            None => "not verified".to_owned(),
-            Some(proven) => {
-                let found = match &proven.verdict {
-                    Verdict::Different(found) => found.as_slice(),
-                    Verdict::NotProven(unproven) => &unproven.notes,
-                    _ => &[],
-                };
-                findings.extend(found.iter().map(|found| finding(&found.diag("the program"), files)));
-                let verdict = proven.verdict.to_string();
-                if matches!(proven.verdict, Verdict::Different(_)) {
-                    let error = Refused::new_err(verdict.clone());
-                    let more = [("program", program.as_str()), ("verdict", verdict.as_str())];
-                    return Err(with_findings(py, error, findings, &more));
-                }
-                verdict
-            }
-        };
-        Ok(Program { program, verdict, findings, file_name: rendered.file_name })
+        let tried = tried.map_err(|error| raised(py, error))?;
+        let findings: Vec<Finding> = tried.findings().iter().map(|diag| finding(diag, self.0.files())).collect();
+        let verdict = tried.verdict().to_string();
+        if matches!(tried.verdict(), Verdict::Different(_)) {
+            let more = [("program", tried.text()), ("verdict", verdict.as_str())];
+            return Err(with_findings(py, Refused::new_err(verdict.clone()), findings, &more));
+        }
+        Ok(Program { verdict, findings, file_name: tried.file_name().to_owned(), program: tried.into_text() })
     }
 }
 
@@ -252,8 +226,12 @@ fn post_of(form: Source, path: Option<PathBuf>) -> Result<postform::Post, postfo
     let Some(path) = path else { return postform::Post::compile(form, &NoFiles) };
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
     postform::Post::compile(form, &|name: &str| {
-        // the folder of the form and those below it
-        if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+        let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder.as_path() };
+        let (Ok(real), Ok(root)) = (base.join(name).canonicalize(), base.canonicalize()) else {
+            return Err("can't be found".to_owned());
+        };
+        // the folder of the form and those below it, also when links are followed
+        if !real.starts_with(root) {
             return Err("is outside the form's folder".to_owned());
         }
         source(&folder.join(name)).map_err(|_| "can't be read".to_owned())
@@ -262,8 +240,9 @@ fn post_of(form: Source, path: Option<PathBuf>) -> Result<postform::Post, postfo
 
 fn source(path: &Path) -> PyResult<Source> {
     let fail = |error: std::io::Error| PyOSError::new_err(format!("can't read {}: {error}", path.display()));
-    if std::fs::metadata(path).map_err(fail)?.len() > LARGEST_FORM {
-        return Err(PyValueError::new_err(format!("{} is larger than 1 MB: it is no form", path.display())));
+    if std::fs::metadata(path).map_err(fail)?.len() > MOST_TEXT as u64 {
+        let message = format!("{} is larger than {} KB: it is no form", path.display(), MOST_TEXT >> 10);
+        return Err(PyValueError::new_err(message));
     }
     Ok(Source::from_bytes(path.to_string_lossy(), &std::fs::read(path).map_err(fail)?))
 }
@@ -283,12 +262,7 @@ fn now(py: Python<'_>) -> PyResult<String> {
 }
 
 /// A day, or a day and a time.
-fn clock(py: Python<'_>, text: &str) -> PyResult<Clock> {
-    let read = py.import("datetime")?.getattr("datetime")?.call_method1("fromisoformat", (text,));
-    if read.is_err() {
-        return Err(PyValueError::new_err(format!("date={text:?}: write a day, as 2026-03-31, or 2026-03-31T14:05")));
-    }
-    let (date, time) = text.split_at_checked(10).unwrap_or((text, ""));
-    let time = time.get(1..6).unwrap_or_default();
-    Ok(Clock { date: date.to_owned(), time: time.to_owned() })
+fn clock(text: &str) -> PyResult<Clock> {
+    let wrong = || format!("date={text:?}: write a day, as 2026-03-31, or 2026-03-31T14:05");
+    Clock::parse(text).ok_or_else(|| PyValueError::new_err(wrong()))
 }

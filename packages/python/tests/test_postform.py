@@ -69,10 +69,11 @@ def test_a_wrong_program_is_refused_with_all_that_is_known(tmp_path):
         postform.Post.from_file(form).render(BRACKET)
     assert refused.value.program.startswith("%")
     assert refused.value.verdict.startswith("different")
-    assert any(finding.code == "PV014" for finding in refused.value.findings)
+    finding = next(finding for finding in refused.value.findings if finding.code == "PV014")
+    assert Path(finding.file) == form and finding.line > 80  # the line of the form that printed it
     # who wants it all the same
     program = postform.Post.from_file(form).render(BRACKET, verify=False)
-    assert program.verdict == "not verified"
+    assert program.verdict.startswith("not proven")
 
 
 def test_findings_of_a_form(tmp_path):
@@ -84,6 +85,18 @@ def test_findings_of_a_form(tmp_path):
     with pytest.raises(postform.Error) as error:
         postform.Post.from_file(form)
     assert any(finding.severity == "error" for finding in error.value.findings)
+
+
+def test_a_form_calls_others_in_its_folder_alone(tmp_path):
+    folder = tmp_path / "forms"
+    folder.mkdir()
+    text = (ROOT / "postforms/haas.pf").read_text()
+    (tmp_path / "outside.pf").write_text("")
+    (folder / "link.pf").symlink_to(tmp_path / "outside.pf")
+    for name in ["link.pf", "../outside.pf"]:
+        (folder / "my.pf").write_text(text + f"Call {name}\n")
+        with pytest.raises(postform.Error, match="outside"):
+            postform.Post.from_file(folder / "my.pf")
 
 
 @pytest.mark.parametrize(
@@ -104,6 +117,11 @@ def test_wrong_options(post):
     for options in [{"units": "cm"}, {"properties": {"nothing": 1}}, {"set": {"x": 1}}, {"date": "today"}]:
         with pytest.raises(ValueError):
             post.render(BRACKET, **options)
+    for date in ["2026-02-30", "20260331", "2026-03-31T25:00"]:
+        with pytest.raises(ValueError):
+            post.render(BRACKET, date=date)
+    with pytest.raises(TypeError, match="assume_units"):
+        post.render(BRACKET, unit="mm")
     with pytest.raises(ValueError, match="haas-4axis"):
         postform.Post.shipped("nobody")
 

@@ -19,7 +19,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             PieceKind::Stray(text) if ends_block && text.starts_with(';') => Some((
                 "`;` begins no comment on this control".to_owned(),
                 "printed with what stands after it: there the control ends the block",
-                "a remark of the form begins with ` #`, a comment of the program stands in brackets, `(CHANGE)`, or after `;` where the form says `Comment ;`",
+                "a remark of the form begins with ` #`; write a comment of the program in brackets, `(CHANGE)`, or after `;` where the form has `Comment ;`",
             )),
             _ => None,
         };

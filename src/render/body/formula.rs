@@ -81,7 +81,7 @@ impl Body<'_> {
     }
 
     /// A letter and a calculated value. On an axis the control counts it like a typed one: it may stand in another frame.
-    /// What a form makes of a condition alone, as `H[work-53]`, is how the form says it: the job's is not said after it.
+    /// What a form makes of a condition alone, as `H[work-53]`, is the form's own value: the job's value is not printed after it.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
         let shape = self.writer.shape;
         let info = &shape.letters[letter];

@@ -119,7 +119,7 @@ fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Dri
     (exit, known)
 }
 
-/// Does an emulated sequence leave the tool at the clearance for certain: G99, and no axis after the control's cycle?
+/// Is the tool certainly at the clearance after an emulated sequence: G99, and no axis is printed after the control's cycle?
 fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
     let number = shape.program.settings.return_plane[0];
     let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;

@@ -85,7 +85,7 @@ pub struct State {
     pub feed: Option<f64>,
 }
 
-/// What a subprogram leaves after for its caller.
+/// What a subprogram leaves to its caller.
 #[derive(Debug, Default)]
 pub struct Left {
     pub conditions: Conditions,

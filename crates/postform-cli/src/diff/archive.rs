@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::super::args::{DiffArgs, DiffFormat};
 use super::super::colour::Colour;
 use super::super::prepare::prepare;
 use super::super::report::{Reporter, count};
-use super::super::{Ending, files, inputs, many, output};
-use super::difference;
+use super::super::{Ending, files, many, output};
 use super::sides::printed_by;
+use super::{Shown, difference};
 
 /// Jobs of one kind that are named.
 const MOST_NAMED: usize = 20;
@@ -45,9 +45,8 @@ pub fn run(
     let [old, new] = forms.map(|form| prepare(form, &args.options, &jobs[0], reporter));
     let (Some(old), Some(new)) = (old?, new?) else { return Ok(Ending::Findings) };
     let forms = [(forms[0], old), (forms[1], new)];
-    inputs::are_many();
     let kinds: Mutex<BTreeMap<String, Kind>> = Mutex::default();
-    let differs = AtomicBool::new(false);
+    let (compared, differs) = (AtomicUsize::new(0), AtomicBool::new(false));
     let items: Vec<(usize, &PathBuf)> = jobs.iter().enumerate().collect();
     let ending = many::run(
         None,
@@ -62,30 +61,37 @@ pub fn run(
                 Ok(difference) => difference,
                 Err(ending) => return Ok((String::new(), ending)),
             };
+            compared.fetch_add(1, Ordering::Relaxed);
             differs.fetch_or(!difference.is_none(), Ordering::Relaxed);
-            if args.format == DiffFormat::Json {
-                return Ok((line(job, &difference.text), Ending::Clean));
-            }
-            if !difference.is_none() {
+            let is_none = difference.is_none();
+            let text = match difference.shown {
+                Shown::Text(text) => text,
+                Shown::Document(mut document) => {
+                    document["job"] = files::name(job).into();
+                    return Ok((output::json_line(&document), Ending::Clean));
+                }
+            };
+            if !is_none {
                 let mut kinds = kinds.lock().unwrap_or_else(PoisonError::into_inner);
                 let kind = kinds.entry(difference.kind).or_default();
                 kind.jobs.push(at);
                 if kind.example.as_ref().is_none_or(|(first, _)| at < *first) {
-                    kind.example = Some((at, difference.text));
+                    kind.example = Some((at, text));
                 }
             }
             Ok((String::new(), Ending::Clean))
         },
     )?;
     if args.format != DiffFormat::Json {
-        let text = shown(kinds.into_inner().unwrap_or_else(PoisonError::into_inner), &jobs);
+        let kinds = kinds.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let text = shown(kinds, &jobs, compared.into_inner());
         output::standard_output(|out| out.write_all(text.as_bytes()))?;
     }
     Ok(if ending == Ending::Clean && differs.into_inner() { Ending::Findings } else { ending })
 }
 
-/// All kinds as text, the commonest first, and how many programs change.
-fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf]) -> String {
+/// All kinds as text, the commonest first, and how many of the programs that could be compared change.
+fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf], compared: usize) -> String {
     let mut kinds: Vec<(String, Kind)> = kinds.into_iter().collect();
     for (_, kind) in &mut kinds {
         kind.jobs.sort_unstable();
@@ -105,16 +111,9 @@ fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf]) -> String {
             _ = writeln!(text, "as {}:\n{example}", files::name(&jobs[*at]));
         }
     }
-    let of = count(jobs.len(), "program");
+    let of = count(compared, "program");
     let in_kinds = if changed == 0 { String::new() } else { format!(", in {}", count(kinds.len(), "kind")) };
     let verb = if changed == 1 { "changes" } else { "change" };
     _ = writeln!(text, "{changed} of {of} {verb}{in_kinds}");
     text
-}
-
-/// The document of a job, with the job's name, on a line.
-fn line(job: &Path, document: &str) -> String {
-    let mut value: serde_json::Value = serde_json::from_str(document).unwrap_or_default();
-    value["job"] = files::name(job).into();
-    format!("{value}\n")
 }

@@ -5,11 +5,10 @@ use serde_json::{Value, json};
 use postform::internals::diff::{Comparison, Edit, Options, Summary, changed_spans};
 use postform::internals::verify::Motions;
 
-use super::super::output;
 use super::sides::Side;
 
 /// The whole comparison.
-pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summary, options: &Options) -> String {
+pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summary, options: &Options) -> Value {
     let text = |side: &Side, line: usize| String::from_utf8_lossy(side.program.text(line)).into_owned();
     let edit = |edit: &Edit| -> Value {
         match *edit {
@@ -40,27 +39,25 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
             })
         })
         .collect();
-    let document = json!({
+    json!({
         "postform_diff": 1, "same": comparison.is_same(), "old": old.name, "new": new.name,
         "summary": {
             "changed": summary.changed, "added": summary.added, "removed": summary.removed, "moved": summary.moved,
             "letters": summary.letters, "more": summary.more, "less": summary.less,
         },
         "hunks": hunks,
-    });
-    output::json(&document)
+    })
 }
 
 /// The first difference of motions, if there is one, and what was left out.
-pub fn motion(old: &Side, new: &Side, found: &Motions) -> String {
+pub fn motion(old: &Side, new: &Side, found: &Motions) -> Value {
     let first = found.difference.as_ref().map(|difference| {
         let [(a, before), (b, after)] = &difference.blocks;
         json!({ "message": difference.message, "old": a, "old_text": before, "new": b, "new_text": after })
     });
-    let document = json!({
+    json!({
         "postform_diff": 1, "same": first.is_none(), "old": old.name, "new": new.name, "motion": first,
         "cuts": found.cuts, "other_pecks": found.pecks, "rounded_feeds": found.feeds,
         "left_out": { "ways": found.ways, "codes": found.codes },
-    });
-    output::json(&document)
+    })
 }

@@ -18,7 +18,7 @@ use super::args::{DiffArgs, DiffFormat, Layout};
 use super::colour::Colour;
 use super::report::{Reporter, place_in};
 use super::say::say;
-use super::{Ending, output};
+use super::{Ending, many, output};
 pub use sides::Side;
 use sides::sides;
 pub use text::unified;
@@ -30,7 +30,8 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
     }
     let reporter = Reporter::new(colour.on_stderr());
     if let (true, [old, new, jobs @ ..]) = (args.forms, args.files.as_slice())
-        && (jobs.len() > 1 || jobs.iter().any(|job| job.is_dir()))
+        && !jobs.is_empty()
+        && many::single(jobs).is_none()
     {
         return archive::run([old, new], jobs, args, colour, &reporter);
     }
@@ -39,16 +40,25 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
         Ok(difference) => difference,
         Err(ending) => return Ok(ending),
     };
-    output::standard_output(|out| out.write_all(difference.text.as_bytes()))?;
+    let text = match &difference.shown {
+        Shown::Text(text) => text.clone(),
+        Shown::Document(document) => output::json(document),
+    };
+    output::standard_output(|out| out.write_all(text.as_bytes()))?;
     Ok(if difference.is_none() { Ending::Clean } else { Ending::Findings })
 }
 
 /// What differs in two programs.
 struct Difference {
-    /// For standard output.
-    text: String,
+    shown: Shown,
     /// Its kind, alike for programs that differ in the same words; empty: nothing differs.
     kind: String,
+}
+
+/// A difference for standard output.
+enum Shown {
+    Text(String),
+    Document(serde_json::Value),
 }
 
 impl Difference {
@@ -74,33 +84,33 @@ fn difference(
             }
             Outcome::Compared(found) => {
                 say(&text::verdict(old, new, &found));
-                let text = match args.format {
-                    DiffFormat::Text => text::motion(old, new, &found),
-                    _ => json::motion(old, new, &found),
+                let shown = match args.format {
+                    DiffFormat::Text => Shown::Text(text::motion(old, new, &found)),
+                    _ => Shown::Document(json::motion(old, new, &found)),
                 };
                 let kind = if found.difference.is_some() { "the machine does something else" } else { "" };
-                Ok(Difference { text, kind: kind.to_owned() })
+                Ok(Difference { shown, kind: kind.to_owned() })
             }
         });
     }
     let comparison = compare(&old.program, &new.program, &options);
     let summary = Summary::of(&comparison, &old.program, &new.program, &options.ignore);
-    let text = match args.format {
-        DiffFormat::Text => match columns(args.layout) {
+    let shown = match args.format {
+        DiffFormat::Text => Shown::Text(match columns(args.layout) {
             Some(columns) => {
                 let colour = colour.on_stdout();
                 text::side_by_side(old, new, &comparison, &summary, args.context, columns, colour)
             }
             None => unified(old, new, &comparison, &summary, args.context, &options, colour.on_stdout()),
-        },
-        DiffFormat::Json => json::document(old, new, &comparison, &summary, &options),
+        }),
+        DiffFormat::Json => Shown::Document(json::document(old, new, &comparison, &summary, &options)),
         DiffFormat::Html => {
             let path = html::path([&old.program, &new.program], settings(args, old, new).1);
-            html::page(old, new, &comparison, &summary, args.context, &options, &path)
+            Shown::Text(html::page(old, new, &comparison, &summary, args.context, &options, &path))
         }
     };
     let kind = if comparison.is_same() { String::new() } else { text::kind(&summary) };
-    Ok(Ok(Difference { text, kind }))
+    Ok(Ok(Difference { shown, kind }))
 }
 
 /// Columns for programs side by side; `None`: one below the other.

@@ -91,9 +91,15 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     many::run(args.at_a_time, planned, called, "program", |program| match &program.to {
         Ok(output) => {
             let name = files::output_name(output);
-            let (job, part) = (program.job.as_path(), program.part.as_ref());
             let file = output.file_name().map(|name| name.to_string_lossy().into_owned());
-            let task = Task { job, output: folder, name: file.as_deref(), called: &name, part, number: program.number };
+            let task = Task {
+                job: &program.job,
+                output: folder,
+                name: file.as_deref(),
+                called: &name,
+                part: program.part,
+                number: program.number,
+            };
             print::print(&task, &forms.ready[program.ready], args, &reporter).map(|ending| (String::new(), ending))
         }
         Err(refused) => {
@@ -151,7 +157,7 @@ fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) ->
     });
     match found {
         Ok(found) => {
-            let numbers = |at: usize| Some(found.number? as u32 + at as u32);
+            let numbers = |at: usize| Some((found.number? as u32).saturating_add(at as u32));
             let parts = found.parts.iter().enumerate();
             parts.map(|(at, part)| planned(Some(*part), numbers(at), Ok(PathBuf::new()))).collect()
         }

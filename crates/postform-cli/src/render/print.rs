@@ -34,7 +34,7 @@ pub struct Task<'a> {
     /// What messages call the program.
     pub called: &'a str,
     /// The part of the job that is printed. `None`: what the options take.
-    pub part: Option<&'a Part>,
+    pub part: Option<Part>,
     /// The program's number. `None`: that of the command line, else the job's.
     pub number: Option<u32>,
 }

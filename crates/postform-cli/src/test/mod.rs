@@ -20,7 +20,6 @@ use super::report::Reporter;
 use super::say::message;
 use case::Tried;
 use find::Found;
-pub use find::jobs_in;
 use posts::Posts;
 
 /// Prints every case and compares it with what is expected.

@@ -1,13 +1,12 @@
 //! One request: JSON on standard input. One answer: JSON on standard output. `packages/npm/src/index.ts` has both.
 
 use std::collections::HashMap;
-use std::io::{Cursor, Read, Write};
+use std::io::{Read, Write};
 
 use postform::diag::Findings;
-use postform::internals::render::Clock;
 use postform::internals::report::row;
 use postform::toolpath::Units;
-use postform::{Error, Format, Job, Options, Post, Proof, Source, Verdict};
+use postform::{Clock, Error, Format, Job, Options, Post, Source, Verdict};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -108,14 +107,17 @@ fn answer(request: &Request) -> Result<Value, Error> {
         return Ok(json!({ "verdict": post.verify(job()?, program)?.to_string() }));
     }
     let mut options = Options::default();
-    options.proof = None;
+    options.proof = options.proof.filter(|_| asked.verify != Some(false));
     options.program = asked.number;
     options.units = asked.units.map(Units::from);
     options.job_file = Format::of_name(&text.name).map(|_| text.name.clone());
-    options.clock = asked.date.as_deref().map(|date| {
-        let (date, time) = date.split_once('T').unwrap_or((date, ""));
-        Clock { date: date.to_owned(), time: time.to_owned() }
-    });
+    if let Some(date) = &asked.date {
+        options.clock = Clock::parse(date);
+        if options.clock.is_none() {
+            let error = format!("date {date:?}: write a day, as 2026-03-31, or 2026-03-31T14:05");
+            return Ok(json!({ "error": error, "findings": [] }));
+        }
+    }
     for (name, value) in &asked.properties {
         let value = match value {
             Value::Bool(flag) => if *flag { "yes" } else { "no" }.to_owned(),
@@ -127,21 +129,13 @@ fn answer(request: &Request) -> Result<Value, Error> {
     for (name, value) in &asked.set {
         options.set_value(name, *value)?;
     }
-    let mut program = Vec::new();
-    let rendered = post.render_to(job()?, &options, &mut program)?;
-    let mut findings: Vec<Value> = rendered.notes.iter().map(|diag| json!(row(diag, post.files()))).collect();
-    let mut answer = json!({ "program": String::from_utf8_lossy(&program), "fileName": rendered.file_name, "verdict": "not verified" });
-    if asked.verify != Some(false) {
-        let proven = post.verify_with(job()?, Cursor::new(&program), &options, &Proof::default())?;
-        let found = match &proven.verdict {
-            Verdict::Different(found) => found.as_slice(),
-            Verdict::NotProven(unproven) => &unproven.notes,
-            _ => &[],
-        };
-        findings.extend(found.iter().map(|found| json!(row(&found.diag("the program"), post.files()))));
-        answer["verdict"] = proven.verdict.to_string().into();
-        answer["refused"] = matches!(proven.verdict, Verdict::Different(_)).into();
-    }
-    answer["findings"] = findings.into();
-    Ok(answer)
+    let tried = post.tried(job()?, &options)?;
+    let findings: Vec<Value> = tried.findings().iter().map(|diag| json!(row(diag, post.files()))).collect();
+    Ok(json!({
+        "program": tried.text(),
+        "fileName": tried.file_name(),
+        "verdict": tried.verdict().to_string(),
+        "refused": matches!(tried.verdict(), Verdict::Different(_)),
+        "findings": findings,
+    }))
 }

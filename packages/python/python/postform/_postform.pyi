@@ -45,7 +45,7 @@ class Program:
 
     program: str
     verdict: str
-    """Its first word is `identical`, `equivalent` or `not proven`; `not verified` where `verify=False`."""
+    """Its first words are `identical`, `equivalent` or `not proven`, as with `verify=False`."""
     findings: list[Finding]
     """Warnings and notes of the job and of printing it; what is not proven, and why."""
     file_name: str

@@ -1,0 +1,119 @@
+//! Which files of a folder are jobs.
+
+use std::collections::HashSet;
+use std::fs;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use postform::Format;
+
+use super::files::io_message;
+use super::packed::unpacked_name;
+
+/// Folders below one another; deeper ones are left alone.
+pub const DEEPEST: usize = 32;
+/// So much of a JSON document tells whether it is a job.
+const HEAD: u64 = 4096;
+
+/// The jobs in a folder and in those below it, in the order of their paths; and the JSON files that do not begin as jobs do.
+///
+/// # Errors
+/// A message: a folder can't be read.
+pub fn jobs_in(folder: &Path) -> Result<(Vec<PathBuf>, Vec<PathBuf>), String> {
+    let (mut jobs, mut others) = (Vec::new(), Vec::new());
+    collect(folder, DEEPEST, &mut jobs, &mut others)?;
+    Ok((jobs, others))
+}
+
+fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut Vec<PathBuf>) -> Result<(), String> {
+    let entries = listed(folder)?;
+    let expected = jobs_expected(&entries);
+    for path in &entries {
+        // a link to nothing is a job that can't be read
+        let is_there = path.is_file() || path.is_symlink() && !path.exists();
+        // into a compressed job is not looked
+        let is_job = match unpacked_name(path) {
+            Some(name) => is_there && is_named_as_job(&name),
+            None => is_job(path, &expected),
+        };
+        if is_job {
+            jobs.push(path.clone());
+        } else if is_there && !is_expected(path) && Format::of_name(&path.to_string_lossy()) == Some(Format::Json) {
+            others.push(path.clone());
+        }
+    }
+    for folder in below(&entries).filter(|_| deeper > 0) {
+        collect(folder, deeper - 1, jobs, others)?;
+    }
+    Ok(())
+}
+
+/// Is it called as jobs are? A program is one by its name `job` alone.
+fn is_named_as_job(name: &Path) -> bool {
+    match Format::of_name(&name.to_string_lossy()) {
+        Some(Format::Nc) => name.file_stem().is_some_and(|stem| stem == "job"),
+        format => format.is_some(),
+    }
+}
+
+/// The folders among the entries of one.
+pub fn below(entries: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
+    entries.iter().filter(|path| {
+        let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+        // a link to a folder could lead back
+        !is_hidden && path.symlink_metadata().is_ok_and(|meta| meta.is_dir())
+    })
+}
+
+/// The entries of a folder, in the order of their names.
+///
+/// # Errors
+/// A message: it can't be read.
+pub fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let fail = |error: std::io::Error| io_message("read", folder, &error);
+    let entries: Result<Vec<PathBuf>, _> =
+        fs::read_dir(folder).map_err(fail)?.map(|entry| entry.map(|entry| entry.path())).collect();
+    let mut entries = entries.map_err(fail)?;
+    entries.sort();
+    Ok(entries)
+}
+
+/// Is it the program, or the error, that is expected of a job?
+pub fn is_expected(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.starts_with("expected.") || name.contains(".expected.")
+}
+
+/// The name of the job to which an expected program belongs, without its ending.
+pub fn stem_of_expected(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    name.split_once(".expected.").map_or("job".to_owned(), |(stem, _)| stem.to_owned())
+}
+
+/// The names of the jobs of which a folder has expected programs, without their endings.
+pub fn jobs_expected(entries: &[PathBuf]) -> HashSet<String> {
+    entries.iter().filter(|path| is_expected(path)).map(|path| stem_of_expected(path)).collect()
+}
+
+/// Is the file a job? JSON must look like one, unless it is called `job` or has expected programs; an NC program is one if it is
+/// called `job`.
+pub fn is_job(path: &Path, expected: &HashSet<String>) -> bool {
+    if !path.is_file() || is_expected(path) {
+        return false;
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let is_called_so = stem == "job" || expected.contains(stem.as_ref());
+    match Format::of_name(&path.to_string_lossy()) {
+        Some(Format::Nc) => stem == "job",
+        Some(Format::Json) => is_called_so || looks_like_a_job(path),
+        Some(_) => true,
+        None => false,
+    }
+}
+
+fn looks_like_a_job(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    // what can't be read is said where it is read
+    read.is_err() || String::from_utf8_lossy(&head).contains("\"postform\"")
+}

@@ -35,6 +35,19 @@ impl Source {
         Self::with(name.into(), text.into_owned(), was_windows_1252)
     }
 
+    /// The bytes of a text in the encoding of this file.
+    ///
+    /// # Errors
+    /// The first character that Windows-1252 has no byte for.
+    #[doc(hidden)]
+    pub fn encoded(&self, text: &str) -> Result<Vec<u8>, char> {
+        if !self.was_windows_1252 {
+            return Ok(text.as_bytes().to_vec());
+        }
+        let byte = |letter: char| (0..=u8::MAX).find(|&byte| windows_1252(byte) == letter).ok_or(letter);
+        text.chars().map(|letter| if letter.is_ascii() { Ok(letter as u8) } else { byte(letter) }).collect()
+    }
+
     /// A source from text that is in memory already.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self::with(name.into(), text.into(), false)

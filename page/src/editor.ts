@@ -1,7 +1,7 @@
 // The form pane: CodeMirror, with findings under the words and the lines lit that printed the chosen block.
 
 import { completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentLess, indentMore } from "@codemirror/commands";
 import { bracketMatching, HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
@@ -134,17 +134,30 @@ export class Editor {
           { key: "Mod-s", run: () => (this.onSave(), true), preventDefault: true },
           ...completionKeymap,
           { key: "Escape", run: () => this.escape() },
-          ...defaultKeymap, ...historyKeymap, ...searchKeymap, indentWithTab,
+          ...defaultKeymap, ...historyKeymap, ...searchKeymap,
+          { key: "Tab", run: (view) => this.indents(view.state) && indentMore(view), shift: (view) => this.indents(view.state) && indentLess(view) },
         ]),
         EditorView.updateListener.of((update) => {
+          if (update.focusChanged) this.writes = false;
           if (this.quiet) return;
-          if (update.docChanged) this.onEdit(this.name, this.text);
+          if (update.docChanged) {
+            this.writes = true;
+            this.onEdit(this.name, this.text);
+          }
           else if (update.selectionSet && update.view.hasFocus) {
             this.onLine(this.file, update.state.doc.lineAt(update.state.selection.main.head).number - 1);
           }
         }),
       ],
     });
+  }
+
+  /** Something was typed since the cursor came into the form. */
+  private writes = false;
+
+  /** Does Tab indent? Where nothing is selected and nothing was typed, it goes on to the next pane. */
+  private indents(state: EditorState): boolean {
+    return this.isEditable && (this.writes || !state.selection.main.empty);
   }
 
   /** Twice in a row leaves the form: once may have been meant for a list that is closed already. */

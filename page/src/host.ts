@@ -39,6 +39,9 @@ export interface Host {
   onChange?(changed: (connected: boolean) => void): void;
 }
 
+/** The form itself is not there any more. */
+export class Gone extends Error {}
+
 /** `postform watch`. */
 export class Server implements Host {
   private readonly base = location.pathname.replace(/[^/]*$/, "");
@@ -62,20 +65,33 @@ export class Server implements Host {
   }
 
   onChange(changed: (connected: boolean) => void): void {
-    const events = new EventSource(this.base + "events");
-    events.addEventListener("changed", () => changed(true));
-    events.onerror = () => changed(false);
+    let events: EventSource | null = null;
     let opened = false;
-    events.onopen = () => {
-      if (opened) changed(true);
-      opened = true;
+    const open = () => {
+      events = new EventSource(this.base + "events");
+      events.addEventListener("changed", () => changed(true));
+      events.onerror = () => changed(false);
+      events.onopen = () => {
+        // what happened while the page was hidden, or postform was not there, is unknown
+        if (opened) changed(true);
+        opened = true;
+      };
     };
+    // a browser has six connections to a server for all its tabs: a tab that is not seen takes none
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden) {
+        events?.close();
+        events = null;
+      } else if (!events) open();
+    });
+    if (!document.hidden) open();
   }
 
   private async post(path: string, body: unknown): Promise<Response> {
     const answer = await fetch(this.base + path, this.request(body));
-    if (!answer.ok) throw new Error((await answer.text()) || answer.statusText);
-    return answer;
+    if (answer.ok) return answer;
+    const why = (await answer.text()) || answer.statusText;
+    throw answer.status === 410 ? new Gone(why) : new Error(why);
   }
 
   private request(body: unknown): RequestInit {

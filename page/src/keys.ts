@@ -27,6 +27,11 @@ export function keys(page: Page): void {
   const help = element("dialog", { "aria-label": "Keys" }, element("table", {}, ...rows), close);
   close.onclick = () => help.close();
   document.body.append(help);
+  // a button that was clicked keeps no key for itself: space and the letters are those of the page
+  document.addEventListener("click", (event) => {
+    const button = (event.target as HTMLElement).closest("button");
+    if (event.detail > 0 && button && button === document.activeElement && !button.closest("dialog, .cm-editor")) page.listing.focus();
+  });
   document.addEventListener("keydown", (event) => {
     if (event.key === "s" && (event.ctrlKey || event.metaKey)) {
       event.preventDefault();

@@ -4,7 +4,7 @@ import "./style.css";
 import { Backplot } from "./backplot/pane.ts";
 import type { Editor } from "./editor.ts";
 import { element } from "./element.ts";
-import type { Host } from "./host.ts";
+import { Gone, type Host } from "./host.ts";
 import { keys } from "./keys.ts";
 import { Listing } from "./listing.ts";
 import { findingsOf, type Marks, marksOf, noMarks, stops } from "./marks.ts";
@@ -139,7 +139,7 @@ export class Page {
         if (this.again) break;
       }
     } catch (error) {
-      this.failed(error instanceof Error ? error.message : String(error));
+      this.failed(error instanceof Error ? error.message : String(error), error instanceof Gone);
     }
     this.running = false;
     const again = this.again;
@@ -160,16 +160,30 @@ export class Page {
   }
 
   /** The text can't be checked: why, and a way out. */
-  private failed(why: string): void {
+  private failed(why: string, gone = false): void {
     this.pend(without("not checked"));
     const again: [string, () => void] = ["try again", () => void this.load()];
     const typed = Object.values(this.typed);
     const copy: [string, () => void] = ["copy what was typed", () => void navigator.clipboard.writeText(typed.join("\n"))];
-    this.say(`Not checked: ${why}.${typed.length ? " What was typed is kept here." : ""}`, again, ...(typed.length ? [copy] : []));
+    const write: [string, () => void] = ["write it again", () => void this.writeAgain()];
+    const more = [...(gone && this.editor && this.host?.save ? [write] : []), ...(typed.length ? [copy] : [])];
+    this.say(`Not checked: ${why.replace(/^error: /, "")}.${typed.length ? " What was typed is kept here." : ""}`, again, ...more);
     this.sayingFailed = true;
   }
 
   private sayingFailed = false;
+
+  /** The form was deleted: it is written as it is shown here. */
+  private async writeAgain(): Promise<void> {
+    const name = this.head?.form?.files[0];
+    if (!name) return;
+    const text = this.typed[name] ?? this.saved[name] ?? "";
+    const wrong = await this.host!.save!(name, text, "");
+    if (wrong) return this.say(`${base(name)} was not written: ${wrong}`);
+    this.saved[name] = text;
+    delete this.typed[name];
+    await this.load();
+  }
 
   /** What is said of what is shown, and took longer than its picture: the verdict, and what changed. */
   private tellMore(head: Partial<Head>): void {
@@ -292,8 +306,8 @@ export class Page {
       if (job === this.job || !this.host) continue;
       try {
         this.tabVerdict(job, await this.host.verdict(job));
-      } catch {
-        return; // the page says so where it is asked for
+      } catch (error) {
+        this.tabVerdict(job, without(error instanceof Error ? error.message : String(error)));
       }
     }
   }

@@ -5,7 +5,7 @@ import { formLine, Path, Scene } from "./scene.ts";
 /** In the order of `Register` in src/picture/state.rs. */
 export const REGISTERS = [
   "motion", "plane", "distance", "units", "work", "back", "compensation", "length", "feedMode", "tool", "h", "d", "speed",
-  "spindle", "coolant", "feed", "cycle", "r", "depth", "dwell", "peck",
+  "spindle", "coolant", "feed", "cycle", "r", "depth", "dwell", "peck", "a", "b", "c", "u", "v",
 ] as const;
 export type Register = (typeof REGISTERS)[number];
 
@@ -144,21 +144,24 @@ export class Program {
     return { value: changes.value[low - 1], line: changes.line[low - 1] };
   }
 
-  /** X Y Z after a line, and the line that said each; null where only the machine knows. */
+  /** X Y Z after a line, or X Y of a wire, and the line that set each; null where only the machine knows. */
   position(line: number): (Held | null)[] {
     const path = this.path;
     if (!path) return [null, null, null];
+    // points of a program that turns axes are those on the part
+    const { ends } = path;
+    const value = (move: number, axis: number) => ends.length ? ends[move * 3 + axis] : path.points[path.first[move + 1] * 3 + axis];
+    const middle = ends.length ? [0, 0, 0] : path.head.middle;
     const point = this.pointAfter(line);
     const last = this.moveOf(point);
-    return [0, 1, 2].map((axis) => {
+    return [...path.head.letters].map((_, axis) => {
       if (last < 0 || path.moveKind[last] & (32 << axis)) return null;
-      const at = path.points[point * 3 + axis];
+      const at = value(last, axis);
       let move = last;
       for (let looked = 0; move > 0 && looked < 10000; looked++, move--) {
-        const before = path.points[path.first[move] * 3 + axis];
-        if (before !== at || path.moveKind[move - 1] & (32 << axis)) break;
+        if (value(move - 1, axis) !== at || path.moveKind[move - 1] & (32 << axis)) break;
       }
-      return { value: at + path.head.middle[axis], line: path.moveLine[move] };
+      return { value: at + middle[axis], line: path.moveLine[move] };
     });
   }
 

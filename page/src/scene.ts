@@ -50,6 +50,8 @@ interface Said {
 
 export interface PictureHead {
   units: "mm" | "inch";
+  /** Letters of the axes of a position: XYZ, or XY of a wire. */
+  letters: string;
   tools: number[];
   middle: number[];
   extents: [number[], number[]];
@@ -104,6 +106,8 @@ export class Path {
   readonly moveLine: Uint32Array;
   readonly moveKind: Uint8Array;
   readonly moveTool: Uint8Array;
+  /** Of a program that turns axes: X Y Z of the end of each move. Empty: the points are the positions. */
+  readonly ends: Float64Array;
   readonly holes: Float32Array;
   readonly holeLine: Uint32Array;
   readonly holeTool: Uint8Array;
@@ -114,6 +118,7 @@ export class Path {
     this.moveLine = scene.array(`${of}moveLine`, Uint32Array);
     this.moveKind = scene.array(`${of}moveKind`, Uint8Array);
     this.moveTool = scene.array(`${of}moveTool`, Uint8Array);
+    this.ends = scene.array(`${of}ends`, Float64Array);
     this.holes = scene.array(`${of}holes`, Float32Array);
     this.holeLine = scene.array(`${of}holeLine`, Uint32Array);
     this.holeTool = scene.array(`${of}holeTool`, Uint8Array);
@@ -181,7 +186,7 @@ export class Scene {
 }
 
 const PROGRAM = [
-  "text", "points", "first", "moveLine", "moveKind", "moveTool", "holes", "holeLine", "holeTool", "changeLine", "changeRegister", "changeValue",
+  "text", "points", "first", "moveLine", "moveKind", "moveTool", "ends", "holes", "holeLine", "holeTool", "changeLine", "changeRegister", "changeValue",
 ];
 
 function equal(a: Uint8Array, b: Uint8Array): boolean {

@@ -16,7 +16,7 @@ export class StateStrip {
       ["spindle", [word(program, line, "speed", "S"), word(program, line, "spindle", "M")]],
       ["coolant", [word(program, line, "coolant", "M")]],
       ["feed", [word(program, line, "feed", "F")]],
-      ["position", place(program, line)],
+      ["position", [...place(program, line), ...AXES.map((axis) => word(program, line, axis, axis.toUpperCase()))]],
       ["cycle", cycle(program, line)],
     ];
     for (const [name, words] of cells) {
@@ -37,6 +37,9 @@ export class StateStrip {
     return element("div", { role: "group", "aria-label": name }, element("span", {}, ...values), element("small", {}, `${name}: ${by}`));
   }
 }
+
+/** Axes beside X Y Z: those that turn, and the upper guide of a wire. */
+const AXES = ["a", "b", "c", "u", "v"] as const;
 
 interface Known {
   text: string;

@@ -55,7 +55,7 @@ export async function manyMoves(path, moves) {
 
 /** `postform watch` in a folder: its address, and how it is ended. */
 export async function watch(path, ...more) {
-  const child = spawn(postform, ["watch", "my.pf", "--job", "bracket.json", "--no-open", ...more], { cwd: path });
+  const child = spawn(postform, ["watch", "my.pf", "--job", "bracket.json", "--no-open", ...more], { cwd: path, env: { ...process.env, XDG_RUNTIME_DIR: path } });
   let said = "";
   child.stderr.on("data", (text) => (said += text));
   const address = await new Promise((resolve, reject) => {
@@ -102,7 +102,13 @@ export async function run() {
             rmSync(path, { recursive: true });
             if (wrong.length) throw new Error(wrong.join("\n"));
           });
-          return { page, path, address: served.address, end: served.end };
+          /** The program again, in the same folder. */
+          const start = async () => {
+            const again = await watch(path, ...more);
+            ends.push(() => again.end());
+            return again;
+          };
+          return { page, path, address: served.address, end: served.end, start };
         },
         browser: found,
       });

@@ -457,4 +457,108 @@ test("a machine says whether the program fits, and how long it takes", async ({ 
   served.end();
 });
 
+test("each kind of machine has its picture", async ({ open }) => {
+  for (const [form, job, words] of [
+    ["haas-lathe", "lathe-part", ["X", "Z"]],
+    ["fanuc-lathe", "lathe-part", ["X", "Z"]],
+    ["wire-edm", "wire", ["U15", "V9.5"]],
+    ["haas-4axis", "four-axis", ["A720"]],
+    ["plasma", "plasma", ["X", "Y"]],
+    ["heidenhain", "bracket", ["X", "Z"]],
+  ]) {
+    const { page } = await open({ form: `postforms/${form}.pf`, job: `samples/${job}/job.json` });
+    const moves = await page.evaluate(() => window.page.program.path?.moves ?? 0);
+    ok(moves > 5, `${form}: ${moves} moves`);
+    ok(/proven/.test(await page.locator(".verdict").innerText()), `${form}: ${await page.locator(".verdict").innerText()}`);
+    const shown = await page.evaluate(() => {
+      const all = [];
+      for (let line = 1; line <= window.page.program.lines; line++) {
+        window.page.choose(line, "key");
+        all.push(document.querySelector(".state [aria-label=position]")?.innerText ?? "");
+      }
+      return all.join("\n");
+    });
+    for (const word of words) ok(shown.includes(word), `${form}: no ${word} among the positions`);
+  }
+});
+
+test("a rotary axis turns the points about it", async ({ open }) => {
+  const { page } = await open({ form: "postforms/haas-4axis.pf", job: "samples/four-axis/job.json" });
+  const tops = await page.evaluate(() => {
+    const { path } = window.page.program;
+    return Array.from({ length: path.holeLine.length }, (_, hole) => [...path.holes.subarray(hole * 6, hole * 6 + 3)].map((value, axis) => Math.round((value + path.head.middle[axis]) * 1000) / 1000));
+  });
+  // the two holes at A0 are drilled from above, those at A90 from the side that is turned up
+  equal(tops, [[1, 0, 1.1], [2, 0, 1.1], [1, -1.1, 0], [2, -1.1, 0]]);
+});
+
+test("a page that is loaded again and again finds a connection", async ({ open }) => {
+  const { page } = await open();
+  for (let i = 0; i < 80; i++) await page.reload({ waitUntil: "domcontentloaded" });
+  await ready(page);
+  ok((await page.locator(".verdict").innerText()).startsWith("proven"), "served");
+});
+
+test("a page that is hidden holds no connection, and asks again when it is seen", async ({ open }) => {
+  const { page, path } = await open();
+  const hide = (hidden) => page.evaluate((hidden) => {
+    Object.defineProperty(document, "hidden", { value: hidden, configurable: true });
+    document.dispatchEvent(new Event("visibilitychange"));
+  }, hidden);
+  await hide(true);
+  const form = readFileSync(join(path, "my.pf"), "utf8");
+  writeFileSync(join(path, "my.pf"), form.replace("Name Fanuc 0i-M", "Name Other"));
+  await page.waitForTimeout(1500);
+  ok(!(await page.evaluate(() => window.page.editor.text)).includes("Name Other"), "it is not told");
+  await hide(false);
+  await page.waitForFunction(() => window.page.editor.text.includes("Name Other"));
+});
+
+test("a server that is started again is joined again, and what was typed is kept", async ({ open }) => {
+  const { page, address, end, start } = await open();
+  await type(page, "Name ", "My ");
+  end();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent === "not checked");
+  const again = await start();
+  equal(again.address, address, "the same address");
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"), null, { timeout: 30_000 });
+  ok((await page.evaluate(() => window.page.editor.text)).includes("Name My "), "typed text is there");
+});
+
+test("a form that was deleted is written again", async ({ open }) => {
+  const { page, path } = await open();
+  const form = join(path, "my.pf");
+  const before = readFileSync(form, "utf8");
+  unlinkSync(form);
+  await page.getByRole("button", { name: "write it again" }).click();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"));
+  equal(readFileSync(form, "utf8"), before);
+});
+
+test("a job that is not there is a tab with its error", async ({ open }) => {
+  const { page } = await open({ more: ["--job", "gone.json"] });
+  ok((await page.locator(".verdict").innerText()).startsWith("proven"), "the other job is shown");
+  await page.locator(".tab", { hasText: "gone" }).click();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.includes("can't read gone.json"));
+  ok((await page.evaluate(() => window.page.editor.text)).length > 100, "the form is there");
+});
+
+test("keys act on the panes after a click on a button, and Tab leaves a form that was only looked at", async ({ open }) => {
+  const { page } = await open();
+  await page.getByRole("button", { name: "top" }).click();
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => Number(document.querySelector(".ln.on").getAttribute("data-line")) > 3);
+  await page.keyboard.press("Space");
+  const text = await page.evaluate(() => window.page.editor.text);
+  await page.locator(".cm-line").nth(3).click();
+  await page.keyboard.press("Tab");
+  ok(!(await page.evaluate(() => window.page.editor.hasFocus)), "Tab goes on");
+  equal(await page.evaluate(() => window.page.editor.text), text, "and writes nothing");
+  await page.locator(".cm-line").nth(3).click();
+  await page.keyboard.type("x");
+  await page.keyboard.press("Tab");
+  ok(await page.evaluate(() => window.page.editor.hasFocus), "after typing it indents");
+});
+
 await run();

@@ -4,6 +4,7 @@
 //! with its block, and what is modal after each block. [`strips`](Picture::strips) makes points of it, arcs among them, and
 //! [`svg`] a still picture.
 
+mod frame;
 mod run;
 mod state;
 mod strips;
@@ -37,7 +38,8 @@ pub enum Kind {
 /// A move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// End of the move, X Y Z in program coordinates and the picture's units; NaN where only the machine knows.
+    /// End of the move, X Y Z in program coordinates and the picture's units; NaN where only the machine knows. A wire has two moves
+    /// for each of the program: of the lower guide at Z 0, and of the upper guide, whose height is NaN.
     pub to: [f64; 3],
     /// Line of the program, from 1.
     pub line: u32,
@@ -62,6 +64,24 @@ pub struct Hole {
     pub bottom: [f64; 3],
     /// The tool, as a place in [`Picture::tools`].
     pub tool: u16,
+    /// Positions of the rotary axes A B C at the hole, in degrees.
+    pub turned: [f64; 3],
+}
+
+impl Hole {
+    /// Top and bottom on the part, X Y Z: turned as the rotary axes turn them.
+    pub fn on_part(&self) -> [[f64; 3]; 2] {
+        [self.top, self.bottom].map(|at| frame::on_part(at, self.turned))
+    }
+}
+
+/// The rotary axes from a move on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turned {
+    /// First move that ends there, as a place in [`Picture::moves`].
+    pub from: u32,
+    /// Positions of A B C in degrees.
+    pub to: [f64; 3],
 }
 
 /// What a program does.
@@ -71,6 +91,10 @@ pub struct Picture {
     pub units: Units,
     /// Moves, in their order.
     pub moves: Vec<Move>,
+    /// The rotary axes: a row for each move that turns them, in the order of the moves. None: nothing is turned.
+    pub turned: Vec<Turned>,
+    /// Letters of the axes whose positions [`Move::to`] has: `XYZ`, or `XY` for a wire.
+    pub letters: &'static str,
     /// Arcs of the moves that are some, in the picture's units; `to` is that of the move.
     pub arcs: Vec<Turn>,
     /// Holes, in their order.

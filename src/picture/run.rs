@@ -3,7 +3,7 @@
 use std::io::{self, Read, Seek};
 
 use super::state::Registers;
-use super::{Hole, Kind, Move, Picture};
+use super::{Hole, Kind, Move, Picture, Turned};
 use crate::nc::{Action, Item, Position, RunError, RunSettings, Simulator, Tally, Turn, axes_of};
 use crate::toolpath::Units;
 
@@ -20,7 +20,7 @@ const MOST_MOVES: usize = 20_000_000;
 /// The input fails. What the control refuses is in the picture, which then ends there.
 pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Picture> {
     let simulator = Simulator::new(input, RunSettings { places_unknown: true, ..settings });
-    let mut pen = Pen::new(settings.units);
+    let mut pen = Pen::new(&settings);
     let simulator = pen.run(simulator)?;
     let known = pen.picture.moves.iter().any(|found| found.to.iter().any(|value| value.is_finite()));
     if known || pen.picture.moves.is_empty() {
@@ -28,8 +28,9 @@ pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Pictur
     }
     // a program that only says how far: it is drawn from zero
     let again = simulator.again_with(RunSettings { places_unknown: false, ..settings })?;
-    let mut pen = Pen::new(settings.units);
+    let mut pen = Pen::new(&settings);
     pen.at = [0.0; 3];
+    pen.upper = pen.upper.map(|_| [0.0; 3]);
     pen.run(again)?;
     Ok(pen.picture)
 }
@@ -40,6 +41,12 @@ struct Pen {
     registers: Registers,
     /// Where the tool is, in the picture's units; NaN where only the machine knows.
     at: [f64; 3],
+    /// Where the upper guide of a wire is: X, Y, and its height, which only the machine knows.
+    upper: Option<[f64; 3]>,
+    /// Positions of the rotary axes, in degrees.
+    angles: [f64; 3],
+    /// Letters of the axes of the machine, in the order of a position.
+    letters: &'static [u8; 6],
     tool: u16,
     /// From the program's units to the picture's.
     factor: f64,
@@ -47,12 +54,16 @@ struct Pen {
 }
 
 impl Pen {
-    fn new(units: Units) -> Pen {
+    fn new(settings: &RunSettings) -> Pen {
+        let units = settings.units;
+        let is_wire = settings.control.is_wire();
         let picture = Picture {
             units,
             moves: Vec::new(),
             arcs: Vec::new(),
             holes: Vec::new(),
+            turned: Vec::new(),
+            letters: "XYZ",
             tools: vec![0.0],
             changes: Vec::new(),
             tally: Tally::new(units),
@@ -60,7 +71,17 @@ impl Pen {
             warnings: Vec::new(),
             refused: None,
         };
-        Pen { picture, registers: Registers::new(), at: [f64::NAN; 3], tool: 0, factor: 1.0, units }
+        Pen {
+            picture: Picture { letters: if is_wire { "XY" } else { "XYZ" }, ..picture },
+            registers: Registers::new(),
+            at: [f64::NAN; 3],
+            upper: is_wire.then_some([f64::NAN; 3]),
+            angles: [0.0; 3],
+            letters: settings.control.axes(),
+            tool: 0,
+            factor: 1.0,
+            units,
+        }
     }
 
     fn run<'a>(&mut self, mut simulator: Simulator<'a>) -> io::Result<Simulator<'a>> {
@@ -72,7 +93,9 @@ impl Pen {
             items.iter().for_each(|item| self.act(item));
             let line = simulator.line() as u32;
             self.registers.after(line, simulator.state().modal(), &mut self.picture.changes);
-            self.stands(line, simulator.state().position(), simulator.state().at_machine());
+            let (position, machine) = (simulator.state().position(), simulator.state().at_machine());
+            self.registers.axes(line, self.letters, position, machine, &mut self.picture.changes);
+            self.stands(line, position, machine);
             let room = MOST_WARNINGS.saturating_sub(self.picture.warnings.len());
             self.picture.warnings.extend(simulator.take_warnings().into_iter().take(room));
             match step {
@@ -94,20 +117,23 @@ impl Pen {
         let line = item.line as u32;
         self.registers.act(line, &item.action, &mut self.picture.changes);
         match &item.action {
-            Action::Rapid { to, machine, .. } => self.go(item, Kind::Rapid, self.place(to, *machine), u32::MAX),
-            Action::Feed { to, home, .. } => self.go(item, Kind::Feed, self.place(to, *home), u32::MAX),
+            Action::Rapid { to, machine, .. } => self.go_to(item, Kind::Rapid, to, *machine),
+            Action::Feed { to, home, .. } => self.go_to(item, Kind::Feed, to, *home),
             Action::Arc(turn) => {
                 let to = self.place(&turn.to, 0);
                 let arc = self.picture.arcs.len() as u32;
                 let [first, second, _] = axes_of(turn.plane);
                 let center = turn.center.map(|value| (value * self.factor).clamp(-FARTHEST, FARTHEST));
                 // an arc from nowhere is none
-                if self.at[first].is_finite() && self.at[second].is_finite() {
+                let from = self.at;
+                self.turn(&turn.to);
+                if from[first].is_finite() && from[second].is_finite() {
                     self.picture.arcs.push(Turn { center, ..*turn });
                     self.go(item, Kind::Arc, to, arc);
                 } else {
                     self.go(item, Kind::Jump, to, u32::MAX);
                 }
+                self.guide_round(item, from, &Turn { center, ..*turn });
             }
             Action::Tool(number) => {
                 let tools = &mut self.picture.tools;
@@ -123,7 +149,7 @@ impl Pen {
                 let mut bottom = top;
                 top[across] = (hole.r * self.factor).clamp(-FARTHEST, FARTHEST);
                 bottom[across] = (hole.bottom * self.factor).clamp(-FARTHEST, FARTHEST);
-                self.picture.holes.push(Hole { line, top, bottom, tool: self.tool });
+                self.picture.holes.push(Hole { line, top, bottom, tool: self.tool, turned: self.angles });
             }
             Action::Units(units) => self.count_in(*units),
             _ => {}
@@ -145,7 +171,67 @@ impl Pen {
 
     fn place(&self, to: &Position, machine: u8) -> [f64; 3] {
         let place = |axis: usize| (to[axis] * self.factor).clamp(-FARTHEST, FARTHEST);
-        std::array::from_fn(|axis| if machine & 1 << axis == 0 { place(axis) } else { f64::NAN })
+        std::array::from_fn(|axis| match (axis, self.upper) {
+            (2, Some(_)) => 0.0,
+            _ if machine & 1 << axis == 0 => place(axis),
+            _ => f64::NAN,
+        })
+    }
+
+    /// The upper guide of a wire: U and V are positions of their own, at a height that only the machine knows.
+    fn guide(&self, to: &Position, machine: u8) -> [f64; 3] {
+        let place = |axis: usize| (to[axis] * self.factor).clamp(-FARTHEST, FARTHEST);
+        let [u, v] = [2, 3].map(|axis| if machine & 1 << axis == 0 { place(axis) } else { f64::NAN });
+        [u, v, f64::NAN]
+    }
+
+    /// A straight move, and that of the upper guide where there is one.
+    fn go_to(&mut self, item: &Item, kind: Kind, to: &Position, machine: u8) {
+        self.turn(to);
+        self.go(item, kind, self.place(to, machine), u32::MAX);
+        if let Some(from) = self.upper {
+            let upper = self.guide(to, machine);
+            self.go_above(item, kind, from, upper, u32::MAX);
+        }
+    }
+
+    /// The upper guide of an arc goes the same arc where it stands as far from the lower one at its end as at its beginning, else straight.
+    fn guide_round(&mut self, item: &Item, from: [f64; 3], turn: &Turn) {
+        let Some(above) = self.upper else { return };
+        let upper = self.guide(&turn.to, turn.machine);
+        let off = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1]];
+        let [before, after] = [off(above, from), off(upper, self.at)];
+        let same = (0..2).all(|axis| (before[axis] - after[axis]).abs() < 1e-9 * (1.0 + before[axis].abs()));
+        if same {
+            let arc = self.picture.arcs.len() as u32;
+            let [x, y, z] = turn.center;
+            self.picture.arcs.push(Turn { center: [x + before[0], y + before[1], z], ..*turn });
+            self.go_above(item, Kind::Arc, above, upper, arc);
+        } else {
+            self.go_above(item, Kind::Feed, above, upper, u32::MAX);
+        }
+    }
+
+    /// A move of the upper guide, drawn between jumps from the lower guide and back.
+    fn go_above(&mut self, item: &Item, kind: Kind, from: [f64; 3], to: [f64; 3], arc: u32) {
+        let below = self.at;
+        self.upper = Some(to);
+        let known = [from, to].iter().all(|at| at[..2].iter().all(|value| value.is_finite()));
+        if known && from[..2] != to[..2] {
+            self.go(item, Kind::Jump, from, u32::MAX);
+            self.go(item, kind, to, arc);
+            self.go(item, Kind::Jump, below, u32::MAX);
+        }
+    }
+
+    /// Rotary axes go on with the next move.
+    fn turn(&mut self, to: &Position) {
+        let [.., a, b, c] = *to;
+        if self.upper.is_none() && self.angles != [a, b, c] && [a, b, c].iter().all(|angle| angle.is_finite()) {
+            self.angles = [a, b, c];
+            let from = self.picture.moves.len() as u32;
+            self.picture.turned.push(Turned { from, to: self.angles });
+        }
     }
 
     fn go(&mut self, item: &Item, kind: Kind, to: [f64; 3], arc: u32) {
@@ -156,6 +242,9 @@ impl Pen {
 
     /// After a block: a frame that was moved gives the tool another place without a move.
     fn stands(&mut self, line: u32, position: &Position, machine: u8) {
+        if self.upper.is_some() {
+            self.upper = Some(self.guide(position, machine));
+        }
         let at = self.place(position, machine);
         let same = |a: f64, b: f64| a == b || a.is_nan() || b.is_nan() || (a - b).abs() < 1e-9 * (1.0 + a.abs());
         if (0..3).all(|axis| same(at[axis], self.at[axis])) {

@@ -1,6 +1,6 @@
 //! What is modal after each block, kept as changes.
 
-use crate::nc::{Action, Cooling, Modal, Rotation};
+use crate::nc::{Action, Cooling, Modal, Position, Rotation};
 
 /// What a control holds, one by one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,10 +28,15 @@ pub enum Register {
     Depth,
     Dwell,
     Peck,
+    A,
+    B,
+    C,
+    U,
+    V,
 }
 
 /// How many there are.
-const COUNT: usize = Register::Peck as usize + 1;
+const COUNT: usize = Register::V as usize + 1;
 
 /// A register that holds something else from a block on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +68,26 @@ impl Registers {
         if held.to_bits() != value.to_bits() && !(held.is_nan() && value.is_nan()) {
             *held = value;
             changes.push(Change { line, register, value });
+        }
+    }
+
+    /// Positions of the axes beside X Y Z: A B C in degrees from their first turn, U V of a wire in the program's units. The bits of
+    /// `machine` are axes whose position only the machine knows.
+    pub fn axes(&mut self, line: u32, letters: &[u8; 6], position: &Position, machine: u8, changes: &mut Vec<Change>) {
+        for (axis, letter) in letters.iter().enumerate().skip(2) {
+            let register = match letter {
+                b'A' => Register::A,
+                b'B' => Register::B,
+                b'C' => Register::C,
+                b'U' => Register::U,
+                b'V' => Register::V,
+                _ => continue,
+            };
+            let value = if machine & 1 << axis == 0 { position[axis] } else { f64::NAN };
+            let turns = matches!(register, Register::A | Register::B | Register::C);
+            if !(turns && value == 0.0 && self.held[register as usize].is_nan()) {
+                self.hold(line, register, value, changes);
+            }
         }
     }
 

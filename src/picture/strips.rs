@@ -1,5 +1,6 @@
 //! Moves as points: a line that goes from point to point, arcs in straight pieces.
 
+use super::frame::on_part;
 use super::{Kind, Picture};
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::Direction;
@@ -59,26 +60,58 @@ impl Picture {
         let mut strips =
             Strips { start, pieces: Vec::with_capacity(self.moves.len()), extents: [least, greatest], ceiling };
         let mut at = start;
+        let mut turns = self.turned.iter().peekable();
+        let mut angles = [0.0; 3];
         for (of, found) in (0..).zip(&self.moves) {
             let to = [0, 1, 2].map(|axis| match (found.to[axis], axis) {
                 (value, _) if value.is_finite() => value,
                 (_, 2) => ceiling,
                 _ => at[axis],
             });
+            let first = strips.pieces.len();
             if let (Kind::Arc, Some(turn)) = (found.kind, self.arcs.get(found.arc as usize)) {
                 round(at, to, turn, size * ERROR, &mut |to| strips.pieces.push(Piece { to, of }));
             }
-            strips.pieces.push(Piece { to, of });
+            if let Some(turned) = turns.next_if(|turned| turned.from == of) {
+                if found.kind != Kind::Arc {
+                    turning(at, to, angles, turned.to, &mut |to| strips.pieces.push(Piece { to, of }));
+                }
+                strips.pieces.push(Piece { to, of });
+                let pieces = &mut strips.pieces[first..];
+                let count = pieces.len() as f64;
+                for (i, piece) in (1_u32..).zip(pieces) {
+                    piece.to = on_part(piece.to, between(angles, turned.to, f64::from(i) / count));
+                }
+                angles = turned.to;
+            } else {
+                strips.pieces.push(Piece { to, of });
+                if angles != [0.0; 3] {
+                    strips.pieces[first..].iter_mut().for_each(|piece| piece.to = on_part(piece.to, angles));
+                }
+            }
             at = to;
+        }
+        self.measure(&mut strips);
+        strips
+    }
+
+    /// The box around everything that is known.
+    fn measure(&self, strips: &mut Strips) {
+        if !self.turned.is_empty() {
+            strips.extents = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         }
         for piece in &strips.pieces {
             let known = &self.moves[piece.of as usize].to;
-            for axis in (0..3).filter(|&axis| known[axis].is_finite()) {
+            // a turned axis makes all three of them unknown
+            let all = self.turned.is_empty() || known.iter().all(|value| value.is_finite());
+            for axis in (0..3).filter(|&axis| all && known[axis].is_finite()) {
                 strips.extents[0][axis] = strips.extents[0][axis].min(piece.to[axis]);
                 strips.extents[1][axis] = strips.extents[1][axis].max(piece.to[axis]);
             }
         }
-        strips
+        if !strips.extents[0][0].is_finite() {
+            strips.extents = self.ends();
+        }
     }
 
     /// The box around the ends of all moves.
@@ -94,6 +127,19 @@ impl Picture {
             (extents[0][axis], extents[1][axis]) = (0.0, 0.0);
         }
         extents
+    }
+}
+
+fn between<const N: usize>(from: [f64; N], to: [f64; N], share: f64) -> [f64; N] {
+    std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * share)
+}
+
+/// The points of a straight move between its ends while axes turn: it is a curve on the part.
+fn turning(from: [f64; 3], to: [f64; 3], angles: [f64; 3], turned: [f64; 3], push: &mut impl FnMut([f64; 3])) {
+    let most = (0..3).map(|axis| (turned[axis] - angles[axis]).abs()).fold(0.0, f64::max).to_radians();
+    let pieces = (most / FINEST).ceil().clamp(1.0, MOST_PIECES);
+    for i in 1..pieces as u32 {
+        push(between(from, to, f64::from(i) / pieces));
     }
 }
 

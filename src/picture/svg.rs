@@ -160,7 +160,8 @@ fn style(out: &mut String) {
 
 /// Corners of the box of the cuts, at its bottom, where a view shows it.
 fn floor(picture: &Picture, strips: &Strips, view: View) -> Vec<[f64; 3]> {
-    let shown = matches!(view, View::Iso | View::Top) && picture.tally.units == picture.units;
+    let plain = picture.turned.is_empty() && picture.letters == "XYZ";
+    let shown = matches!(view, View::Iso | View::Top) && picture.tally.units == picture.units && plain;
     match picture.tally.extents.filter(|_| shown && !strips.pieces.is_empty()) {
         Some([x, y, z]) => [[x.0, y.0], [x.1, y.0], [x.1, y.1], [x.0, y.1]].map(|[x, y]| [x, y, z.0]).to_vec(),
         None => Vec::new(),
@@ -229,7 +230,7 @@ fn colour(tool: usize) -> usize {
 fn holes(picture: &Picture, scale: &Scale, out: &mut String) {
     let mut last = None;
     for hole in &picture.holes {
-        let at = scale.at(hole.top);
+        let at = scale.at(hole.on_part()[0]);
         // a million holes in one place are one
         if last.is_some_and(|last: [f64; 2]| (at[0] - last[0]).hypot(at[1] - last[1]) < 1.0) {
             continue;

@@ -201,7 +201,11 @@ impl Proof {
         let of_form = form.and_then(|form| form.control);
         let control = self.control.or(of_form).unwrap_or_else(Control::usual);
         let lathe = form.filter(|form| form.machine == crate::lang::Machine::Lathe);
-        let control = if lathe.is_some() { control.of_lathe() } else { control };
+        let control = match form.map(|form| form.machine) {
+            Some(crate::lang::Machine::Lathe) => control.of_lathe(),
+            Some(crate::lang::Machine::Edm) => control.of_wire(),
+            _ => control,
+        };
         RunSettings {
             by_diameter: lathe.map(|form| form.by_diameter),
             units,

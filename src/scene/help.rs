@@ -36,14 +36,15 @@ pub struct At {
 /// The answer: `list` of what could stand there, each with the text that it replaces; or `at` and `text`, which is Markdown. Null:
 /// nothing is known.
 pub fn help(request: Request<'_>, at: &At) -> Value {
-    let Request { form, files, limits, levels, mut job, job_name, .. } = request;
+    let Request { form, files, limits, levels, job, job_name, .. } = request;
     let document = Document::new(form.clone(), files, limits, levels);
     let found = document.files().iter().position(|file| file.name == at.file);
     let Some((file, source)) = found.and_then(|file| Some((file as u32, document.files().get(file)?))) else {
         return Value::Null;
     };
     let place = offset(source, Place { line: at.line, character: at.column });
-    let mut current = document.print(job_name, job.again());
+    let mut job = job.ok();
+    let mut current = job.as_mut().and_then(|job| document.print(job_name, job.again()));
     match at.ask {
         Ask::Hover => document.hover(file, place, current.as_ref()).map_or(
             Value::Null,
@@ -51,7 +52,7 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
         ),
         Ask::Complete => {
             // a form with a half-typed word prints nothing: values are those without the word
-            if current.is_none() && file == 0 {
+            if let Some(job) = job.filter(|_| current.is_none() && file == 0) {
                 let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
                 current = Document::new(form, files, limits, levels).print(job_name, job);
             }

@@ -50,8 +50,8 @@ pub struct Request<'a> {
     pub limits: Limits,
     /// What rules count as.
     pub levels: &'a Levels,
-    /// The job, and its name.
-    pub job: Job<'a>,
+    /// The job; or why it can't be read, which the scene shows in place of the program.
+    pub job: Result<Job<'a>, String>,
     /// What the job is called.
     pub job_name: &'a str,
     /// How the job is printed.
@@ -78,7 +78,14 @@ pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
             return (scene, None);
         }
     };
-    match Printed::new(&post, request.job, &request.options, request.proof) {
+    let job = match request.job {
+        Ok(job) => job,
+        Err(why) => {
+            scene.say("stopped", json!({ "by": "job", "message": why, "findings": [] }));
+            return (scene, None);
+        }
+    };
+    match Printed::new(&post, job, &request.options, request.proof) {
         Ok(printed) => {
             let text = printed.text();
             program::text(&mut scene, "", text.as_bytes());
@@ -185,7 +192,7 @@ impl Printed {
 pub fn program_of(request: Request<'_>) -> Option<String> {
     let post = Post::compile_with(request.form, request.files, request.limits, request.levels).ok()?;
     let options = Options { trace: false, ..answered(&post, &request.options) };
-    Some(post.render(request.job, &options).ok()?.into_text())
+    Some(post.render(request.job.ok()?, &options).ok()?.into_text())
 }
 
 /// With the source map, and with an answer to each question that nobody answered.

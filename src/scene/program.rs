@@ -64,8 +64,13 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     };
     scene.section(format!("{of}moveKind"), moves.iter().map(kind));
     scene.section(format!("{of}moveTool"), moves.iter().map(|found| [found.tool.min(255) as u8]));
+    if !picture.turned.is_empty() {
+        // the points are those on the part: positions of the axes are others
+        let ends = moves.iter().flat_map(|found| found.to).map(f64::to_le_bytes);
+        scene.section(format!("{of}ends"), ends);
+    }
     let holes = &picture.holes;
-    let ends = holes.iter().flat_map(|hole| [near(hole.top), near(hole.bottom)]);
+    let ends = holes.iter().flat_map(|hole| hole.on_part().map(near));
     scene.section(format!("{of}holes"), ends.flatten().map(f32::to_le_bytes));
     scene.section(format!("{of}holeLine"), holes.iter().map(|hole| hole.line.to_le_bytes()));
     scene.section(format!("{of}holeTool"), holes.iter().map(|hole| [hole.tool.min(255) as u8]));
@@ -81,6 +86,7 @@ fn head(picture: &Picture, middle: [f64; 3], extents: [[f64; 3]; 2], ceiling: f6
     let line_of = |diag: &Diag| diag.place.as_ref().and_then(|place| place.line);
     json!({
         "units": picture.units.name(),
+        "letters": picture.letters,
         "tools": picture.tools,
         "middle": middle,
         "extents": extents,

@@ -8,6 +8,8 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use postform::internals::nc::RunSettings;
 use postform::internals::picture::{Kind, Picture, Register, Sheet, View, draw, svg};
+use postform::toolpath::Units;
+use postform::{Job, NoFiles, Options, Post, Proof, Source};
 
 use crate::support::folder::Folder;
 use crate::support::{control, root};
@@ -136,6 +138,70 @@ fn every_part_of_the_state_has_its_block() {
 }
 
 /// Hostile programs: a picture comes of each, and nothing in it is markup of the program's or no number.
+/// U and V of a wire are the upper guide: a second line, at a height that only the machine knows.
+#[test]
+fn a_wire_has_two_guides() {
+    let program = "G21 G90\nG0 X0 Y0 U0 V0\nG1 X10. Y0 U11. V1. F3.\nG3 X10. Y10. I0 J5. U11. V11.\nM2\n";
+    let found = draw(Cursor::new(program), RunSettings::new(control("fanuc-wire"))).unwrap();
+    let cuts: Vec<_> = found.moves.iter().filter(|found| matches!(found.kind, Kind::Feed | Kind::Arc)).collect();
+    let ends: Vec<[f64; 2]> = cuts.iter().map(|found| [found.to[0], found.to[1]]).collect();
+    assert_eq!(ends, [[10.0, 0.0], [11.0, 1.0], [10.0, 10.0], [11.0, 11.0]]);
+    let heights: Vec<bool> = cuts.iter().map(|found| found.to[2].is_nan()).collect();
+    assert_eq!(heights, [false, true, false, true]);
+    // the upper guide goes the same arc beside the lower one
+    assert_eq!(
+        found.arcs.iter().map(|arc| [arc.center[0], arc.center[1]]).collect::<Vec<_>>(),
+        [[10.0, 5.0], [11.0, 6.0]]
+    );
+    let strips = found.strips();
+    let upper = strips.pieces.iter().filter(|piece| found.moves[piece.of as usize].to[2].is_nan());
+    assert!(upper.clone().count() > 10 && upper.into_iter().all(|piece| piece.to[2] == strips.ceiling));
+    let held = |register| found.changes.iter().rev().find(|change| change.register == register).unwrap().value;
+    assert_eq!((held(Register::U), held(Register::V)), (11.0, 11.0));
+}
+
+/// A positive angle turns the tool about the part by the right hand: what is drilled from above at A90 is on the side of -Y.
+#[test]
+fn rotary_axes_turn_the_points_about_them() {
+    let found = picture("G21 G90 G94 F100\nG0 X0 Y0 Z10\nA90\nG1 Z5\nA450 X20\nM2\n");
+    let strips = found.strips();
+    let near = |at: [f64; 3], expected: [f64; 3]| {
+        assert!(at.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{at:?} {expected:?}");
+    };
+    let end = |line: u32| strips.pieces.iter().rfind(|piece| found.moves[piece.of as usize].line == line).unwrap().to;
+    near(end(3), [0.0, -10.0, 0.0]);
+    near(end(4), [0.0, -5.0, 0.0]);
+    near(end(5), [20.0, -5.0, 0.0]);
+    // a whole turn is a helix: all of its points are as far from the axis, and none is far from the next
+    let turn: Vec<_> = strips.pieces.iter().filter(|piece| found.moves[piece.of as usize].line == 5).collect();
+    assert!(turn.len() >= 120, "{}", turn.len());
+    assert!(turn.iter().all(|piece| (piece.to[1].hypot(piece.to[2]) - 5.0).abs() < 1e-9));
+    near([strips.extents[0][2], strips.extents[1][2], strips.extents[1][0]], [-5.0, 10.0, 20.0]);
+    let angle = found.changes.iter().rfind(|change| change.register == Register::A).unwrap();
+    assert_eq!((angle.value, angle.line), (450.0, 5));
+}
+
+/// Each post with the samples that it prints: its programs have a picture, by the machine of the form.
+#[test]
+fn every_post_has_a_picture() {
+    let samples = ["bracket", "first", "plate", "lathe-part", "wire", "four-axis", "plasma"];
+    for post in fs::read_dir(root().join("postforms")).unwrap() {
+        let post = post.unwrap().path();
+        let form = Post::compile(Source::from_bytes("form.pf", &fs::read(&post).unwrap()), &NoFiles).unwrap();
+        let mut drawn = 0;
+        for sample in samples {
+            let bytes = fs::read_to_string(root().join(format!("samples/{sample}/job.json"))).unwrap();
+            let Ok(program) = form.render(Job::json(&bytes), &Options::default()) else { continue };
+            let settings = form.run_settings(&Proof::default(), Units::Mm);
+            let found = draw(Cursor::new(program.text()), settings).unwrap();
+            assert!(found.refused.is_none(), "{}: {sample}: {:?}", post.display(), found.refused);
+            assert!(found.moves.len() > 3, "{}: {sample}", post.display());
+            drawn += 1;
+        }
+        assert!(drawn > 0, "{} prints no sample", post.display());
+    }
+}
+
 #[test]
 fn hostile_programs_make_pictures() {
     let long = format!("G1 X{} F1\n", "9".repeat(300));

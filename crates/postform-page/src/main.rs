@@ -85,7 +85,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         files: &now,
         limits: Limits::default(),
         levels: &Levels::default(),
-        job: job.again(),
+        job: Ok(job.again()),
         job_name: &head.job.name,
         options: Options::default(),
         proof: Proof::default(),

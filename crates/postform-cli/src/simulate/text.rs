@@ -12,14 +12,33 @@ pub struct Shown {
     pub unknown: bool,
     /// Of a lathe: X as its programs count it, in radii; no Y.
     pub across: Option<f64>,
+    /// Axes, in the order of a position.
+    axes: &'static Axes,
 }
+
+/// Axes of a machine.
+#[derive(Debug)]
+struct Axes {
+    /// Their letters as they are written, in the order of a position.
+    letters: [&'static [u8]; 6],
+    /// How many of them are always shown; the others where they are not 0.
+    always: usize,
+}
+
+const USUAL: Axes = Axes { letters: [b"X", b" Y", b" Z", b" A", b" B", b" C"], always: 3 };
+/// X Y of the lower guide, U V of the upper one.
+const WIRE: Axes = Axes { letters: [b"X", b" Y", b" U", b" V", b" A", b" B"], always: 4 };
 
 impl Shown {
     /// For a program that is run so.
     pub fn of(settings: &RunSettings) -> Shown {
         let by_diameter = settings.by_diameter.unwrap_or(true);
         let across = settings.control.is_lathe().then_some(if by_diameter { 2.0 } else { 1.0 });
-        Shown { unknown: settings.places_unknown, across }
+        Shown {
+            unknown: settings.places_unknown,
+            across,
+            axes: if settings.control.is_wire() { &WIRE } else { &USUAL },
+        }
     }
 }
 
@@ -86,13 +105,13 @@ impl Backwards {
         self.text(letter);
     }
 
-    fn position(&mut self, to: &[f64; 6], unknown: u8, across: Option<f64>) {
-        for (letter, value) in [b" C", b" B", b" A"].iter().zip(to[3..].iter().rev()) {
-            if *value != 0.0 {
-                self.word(*letter, *value);
+    fn position(&mut self, to: &[f64; 6], unknown: u8, across: Option<f64>, axes: &Axes) {
+        for axis in (axes.always..6).rev() {
+            if to[axis] != 0.0 {
+                self.word(axes.letters[axis], to[axis]);
             }
         }
-        for (axis, letter) in [b"X".as_slice(), b" Y", b" Z"].into_iter().enumerate().rev() {
+        for (axis, letter) in axes.letters[..axes.always].iter().copied().enumerate().rev() {
             match (axis, across) {
                 (1, Some(_)) => {}
                 _ if unknown & 1 << axis != 0 => {
@@ -106,9 +125,10 @@ impl Backwards {
     }
 
     /// Which axes go to a place of the machine; before the position, as all is written from the end.
-    fn in_machine(&mut self, axes: u8) {
+    fn in_machine(&mut self, bits: u8, axes: &Axes) {
         self.text(b" in machine coordinates)");
-        (0..6).rev().filter(|axis| axes & 1 << axis != 0).for_each(|axis| self.byte(b"XYZABC"[axis]));
+        let named = (0..6).rev().filter(|axis| bits & 1 << axis != 0);
+        named.for_each(|axis| self.text(axes.letters[axis].trim_ascii_start()));
         self.text(b"  (");
     }
 
@@ -128,27 +148,27 @@ impl Backwards {
 }
 
 /// One action as a line of text.
-pub fn line(item: &Item, block: &[u8], Shown { unknown, across }: Shown, out: &mut Vec<u8>) {
+pub fn line(item: &Item, block: &[u8], Shown { unknown, across, axes }: Shown, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let mut text = Backwards::new();
     text.byte(b'\n');
     let what = match &item.action {
         Action::Rapid { to, machine, .. } => {
             if *machine != 0 && !unknown {
-                text.in_machine(*machine);
+                text.in_machine(*machine, axes);
             }
-            text.position(to, hidden(*machine), across);
+            text.position(to, hidden(*machine), across, axes);
             "rapid"
         }
         Action::Feed { to, feed, lead, machine, home } => {
             if *home != 0 && !unknown {
-                text.in_machine(*home);
+                text.in_machine(*home, axes);
             }
             match lead {
                 Some(lead) => text.word(b" lead ", *lead),
                 None => text.word(b" F", *feed),
             }
-            text.position(to, hidden(*machine), across);
+            text.position(to, hidden(*machine), across, axes);
             "feed"
         }
         Action::Arc(turn) => {
@@ -157,13 +177,15 @@ pub fn line(item: &Item, block: &[u8], Shown { unknown, across }: Shown, out: &m
             }
             text.text(plane_name(turn.plane).as_bytes());
             text.text(b" in ");
-            text.word(b" Z", turn.center[2]);
+            if axes.always == 3 {
+                text.word(b" Z", turn.center[2]);
+            }
             if across.is_none() {
                 text.word(b" Y", turn.center[1]);
             }
             text.word(b"  centre X", turn.center[0] * across.unwrap_or(1.0));
             text.word(b" F", turn.feed);
-            text.position(&turn.to, hidden(turn.machine), across);
+            text.position(&turn.to, hidden(turn.machine), across, axes);
             turn_name(turn.direction)
         }
         Action::Dwell(seconds) => {

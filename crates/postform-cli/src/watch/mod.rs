@@ -2,6 +2,7 @@
 
 mod guard;
 mod http;
+mod kept;
 mod session;
 
 use std::io::{self, Write};
@@ -9,7 +10,7 @@ use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use postform::internals::scene::WATCH_PAGE;
 use serde::de::DeserializeOwned;
@@ -23,12 +24,16 @@ use super::say::message;
 use super::say::no_thread;
 use guard::Guard;
 use http::{Answer, Asked};
+use kept::Kept;
 use session::{Ask, NotSaved, Save, Session};
 
 /// Connections at once: a page has two or three.
 const MOST_CONNECTIONS: usize = 64;
 /// A page that hears nothing for so long is told that the program is there.
 const SILENCE: Duration = Duration::from_secs(15);
+
+/// How soon a page that was closed frees its connection.
+const ATTENTION: Duration = Duration::from_millis(250);
 
 /// What all connections share.
 struct Shared {
@@ -43,13 +48,24 @@ struct Shared {
 /// Serves the page until it is ended.
 pub fn run(args: WatchArgs) -> Result<Ending, String> {
     let (port, opens) = (args.port, !args.no_open);
+    let kept = Kept::of(&args.form);
     let session = Session::open(args)?;
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| {
+    let before = kept.as_ref().and_then(Kept::read);
+    // a page that is still open finds the program again where it was
+    let of_before = before.as_ref().filter(|_| port == 0);
+    let of_before = of_before.and_then(|(port, _)| TcpListener::bind((Ipv4Addr::LOCALHOST, *port)).ok());
+    let listener = of_before.map_or_else(|| TcpListener::bind((Ipv4Addr::LOCALHOST, port)), Ok).map_err(|error| {
         let help = "leave --port out: a free one is taken then";
         format!("error: can't listen on port {port} of this machine: {error}\n  help: {help}")
     })?;
     let port = listener.local_addr().map_err(|error| format!("error: no address: {error}"))?.port();
-    let guard = Guard::new(port)?;
+    let guard = match before {
+        Some((_, token)) => Guard::with(token, port),
+        None => Guard::new(port)?,
+    };
+    if let Some(kept) = kept {
+        kept.write(port, &guard.token);
+    }
     let address = format!("http://127.0.0.1:{port}/{}/", guard.token);
     standard_output(|out| writeln!(out, "{address}"))?;
     let shared = Arc::new(Shared {
@@ -147,7 +163,8 @@ impl Shared {
             // who does not wait for it does not get it
             sent = Some(begun.and_then(|()| stream.write_all(&scene.into_bytes())));
         });
-        shown.map_err(|why| sent.is_none().then(|| Answer::no(422, &why)))
+        let status = if self.session.has_form() { 422 } else { 410 };
+        shown.map_err(|why| sent.is_none().then(|| Answer::no(status, &why)))
     }
 
     fn save(&self, save: &Save) -> Answer {
@@ -163,16 +180,29 @@ impl Shared {
         let mut seen = *self.changes.lock().unwrap_or_else(PoisonError::into_inner);
         let begun = http::begin(stream, "text/event-stream");
         let mut sent = begun.and_then(|()| stream.write_all(b": here\n\n"));
+        let mut silent = Instant::now();
         while sent.is_ok() {
             let changes = self.changes.lock().unwrap_or_else(PoisonError::into_inner);
-            let waited = self.changed.wait_timeout_while(changes, SILENCE, |changes| *changes == seen);
+            let waited = self.changed.wait_timeout_while(changes, ATTENTION, |changes| *changes == seen);
             let now = *waited.unwrap_or_else(PoisonError::into_inner).0;
+            if now == seen && silent.elapsed() < SILENCE {
+                if is_closed(stream) {
+                    return;
+                }
+                continue;
+            }
             let text =
                 if now == seen { ": still here\n\n".to_owned() } else { format!("event: changed\ndata: {now}\n\n") };
-            seen = now;
+            (seen, silent) = (now, Instant::now());
             sent = stream.write_all(text.as_bytes());
         }
     }
+}
+
+/// Has the other side closed the connection?
+fn is_closed(stream: &TcpStream) -> bool {
+    let closed = stream.set_nonblocking(true).is_err() || matches!(stream.peek(&mut [0]), Ok(0));
+    stream.set_nonblocking(false).is_err() || closed
 }
 
 /// What a request says in JSON.

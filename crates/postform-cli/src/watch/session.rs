@@ -23,7 +23,7 @@ use super::super::config::Config;
 use super::super::files::{self, io_message};
 use super::super::forms::FormFile;
 use super::super::machine;
-use super::super::output::write_whole;
+use super::super::output::{write_new, write_whole};
 use super::super::prompt;
 
 /// A program of fewer bytes is proven before anybody sees that its picture waits.
@@ -135,7 +135,6 @@ impl Session {
         let jobs = if args.job.is_empty() { config.jobs.clone() } else { args.job };
         for job in &jobs {
             files::check_format(job, &args.read)?;
-            files::open(job)?;
         }
         if let Some(against) = &args.against {
             files::open_program(against)?;
@@ -315,7 +314,10 @@ impl Session {
             files: typed,
             limits: self.limits,
             levels: &self.levels,
-            job: self.job(job, self.sample(typed.form, typed.texts))?,
+            job: match job < self.names.len() {
+                true => self.job(job, self.sample(typed.form, typed.texts)).map_err(plain),
+                false => return Err("error: there is no such job".into()),
+            },
             job_name: self.names.get(job).map_or("", String::as_str),
             options,
             proof: self.proof.clone(),
@@ -327,7 +329,7 @@ impl Session {
         let of_form = || Some(form.place(form.analyse(texts).form.settings.machine_file.as_deref()?));
         let [first, last] = &self.machine;
         let path = first.clone().or_else(of_form).or_else(|| last.clone())?;
-        Some(machine::read(&path).map_err(|why| why.trim_start_matches("error: ").to_owned()))
+        Some(machine::read(&path).map_err(plain))
     }
 
     /// The sample job, where no job is named.
@@ -374,12 +376,28 @@ impl Session {
         files::read_form(&path).map_or_else(|_| String::new(), |bytes| Source::from_bytes(name, &bytes).text)
     }
 
-    /// Writes a file of the form, and only such a file.
+    /// Where a file of the form was that is shown, and is not there any more.
+    fn gone(&self, name: &str) -> Option<PathBuf> {
+        let shown = lock(&self.shown);
+        shown.iter().find(|path| files::name(path) == name && !path.exists()).cloned()
+    }
+
+    /// Is the form itself there?
+    pub fn has_form(&self) -> bool {
+        self.form.exists()
+    }
+
+    /// Writes a file of the form, and only such a file; again where it was deleted.
     ///
     /// # Errors
     /// It is none, was changed meanwhile, or can't be written.
     pub fn save(&self, save: &Save) -> Result<(), NotSaved> {
         let conflict = |why: String| NotSaved::Conflict(why);
+        if let Some(path) = self.gone(&save.name) {
+            let written = write_new(&path, save.text.as_bytes());
+            self.forget();
+            return written.map_err(|error| conflict(io_message("write", &path, &error)));
+        }
         let form = self.read_form().map_err(conflict)?;
         let checked = form.analyse(&HashMap::new());
         if !checked.files.iter().any(|file| file.name == save.name) {
@@ -391,17 +409,22 @@ impl Session {
         if lines(&source.text) != lines(&save.was) {
             return Err(conflict("it was changed on the disk meanwhile".into()));
         }
-        if source.was_windows_1252 {
-            return Err(conflict("it is not UTF-8: save it as UTF-8 with an editor first".into()));
-        }
         // line ends stay as they were
         let text = lines(&save.text);
         let text = if source.text.contains("\r\n") { text.replace('\n', "\r\n") } else { text };
         let mark: &[u8] = if bytes.starts_with(b"\xef\xbb\xbf") { b"\xef\xbb\xbf" } else { b"" };
-        write_whole(&path, &[mark, text.as_bytes()].concat()).map_err(conflict)?;
+        let text = source.encoded(&text).map_err(|letter| {
+            conflict(format!("it is in Windows-1252, which has no {letter}: save it as UTF-8 with an editor first"))
+        })?;
+        write_whole(&path, &[mark, &text].concat()).map_err(conflict)?;
         self.forget();
         Ok(())
     }
+}
+
+/// A message without its first word.
+fn plain(message: String) -> String {
+    message.trim_start_matches("error: ").to_owned()
 }
 
 /// With `\n` alone.

@@ -1,0 +1,25 @@
+//! From positions of the axes to positions on the part: rotary axes turn the part under the tool.
+//!
+//! A positive angle turns the tool about the part by the right hand (ISO 841, "as if the tool moved"), about the axis through program zero. Where
+//! several axes turn, A and B carry C, as on most trunnion tables: we decided that, no program contains it.
+
+/// The position on the part at which a tool stands, X Y Z, for positions of A B C in degrees.
+pub(super) fn on_part([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = sin_cos(a);
+    let (y, z) = (y * cos - z * sin, y * sin + z * cos);
+    let (sin, cos) = sin_cos(b);
+    let (z, x) = (z * cos - x * sin, z * sin + x * cos);
+    let (sin, cos) = sin_cos(c);
+    [x * cos - y * sin, x * sin + y * cos, z]
+}
+
+/// Of an angle in degrees; exact at whole quarters.
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        other => other.to_radians().sin_cos(),
+    }
+}

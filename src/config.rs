@@ -1,4 +1,4 @@
-//! What `postform.toml` says: what a shop wants everywhere. Finding and reading the file is the caller's.
+//! Settings in `postform.toml`, which hold for a whole shop. The caller finds and reads the file.
 
 use std::collections::BTreeMap;
 
@@ -10,27 +10,27 @@ use crate::lint::{Level, Levels};
 use crate::sema::Limits;
 use crate::terminal::escaped;
 
-/// What holds for the files of a folder and below it. Paths are as written: from the folder of the file.
+/// Settings for the files of a folder and its subfolders. Paths are kept as written, relative to the folder of `postform.toml`.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Config {
     /// The form of `render` and `verify`.
     pub form: Option<String>,
-    /// Whose rules programs are run by.
+    /// The control whose rules programs follow when they are run.
     pub control: Option<ControlName>,
     /// Limits of forms.
     pub limits: Option<Limits>,
-    /// The machine's file: [`render`](crate::Post::render) does not look at it, the command line does.
+    /// The machine's file. [`render`](crate::Post::render) does not use it; the command line does.
     pub machine: Option<String>,
-    /// What editors print with the forms of the folder.
+    /// Jobs that editors print with the forms of the folder.
     pub jobs: Vec<String>,
-    /// Programs that are not proven are not printed.
+    /// A program that is not proven is an error and is not printed.
     pub require_proof: bool,
-    /// What rules count as.
+    /// Severities of rules.
     pub levels: Levels,
     /// Values of properties of forms, by their names, as [`Options::shop_properties`](crate::Options::shop_properties) takes them.
     pub properties: Vec<(String, String)>,
-    /// What `postform test` does; of no other command's concern.
+    /// Settings of `postform test`; no other command uses them.
     pub test: Tests,
 }
 
@@ -41,27 +41,27 @@ pub struct Config {
 pub struct Tests {
     /// The forms that print the jobs, or folders of forms.
     pub forms: Vec<String>,
-    /// The post of a form that holds several.
+    /// The post to use from a form that contains several.
     pub post: Option<String>,
-    /// What is no difference: names of [`crate::internals::diff::Ignore`], as `numbers`.
+    /// Differences to ignore: names of [`crate::internals::diff::Ignore`], such as `numbers`.
     pub ignore: Vec<String>,
-    /// How near two numbers must be to be one, in the unit in which they stand.
+    /// Largest difference at which two numbers still count as equal, in the unit in which they are written.
     pub tolerance: f64,
-    /// The day on which programs are printed, as `2026-03-31`.
+    /// The date with which programs are printed, such as `2026-03-31`.
     pub date: Option<String>,
 }
 
-/// A control that comes with postform, or a shop's own.
+/// A control that is built into postform, or a shop's own.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum ControlName {
-    /// It comes with postform.
+    /// A built-in control.
     Known(&'static Control),
-    /// The path of a file that describes it: see [`Control::own`].
+    /// The path of a file that describes the control: see [`Control::own`].
     File(String),
 }
 
-/// What the file may say.
+/// The keys that the file may contain.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -92,7 +92,7 @@ enum WrittenValue {
 }
 
 impl WrittenValue {
-    /// As somebody types it.
+    /// The value as a user would type it.
     fn typed(self) -> String {
         match self {
             WrittenValue::YesNo(yes) => if yes { "yes" } else { "no" }.into(),
@@ -115,21 +115,23 @@ impl Config {
     /// Reads the text of the file.
     ///
     /// # Errors
-    /// It is not TOML, has a key that there is not, or a value that makes no sense.
+    /// The text is not TOML, contains an unknown key, or contains a value that makes no sense.
     pub fn parse(text: &str) -> Result<Config, Error> {
         let written: Written = toml::from_str(text).map_err(|error| {
             let known =
-                "it may say form, control, machine, limits, jobs, require-proof, under [rules] codes as PF303 = \"off\", under [properties] values as header = false, and under [test] forms, post, ignore, tolerance and date";
+                "the keys are form, control, machine, limits, jobs and require-proof; [rules] takes codes, as PF303 \
+                 = \"off\"; [properties] takes values, as header = false; [test] takes forms, post, ignore, \
+                 tolerance and date";
             Error::usage(format!("{}\n  help: {known}", error.to_string().trim_end()))
         })?;
         let mut levels = Levels::default();
-        // a family first, so that its codes can be told apart whatever the order
+        // family names first, so that the level of a single code overrides its family in any order
         let mut rules: Vec<_> = written.rules.iter().collect();
         rules.sort_by_key(|(code, _)| code.len());
         for (code, level) in rules {
             let Some(parsed) = Level::parse(level) else {
                 let levels = "off, note, warning or error";
-                return Err(Error::usage(format!("{} = {level:?}: a rule is {levels}", escaped(code))));
+                return Err(Error::usage(format!("{} = {level:?}: the level of a rule is {levels}", escaped(code))));
             };
             levels.set(code, parsed).map_err(|why| Error::usage(format!("{} {why}", escaped(code))))?;
         }

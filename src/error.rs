@@ -1,34 +1,34 @@
-//! Why something was not done: one error for everything that the library is asked.
+//! One error type for every operation of the library.
 
 use std::{error, fmt, io};
 
 use crate::diag::{Code, Diag, Findings};
 
-/// What an error is about.
+/// The cause of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ErrorKind {
     /// The form has errors; nothing can be printed with it.
     Form,
-    /// The job is wrong, or asks for what the form can't print.
+    /// The job is wrong, or requests something that the form can't print.
     Job,
-    /// What was asked for makes no sense: an option, or a job that can't be read twice.
+    /// The request makes no sense: a wrong option, or a second read of a job that can be read only once.
     Usage,
-    /// The job can't be read; [`std::error::Error::source`] says why.
+    /// The job can't be read; [`std::error::Error::source`] has the reason.
     Input,
-    /// The program can't be written; [`std::error::Error::source`] says why.
+    /// The program can't be written; [`std::error::Error::source`] has the reason.
     Output,
-    /// The program that is to be verified can't be read; [`std::error::Error::source`] says why.
+    /// The program to verify can't be read; [`std::error::Error::source`] has the reason.
     Program,
-    /// The program does something else than its job asks for, or a proof was required and there is none.
+    /// The program differs from its job, or a required proof is missing.
     Proof,
     /// A fault of postform itself: please report it.
     Fault,
 }
 
-/// Why something was not done, with all that was found until then: the warnings first, then what stopped it.
+/// The reason why an operation failed, with all findings until then: first the warnings, then the error.
 ///
-/// It shows as one line, with `{:#}` and the line of the form below it; [`Error::findings`] has the places, the help and the fixes.
+/// It is displayed as one line; `{:#}` adds the line of the form. [`Error::findings`] has the locations, the help and the fixes.
 pub struct Error(Box<Inner>);
 
 struct Inner {
@@ -43,27 +43,27 @@ impl Error {
         Error(Box::new(Inner { kind, findings, message, source }))
     }
 
-    /// The error of a form with these errors, and its warnings.
+    /// An error for a form with errors; the findings also include its warnings.
     pub(crate) fn form(findings: Findings) -> Error {
         Error::new(ErrorKind::Form, findings, String::new(), None)
     }
 
-    /// A program that must not run, and why: what differs, or what is not proven.
+    /// An error for a program that must not run; the findings are its differences or the parts that are not proven.
     pub(crate) fn proof(findings: Findings) -> Error {
         Error::new(ErrorKind::Proof, findings, String::new(), None)
     }
 
-    /// What was asked for makes no sense, and what to ask instead.
+    /// A request that makes no sense; the message names a valid one.
     pub(crate) fn usage(message: impl Into<String>) -> Error {
         Error::new(ErrorKind::Usage, Findings::default(), message.into(), None)
     }
 
-    /// The system says no to this.
+    /// The operating system reports an error.
     pub(crate) fn of_io(kind: ErrorKind, error: io::Error) -> Error {
         Error::new(kind, Findings::default(), String::new(), Some(error))
     }
 
-    /// The error with what was found before it: warnings of a job, and the text of its form.
+    /// Adds earlier findings: warnings of the job, and the text of its form.
     pub(crate) fn after(mut self, warnings: Vec<Diag>, files: &[crate::source::Source]) -> Error {
         self.0.findings.diags.splice(0..0, warnings);
         if self.0.findings.files.is_empty() {
@@ -72,27 +72,27 @@ impl Error {
         self
     }
 
-    /// The findings, to complete their places.
+    /// The findings, mutable, so that their locations can be completed.
     pub(crate) fn diags_mut(&mut self) -> &mut [Diag] {
         &mut self.0.findings.diags
     }
 
-    /// What kind of failure this is.
+    /// The kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         self.0.kind
     }
 
-    /// Warnings, and the errors that stopped the work. Empty where input or output failed.
+    /// Warnings, and the errors that stopped the work. Empty if input or output failed.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }
 
-    /// The failure of the input or the output, where that is the error.
+    /// The failure of the input or the output, if that is the cause.
     pub fn io(&self) -> Option<&io::Error> {
         self.0.source.as_ref()
     }
 
-    /// The findings, to keep.
+    /// Returns the findings by value.
     pub fn into_findings(self) -> Findings {
         self.0.findings
     }
@@ -114,8 +114,8 @@ impl From<io::Error> for Error {
 }
 
 impl fmt::Display for Error {
-    /// The first error, and how many more there are. `{:#}` adds the line of the form that it is about, with a mark under the
-    /// words.
+    /// The first error and the number of further errors. `{:#}` adds the line of the form that is affected, with a mark under
+    /// the words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Inner { findings, message, source, .. } = &*self.0;
         let mut errors = findings.diags.iter().filter(|diag| diag.is_error());
@@ -138,7 +138,7 @@ impl fmt::Display for Error {
 }
 
 impl fmt::Debug for Error {
-    /// All findings, a line each: what a `main` that returns it shows.
+    /// All findings, one per line: printed when `main` returns this error.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0.findings.is_empty() {
             true => write!(f, "{self}"),

@@ -1,4 +1,4 @@
-//! One canonical layout for forms. It changes blanks, case and older spellings; never what is rendered.
+//! One canonical layout for forms. It changes spaces, case and older spellings, but never the rendered program.
 
 use crate::lang::{CommandId, SequenceName, TextVar, VarId};
 use crate::source::Source;
@@ -7,10 +7,10 @@ use crate::syntax::{
     self, Body, Directive, DirectiveKind, End, Head, Line, Piece, PieceKind, SequenceNode, Spanned, Statement, Tail,
 };
 
-/// What sets the lines of a branch apart.
+/// Indentation of the lines of a branch.
 const INDENT: &str = "  ";
 
-/// A form in the canonical layout. Lines that make no sense stay as they are.
+/// Formats a form in the canonical layout. Lines that make no sense stay as they are.
 pub fn format(source: &Source) -> String {
     let tree = syntax::parse(source, 0);
     let mut page = Page { source, lines: Vec::new() };
@@ -41,14 +41,14 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// One empty line, unless there is one or the page begins.
+    /// Adds one empty line, unless the last line is empty or the page is.
     fn gap(&mut self) {
         if self.lines.last().is_some_and(|line| !line.is_empty()) {
             self.lines.push(String::new());
         }
     }
 
-    /// A gap before the comments that stand directly above what comes now: they speak of it.
+    /// Adds a gap before the comments directly above the next line, because they belong to that line.
     fn gap_before_comments(&mut self) {
         let comments = self.lines.iter().rev().take_while(|line| line.starts_with('#')).count();
         let at = self.lines.len() - comments;
@@ -57,7 +57,7 @@ impl Page<'_> {
         }
     }
 
-    /// A line with words and what stands after them.
+    /// A line with words and the comment after them.
     fn push(&mut self, words: String, line: &Line) {
         self.lines.push(words + &self.tail(&line.tail, true));
     }
@@ -70,7 +70,7 @@ impl Page<'_> {
         }
     }
 
-    /// A comment as ` # text`; text that is lost stays lost, and stays in sight.
+    /// A comment as ` # text`. Text that is ignored stays visible and is not turned into a comment.
     fn tail(&self, tail: &Tail, behind_words: bool) -> String {
         match tail {
             Tail::None => String::new(),
@@ -87,23 +87,23 @@ impl Page<'_> {
         }
     }
 
-    /// A command or a sequence's name line, without what stands after it.
+    /// A command or the name line of a sequence, without the comment after it.
     fn statement(&self, statement: &Statement) -> String {
         let args = statement.args.iter().map(|arg| self.source.slice(arg.span));
         match CommandId::parse(&statement.name.text) {
             Some(id) if !self.is_glued(statement) => [id.name()].into_iter().chain(args).collect::<Vec<_>>().join(" "),
-            // no command: what was meant is in how it is written
+            // unknown command: the line stays as written, because its spelling shows the intended command
             _ => self.as_written(&statement.line),
         }
     }
 
-    /// `Rapid;G0`: an argument that begins directly after the semicolon may begin with anything, as no other can.
+    /// `Rapid;G0`: an argument directly after the semicolon may begin with any character; other arguments may not.
     fn is_glued(&self, statement: &Statement) -> bool {
         let mut behind = self.source.text[statement.name.span.end as usize..].chars();
         behind.next() == Some(';') && behind.next().is_some_and(|c| !c.is_whitespace())
     }
 
-    /// The words of a line as they stand.
+    /// The words of a line as they are written.
     fn as_written(&self, line: &Line) -> String {
         let end = match &line.tail {
             Tail::None => line.span.end,
@@ -116,7 +116,7 @@ impl Page<'_> {
     fn name_line(&self, statement: &Statement) -> String {
         let mut words = vec![statement.name.text.as_str()];
         words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
-        // what is no variable stays as it is
+        // text that is no variable stays as it is
         let named = |text: &str| {
             let inner = text.trim_matches(['[', ']', '<', '>']);
             VarId::parse(inner).map_or_else(|| text.to_owned(), |var| format!("[{}]", var.name()))
@@ -166,7 +166,7 @@ impl Page<'_> {
         }
     }
 
-    /// `@if [cool] = through`; what stands after the name is the author's.
+    /// `@if [cool] = through`: only the name changes, the rest stays as the author wrote it.
     fn directive(&self, directive: &Directive) -> String {
         let name = match directive.kind {
             DirectiveKind::Unknown => directive.name.text.clone(),
@@ -190,7 +190,7 @@ impl Page<'_> {
             if i > 0 {
                 text.push(' ');
             }
-            // what is no word may stand beside one: laid out, the two could become another word
+            // text that is no word stays as written: in the canonical layout it could become another word with its neighbour
             let stray = |piece: &Piece| matches!(piece.kind, PieceKind::Stray(_));
             if word.pieces.iter().any(stray) {
                 text.push_str(self.source.slice(word.span));
@@ -215,7 +215,7 @@ impl Page<'_> {
                     text.push_str(var.name());
                     text.push(']');
                 }
-                // no variable: what it was to be is for its author
+                // unknown variable: it stays as written, because the intended one is unknown
                 None => text.push_str(self.source.slice(piece.span)),
             },
             PieceKind::Note { parts, closed } => {
@@ -225,7 +225,7 @@ impl Page<'_> {
             }
             PieceKind::Literal { letter, number } => {
                 text.push(char::from(*letter));
-                text.push_str(&number.text); // without the brackets of the first forms
+                text.push_str(&number.text); // without the brackets of the oldest forms
             }
             PieceKind::Expression { letter, text: inner, expr } if expr.is_ok() => {
                 text.extend(letter.map(char::from));
@@ -252,11 +252,11 @@ impl Page<'_> {
     }
 }
 
-/// `X->3.>4`, `F >3.>6`, `A010360`: the sign has its column, and is a blank where there is none.
+/// `X->3.>4`, `F >3.>6`, `A010360`: the sign has its own column, which is a space if there is no sign.
 fn format_of(letter: &Spanned, spec: &Spanned) -> String {
     let digits = spec.text.trim();
     let packed = digits.len() >= 3 && digits.bytes().all(|b| b.is_ascii_digit());
-    // after a sequence `O 578` is a late format, `O578` a word: with so many digits the blank stays as it is
+    // after a sequence `O 578` is a late format and `O578` is a word: with as many digits as a format has, the space stays
     let glued = if packed { !spec.text.starts_with(' ') } else { digits.starts_with(['-', '+']) };
     let blank = if glued { "" } else { " " };
     format!("{}{blank}{digits}", letter.text)

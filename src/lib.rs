@@ -1,7 +1,6 @@
 //! **postform**: the compiler for POSTFORM files, the templates of CNC post processors.
 //!
-//! A form says how one machine wants its NC code. Compile it once, print any number of jobs with it, and have each program
-//! proven:
+//! A form describes the NC code of one machine. Compile it once and print any number of jobs with it. Each program is proven:
 //!
 //! ```
 //! use postform::{Job, NoFiles, Options, Post, Source};
@@ -19,12 +18,12 @@
 //! ```
 //!
 //! - [`Post`] owns its form; a clone shares it, also with other threads. A form with errors makes no post.
-//! - [`Job`] is what is to be made: JSON, JSON Lines, a CL file, an NC program, or events of your own.
-//! - [`Program`] is whole: what can't be printed is an [`Error`] with its findings, and never half a program.
-//! - [`Verdict`] says whether a program makes the motions of its job. One that makes others is an [`Error`], too.
+//! - [`Job`] is the work to be machined: JSON, JSON Lines, a CL file, an NC program, or events of your own.
+//! - [`Program`] is always complete: if something can't be printed, the result is an [`Error`] with its findings.
+//! - [`Verdict`] states whether a program makes the motions of its job. A program with other motions is an [`Error`], too.
 //! - [`toolpath`] has the events of a job, for readers of your own; [`diag`] has the findings, with their codes.
 //!
-//! The library does no I/O of its own: bytes and names come in. Files, the terminal and the command line are in the package
+//! The library does no I/O of its own: the caller passes bytes and names. Files, the terminal and the command line are in the package
 //! `postform-cli`. The feature `freecad` reads FreeCAD documents as jobs.
 #![forbid(unsafe_code)]
 #![warn(clippy::print_stdout, clippy::print_stderr, clippy::disallowed_methods, clippy::disallowed_types)]
@@ -69,7 +68,7 @@ pub mod toolpath;
 mod trace;
 mod verify;
 
-// what is public besides these two modules: tests/data/public-items.txt lists it all
+// tests/data/public-items.txt lists everything that is public besides these two modules
 pub use cl::{Assumed, AssumedSpeed, Dialect, Options as ClOptions, Report as ClReport, Setup as ClSetup};
 pub use config::{Config, ControlName};
 pub use control::{Control, Wrong as WrongControl};
@@ -90,8 +89,8 @@ pub use source::Source;
 pub use span::Span;
 pub use verify::{Counts, Equivalences, Finding, Unproven, UnprovenKind, Verdict};
 
-/// What the command line, the tests and the benchmarks of this repository use besides the front door. It is no part of the
-/// public library, and changes without notice.
+/// Items for the command line, the tests and the benchmarks of this repository. They are not part of the public library and
+/// change without notice.
 #[doc(hidden)]
 pub mod internals {
     pub mod cl {

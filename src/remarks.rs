@@ -1,12 +1,12 @@
-//! What a file contains besides its toolpath.
+//! Contents of a file besides its toolpath.
 
 use crate::diag::Diag;
 
-/// What a reader of a CAM system's files notices besides the events.
+/// Notes that a reader takes from a CAM system's file, besides the events.
 #[derive(Clone, Debug, Default)]
 pub struct Remarks {
-    /// For whoever looks at the job: the system's version, the job's name, values for another post.
+    /// Information for people who look at the job: the system's version, the job's name, values for another post.
     pub facts: Vec<String>,
-    /// What is left out, or read in a way that the file does not give.
+    /// Parts that are left out, or read in a way that the file does not specify.
     pub warnings: Vec<Diag>,
 }

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use crate::span::Span;
 
-/// Every so many bytes of a line it is known how many characters come before: columns of long lines cost no more than
-/// those of short ones.
+/// Interval in bytes at which the number of preceding characters is stored. With it, columns of long lines are as fast to find
+/// as those of short lines.
 const STEP: usize = 1024;
 
 /// One form file, decoded.
@@ -18,7 +18,7 @@ pub struct Source {
     /// The bytes were not UTF-8 and were read as Windows-1252.
     pub was_windows_1252: bool,
     line_starts: Vec<u32>,
-    /// Characters before every so many bytes.
+    /// Number of characters before each interval of bytes.
     characters: Vec<u32>,
 }
 
@@ -26,7 +26,7 @@ impl Source {
     /// Decodes a file: UTF-8 with or without byte order mark, else Windows-1252 (these files are old).
     pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> Self {
         let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        // the end mark of files from DOS
+        // the end-of-file mark of DOS
         let body = body.strip_suffix(b"\x1a").unwrap_or(body);
         let (text, was_windows_1252) = match std::str::from_utf8(body) {
             Ok(text) => (Cow::Borrowed(text), false),
@@ -35,10 +35,10 @@ impl Source {
         Self::with(name.into(), text.into_owned(), was_windows_1252)
     }
 
-    /// The bytes of a text in the encoding of this file.
+    /// Encodes a text in the encoding of this file.
     ///
     /// # Errors
-    /// The first character that Windows-1252 has no byte for.
+    /// The first character that Windows-1252 does not have.
     #[doc(hidden)]
     pub fn encoded(&self, text: &str) -> Result<Vec<u8>, char> {
         if !self.was_windows_1252 {
@@ -71,10 +71,10 @@ impl Source {
             let end = self.line_starts.get(i + 1).map_or(self.text.len(), |&next| next as usize);
             let line = &self.text[start..end];
             if line.is_empty() && start == self.text.len() && start > 0 {
-                return None; // what follows the last line end is no line
+                return None; // there is no line after the last line end
             }
             let line = line.strip_suffix('\n').unwrap_or(line);
-            // more than one, or blanks after it, where a file went through a transfer that added its own
+            // more than one, or spaces after it: some file transfers add their own
             let words = line.trim_end_matches([' ', '\t', '\r']);
             Some((start, if line[words.len()..].contains('\r') { words } else { line }))
         })
@@ -109,12 +109,12 @@ impl Source {
     }
 }
 
-/// How many characters begin in these bytes of UTF-8.
+/// Number of characters that begin in these bytes of UTF-8.
 fn beginnings(bytes: &[u8]) -> u32 {
     bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() as u32
 }
 
-/// The character of one Windows-1252 byte. The five that have none keep their number, so that nothing is lost.
+/// The character of one Windows-1252 byte. The five bytes without a character keep their number, so that nothing is lost.
 fn windows_1252(byte: u8) -> char {
     const HIGH: [char; 32] = [
         '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘',

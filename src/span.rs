@@ -1,9 +1,9 @@
-//! Places in form text.
+//! Locations in the text of a form.
 
 /// A range of bytes in the decoded text of one form file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Span {
-    /// Which file: 0 is the form itself, others came by `Call`.
+    /// Index of the file: 0 is the form itself, other files are included by `Call`.
     pub file: u32,
     /// First byte.
     pub start: u32,

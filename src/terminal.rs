@@ -1,13 +1,13 @@
 //! Text from files, made safe for a terminal.
 
-/// Does a character steer a terminal or the order of text, instead of being seen? C0 and C1, the marks of bidirectional
-/// text, and the separators of lines and paragraphs.
+/// Does a character control the terminal or the text direction instead of being visible? These are C0 and C1, the marks of
+/// bidirectional text, and the separators of lines and paragraphs.
 pub fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Text from a file made safe for a terminal: what would steer it becomes escapes.
+/// Text from a file made safe for a terminal: control characters become escapes.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -16,7 +16,7 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// Text of several lines made safe for a terminal; the lines stay lines.
+/// Text of several lines made safe for a terminal; line ends are kept.
 pub fn escaped_lines(text: &str) -> String {
     text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

@@ -1,34 +1,34 @@
-//! The source map of a program, both ways: from a program line to its form line and job item, and back.
+//! The source map of a program, in both directions: program line to form line and job item, and back.
 
 use crate::render::TraceLine;
 use crate::span::Span;
 use crate::toolpath::Place;
 
-/// Where every line of a program came from.
+/// The origin of every line of a program.
 #[derive(Clone, Debug, Default)]
 pub struct Trace {
     lines: Vec<TraceLine>,
 }
 
 impl Trace {
-    /// A map of lines in the order of the program, as the renderer gives them.
+    /// A map from lines in the order of the program, as the renderer produces them.
     pub fn new(lines: Vec<TraceLine>) -> Trace {
         Trace { lines }
     }
 
-    /// Where a program line came from; lines count from 1.
+    /// The origin of a program line; lines are numbered from 1.
     pub fn line(&self, number: u64) -> Option<&TraceLine> {
         let at = self.lines.binary_search_by_key(&number, |line| line.line).ok()?;
         Some(&self.lines[at])
     }
 
-    /// The program lines that a place in the form printed: all whose form line overlaps the span.
+    /// The program lines that a location in the form printed: all whose form line overlaps the span.
     pub fn printed_by_form(&self, place: Span) -> impl Iterator<Item = u64> {
         let overlaps = move |span: Span| span.file == place.file && span.start < place.end && place.start < span.end;
         self.lines.iter().filter(move |line| line.form.is_some_and(overlaps)).map(|line| line.line)
     }
 
-    /// The program lines that an item of the job printed: for a cycle those of all its points.
+    /// The program lines that an item of the job printed; for a cycle, the lines of all its points.
     pub fn printed_by_item(&self, place: Place) -> impl Iterator<Item = u64> {
         let same = move |line: &Place| {
             (line.operation, line.subprogram, line.item) == (place.operation, place.subprogram, place.item)

@@ -150,7 +150,7 @@ try {
   await shot("completion");
   await press("Escape");
   await command("Problems: Focus on Problems View");
-  await check("and is said", () => seen(".markers-panel", "is no variable"));
+  await check("and is said", () => seen(".markers-panel", "is not a variable"));
   await pause(500);
   await shot("problems");
   await command("View: Close Panel");

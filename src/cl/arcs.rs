@@ -9,24 +9,24 @@ use super::words::{Word, numbers};
 use crate::diag::Code;
 use crate::toolpath::{Arc, Direction, Event, Plane, Units};
 
-/// Most turns of one helix.
+/// Maximum number of turns of one helix.
 const MOST_TIMES: f64 = 1_000.0;
-/// Degrees by which ANGLE may differ from the angle between the points of an arc.
+/// Maximum difference in degrees between ANGLE and the angle between the points of an arc.
 const ANGLE_OFF: f64 = 0.5;
 
-/// Cosine of the angle under which an arc still leaves the motion before it along its tangent: 8 degrees.
+/// Cosine of 8 degrees: up to this angle, an arc counts as tangent to the motion before it.
 const TANGENT: f64 = 0.99;
 
-/// CIRCLE/x,y,z[,i,j,k][,r,..]: the centre, the axis; its end is the next GOTO.
+/// Reads CIRCLE/x,y,z[,i,j,k][,r,..]: centre and axis. The next GOTO is the end of the arc.
 pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>) -> Done {
     let State { job, motion, arcs, cycle, .. } = state;
     if job.notes.dialect() == Dialect::Ncl {
-        let help = "its points follow as lines; let NCL write arcs for a smoother program";
-        job.notes.warn(Code::PL008, "a CIRCLE of NCL is printed as lines to its points", help);
+        let help = "the path follows its points in straight lines; let NCL write arcs for a smoother program";
+        job.notes.warn(Code::PL008, "a CIRCLE of NCL is printed as straight lines through its points", help);
         return Ok(());
     }
     if cycle.is_active() {
-        return fault(Code::PC042, "an arc inside a cycle", "end the cycle before with CYCLE/OFF");
+        return fault(Code::PC042, "an arc inside a cycle", "end the cycle first, with CYCLE/OFF");
     }
     let (words, times, angle) = extent(words)?;
     let values = numbers(words).unwrap_or_default();
@@ -46,7 +46,7 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
     Ok(())
 }
 
-/// What stands after the numbers of an arc: TIMES,n and ANGLE,a.
+/// Reads the words after the numbers of an arc: TIMES,n and ANGLE,a.
 fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
     let numbers = words.iter().position(|word| word.number().is_none()).unwrap_or(words.len());
     let (words, mut rest) = words.split_at(numbers);
@@ -65,15 +65,15 @@ fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
         [] => Ok((words, times, angle)),
         [word, ..] => {
             let message = format!("`{word}` after the numbers of an arc");
-            fault(Code::PL002, message, "write TIMES,n or ANGLE,degrees there, or nothing")
+            fault(Code::PL002, message, "write TIMES,n or ANGLE,degrees after the numbers, or nothing")
         }
     }
 }
 
-/// The GOTO after a CIRCLE.
+/// Handles the GOTO after a CIRCLE.
 pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut State<'_>) -> Done {
     if rapid {
-        return fault(Code::PL004, "a rapid along an arc", "take RAPID out, or CIRCLE");
+        return fault(Code::PL004, "a rapid along an arc", "remove RAPID or CIRCLE");
     }
     let Some(from) = state.motion.position else {
         return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
@@ -82,7 +82,7 @@ pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut St
     let allowed = if state.job.units()? == Units::Inch { 0.001 } else { 0.02 };
     if let Some(radius) = arc.radius.filter(|radius| (radius.abs() - away).abs() > allowed) {
         let message = format!("the CIRCLE has the radius {radius}, the tool is {away:.4} from its centre");
-        return fault(Code::PR005, message, "look at the motion before it");
+        return fault(Code::PR005, message, "check the motion before it");
     }
     let notes = &state.job.notes;
     let sense = match arc.sense.or(notes.said_sense()) {
@@ -93,12 +93,12 @@ pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut St
     arc_event(arc, to, ccw, state)
 }
 
-/// An arc from where the tool is.
+/// Pushes an arc that begins at the tool's position.
 pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut State<'_>) -> Done {
     let State { job, motion, arcs, feeds, .. } = state;
     approach(motion, feeds, job)?;
     if job.turns_part() && arc.axis != 1 {
-        return fault(Code::PL004, "an arc of a lathe outside the plane of z and x", "turn in that plane");
+        return fault(Code::PL004, "an arc of a lathe outside the ZX plane", "program the arc in the ZX plane");
     }
     match motion.cutcom.asked {
         Some(Some(_)) => {
@@ -106,7 +106,8 @@ pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut S
             return fault(Code::PL004, "cutter compensation can't begin on an arc", help);
         }
         Some(None) => {
-            let help = "no control ends it on an arc; put a straight motion between CUTCOM/OFF and the arc where that is wrong";
+            let help = "no control can end compensation on an arc; if compensation must end earlier, put a straight \
+                motion between CUTCOM/OFF and the arc";
             job.notes.warn(
                 Code::PL008,
                 "CUTCOM/OFF comes before an arc: compensation ends with the straight motion after it",
@@ -133,8 +134,8 @@ pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut S
     job.push(Event::Arc { arc: &event, feed })
 }
 
-/// Full turns before the end is reached for good. NX counts by TIMES how often the tool comes to the end, the last one
-/// included: its ramps have their angle only so. ANGLE must agree with the way from the beginning to the end.
+/// Number of full turns before the last arrival at the end. In NX, TIMES counts every arrival at the end, including the last;
+/// only with this reading do its ramps have the right angle. ANGLE must agree with the angle between the points.
 fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> Done<u32> {
     let (Some(angle), Some(from)) = (arc.angle, from) else { return Ok(arc.times.unwrap_or(1) - 1) };
     let (first, second) = ((arc.axis + 1) % 3, (arc.axis + 2) % 3);
@@ -143,17 +144,17 @@ fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> D
     let turns = ((angle - way) / 360.0).round();
     let off = (angle - way - 360.0 * turns).abs();
     if off > ANGLE_OFF || arc.times.is_some() {
-        let message = format!("an arc of {angle} degrees, and its points are {:.3} apart", way.rem_euclid(360.0));
-        return fault(Code::PR005, message, "look at the motions before and after it");
+        let message = format!("an arc of {angle} degrees, but its points are {:.3} apart", way.rem_euclid(360.0));
+        return fault(Code::PR005, message, "check the motions before and after it");
     }
     let least = way.rem_euclid(360.0);
-    // what begins where it ends is a whole turn
+    // an arc that ends at its start is a full turn
     let least = if (ANGLE_OFF..=360.0 - ANGLE_OFF).contains(&least) { least } else { 360.0 };
     Ok(((angle - least) / 360.0).round().max(0.0) as u32)
 }
 
-/// Which way circles turn, where the caller did not say it: arcs leave the motion before them along their tangent, and all
-/// must agree, also with what the mark of a known system means.
+/// Finds the direction of circles if the caller did not set it. An arc starts along the tangent of the motion before it; all arcs
+/// must agree, also with the direction that is known for the system.
 fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], dialect: Dialect, arcs: &mut Arcs) -> Done<Sense> {
     let mut unit = [0.0; 3];
     unit[arc.axis] = if arc.up { 1.0 } else { -1.0 };
@@ -164,21 +165,27 @@ fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], dialect: Dialect, arcs: &m
         (Some(tangent), Some(heading)) if dot(tangent.0, heading.0) < -TANGENT => Some(Sense::LeftHand),
         _ => None,
     };
-    let help = "say with `--dialect` whose circles these are: those of nx, makino and gener turn clockwise about their \
-                axis, those of solidworks counter-clockwise";
+    let help = "name the system with `--dialect`: circles of nx, makino and gener turn clockwise about their axis, \
+        circles of solidworks counter-clockwise";
     match (dialect.sense(), arcs.sense, seen) {
         (Some(known), _, Some(now)) if known != now => {
-            let message =
-                format!("this CIRCLE turns the other way than those of {}, if it is tangent", dialect.title());
+            let message = format!(
+                "if this CIRCLE is tangent to the path before it, it turns in the opposite direction to the \
+                    circles of {}",
+                dialect.title()
+            );
             fault(Code::PL006, message, help)
         }
-        (_, Some(before), Some(now)) if before != now => {
-            fault(Code::PL006, "this arc turns the other way than those before it, if it is tangent", help)
-        }
+        (_, Some(before), Some(now)) if before != now => fault(
+            Code::PL006,
+            "if this arc is tangent to the path before it, it turns in the opposite direction to \
+                the arcs before it",
+            help,
+        ),
         (Some(sense), _, _) | (None, Some(sense), _) | (None, None, Some(sense)) => {
             arcs.sense = Some(sense);
             Ok(sense)
         }
-        (None, None, None) => fault(Code::PL006, "which way this CIRCLE turns is not known", help),
+        (None, None, None) => fault(Code::PL006, "the direction of this CIRCLE is unknown", help),
     }
 }

@@ -1,4 +1,4 @@
-//! CYCLE statements as they are coded: types, options and their numbers.
+//! CYCLE statements as written: types, options and their numbers.
 
 use super::cycle_words::{OPTIONS, Opt, TYPES};
 use super::dialect::Dialect;
@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::lang::did_you_mean;
 use crate::toolpath::CycleKind;
 
-/// Depths, steps and the feed that goes with them.
+/// Depths, steps and their feed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Group {
     pub depths: Vec<f64>,
@@ -18,13 +18,13 @@ pub(super) struct Group {
     pub feed: Option<(String, f64)>,
 }
 
-/// What a CYCLE statement said, before it is a cycle: CYCLE/ON brings it back.
+/// The content of a CYCLE statement before conversion to a cycle. CYCLE/ON repeats it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Coded {
     pub kind: Option<CycleKind>,
     pub mode: Option<CycleKind>,
     pub groups: Vec<Group>,
-    /// Options without DEPTH, STEP and feeds, with their numbers.
+    /// Options and their numbers, except DEPTH, STEP and feeds.
     pub options: Vec<(Opt, Vec<f64>)>,
 }
 
@@ -42,14 +42,15 @@ impl Coded {
     }
 }
 
-/// The type, and the word that changes it: DRILL,DEEP, TAP,BRKCHP, BORE,BACK.
+/// Reads the type and the word that modifies it: DRILL,DEEP, TAP,BRKCHP, BORE,BACK.
 pub(super) fn cycle_type(words: &[Word]) -> Done<(Coded, &[Word])> {
     let name = words.first().and_then(Word::name).unwrap_or("");
     let Some((_, mut kind)) = TYPES.iter().find(|(word, _)| *word == name).copied() else {
         let names = TYPES.iter().map(|(word, _)| *word);
-        let help = did_you_mean(name, names)
-            .unwrap_or_else(|| "it is one of DRILL, FACE, TAP, BORE, REAM, DEEP, BRKCHP, THRU, CSINK, MANUAL".into());
-        return fault(Code::PC001, format!("`{name}` is no cycle that postform knows"), help);
+        let help = did_you_mean(name, names).unwrap_or_else(|| {
+            "the cycle is one of DRILL, FACE, TAP, BORE, REAM, DEEP, BRKCHP, THRU, CSINK, MANUAL".into()
+        });
+        return fault(Code::PC001, format!("`{name}` is an unknown cycle"), help);
     };
     let mut rest = &words[1..];
     let mut mode = None;
@@ -67,7 +68,7 @@ pub(super) fn cycle_type(words: &[Word]) -> Done<(Coded, &[Word])> {
     Ok((Coded { kind: Some(kind), mode, ..Coded::default() }, rest))
 }
 
-/// The options of a CYCLE statement; CYCLE/ON says only some of them (`whole` is false).
+/// Reads the options of a CYCLE statement. For CYCLE/ON, which may give only some of them, `whole` is false.
 pub(super) fn read_options(
     notes: &mut Notes<'_>,
     before: &Coded,
@@ -82,20 +83,20 @@ pub(super) fn read_options(
         let name = match &words[at] {
             Word::Name(name) => name,
             Word::Null => {
-                notes.warn(Code::PC056, "an empty place between two commas in CYCLE", "take a comma out");
+                notes.warn(Code::PC056, "CYCLE has two commas with no value between them", "remove one comma");
                 at += 1;
                 continue;
             }
             Word::Number(value) if at == 0 && whole => return positional(notes, coded, words, *value, feed),
             Word::Number(value) => {
                 let help = "put its word before it, as DEPTH, STEP or MMPM";
-                return fault(Code::PC037, format!("{value} belongs to no word"), help);
+                return fault(Code::PC037, format!("{value} has no word before it"), help);
             }
         };
         let Some(row) = OPTIONS.iter().find(|row| row.word == name) else {
             let help = did_you_mean(name, OPTIONS.iter().map(|row| row.word))
-                .unwrap_or_else(|| "take it out, or say who wrote the file with `--dialect`".into());
-            return fault(Code::PC018, format!("`{name}` is no option of a cycle"), help);
+                .unwrap_or_else(|| "remove it, or name the system that wrote the file with `--dialect`".into());
+            return fault(Code::PC018, format!("`{name}` is not an option of a cycle"), help);
         };
         let start = at + 1;
         at = start;
@@ -123,7 +124,7 @@ pub(super) fn read_options(
             Opt::Step => group_for(&mut coded.groups, |g| !g.steps.is_empty()).steps = numbers,
             Opt::Feed => {
                 if name == "TPI" && kind != CycleKind::Tap {
-                    return fault(Code::PC008, "threads per inch for something that is no tap", "write IPR or MMPR");
+                    return fault(Code::PC008, "threads per inch in a cycle that is not a tap", "write IPR or MMPR");
                 }
                 if numbers[0] <= 0.0 {
                     return fault(Code::PC006, format!("a feed of {}", numbers[0]), "give a feed above zero");
@@ -132,10 +133,10 @@ pub(super) fn read_options(
                 group.feed = Some((name.clone(), numbers[0]));
             }
             Opt::Side => {
-                notes.warn(Code::PL008, "SIDE of CYCLE/TAP is not known and nothing is done for it", "compare the tap")
+                notes.warn(Code::PL008, "SIDE of CYCLE/TAP is unknown and is ignored", "check the tap in the program")
             }
             option if coded.has(option) => {
-                return fault(Code::PC019, format!("{name} is there twice"), "keep one");
+                return fault(Code::PC019, format!("{name} is given twice"), "keep one");
             }
             option => coded.options.push((option, numbers)),
         }
@@ -143,24 +144,24 @@ pub(super) fn read_options(
     Ok(coded)
 }
 
-/// The format of 1978, whose order each system has its own: only where CATIA is known to have written it.
+/// Reads the format of 1978. Each system has its own order of numbers, so it is accepted only for files known to be from CATIA.
 fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, in_force: Option<Feed>) -> Done<Coded> {
     if notes.dialect() != Dialect::Catia {
         let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
-        return fault(Code::PC032, "numbers without their words, which each system orders in its own way", help);
+        return fault(Code::PC032, "numbers without words: their order differs between CAM systems", help);
     }
     let unit = |name: &str, value| Some((name.to_owned(), value));
     let (clear, feed) = match words {
         [_, Word::Number(clear), Word::Number(feed), Word::Name(name)] => (*clear, unit(name, *feed)),
-        // at the feed that is in force
+        // without a feed, the active feed applies
         [_, Word::Number(clear)] => match in_force {
             Some(Feed::Minute(feed)) => (*clear, unit("PERMIN", feed)),
             Some(Feed::Revolution(feed)) => (*clear, unit("PERREV", feed)),
-            None => return fault(Code::PC005, "the cycle has no feed", "put FEDRAT before it"),
+            None => return fault(Code::PC005, "the cycle has no feed", "put FEDRAT before the cycle"),
         },
         _ => {
             let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2";
-            return fault(Code::PC032, "numbers without their words, in an order that is not known", help);
+            return fault(Code::PC032, "numbers without words, in an unknown order", help);
         }
     };
     coded.groups.push(Group { depths: vec![depth], steps: Vec::new(), feed });
@@ -168,7 +169,7 @@ fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, i
     Ok(coded)
 }
 
-/// What CYCLE/ON says replaces what was coded.
+/// Combines the last CYCLE statement with the options of CYCLE/ON, which override it.
 pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     for (option, numbers) in said.options {
         last.options.retain(|(found, _)| *found != option);
@@ -178,7 +179,7 @@ pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     let steps: Vec<f64> = said.groups.iter().flat_map(|group| group.steps.iter().copied()).collect();
     let feed = said.groups.iter().rev().find_map(|group| group.feed.clone());
     if said.groups.len() > 1 || (last.groups.len() > 1 && !depths.is_empty()) {
-        // a new list of depths or steps, at the feed of the first where it says none
+        // a new list of depths or steps; groups without a feed take that of the old first group
         let old = last.groups.first().and_then(|group| group.feed.clone());
         last.groups = said.groups;
         for group in &mut last.groups {
@@ -208,7 +209,7 @@ pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     last
 }
 
-/// The group that words go on with: another one once a feed has closed it.
+/// The group for the next word. A group that has a feed is complete, so another one begins.
 fn group_for(groups: &mut Vec<Group>, taken: impl Fn(&Group) -> bool) -> &mut Group {
     let new = groups.last().is_none_or(|group| taken(group) || (group.feed.is_some() && !group.depths.is_empty()));
     if new {

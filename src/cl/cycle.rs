@@ -1,4 +1,4 @@
-//! CYCLE statements: which cycle holds for the points that follow.
+//! CYCLE statements: they select the cycle for the following points.
 
 use super::coded::{Coded, cycle_type, over, read_options};
 use super::cycle_dialects::{Heights, autodesk, in_gener_words, returns_to_start};
@@ -23,7 +23,7 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
         "OFF" | "NOMORE" => {
             state.feeds.cut_off = None;
             if !state.cycle.is_active() && dialect != Dialect::SolidWorksCam {
-                state.job.notes.warn(Code::PC051, format!("CYCLE/{first}, and no cycle is active"), "take it out");
+                state.job.notes.warn(Code::PC051, format!("CYCLE/{first}, but no cycle is active"), "take it out");
             }
             end(&mut state.cycle, &mut state.job)?;
             state.motion.rapid_after_cycle = true;
@@ -34,7 +34,7 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
         "RETURN" => return_mode(&words[1..], &mut state.cycle),
         "ON" => match state.cycle.last.clone() {
             Some(last) => begin(last, &words[1..], false, state),
-            None => fault(Code::PC038, "CYCLE/ON, and there was no cycle", "write the whole cycle"),
+            None => fault(Code::PC038, "CYCLE/ON without an earlier cycle", "write the whole cycle"),
         },
         _ if dialect == Dialect::Autodesk => {
             let (words, heights) = autodesk(words)?;
@@ -64,7 +64,7 @@ fn auto(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
         [word] if word.is("ON") || word.is("OFF") => {
             let emulate = word.is("OFF");
             if emulate != cycle.emulate {
-                job.close_holes()?; // acts on the points that follow
+                job.close_holes()?; // applies to the following points
             }
             cycle.emulate = emulate;
             if let Some(spec) = &mut cycle.active {
@@ -90,16 +90,20 @@ fn return_mode(words: &[Word], cycle: &mut Cycle) -> Done {
     Ok(())
 }
 
-/// A cycle from what is coded already and these words.
+/// Begins a cycle from an earlier statement and these words.
 fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     job.close_holes()?;
     cycle.active = None;
-    motion.rapid = false; // one that stands before a cycle is dropped
+    motion.rapid = false; // a RAPID before a cycle is dropped
     motion.rapid_after_cycle = false;
     feeds.cut_off = None;
     if motion.cutcom.on || motion.cutcom.asked.is_some() {
-        return fault(Code::PC041, "a cycle under cutter compensation", "end it with CUTCOM/OFF and a motion before");
+        return fault(
+            Code::PC041,
+            "a cycle under cutter compensation",
+            "before the cycle, end compensation with CUTCOM/OFF and a motion",
+        );
     }
     let said = read_options(&mut job.notes, &coded, words, whole, feeds.feed)?;
     let coded = if whole { said } else { over(coded, said) };
@@ -107,7 +111,7 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     check(&spec)?;
     let above = |numbers: &[f64]| numbers.first().map_or(CodedReturn::Clearance, |above| CodedReturn::Above(*above));
     let own = coded.numbers(Opt::Return).map(above);
-    // a manual cycle has no return: it stays where it stopped
+    // a manual cycle does not return: the tool stays where it stopped
     cycle.returns = if spec.kind == CycleKind::Manual { None } else { cycle.return_mode.over(own) };
     cycle.heights = None;
     cycle.plane = None;
@@ -116,7 +120,7 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     Ok(())
 }
 
-/// Feeds per revolution follow the spindle, also inside a cycle.
+/// Converts the feeds per revolution of an active cycle after a change of the spindle.
 pub(super) fn follow_spindle(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     if cycle.active.is_some()
         && let Some(coded) = cycle.last.clone()
@@ -127,7 +131,7 @@ pub(super) fn follow_spindle(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// The cycle ends: points are motions again.
+/// Ends the cycle: the following points are motions.
 pub(super) fn end(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     cycle.active = None;
     cycle.heights = None;

@@ -1,4 +1,4 @@
-//! CYCLE statements of other systems in GENER's words.
+//! Conversion of CYCLE statements from other systems to GENER's words.
 
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
@@ -9,10 +9,10 @@ fn name(text: &str) -> Word {
     Word::Name(text.into())
 }
 
-/// The statement in GENER's words: what other systems call the same.
+/// Converts a statement to GENER's words.
 ///
 /// # Errors
-/// What GENER has no words for.
+/// GENER has no words for it.
 pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>> {
     let mut out: Vec<Word> = Vec::with_capacity(words.len() + 2);
     let mut flips = false;
@@ -28,14 +28,14 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
                 name("TLANGL")
             }
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "FEDTO") => {
-                flips = dialect == Dialect::Nx; // signed along the axis there, downward elsewhere
+                flips = dialect == Dialect::Nx; // NX: signed along the axis; others: positive downward
                 name("DEPTH")
             }
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RAPTO") => name("CLEAR"),
-            // to where the tool was before the cycle, which is told elsewhere
+            // return to the tool's position before the cycle: see `returns_to_start`
             (Dialect::Nx, "RTRCTO") if words.next_if(|word| word.is("AUTO")).is_some() => continue,
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RTRCTO") => name("RETURN"),
-            // no return plane
+            // RETURN,0: no return plane
             (Dialect::Catia, "RETURN") if words.next_if(|word| word.number() == Some(0.0)).is_some() => continue,
             (Dialect::Nx, "BORE") if at_type => {
                 out.extend(nx_bore(words.next_if(|word| word.name().is_some_and(|name| NX_BORES.contains(&name))))?);
@@ -52,7 +52,7 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
                 out.extend(first_peck.take());
                 continue;
             }
-            // PostWorks' names are the reverse of GENER's, and its BORE feeds out
+            // in PostWorks DEEP breaks chips, THRU is GENER's DEEP, and BORE feeds out
             (Dialect::Ncl, "DEEP") if at_type => name("BRKCHP"),
             (Dialect::Ncl, "THRU") if at_type => name("DEEP"),
             (Dialect::Ncl, "BORE") if at_type => name("REAM"),
@@ -73,10 +73,11 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
     Ok(out)
 }
 
-/// What changes the BORE of NX.
+/// Words that modify the BORE of NX.
 const NX_BORES: [&str; 4] = ["DRAG", "NODRAG", "BACK", "MANUAL"];
 
-/// BORE of NX feeds out; with DRAG it stops the spindle and comes out by rapid, with NODRAG off the wall.
+/// Converts BORE of NX, which feeds out. With DRAG the spindle stops and the tool comes out by rapid; with NODRAG it first moves
+/// off the wall.
 fn nx_bore(kind: Option<&Word>) -> Done<Vec<Word>> {
     Ok(match kind.and_then(Word::name) {
         None => vec![name("REAM")],
@@ -84,38 +85,38 @@ fn nx_bore(kind: Option<&Word>) -> Done<Vec<Word>> {
         Some("NODRAG") => vec![name("BORE"), name("ORIENT")],
         Some("BACK") => vec![name("BORE"), name("BACK")],
         Some(_) => {
-            let help = "bore with BORE, DRAG or NODRAG in NX";
-            return fault(Code::PC001, "a bore that is left by hand", help);
+            let help = "use BORE, DRAG or NODRAG in NX";
+            return fault(Code::PC001, "a bore with a manual retract", help);
         }
     })
 }
 
-/// Does a cycle of NX return to where the tool was before it?
+/// Does a cycle of NX return to the tool's position before the cycle?
 pub(super) fn returns_to_start(words: &[Word], dialect: Dialect) -> bool {
     dialect == Dialect::Nx && words.windows(2).any(|pair| pair[0].is("RTRCTO") && pair[1].is("AUTO"))
 }
 
-/// What a cycle of Autodesk says by heights of the file. Its points are the bottoms of holes.
+/// Heights in a cycle of Autodesk, relative to the file's zero. Its points are the bottoms of holes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heights {
-    /// From the top of a hole to its bottom.
+    /// Distance from the top of a hole to its bottom.
     pub depth: f64,
-    /// Where the tool goes from hole to hole.
+    /// Height between holes.
     pub clearance: f64,
-    /// Where rapids end and feeds begin.
+    /// Height at which rapids end and feeds begin.
     pub retract: f64,
 }
 
-/// CYCLE/type,depth[,INCR,step],unit,feed,clearance[,RAPTO,down][,DWELL,seconds] of Autodesk's ISO 4343 post, in GENER's words
-/// without a clearance.
+/// Converts CYCLE/type,depth[,INCR,step],unit,feed,clearance[,RAPTO,down][,DWELL,seconds] of Autodesk's ISO 4343 post to GENER's
+/// words, without a clearance.
 pub(super) fn autodesk(words: &[Word]) -> Done<(Vec<Word>, Heights)> {
     let (Some(kind), Some(Word::Number(depth))) = (words.first().and_then(Word::name), words.get(1)) else {
         let help = "Autodesk writes CYCLE/DRILL, depth, MMPM, feed, clearance";
         return fault(Code::PC037, "a cycle of Autodesk without its depth", help);
     };
     if !matches!(kind, "DRILL" | "REAM" | "DEEP" | "BRKCHP" | "TAP") {
-        let message = format!("Autodesk writes CYCLE/{kind} for cycles that come out in different ways");
-        return fault(Code::PC001, message, "expand the cycle in the CAM system, or ream");
+        let message = format!("Autodesk writes CYCLE/{kind} for cycles with different retracts");
+        return fault(Code::PC001, message, "expand the cycle in the CAM system, or use a reaming cycle");
     }
     let mut out = vec![name(kind), name("DEPTH"), Word::Number(*depth)];
     let (mut clearance, mut down) = (None, 0.0);

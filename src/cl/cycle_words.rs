@@ -1,8 +1,8 @@
-//! The words of a CYCLE statement: types, options, and what belongs to which.
+//! The words of a CYCLE statement: types, options, and their combinations.
 
 use crate::toolpath::CycleKind;
 
-/// Types, with the second word that changes them.
+/// Types; some are modified by a second word.
 pub(super) const TYPES: &[(&str, CycleKind)] = &[
     ("DRILL", CycleKind::Drill),
     ("FACE", CycleKind::Face),
@@ -48,14 +48,14 @@ pub(super) enum Opt {
     Side,
 }
 
-/// One row: an option's word, how many numbers follow it, and whether they may be negative.
+/// A row of the option table: word, number of values, and whether they may be negative.
 pub(super) struct OptionRow {
     pub word: &'static str,
     pub option: Opt,
     pub least: usize,
     pub most: usize,
     pub signed: bool,
-    /// The types that have it; empty: all but MANUAL.
+    /// The types that accept it; empty: all but MANUAL.
     pub types: &'static [CycleKind],
 }
 

@@ -1,9 +1,9 @@
-//! The systems that write CL files, and how their files differ.
+//! The systems that write CL files, and the differences between their files.
 
 use super::lines::text_statement;
 use crate::lang::did_you_mean;
 
-/// Who wrote a file.
+/// The system that wrote a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Dialect {
@@ -17,7 +17,7 @@ pub enum Dialect {
     Autodesk,
 }
 
-/// Which way a CIRCLE with a positive axis turns.
+/// Direction of a CIRCLE with a positive axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sense {
     /// Clockwise, seen from the axis' end: the left-hand rule.
@@ -31,17 +31,17 @@ struct Row {
     dialect: Dialect,
     name: &'static str,
     title: &'static str,
-    /// What its files begin with, in capitals and without blanks.
+    /// Marks in its files, in capitals and without spaces.
     marks: &'static [&'static str],
     sense: Option<Sense>,
-    /// The statement that its files end with.
+    /// The last statement of its files.
     last: Option<&'static str>,
 }
 
-/// The name of a program of Autodesk.
+/// Start of the program's name in files of Autodesk.
 const QUOTED_NAME: &str = "PARTNO/'";
 
-/// Marks and senses are those of real files (cl.md sections 2.2 and 2.5).
+/// Marks and senses, taken from real files (cl.md sections 2.2 and 2.5).
 #[rustfmt::skip]
 const ROWS: [Row; 8] = [
     Row { dialect: Dialect::Gener, name: "gener", title: "ICAM GENER", marks: &[], sense: None, last: Some("FINI") },
@@ -59,12 +59,12 @@ impl Dialect {
         &ROWS[self as usize]
     }
 
-    /// As `--dialect` names it.
+    /// The name for `--dialect`.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// As its users know it.
+    /// The name of the product.
     pub fn title(self) -> &'static str {
         self.row().title
     }
@@ -74,15 +74,15 @@ impl Dialect {
         ROWS.iter().map(|row| row.name)
     }
 
-    /// By its name.
+    /// Finds a dialect by its name.
     ///
     /// # Errors
-    /// What could have been meant.
+    /// The name is unknown. The error lists names that were probably meant.
     pub fn parse(name: &str) -> Result<Dialect, String> {
         match ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(name)) {
             Some(row) => Ok(row.dialect),
             None => Err(did_you_mean(name, Self::names())
-                .unwrap_or_else(|| format!("it is one of {}", Self::names().collect::<Vec<_>>().join(", ")))),
+                .unwrap_or_else(|| format!("the dialect is one of {}", Self::names().collect::<Vec<_>>().join(", ")))),
         }
     }
 
@@ -94,12 +94,12 @@ impl Dialect {
         self.row().last
     }
 
-    /// The dialect that the first lines of a file give away, with the number of the line and its mark. Text after the
-    /// first motion is no mark: it is the programmer's.
+    /// Recognises the dialect from the first lines of a file; returns it with the line number and the mark. Text after the first
+    /// motion is not searched, because the programmer wrote it.
     pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
         let (mut moves, mut has_mode) = (false, false);
         for (line, number) in lines.zip(1..) {
-            // Autodesk's post begins with a mode, and is alone in quoting its text
+            // only Autodesk's post begins with a mode and quotes its text
             if has_mode && line.starts_with(QUOTED_NAME.as_bytes()) {
                 return Some((Dialect::Autodesk, number, QUOTED_NAME));
             }
@@ -115,7 +115,7 @@ impl Dialect {
         None
     }
 
-    /// The dialect that a line gives away, and its mark.
+    /// Recognises the dialect of a line; returns it with the mark.
     fn of_line(line: &[u8]) -> Option<(Dialect, &'static str)> {
         let plain: Vec<u8> =
             line.iter().filter(|b| !b.is_ascii_whitespace()).take(200).map(u8::to_ascii_uppercase).collect();

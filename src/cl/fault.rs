@@ -1,12 +1,12 @@
-//! What is wrong with a statement.
+//! Errors in statements.
 
 use crate::diag::{Code, Diag};
 use crate::toolpath::Stop;
 
-/// What a statement comes to: done, or why nothing goes on.
+/// Result of a statement: success, or the reason to stop.
 pub(super) type Done<T = ()> = Result<T, Stop>;
 
-/// A fault; the reader adds the place.
+/// An error. The reader adds the location.
 pub(super) fn fault<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
     Err(Diag::new(code, message).help(help).into())
 }

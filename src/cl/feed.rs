@@ -1,4 +1,4 @@
-//! Feeds: FEDRAT, feeds that ride on motions, dwells.
+//! Feeds: FEDRAT, feeds within motions, and dwells.
 
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
@@ -13,7 +13,7 @@ use crate::toolpath::{Event, Units};
 /// Millimetres in an inch.
 const MM: f64 = 25.4;
 
-/// The feed that a unit word and a number mean, in lengths of the file. `None`: no such word.
+/// The feed for a unit word and a number, in the file's units. `None`: the unit word is unknown.
 pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed>> {
     match unit {
         "PERMIN" | "UPM" => return Ok(Some(Feed::Minute(value))),
@@ -26,39 +26,38 @@ pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed
         "MMPM" => Feed::Minute(value * inches / MM),
         "IPR" => Feed::Revolution(value * inches),
         "MMPR" => Feed::Revolution(value * inches / MM),
-        // PostWorks: below 1 it is the lead
+        // PostWorks: a value below 1 is the lead
         "TPI" if job.notes.dialect() == Dialect::Ncl && value < 1.0 => Feed::Revolution(value),
         "TPI" => Feed::Revolution(inches / value),
         _ => return Ok(None),
     }))
 }
 
-/// A feed as the job counts it: lengths a minute, on lathes lengths a revolution. From one to the other needs a spindle
-/// that turns at a fixed speed.
+/// Converts a feed to the unit of the job: per minute, on lathes per revolution. A conversion needs a spindle with a fixed speed.
 pub(super) fn counted(job: &Job<'_>, feed: Feed) -> Done<f64> {
     match (feed, job.spindle.rpm()) {
         (Feed::Revolution(value), _) if job.turns_part() => Ok(value),
         (Feed::Minute(value), Some(rpm)) if job.turns_part() => Ok(value / rpm),
         (Feed::Minute(_), None) if job.turns_part() => {
-            let help = "say it per revolution, as FEDRAT/0.2,MMPR";
-            fault(Code::PC009, "a feed per minute on a lathe, and the spindle has no fixed speed", help)
+            let help = "write the feed per revolution, as FEDRAT/0.2,MMPR";
+            fault(Code::PC009, "a feed per minute on a lathe, but the spindle has no fixed speed", help)
         }
         (Feed::Minute(value), _) => Ok(value),
         (Feed::Revolution(value), Some(rpm)) => Ok(value * rpm),
         (Feed::Revolution(_), None) => {
             let help = "put SPINDL/speed,RPM,CLW before it";
-            fault(Code::PC009, "a feed per revolution, and the spindle does not turn", help)
+            fault(Code::PC009, "a feed per revolution, but the spindle does not turn", help)
         }
     }
 }
 
-/// FEDRAT: a number and its unit in any order.
+/// Reads FEDRAT: a number and its unit, in any order.
 pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.heights.is_some() {
-        return Ok(()); // Autodesk says the feed of a cycle at each of its points
+        return Ok(()); // Autodesk repeats the feed of a cycle at each of its points
     }
     if state.cycle.is_active() {
-        let help = "say the feed in the CYCLE statement";
+        let help = "write the feed in the CYCLE statement";
         state.job.notes.warn(Code::PC052, "FEDRAT inside a cycle is ignored", help);
         return Ok(());
     }
@@ -75,17 +74,17 @@ pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
         return fault(Code::PL002, "a FEDRAT that can't be read", help);
     };
     if value.is_some_and(|value| value <= 0.0) {
-        return fault(Code::PL001, "a feed that is not above zero", "give the feed");
+        return fault(Code::PL001, "a feed that is not above zero", "give a feed above zero");
     }
     state.feeds = Feeds { feed: Some(feed), cut_off: None };
     state.motion.rapid_after_cycle = false;
     Ok(())
 }
 
-/// A feed that rides on a motion.
+/// Sets a feed given within a motion.
 pub(super) fn feed_on_goto(value: f64, feeds: &mut Feeds) -> Done {
     if value <= 0.0 {
-        return fault(Code::PL001, "a feed that is not above zero", "give the feed");
+        return fault(Code::PL001, "a feed that is not above zero", "give a feed above zero");
     }
     let feed = match feeds.feed {
         Some(Feed::Revolution(_)) => Feed::Revolution(value),
@@ -95,16 +94,16 @@ pub(super) fn feed_on_goto(value: f64, feeds: &mut Feeds) -> Done {
     Ok(())
 }
 
-/// The feed of the next motion, where the sink does not have it yet.
+/// The feed of the next motion; `None` if the sink already has it.
 #[inline]
 pub(super) fn feed_to_say(feeds: &Feeds, job: &mut Job<'_>) -> Done<Option<f64>> {
     if let Some(line) = feeds.cut_off {
-        let message = format!("the tool change in line {line} ended a cycle, and nothing says how this point is cut");
+        let message = format!("the tool change in line {line} ended a cycle: this point has no cycle and no feed");
         let help = "put CYCLE/OFF before the tool change, and CYCLE or FEDRAT before this point";
         return fault(Code::PC043, message, help);
     }
     let Some(feed) = feeds.feed else {
-        let help = "put FEDRAT before it, or say it with `--assume-feed 200`, in units of the file a minute";
+        let help = "put FEDRAT before it, or give the feed with `--assume-feed 200`, in units of the file per minute";
         return fault(Code::PR011, "a feed motion before any feed", help);
     };
     job.turns()?;
@@ -112,11 +111,11 @@ pub(super) fn feed_to_say(feeds: &Feeds, job: &mut Job<'_>) -> Done<Option<f64>>
     Ok(job.feed_to_say(feed))
 }
 
-/// Before a cut that is the first motion: where the tool is by then.
+/// Pushes the tool's position before a cut that is the first motion.
 #[inline]
 pub(super) fn approach(motion: &Motion, feeds: &Feeds, job: &mut Job<'_>) -> Done {
     if !job.is_unmoved() || feeds.feed.is_none() {
-        return Ok(()); // a feed is missed first
+        return Ok(()); // a missing feed is reported first
     }
     match motion.position {
         Some(from) => {
@@ -127,7 +126,7 @@ pub(super) fn approach(motion: &Motion, feeds: &Feeds, job: &mut Job<'_>) -> Don
     }
 }
 
-/// DELAY/seconds, or revolutions with REV.
+/// Reads DELAY/seconds, or revolutions with REV.
 pub(super) fn delay(words: &[Word], job: &mut Job<'_>) -> Done {
     let seconds = match (numbers(words).as_deref(), words) {
         (Some([seconds]), _) => *seconds,
@@ -135,7 +134,7 @@ pub(super) fn delay(words: &[Word], job: &mut Job<'_>) -> Done {
             let Some(rpm) = job.spindle.rpm() else {
                 return fault(
                     Code::PC009,
-                    "a DELAY in revolutions, and the spindle does not turn",
+                    "a DELAY in revolutions, but the spindle does not turn",
                     "write DELAY/seconds",
                 );
             };

@@ -1,10 +1,10 @@
-//! What a feed counts.
+//! Units of feeds.
 
-/// A feed as it was said.
+/// A feed as given in the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Feed {
-    /// Lengths of the file a minute.
+    /// Per minute, in the file's units.
     Minute(f64),
-    /// Lengths of the file a revolution.
+    /// Per revolution, in the file's units.
     Revolution(f64),
 }

@@ -1,4 +1,4 @@
-//! Points of a cycle.
+//! The points of a cycle.
 
 use super::cycle_dialects::Heights;
 use super::fault::{Done, fault};
@@ -7,10 +7,10 @@ use super::state::{Arcs, CodedReturn, Cycle, Motion, State};
 use crate::diag::Code;
 use crate::toolpath::{CycleSpec, Event, Hole};
 
-/// What rounding may take from a height.
+/// Tolerance for rounded heights.
 const BELOW_TOP: f64 = 1e-4;
 
-/// A point of the cycle in force.
+/// Handles a point of the active cycle.
 pub(super) fn point(at: [f64; 3], state: &mut State<'_>) -> Done {
     let Some(mut spec) = state.cycle.active.take() else { return Ok(()) };
     let State { job, motion, arcs, cycle, .. } = state;
@@ -33,12 +33,12 @@ fn hole(
     };
     if !job.holes_are_open() {
         job.turns()?;
-        // sinks count the plane from the first point that they see, and take the clearance where that is higher
+        // sinks measure the plane from their first point, and use the clearance if that is higher
         spec.return_height = return_plane(at, spec, motion, cycle)?.map(|plane| plane - at[2]);
         job.open_holes(spec)?;
     }
     job.push(Event::Hole(Hole { at: job.axes(at)?, depth: None }))?;
-    // where the hole is left is known where its clearance is
+    // the position after the hole is known only if the clearance is known
     motion.position = spec.clear.map(|clear| {
         let plane = cycle.plane.flatten().unwrap_or(f64::MIN);
         [at[0], at[1], plane.max(at[2] + clear)]
@@ -47,12 +47,12 @@ fn hole(
     Ok(())
 }
 
-/// The top of a hole whose bottom is said, with the clearance above it that its heights mean.
+/// The top of a hole whose bottom is given. Sets the clearance above it from the cycle's heights.
 fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'_>) -> Done<[f64; 3]> {
     let top = bottom[2] + heights.depth;
     let clear = heights.retract - top;
     if clear < -BELOW_TOP {
-        let message = format!("the cycle feeds from {}, and the top of this hole is {top}", heights.retract);
+        let message = format!("the feed of the cycle begins at {}, but the top of this hole is {top}", heights.retract);
         return fault(Code::PC004, message, "raise the retract height in the CAM system");
     }
     let clear = clear.max(0.0);
@@ -63,7 +63,7 @@ fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'
     Ok([bottom[0], bottom[1], top])
 }
 
-/// The height to which the tool comes back, one for the whole cycle: set at its first point.
+/// The height to which the tool returns. It is set at the first point and applies to the whole cycle.
 fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cycle) -> Done<Option<f64>> {
     if let Some(plane) = cycle.plane {
         return Ok(plane);
@@ -83,7 +83,7 @@ fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cyc
             Some(position) => Some(position[2]),
             None => {
                 let help = "put a GOTO before the cycle, or give CYCLE/RETURN a height";
-                return fault(Code::PC040, "CYCLE/RETURN,ON, and the tool's height is not known", help);
+                return fault(Code::PC040, "CYCLE/RETURN,ON, but the height of the tool is unknown", help);
             }
         },
     };

@@ -1,4 +1,4 @@
-//! The job that a CL file becomes: what is held back until a tool change is complete, and the events.
+//! The job of a CL file: collects what belongs to a tool change until that is complete, and pushes the events.
 
 use super::fault::{Done, fault};
 use super::missing::{no_speed, no_tool, no_units};
@@ -13,16 +13,16 @@ use crate::toolpath::{
     Units,
 };
 
-/// How far from the plane of z and x a turning tool may be for rounding.
+/// Tolerance for rounding: distance of a turning tool from the plane of z and x.
 const OFF_PLANE: f64 = 1e-4;
-/// Most items between a tool change and its spindle.
+/// Maximum number of items between a tool change and its spindle.
 const MOST_WAITING: usize = 4096;
 
-/// What stands before a tool change is complete.
+/// An item that waits until the tool change is complete.
 pub(super) enum Waiting {
     Rapid(Axes),
     Comment(String),
-    /// A block as it stands.
+    /// A block that is printed unchanged.
     Text(String),
     Stop,
 }
@@ -35,29 +35,29 @@ pub(super) struct Job<'s> {
     pub spindle: Turning,
     /// The job's name.
     pub name: Option<String>,
-    /// Where positions count from: the first MSYS, and its line.
+    /// Origin of the positions: the first MSYS, and its line.
     pub setup: Option<(Vec<Word>, u64)>,
     units: Option<Units>,
-    /// Units of a file that does not say them.
+    /// Units for a file that does not define them.
     assumed_units: Option<Units>,
     machine: Machine,
     started: bool,
     operations: u32,
-    /// A tool change that is not complete.
+    /// A tool change that is not complete yet.
     change: Option<(ToolChange, Place)>,
     waiting: Vec<(Waiting, Place)>,
-    /// The feed that the sink has.
+    /// The feed that was last pushed to the sink.
     feed: Option<f64>,
     /// The sink is in a cycle.
     in_cycle: bool,
-    /// What comes belongs to a setup that is not read: no event of it is made.
+    /// The following items belong to a setup that is not selected, so that no events are pushed.
     pub aside: bool,
-    /// The tool that was loaded last.
+    /// The last loaded tool.
     in_use: Option<Tool>,
 }
 
 impl<'s> Job<'s> {
-    /// A job that has not begun.
+    /// A new job.
     pub fn new(options: &Options, report: &'s mut Report, sink: &'s mut dyn Sink) -> Self {
         Job {
             hold: Hold::new(sink),
@@ -80,13 +80,13 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// The job has begun, so plain motions need no further look.
+    /// Has the job begun, so that plain motions need no further checks?
     #[inline]
     pub fn has_started(&self) -> bool {
         self.started
     }
 
-    /// UNITS of the file.
+    /// Handles UNITS of the file.
     pub fn set_units(&mut self, units: Units) -> Done {
         if self.units.is_some_and(|before| before != units) {
             return fault(Code::PL004, "the units change inside the file", "let the CAM system write one unit");
@@ -95,32 +95,32 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// The file's units; what is said in units of its own can't be converted before they are known.
+    /// The file's units; an error if they are unknown, because values in explicit units can't be converted then.
     pub fn units(&self) -> Done<Units> {
         match self.units.or(self.assumed_units) {
             Some(units) => Ok(units),
-            None => no_units(self, "the file has not said its units yet"),
+            None => no_units(self, "the units of the file are not known yet"),
         }
     }
 
-    /// Are its units said or assumed?
+    /// Are the units given or assumed?
     pub fn knows_units(&self) -> bool {
         self.units.or(self.assumed_units).is_some()
     }
 
-    /// The option for a tool that the motion to come needs, and nobody loads.
+    /// The option that sets the tool for the next motion, if no tool is loaded.
     pub fn missing_tool(&self) -> Option<String> {
         let is_loaded = self.change.as_ref().map_or(self.operations > 0, |(change, _)| change.tool.is_some());
         if is_loaded { None } else { self.tools.number(self.operations == 0).err() }
     }
 
-    /// The file is a lathe's: it has tools that turn.
+    /// Marks the file as one for a lathe, because it has turning tools.
     pub fn turning(&mut self) -> Done {
         if self.machine == Machine::Lathe {
             return Ok(());
         }
         if self.has_operation() {
-            let help = "let the CAM system write milling and turning into files of their own";
+            let help = "let the CAM system write milling and turning into separate files";
             return fault(Code::PL004, "a turning tool after a milling tool", help);
         }
         self.leave_out_rapids();
@@ -128,26 +128,26 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// Is it a lathe, where the spindle turns the part?
+    /// Is the machine a lathe, whose spindle turns the part?
     #[inline]
     pub fn turns_part(&self) -> bool {
         self.machine == Machine::Lathe
     }
 
-    /// A position as events have it: on a lathe z, and x as a radius.
+    /// Converts a position for events: on a lathe z, and x as a radius.
     #[inline]
     pub fn axes(&self, to: [f64; 3]) -> Done<Axes> {
         if !self.turns_part() {
             return Ok(Axes::new(&to));
         }
         if to[1].abs() > OFF_PLANE {
-            let help = "let the CAM system turn in the plane of z and x";
+            let help = "let the CAM system turn in the ZX plane";
             return fault(Code::PL004, format!("a turning tool at y {}", to[1]), help);
         }
         Ok(Axes::new(&[to[2], to[0]]))
     }
 
-    /// What is printed where it stands, once the tool change before it is complete.
+    /// Queues an item until the tool change before it is complete.
     pub fn wait(&mut self, waiting: Waiting) -> Done {
         if self.aside {
             return Ok(());
@@ -156,8 +156,8 @@ impl<'s> Job<'s> {
             return self.push_waiting(&waiting, self.notes.place);
         }
         if self.waiting.len() == MOST_WAITING {
-            let help = "put the spindle before them, or look whether this is a CL file";
-            return fault(Code::PL004, format!("more than {MOST_WAITING} items before the spindle of a tool"), help);
+            let help = "put SPINDL before them, or check that this is a CL file";
+            return fault(Code::PL004, format!("more than {MOST_WAITING} items before SPINDL of a tool"), help);
         }
         self.waiting.push((waiting, self.notes.place));
         Ok(())
@@ -174,13 +174,13 @@ impl<'s> Job<'s> {
         self.hold.push(event, place)
     }
 
-    /// An event that is no hole: the sink leaves its cycle for it.
+    /// Pushes an event that is no hole, after closing the sink's cycle.
     pub fn between(&mut self, event: Event<'_>) -> Done {
         self.close_holes()?;
         self.push(event)
     }
 
-    /// An event; what waits for it goes first.
+    /// Pushes an event, after all waiting items.
     #[inline]
     pub fn push(&mut self, event: Event<'_>) -> Done {
         if self.aside {
@@ -192,29 +192,29 @@ impl<'s> Job<'s> {
         self.hold.push(event, self.notes.place)
     }
 
-    /// The sink goes into a cycle.
+    /// Opens a cycle in the sink.
     pub fn open_holes(&mut self, spec: &CycleSpec) -> Done {
         self.push(Event::CycleBegin(spec))?;
         self.in_cycle = true;
         Ok(())
     }
 
-    /// Is the sink in a cycle?
+    /// Is a cycle open in the sink?
     pub fn holes_are_open(&self) -> bool {
         self.in_cycle
     }
 
-    /// The sink leaves the cycle; it may go on after a motion that is none of its points.
+    /// Closes the cycle in the sink. It may be opened again after a motion that is none of its points.
     pub fn close_holes(&mut self) -> Done {
         if std::mem::take(&mut self.in_cycle) { self.push(Event::CycleEnd) } else { Ok(()) }
     }
 
-    /// Begins the job and the operation: nothing more is to come that belongs before.
+    /// Begins the job and the operation, once all their data is known.
     #[cold]
     fn release(&mut self) -> Done {
         if !self.started {
             let Some(units) = self.units.or(self.assumed_units) else {
-                return no_units(self, "the file does not say its units");
+                return no_units(self, "the file does not give its units");
             };
             self.units = Some(units);
             let start = Start {
@@ -261,7 +261,7 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// An operation that says its coolant alone.
+    /// A new operation, with the current coolant only.
     fn operation(&self, tool: Option<Tool>) -> ToolChange {
         ToolChange {
             name: None,
@@ -278,8 +278,8 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Begins the change to another tool: the change before it is complete, whatever was done with that tool; one that
-    /// is only named gives way. A waiting change to the same tool goes on.
+    /// Begins the change to another tool and completes the previous change. A change to a tool that was only named is replaced. A
+    /// waiting change to the same tool continues.
     pub fn begin_change(&mut self, tool: Option<Tool>) -> Done {
         if let (Some((change, _)), Some(tool)) = (&mut self.change, &tool)
             && let Some(before) = change.tool.as_mut().filter(|before| before.number == tool.number)
@@ -298,7 +298,7 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// The setup that is read begins: with the tool that is there, unless another one is being loaded.
+    /// Begins the selected setup, with the current tool unless another one is being loaded.
     pub fn begin_setup(&mut self) {
         self.aside = false;
         if self.change.is_none()
@@ -308,7 +308,7 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Rapids before the first tool go to where it is loaded, which is the machine's to know.
+    /// Drops rapids before the first tool: they lead to the tool change position, which only the machine defines.
     fn leave_out_rapids(&mut self) {
         let is_rapid = |waiting: &(Waiting, Place)| matches!(waiting.0, Waiting::Rapid(_));
         let count = self.waiting.iter().filter(|waiting| is_rapid(waiting)).count();
@@ -318,17 +318,17 @@ impl<'s> Job<'s> {
         } else {
             format!("{count} rapids before the first tool, from line {} on, are left out", place.line)
         };
-        let help = "the machine goes to its tool change by itself; put LOADTL before what it shall do besides";
+        let help = "the machine moves to its tool change by itself; put LOADTL before all other rapids";
         self.notes.warn_at(*place, Code::PL008, message, help);
         self.waiting.retain(|waiting| !is_rapid(waiting));
     }
 
-    /// Nothing moved so far that is part of the job.
+    /// Has no motion of the job been pushed so far?
     pub fn is_unmoved(&self) -> bool {
         self.operations == 0 && !self.waiting.iter().any(|(waiting, _)| matches!(waiting, Waiting::Rapid(_)))
     }
 
-    /// Is a tool change waiting to be complete?
+    /// Is a tool change incomplete?
     #[inline]
     pub fn changes(&self) -> bool {
         self.change.is_some()
@@ -339,7 +339,7 @@ impl<'s> Job<'s> {
         self.operations > 0 || self.change.is_some()
     }
 
-    /// COOLNT: with the tool change that waits, else as an event.
+    /// Handles COOLNT: as part of a waiting tool change, otherwise as an event.
     pub fn coolant(&mut self, coolant: Coolant) -> Done {
         self.tools.coolant = Some(coolant);
         match &mut self.change {
@@ -350,11 +350,11 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// A feed for the motion that comes, where the sink does not have it yet.
+    /// The feed for the next motion; `None` if the sink already has it.
     #[inline]
     pub fn feed_to_say(&mut self, feed: f64) -> Option<f64> {
         if self.change.is_some() {
-            return Some(feed); // an operation that is about to begin forgets the feed
+            return Some(feed); // the new operation does not keep the feed
         }
         if self.feed == Some(feed) {
             return None;
@@ -363,19 +363,19 @@ impl<'s> Job<'s> {
         Some(feed)
     }
 
-    /// Is there a speed to cut with?
+    /// Checks that the spindle has a known speed for cutting.
     #[inline]
     pub fn turns(&self) -> Done {
         if self.spindle.is_known() { Ok(()) } else { no_speed(self) }
     }
 
-    /// The end of the file.
+    /// Handles the end of the file.
     pub fn finish(&mut self) -> Done {
         if !self.has_operation() && self.is_unmoved() {
-            return fault(Code::PJ009, "the file has no motion", "look whether this is a CL file");
+            return fault(Code::PJ009, "the file has no motion", "check that this is a CL file");
         }
         if std::mem::take(&mut self.aside) {
-            self.change = None; // for what is not read
+            self.change = None; // it belongs to a setup that is not selected
             self.waiting.clear();
         }
         self.push(Event::Finish)

@@ -1,11 +1,11 @@
-//! Lines of a CL file, and how they join into statements.
+//! Lines of a CL file, and how they are joined to statements.
 
 use std::io::{ErrorKind, Read, Result};
 
-/// Longest line and longest statement: a longer one is a file of another kind.
+/// Maximum length of a line or statement in bytes. A longer one means that the file is no CL file.
 pub(super) const LONGEST: usize = 1 << 20;
 
-/// Lines of a stream; only one is kept.
+/// Lines of a stream. Only the current line is kept.
 pub(super) struct Lines<R> {
     input: R,
     buffer: Vec<u8>,
@@ -19,7 +19,7 @@ impl<R: Read> Lines<R> {
         Lines { input, buffer: vec![0; 256 * 1024], from: 0, to: 0, at_end: false }
     }
 
-    /// The first lines, which stay to be read: at most `most`, and no more than the buffer holds.
+    /// The first lines, without consuming them: at most `most`, and no more than the buffer holds.
     pub(super) fn ahead(&mut self, most: usize) -> Result<impl Iterator<Item = &[u8]>> {
         while !self.at_end
             && self.to < self.buffer.len()
@@ -30,7 +30,7 @@ impl<R: Read> Lines<R> {
         Ok(self.buffer[self.from..self.to].split(|&byte| byte == b'\n').take(most))
     }
 
-    /// Reads on after what is in the buffer.
+    /// Reads more input into the buffer.
     fn fill(&mut self) -> Result<()> {
         match self.input.read(&mut self.buffer[self.to..]) {
             Ok(0) => self.at_end = true,
@@ -41,7 +41,7 @@ impl<R: Read> Lines<R> {
         Ok(())
     }
 
-    /// The next line without its end; `None` at the end. A line that is too long is cut, which its reader sees.
+    /// The next line without its line end; `None` at the end. A line that is too long is cut; its length shows the caller that.
     pub(super) fn next(&mut self) -> Result<Option<&[u8]>> {
         loop {
             if let Some(length) = memchr::memchr(b'\n', &self.buffer[self.from..self.to]) {
@@ -64,10 +64,10 @@ impl<R: Read> Lines<R> {
     }
 }
 
-/// Words whose statement is text to the end of the line, with or without a slash.
+/// Words that begin a text statement, with or without a slash. The text extends to the end of the line.
 const TEXT: [&str; 7] = ["PARTNO", "PPRINT", "TPRINT", "DISPLY", "INSERT", "REMARK", "LETTER"];
 
-/// The text word that a line begins with, and what follows it.
+/// The text word at the start of a line, and the text after it.
 pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {
     let word =
         TEXT.into_iter().find(|w| line.len() >= w.len() && line[..w.len()].eq_ignore_ascii_case(w.as_bytes()))?;
@@ -77,7 +77,7 @@ pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {
     Some((word, quoted.unwrap_or(text).trim_ascii()))
 }
 
-/// A line without its comment (`$$`), and whether the next one continues it (`$`; what follows that is no part of it).
+/// The line without its comment (`$$`), and whether it continues on the next line (`$`). Text after the `$` is ignored.
 pub(super) fn without_comment(line: &[u8]) -> (&[u8], bool) {
     let mut quoted = false;
     for (i, &byte) in line.iter().enumerate() {

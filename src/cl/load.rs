@@ -1,4 +1,4 @@
-//! Tool changes: LOADTL and its like, tools that NX only names, and the setup that they work in.
+//! Tool changes: LOADTL and similar words, and tools that NX only names.
 
 use super::cycle;
 use super::dialect::Dialect;
@@ -8,12 +8,12 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::toolpath::{Spindle, Tool};
 
-/// LOADTL/n, LOAD/TOOL,n, TOOLNO/n: a tool change, complete with the next feed motion or spindle.
+/// Handles LOADTL/n, LOAD/TOOL,n, TOOLNO/n: a tool change. It is complete at the next feed motion or spindle statement.
 pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let dialect = state.job.notes.dialect();
     if name == "TOOLNO" && dialect == Dialect::Catia {
         if !words.iter().any(|word| word.is("TURN")) {
-            // describes the tool that LOADTL loads
+            // TOOLNO describes the tool that LOADTL loads
             if let Some(Word::Number(diameter)) = words.get(1) {
                 state.job.tools.diameter = Some(*diameter);
             }
@@ -33,14 +33,14 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let register = match (dialect, &words[1..]) {
         // pocket, length, offset
         (Dialect::Autodesk, [_, _, Word::Number(register)]) => Some(*register),
-        // they describe the tool
+        // the other words describe the tool
         (Dialect::Catia, _) if name == "TOOLNO" => None,
         (_, words) => length_register(name, words)?,
     };
     another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
 }
 
-/// TOOL PATH/name,TOOL,tool: a tool other than the one in use must be loaded, or have an assumed number.
+/// Handles TOOL PATH/name,TOOL,tool. If the tool differs from the current one, it must be loaded or have an assumed number.
 pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     let (operation, tool) = match words {
         [operation, word, tool, ..] if word.is("TOOL") => (operation.to_string(), tool.to_string()),
@@ -54,15 +54,15 @@ pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     another_tool(None, state)
 }
 
-/// Begins the change to another tool, which is complete with the next feed motion or spindle. `None`: the tool is only
-/// named so far.
+/// Begins the change to another tool. It is complete at the next feed motion or spindle statement. `None`: so far the tool is
+/// only named.
 fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     feeds.cut_off = cycle.is_active().then_some(job.notes.place.line).or(feeds.cut_off);
     cycle::end(cycle, job)?;
     let number = tool.as_ref().map(|tool| tool.number);
     job.begin_change(tool)?;
-    motion.rapid_after_cycle = false; // what the tool before left
+    motion.rapid_after_cycle = false; // it belonged to the previous tool
     let is_in = number.is_some() && std::mem::replace(&mut job.tools.loaded, number) == number;
     if !job.spindle.is_new && !is_in {
         job.spindle.now = Spindle::default();
@@ -71,7 +71,7 @@ fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     Ok(())
 }
 
-/// The words after a tool's number; those that say its length register.
+/// Reads the words after a tool's number; returns the length register.
 fn length_register(name: &str, words: &[Word]) -> Done<Option<f64>> {
     let mut register = None;
     let mut words = words.iter().peekable();
@@ -86,7 +86,7 @@ fn length_register(name: &str, words: &[Word]) -> Done<Option<f64>> {
             }
             Some("MILL" | "DRILL" | "TURN" | "AUTO" | "MANUAL" | "IN") => {}
             Some(word) => {
-                return fault(Code::PL002, format!("{name} does not know `{word}`"), format!("write {name}/1"));
+                return fault(Code::PL002, format!("{name} can't take `{word}`"), format!("write {name}/1"));
             }
         }
     }

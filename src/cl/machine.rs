@@ -1,4 +1,4 @@
-//! What is switched: units, spindle, coolant, cutter compensation.
+//! Switching statements: units, spindle, coolant, cutter compensation.
 
 use super::cycle::follow_spindle;
 use super::dialect::Dialect;
@@ -12,7 +12,7 @@ use crate::toolpath::{Coolant, Event, Side, Spindle, SpindleTurn, Units};
 /// Metres in a foot.
 const METRES_A_FOOT: f64 = 0.3048;
 
-/// UNITS/MM or INCHES.
+/// Handles UNITS/MM or INCHES.
 pub(super) fn units(words: &[Word], job: &mut Job<'_>) -> Done {
     match words {
         [Word::Name(name)] if name == "MM" => job.set_units(Units::Mm),
@@ -21,30 +21,30 @@ pub(super) fn units(words: &[Word], job: &mut Job<'_>) -> Done {
     }
 }
 
-/// SPINDL: the spindle turns otherwise; feeds per revolution follow it.
+/// Handles SPINDL. Feeds per revolution are adapted to the new speed.
 pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
         && matches!(word.as_str(), "ON" | "OFF")
     {
-        let message = format!("SPINDL/{word}: Autodesk's post writes OFF for on, and ON for off");
+        let message = format!("SPINDL/{word}: Autodesk's post exchanges ON and OFF");
         return fault(
             Code::PL004,
             message,
-            "take the manual command out of the CAM system's setup, or write SPINDL/CLW",
+            "remove the manual command from the setup in the CAM system, or write SPINDL/CLW",
         );
     }
     let said = spindle(words, job)?;
     job.spindle.say(said);
     follow_spindle(cycle, job)?;
     if job.changes() || !job.has_operation() {
-        return Ok(()); // the tool change says it
+        return Ok(()); // it becomes part of the tool change
     }
-    // revolutions are what a form starts with on mills
+    // on mills, a form starts in revolutions per minute
     let css = job.spindle.now.css.filter(|css| *css || job.turns_part());
     job.between(Event::Spindle(Spindle { css, ..said }))
 }
 
-/// Speed, what it counts, direction, in any order.
+/// Reads speed, speed unit and direction, in any order.
 fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
     let mut said = Spindle::default();
     let mut surface = 1.0;
@@ -56,7 +56,7 @@ fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
                 "RPM" => said.css = Some(false),
                 "SFM" | "SMM" => {
                     said.css = Some(true);
-                    // what a surface speed counts goes with the units of the file
+                    // surface speeds are converted to the file's system of units
                     let metric = job.units()? == Units::Mm;
                     surface = match (name.as_str(), metric) {
                         ("SFM", true) => METRES_A_FOOT,
@@ -74,7 +74,7 @@ fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
                 }
                 _ => {
                     let help = "write SPINDL/1200,RPM,CLW";
-                    return fault(Code::PL002, format!("SPINDL does not know `{name}`"), help);
+                    return fault(Code::PL002, format!("SPINDL can't take `{name}`"), help);
                 }
             },
             word => return fault(Code::PL001, format!("SPINDL with `{word}`"), "write SPINDL/1200,RPM,CLW"),
@@ -82,12 +82,12 @@ fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
     }
     said.speed = said.speed.map(|speed| speed * surface);
     if said.speed.is_some() && said.turn.is_none() && job.spindle.now.turn.is_none() {
-        said.turn = Some(SpindleTurn::Cw); // APT's default
+        said.turn = Some(SpindleTurn::Cw); // the default of APT
     }
     Ok(said)
 }
 
-/// COOLNT.
+/// Handles COOLNT.
 pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
     let name = match words {
         [Word::Name(name)] => name.as_str(),
@@ -105,17 +105,17 @@ pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
             job.notes.warn(Code::PL008, message, "change the program, or write COOLNT/FLOOD");
             Coolant::FLOOD
         }
-        _ => return fault(Code::PL002, format!("COOLNT does not know `{name}`"), "write ON, FLOOD, MIST or OFF"),
+        _ => return fault(Code::PL002, format!("COOLNT can't take `{name}`"), "write ON, FLOOD, MIST or OFF"),
     };
     job.coolant(coolant)
 }
 
-/// CUTCOM/LEFT, RIGHT, OFF: the next motion carries it.
+/// Handles CUTCOM/LEFT, RIGHT, OFF. It takes effect with the next motion.
 pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &mut Job<'_>) -> Done {
     if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
         && word == "ON"
     {
-        return Ok(()); // its side follows
+        return Ok(()); // the side follows in a later statement
     }
     let side = |name: &str| match name {
         "LEFT" => Some(Some(Side::Left)),
@@ -131,19 +131,19 @@ pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &m
             Word::Name(name) if known.contains(&name.as_str()) => {}
             Word::Number(_) => job.notes.warn(
                 Code::PL008,
-                "the offset register of CUTCOM is not printed, but the tool's",
-                "compare the D word of the program",
+                "the offset register of the tool is printed, not the register of CUTCOM",
+                "check the D word in the program",
             ),
-            word => return fault(Code::PL002, format!("CUTCOM does not know `{word}`"), "write LEFT, RIGHT or OFF"),
+            word => return fault(Code::PL002, format!("CUTCOM can't take `{word}`"), "write LEFT, RIGHT or OFF"),
         }
     }
     let Some(asked) = asked else {
         return fault(Code::PL002, "CUTCOM without a side", "write CUTCOM/LEFT, RIGHT or OFF");
     };
     if cycle.is_active() && asked.is_some() {
-        return fault(Code::PC041, "CUTCOM inside a cycle", "end the cycle before");
+        return fault(Code::PC041, "CUTCOM inside a cycle", "end the cycle first");
     }
-    // off, and nothing was on: nothing to turn off
+    // OFF without active compensation has no effect
     cutcom.asked = Some(asked).filter(|_| asked.is_some() || cutcom.on);
     cutcom.on = asked.is_some();
     Ok(())

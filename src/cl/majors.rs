@@ -1,4 +1,4 @@
-//! Major words: what is done for each.
+//! Major words, and the handling of each.
 
 use super::arcs::circle;
 use super::dialect::{Dialect, Sense};
@@ -16,7 +16,7 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::toolpath::{Event, StopKind};
 
-/// What a major word asks for.
+/// Kind of a major word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Major {
     None,
@@ -53,20 +53,20 @@ pub(super) enum Major {
     Msys,
     Csys,
     Mcs,
-    /// Chooses a work offset.
+    /// Selects a work offset.
     Offset,
     Machin,
     Turret,
-    /// Known, and of no consequence for the motions.
+    /// Known, without effect on motions.
     Ignored,
     Nurbs,
     Thread,
-    /// Known to move or shift the part, and not supported.
+    /// Known to move or shift the part; not supported.
     Refused,
     Unknown,
 }
 
-/// The words; TLRGT and its like cut beside a line instead of on it.
+/// Table of major words. TLRGT and similar words are refused because they cut beside a line instead of on it.
 #[rustfmt::skip]
 const MAJORS: &[(&str, Major)] = &[
     ("GOTO", Major::Goto), ("GODLTA", Major::Godlta), ("FROM", Major::From), ("RAPID", Major::Rapid),
@@ -95,10 +95,10 @@ const MAJORS: &[(&str, Major)] = &[
     ("THREAD", Major::Thread), ("TURRET", Major::Turret), ("MIRROR", Major::Refused), ("ROTHED", Major::Refused), ("SCALE", Major::Refused), ("MATRIX", Major::Refused), ("REFSYS", Major::Refused),
 ];
 
-/// Words that must not be lost in a statement that is not known.
+/// Words that must not be lost inside an unknown statement.
 const MOTIONS: [&str; 5] = ["GOTO", "GODLTA", "CYCLE", "CIRCLE", "LOADTL"];
 
-/// The major of a word.
+/// The kind of a major word.
 pub(super) fn major(name: &str) -> Major {
     match MAJORS.iter().find(|(word, _)| *word == name) {
         Some((_, major)) => *major,
@@ -107,7 +107,7 @@ pub(super) fn major(name: &str) -> Major {
     }
 }
 
-/// Does what a statement asks for.
+/// Executes a statement.
 pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     if state.job.aside && is_aside(major, state) {
         return Ok(());
@@ -161,9 +161,12 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
             mcs(words, job)
         }
         Major::Offset => {
-            let help =
-                "let the CAM system write the operations of each work offset into a file of their own: each is a job";
-            fault(Code::PL004, format!("{name} chooses a work offset, and a CL file is printed in one"), help)
+            let help = "let the CAM system write a separate file for each work offset: each file is a job";
+            fault(
+                Code::PL004,
+                format!("{name} selects a work offset, but a CL file is printed in a single work offset"),
+                help,
+            )
         }
         Major::Turret => {
             job.turning()?;
@@ -181,28 +184,28 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::EndOfPath | Major::Ignored | Major::None => Ok(()),
         Major::Unknown => unknown(name, words, job),
         Major::Thread => {
-            let help = "let the CAM system write its passes, or write the thread into a job by hand";
+            let help = "let the CAM system write the passes of the thread, or write the thread into a job by hand";
             fault(Code::PL004, "THREAD: threads of CL files are not read", help)
         }
         Major::Nurbs => {
             let help = "let the CAM system write lines and arcs: in NX by Motion Output Type of the operation";
-            fault(Code::PL004, format!("{name}: a spline, for which a form has no words"), help)
+            fault(Code::PL004, format!("{name}: a spline, and forms can't print splines"), help)
         }
         Major::Refused => {
-            let message = format!("{name} moves, shifts or turns something that postform can't follow");
-            fault(Code::PL004, message, "let the CAM system write plain motions instead")
+            let message = format!("{name} moves, shifts or turns the positions, and postform does not support it");
+            fault(Code::PL004, message, "let the CAM system write absolute motions instead")
         }
     }
 }
 
-/// What belongs to its setup alone, which is not read. What goes on after it is done.
+/// Does the word affect only its own setup, so that it is skipped if that setup is not selected?
 fn is_aside(major: Major, state: &State<'_>) -> bool {
     match major {
         Major::Circle | Major::Movarc | Major::Indirv | Major::Tlon | Major::Cutcom | Major::Nurbs | Major::Thread => {
             true
         }
         Major::Stop | Major::Opstop | Major::Delay | Major::Auxfun | Major::Prefun => true,
-        // where setups are only listed nothing else counts
+        // if setups are only listed, these are skipped too
         Major::Cycle | Major::Refused | Major::Offset | Major::Msys | Major::Mcs => {
             state.setups.as_ref().is_some_and(Setups::are_listed)
         }
@@ -210,17 +213,17 @@ fn is_aside(major: Major, state: &State<'_>) -> bool {
     }
 }
 
-/// A major word that is not known: nothing is done for it, but what it stands before must not be hidden.
+/// Handles an unknown major word: it is only reported, but it must not hide a motion after it.
 fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     if let Some(hidden) = words.iter().filter_map(Word::name).find(|name| MOTIONS.contains(name)) {
-        let message = format!("`{name}` stands before {hidden}");
-        return fault(Code::PL001, message, "take it out, or put it on a line of its own");
+        let message = format!("the unknown word `{name}` is in front of {hidden}");
+        return fault(Code::PL001, message, "remove it, or put it on a separate line");
     }
     job.notes.unknown(name);
     Ok(())
 }
 
-/// AUXFUN and PREFUN are codes by number.
+/// Handles AUXFUN and PREFUN, which give a code by its number.
 fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     match words {
         [Word::Number(code)] if *code >= 0.0 && code.fract() == 0.0 => {
@@ -230,14 +233,14 @@ fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     }
 }
 
-/// MODE and SET: what counts is whether positions stay positions.
+/// Handles MODE and SET: MODE/TURN selects a lathe, and incremental positions are refused.
 fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     if name == "MODE" && words.first().is_some_and(|word| word.is("TURN")) {
         if job.notes.dialect() == Dialect::Autodesk {
             let help = "let the CAM system write JSON Lines, or an NC program, for a lathe";
             return fault(
                 Code::PL004,
-                "turning by Autodesk's APT post, which mixes up speeds and surface speeds",
+                "a turning file by Autodesk's APT post, which confuses spindle speeds and surface speeds",
                 help,
             );
         }
@@ -245,12 +248,12 @@ fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     }
     if words.iter().any(|word| word.name().is_some_and(|name| name.starts_with("INCR"))) {
         let help = "let the CAM system write absolute positions";
-        return fault(Code::PL004, format!("{name} asks for incremental positions"), help);
+        return fault(Code::PL004, format!("{name} switches to incremental positions"), help);
     }
     Ok(())
 }
 
-/// CUTTER and TLDATA: the first number is the diameter, also of a tool that turns on a lathe.
+/// Handles CUTTER and TLDATA. The first number is the diameter; turning tools of a lathe have none.
 fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
     if words.first().and_then(Word::name).is_some_and(|name| matches!(name, "TURN" | "GROOVE" | "THREAD")) {
         job.tools.diameter = None;
@@ -260,7 +263,7 @@ fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// What Creo writes after `$$->`.
+/// Handles the data that Creo writes after `$$->`.
 fn data(words: &[Word], job: &mut Job<'_>) {
     match words {
         [Word::Name(word), Word::Number(diameter)] if word == "CUTTER" => job.tools.diameter = Some(*diameter),
@@ -269,7 +272,7 @@ fn data(words: &[Word], job: &mut Job<'_>) {
     }
 }
 
-/// A statement as it is shown.
+/// The text of a statement, for messages.
 fn shown(name: &str, words: &[Word]) -> String {
     let list: Vec<_> = words.iter().map(ToString::to_string).collect();
     if name.is_empty() { list.join(" ") } else { format!("{name} {}", list.join(" ")) }

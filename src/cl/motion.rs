@@ -1,4 +1,4 @@
-//! Motions: GOTO, GODLTA, FROM, RAPID, the tool axis, shifts.
+//! Motions: GOTO, GODLTA, FROM, RAPID, tool axis, shifts.
 
 use super::arcs::arc_to;
 use super::fault::{Done, fault};
@@ -12,10 +12,10 @@ use super::words::{Word, numbers};
 use crate::diag::Code;
 use crate::toolpath::{Axes, Event, Infeed};
 
-/// Components of a unit vector that differ by less are one.
+/// Tolerance for the components of unit vectors.
 const SAME: f64 = 1e-6;
 
-/// GOTO/x,y,z[,i,j,k][,feed].
+/// Handles GOTO/x,y,z[,i,j,k][,feed].
 #[inline]
 pub(super) fn goto(values: &[f64], state: &mut State<'_>) -> Done {
     let (tail, feed) = match values.len() {
@@ -41,11 +41,11 @@ pub(super) fn goto(values: &[f64], state: &mut State<'_>) -> Done {
 pub(super) fn goto_words(words: &[Word], state: &mut State<'_>) -> Done {
     match numbers(words) {
         Some(values) => goto(&values, state),
-        None => fault(Code::PL001, "GOTO takes numbers alone", "write x, y, z, then the tool axis i, j, k or the feed"),
+        None => fault(Code::PL001, "GOTO takes only numbers", "write x, y, z, then the tool axis i, j, k or the feed"),
     }
 }
 
-/// Goes to a position, by what is in force.
+/// Moves to a position, in the current state.
 #[inline]
 fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     let place = state.job.notes.place.line;
@@ -62,7 +62,7 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
             return Ok(());
         }
         if begins && !rapid && !state.cycle.is_active() {
-            let help = "a program for one setup can't begin inside a cut: the rest is a job for five axes";
+            let help = "a program for one setup can't begin inside a cut: this needs a five-axis machine";
             return fault(Code::PL004, "the tool axis turns while the tool cuts", help);
         }
     }
@@ -83,18 +83,18 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
         approach(motion, feeds, job)?;
     }
     let axes = job.axes(to)?;
-    // for arcs whose sense the caller did not give
+    // needed for arcs if the caller did not set their direction
     if job.notes.said_sense().is_none() {
         arcs.heading = motion.position.and_then(|from| Heading::between(from, to)).or(arcs.heading);
     }
     let across = motion.position.is_none_or(|from| from[..2] != to[..2]);
     motion.position = Some(to);
-    // a control begins and ends compensation on a move in the plane: one along the depth alone leaves it to the next
+    // controls start and end compensation on a move in the plane; a move along the depth alone leaves it for the next move
     if motion.cutcom.asked.is_some() && across {
         return compensate(axes, rapid, motion, feeds, job);
     }
     if rapid {
-        // a tool's spindle may come after its first rapids
+        // the spindle of a tool may come after its first rapids
         if !job.has_operation() || job.changes() && job.spindle.now.speed.is_none() {
             return job.wait(Waiting::Rapid(axes));
         }
@@ -104,7 +104,8 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     job.push(Event::Line { to: axes, feed })
 }
 
-/// GOHOME/x,y,z: a rapid to that point, up before across and across before down. Without a place it is the machine's own.
+/// Handles GOHOME/x,y,z: a rapid to that point, up before across and across before down. Without a point: a move to the machine's
+/// home position.
 pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
     if words.is_empty() {
         state.motion.position = None;
@@ -112,7 +113,7 @@ pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
     }
     let values = numbers(words).unwrap_or_default();
     let [x, y, z, axis @ ..] = values.as_slice() else {
-        return fault(Code::PL001, "a GOHOME that can't be read", "write GOHOME/x,y,z, or GOHOME alone");
+        return fault(Code::PL001, "a GOHOME that can't be read", "write GOHOME/x,y,z, or only GOHOME");
     };
     if let [i, j, k] = axis {
         set_axis([*i, *j, *k], state)?;
@@ -130,7 +131,7 @@ pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
     go(to, state)
 }
 
-/// The motion that turns cutter compensation on or off.
+/// Pushes the motion that turns cutter compensation on or off.
 fn compensate(to: Axes, rapid: bool, motion: &mut Motion, feeds: &Feeds, job: &mut Job<'_>) -> Done {
     let feed = if rapid { feed_to_say(feeds, job).ok().flatten() } else { feed_to_say(feeds, job)? };
     match motion.cutcom.asked.take().flatten() {
@@ -157,7 +158,7 @@ pub(super) fn godlta(words: &[Word], state: &mut State<'_>) -> Done {
     go([from[0] + delta[0], from[1] + delta[1], from[2] + delta[2]], state)
 }
 
-/// Where the tool is to begin with: no motion.
+/// Handles FROM: sets the tool's initial position without a motion.
 pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.is_active() {
         state.job.notes.warn(Code::PC058, "FROM inside a cycle", "take it out, or end the cycle before");
@@ -176,17 +177,17 @@ pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// RAPID holds for one motion, which may stand in the same statement.
+/// Handles RAPID. It applies to one motion, which may be in the same statement.
 pub(super) fn rapid(words: &[Word], state: &mut State<'_>) -> Done {
     state.motion.rapid = true;
     match words {
         [] => Ok(()),
         [Word::Name(goto), rest @ ..] if goto == "GOTO" => goto_words(rest, state),
-        [word, ..] => fault(Code::PL002, format!("RAPID does not know `{word}`"), "write RAPID alone"),
+        [word, ..] => fault(Code::PL002, format!("RAPID can't take `{word}`"), "write RAPID without other words"),
     }
 }
 
-/// A tool axis other than the one so far is told, so that a machine that can't tilt refuses it.
+/// Pushes a tool axis that differs from the current one, so that a machine that can't tilt refuses it.
 #[inline]
 fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
     let State { job, motion, setups, .. } = state;
@@ -209,14 +210,14 @@ fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
     }
 }
 
-/// The tool axis of a file of several setups turns: what comes is read in a frame of its own, or not at all.
+/// Handles a new tool axis in a file with several setups: the following motions are read in their own frame, or skipped.
 fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
     job.close_holes()?;
     if !setups.turn(motion.axis.0) {
         return Ok(());
     }
     if motion.cutcom.on {
-        let help = "turn it off before";
+        let help = "end compensation before the axis turns";
         return fault(Code::PL004, "the tool axis turns under cutter compensation", help);
     }
     (motion.position, motion.point) = (None, None);
@@ -229,7 +230,7 @@ fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) ->
     Ok(())
 }
 
-/// In files for three axes TLAXIS is information; elsewhere motions follow it.
+/// Handles TLAXIS, which sets the tool axis. In files for three axes it changes nothing.
 pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
     match numbers(words).as_deref() {
         Some([i, j, k]) => set_axis([*i, *j, *k], state),
@@ -237,7 +238,7 @@ pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// TRANS adds to all positions, ORIGIN takes away.
+/// Handles TRANS, which is added to all positions, and ORIGIN, which is subtracted.
 pub(super) fn trans(words: &[Word], shift: &mut Shift, origin: bool) -> Done {
     match numbers(words).as_deref() {
         Some([x, y, z]) => {

@@ -1,33 +1,33 @@
-//! What a caller may say about a CL file that the file leaves open.
+//! Options for data that a CL file lacks.
 
 use super::dialect::Dialect;
 use crate::toolpath::{Spindle, SpindleTurn, Units};
 
-/// What a caller may choose.
+/// Options for reading a CL file.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Who wrote the file; else it is told from its first lines.
+    /// The system that wrote the file; default: recognised from its first lines.
     pub dialect: Option<Dialect>,
-    /// Units of a file that does not say them.
+    /// Units, for a file that does not define them.
     pub units: Option<Units>,
-    /// The tool of a file that loads none, or each by its name.
+    /// Tool number, for a file that loads no tool; or a number for each named tool.
     pub tool: Option<Assumed>,
-    /// The spindle of tools for which the file says none.
+    /// Spindle, for tools without one in the file.
     pub speed: Option<AssumedSpeed>,
-    /// The feed until the file says one: lengths of the file a minute.
+    /// Feed until the first feed in the file, per minute in the file's units.
     pub feed: Option<f64>,
-    /// Where the tool is before the first motion, of a file that begins with a cut.
+    /// Tool position before the first motion, for a file that begins with a cut.
     pub start: Option<[f64; 3]>,
-    /// The file is whole, though it does not end as its system ends files.
+    /// The file counts as complete even if it lacks the last statement that its system writes.
     pub end: bool,
-    /// Which of its setups is read, counted from 1, in a frame of its own; else the file is one setup.
+    /// Number of the setup to read, from 1; it is read in its own frame. Default: the file is read as one setup.
     pub setup: Option<usize>,
 }
 
 /// Largest spindle speed.
 const FASTEST: f64 = 1e6;
 
-/// A spindle that a file does not say.
+/// Spindle for a file that defines none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssumedSpeed {
     /// Revolutions a minute.
@@ -37,10 +37,10 @@ pub struct AssumedSpeed {
 }
 
 impl AssumedSpeed {
-    /// As `--assume-speed` says it: `3000`, or `3000,CCLW`.
+    /// Parses the value of `--assume-speed`: `3000`, or `3000,CCLW`.
     ///
     /// # Errors
-    /// What to write instead.
+    /// The text is invalid. The error describes the format.
     pub fn parse(text: &str) -> Result<AssumedSpeed, String> {
         let (speed, turn) = text.split_once(',').unwrap_or((text, "CLW"));
         let ccw = match turn.trim().to_ascii_uppercase().as_str() {
@@ -53,17 +53,17 @@ impl AssumedSpeed {
         read.ok_or_else(|| "write revolutions a minute, as 3000 or 3000,CCLW".to_owned())
     }
 
-    /// As events have it.
+    /// The spindle as an event value.
     pub(super) fn spindle(self) -> Spindle {
         let turn = if self.ccw { SpindleTurn::Ccw } else { SpindleTurn::Cw };
         Spindle { speed: Some(self.rpm), turn: Some(turn), ..Spindle::default() }
     }
 }
 
-/// A position as `--assume-start` says it: `X,Y,Z`.
+/// Parses the value of `--assume-start`: `X,Y,Z`.
 ///
 /// # Errors
-/// What to write instead.
+/// The text is invalid. The error describes the format.
 pub fn parse_position(text: &str) -> Result<[f64; 3], String> {
     let numbers: Option<Vec<f64>> =
         text.split(',').map(|part| part.trim().parse().ok().filter(|n: &f64| n.is_finite())).collect();
@@ -76,23 +76,23 @@ pub fn parse_position(text: &str) -> Result<[f64; 3], String> {
 /// Largest tool number.
 const LARGEST: u32 = 99_999_999;
 
-/// Numbers of tools that a file does not load.
+/// Numbers for tools that the file does not load.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Assumed {
-    /// Of its only tool.
+    /// Number of the only tool.
     One(f64),
-    /// Of each tool that it names.
+    /// Number of each named tool.
     Named(Vec<(String, f64)>),
 }
 
 impl Assumed {
-    /// As `--assume-tool` says them: `1`, or `FACE_MILL=1,DRILL=2`.
+    /// Parses the value of `--assume-tool`: `1`, or `FACE_MILL=1,DRILL=2`.
     ///
     /// # Errors
-    /// What to write instead.
+    /// The text is invalid. The error describes the format.
     pub fn parse(text: &str) -> Result<Assumed, String> {
         let number = |text: &str| text.trim().parse::<u32>().ok().filter(|n| *n <= LARGEST).map(f64::from);
-        // statements have no blanks and no small letters
+        // statements contain no spaces and no lower-case letters
         let name = |text: &str| text.split_whitespace().collect::<String>().to_ascii_uppercase();
         let pair = |text: &str| text.split_once('=').and_then(|(tool, n)| Some((name(tool), number(n)?)));
         let named = || text.split(',').map(pair).collect::<Option<Vec<_>>>().map(Assumed::Named);
@@ -100,12 +100,12 @@ impl Assumed {
         read.ok_or_else(|| format!("write a number up to {LARGEST}, or NAME=1,OTHER=2"))
     }
 
-    /// The number, where one is said for all.
+    /// The number, if there is one for the only tool.
     pub fn one(&self) -> Option<f64> {
         if let Assumed::One(number) = self { Some(*number) } else { None }
     }
 
-    /// The number of the tool of that name, where each has its own.
+    /// The number of the tool of this name, if tools have their own numbers.
     pub(super) fn of(&self, tool: &str) -> Option<f64> {
         match self {
             Assumed::One(_) => None,

@@ -1,4 +1,4 @@
-//! Reading a CL file: lines join into statements, which are done one after the other.
+//! Reads a CL file: joins lines to statements, and executes them in order.
 
 use std::io::Read;
 
@@ -18,37 +18,37 @@ use super::words::{Word, plain_goto, words};
 use crate::diag::Code;
 use crate::toolpath::{Event, Flow, Place, ReadError, Sink, Stop};
 
-/// Lines within which the system that wrote a file shows.
+/// Number of lines in which the writing system is searched.
 const HEAD: usize = 50;
 
-/// A file while it is read.
+/// State of reading a file.
 struct Reader<'s> {
     state: State<'s>,
-    /// The statement so far.
+    /// The current statement so far.
     joined: Vec<u8>,
-    /// The next line goes on with it.
+    /// The next line continues the statement.
     continues: bool,
     /// The last major word, for lines of bare numbers.
     major: Major,
-    /// FINI or END was there.
+    /// FINI or END was read.
     ended: bool,
     insert: Insert,
-    /// The file is whole, whatever its last statement.
+    /// The file counts as complete, whatever its last statement.
     whole: bool,
 }
 
-/// Reads a CL file and pushes its events. Memory does not grow with the file.
+/// Reads a CL file and pushes its events. Memory use does not grow with the file.
 ///
 /// # Errors
-/// What is wrong with the file, or with what the sink was asked to do, and where. Warnings up to there are in the report.
+/// An error in the file, or an event that the sink refused, with its location. Warnings before it are in the report.
 pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &mut dyn Sink) -> Result<(), ReadError> {
     read(input, options, options.setup.map(|setup| Setups::new(Some(setup))), report, sink).map(drop)
 }
 
-/// The setups of a file: runs of motions with one tool axis. What stands in the file besides is not looked at.
+/// Lists the setups of a file: sequences of motions with one tool axis. Other statements are not checked.
 ///
 /// # Errors
-/// The input fails; what is no statement.
+/// The input fails, or a line is no statement.
 pub fn setups(input: impl Read, options: &Options) -> Result<Vec<Setup>, ReadError> {
     struct Nothing;
     impl Sink for Nothing {
@@ -60,7 +60,7 @@ pub fn setups(input: impl Read, options: &Options) -> Result<Vec<Setup>, ReadErr
     Ok(found.map_or_else(Vec::new, |setups| setups.found().to_vec()))
 }
 
-/// Reads a file, or a setup of it.
+/// Reads a file, or one of its setups.
 fn read(
     input: impl Read,
     options: &Options,
@@ -105,7 +105,7 @@ fn read(
 }
 
 impl Reader<'_> {
-    /// A line of the file: a statement, a part of one, or a comment.
+    /// Reads a line of the file: a statement, a part of one, or a comment.
     #[inline]
     fn line(&mut self, line: &[u8]) -> Done {
         if !self.continues
@@ -121,7 +121,7 @@ impl Reader<'_> {
 
     fn other_line(&mut self, line: &[u8]) -> Done {
         if line.len() + self.joined.len() > LONGEST {
-            return fault(Code::PL001, "a statement longer than 1 MB", "look whether this is a CL file");
+            return fault(Code::PL001, "a statement longer than 1 MB", "check that this is a CL file");
         }
         let line = line.trim_ascii();
         if line.starts_with(b"\xff\xfe") || line.starts_with(b"\xfe\xff") {
@@ -129,15 +129,15 @@ impl Reader<'_> {
         }
         if line.contains(&b'\r') {
             let help = "save the file with LF or CRLF line ends";
-            return fault(Code::PL001, "the lines end with carriage returns alone", help);
+            return fault(Code::PL001, "the lines end only with carriage returns", help);
         }
         if self.ended && line == b"\x1a" {
-            return Ok(()); // as DOS marks the end of a file
+            return Ok(()); // end-of-file mark of DOS
         }
         let mut line = line;
         if !self.continues {
             if let Some(data) = line.strip_prefix(b"$$->") {
-                // Creo carries data in comments: words that no statement may be made of
+                // Creo stores data in comments; `$DATA` can't be the start of a real statement
                 self.joined.extend_from_slice(b"$DATA/");
                 line = data;
             } else if line.starts_with(b"$$*") {
@@ -162,12 +162,12 @@ impl Reader<'_> {
 
     fn statement(&mut self, text: &[u8]) -> Done {
         if let Some(bad) = text.iter().find(|b| !b.is_ascii() || (b.is_ascii_control() && !b.is_ascii_whitespace())) {
-            let message = format!("a byte that no statement has: {bad:#04x}");
-            return fault(Code::PL001, message, "look whether this is a CL file");
+            let message = format!("a byte that can't be in a statement: {bad:#04x}");
+            return fault(Code::PL001, message, "check that this is a CL file");
         }
         let mut list = match words(text) {
             Ok(list) => list,
-            Err(number) => return fault(Code::PL001, format!("`{number}` is no number"), "fix the number"),
+            Err(number) => return fault(Code::PL001, format!("`{number}` is not a number"), "fix the number"),
         };
         // PTED numbers its records: `N27 , GOTO/..`
         let is_number = |w: &Word| w.name().and_then(|n| n.strip_prefix('N')).is_some_and(|n| n.parse::<u64>().is_ok());
@@ -179,16 +179,20 @@ impl Reader<'_> {
             if first.is("FINI") {
                 return Ok(()); // after END
             }
-            return fault(Code::PL001, "a statement after FINI or END", "take it out, or the end before it");
+            return fault(
+                Code::PL001,
+                "a statement after FINI or END",
+                "remove it, or remove the FINI or END before it",
+            );
         }
         let Some(name) = first.name().map(str::to_owned) else {
-            // UG writes several points under one GOTO; some records go on without `$`
+            // UG writes several points after one GOTO; some records continue without `$`
             return match self.major {
                 Major::Goto => goto_words(&list, &mut self.state),
                 Major::Cutter | Major::Data => Ok(()),
                 _ => {
-                    let help = "put GOTO/ before them, or `$` at the end before";
-                    fault(Code::PL001, "numbers that belong to no statement", help)
+                    let help = "put GOTO/ before them, or `$` at the end of the line before";
+                    fault(Code::PL001, "numbers without a statement", help)
                 }
             };
         };
@@ -197,24 +201,25 @@ impl Reader<'_> {
         self.major = major(&name);
         self.ended = self.major == Major::Fini;
         if self.major == Major::Cutter {
-            self.insert = None; // the text before it was the tool's
+            self.insert = None; // the text before it described the tool
         } else {
             lone_insert(&mut self.insert, &mut self.state.job.notes);
         }
         run(self.major, &name, &list, &mut self.state)
     }
 
-    /// The file is read.
+    /// Handles the end of the file.
     fn finish(&mut self) -> Done {
         if self.continues || self.state.arcs.pending.is_some() {
-            return fault(Code::PL007, "the file ends inside a statement", "get the whole file");
+            return fault(Code::PL007, "the file ends inside a statement", "get the complete file");
         }
         let dialect = self.state.job.notes.dialect();
         let ends = self.whole || self.ended || self.major == Major::EndOfPath || dialect.last_statement().is_none();
         if !ends {
             let last = dialect.last_statement().unwrap_or("FINI");
-            let message = format!("the file ends without {last}: it may be cut short");
-            let help = format!("get the whole file; if it is whole, put {last} at its end, or say `--assume-end`");
+            let message = format!("the file ends without {last}: it may be incomplete");
+            let help =
+                format!("get the complete file; if it is complete, put {last} at its end, or give `--assume-end`");
             return fault(Code::PL007, message, help);
         }
         cycle::end(&mut self.state.cycle, &mut self.state.job)?;
@@ -229,7 +234,7 @@ impl Reader<'_> {
     }
 }
 
-/// A major word without the number of its record: `N29 GOTO`, `100 GOTO`.
+/// A major word without its record number: `N29 GOTO`, `100 GOTO`.
 fn unnumbered(name: &str) -> &str {
     let rest =
         name.strip_prefix('N').unwrap_or(name).trim_start_matches(|c: char| c.is_ascii_digit()).trim_start_matches(')');

@@ -1,37 +1,37 @@
-//! What is said about a file besides its events: who wrote it, warnings, facts.
+//! Results of reading a file, besides its events: its dialect, warnings and facts.
 
 use super::dialect::{Dialect, Sense};
 use crate::diag::{Code, Diag, Location};
 use crate::remarks::Remarks;
 use crate::toolpath::Place;
 
-/// What was noticed besides the events.
+/// Results of reading, besides the events.
 #[derive(Debug, Default)]
 pub struct Report {
-    /// Who wrote the file.
+    /// The system that wrote the file.
     pub dialect: Option<Dialect>,
-    /// Why that was taken to be so.
+    /// Reason for this choice.
     pub why: String,
-    /// Warnings: each kind once, with a count.
+    /// Warnings; each appears once.
     pub warnings: Vec<Diag>,
-    /// What the file says of itself: coordinate systems, names of tool paths.
+    /// Facts in the file: coordinate systems, names of tool paths.
     pub facts: Vec<String>,
-    /// Majors that nothing is done for, with their first line and count.
+    /// Major words that were not handled, with their first line and count.
     unknown: Vec<(String, u64, u64)>,
 }
 
-/// Most facts, warnings and unknown words that are kept.
+/// Maximum number of facts, of warnings and of unknown words.
 const MOST_FACTS: usize = 100;
 
 impl Report {
-    /// Adds what another reader noticed.
+    /// Adds the results of another reader.
     pub(crate) fn add(&mut self, remarks: Remarks) {
         self.facts.extend(remarks.facts);
         self.warnings.extend(remarks.warnings);
     }
 }
 
-/// The report, and the place in the file that is read.
+/// The report, and the current location in the file.
 pub(super) struct Notes<'r> {
     pub report: &'r mut Report,
     pub place: Place,
@@ -40,22 +40,22 @@ pub(super) struct Notes<'r> {
 }
 
 impl<'r> Notes<'r> {
-    /// For a file whose writer the caller may know.
+    /// Creates the notes. `said`: the dialect, if the caller named it.
     pub fn new(report: &'r mut Report, said: Option<Dialect>) -> Self {
         report.dialect = said;
         if said.is_some() {
-            report.why = "as said".into();
+            report.why = "as given".into();
         }
         Notes { report, place: Place::default(), said: said.is_some() }
     }
 
-    /// The dialect: as said or seen, else GENER's.
+    /// The dialect: as named or recognised, else GENER.
     pub fn dialect(&self) -> Dialect {
         self.report.dialect.unwrap_or(Dialect::Gener)
     }
 
-    /// Which way circles turn in files of the system that the caller named. GENER's own are left-handed, but only a file
-    /// that the caller named as GENER's is taken for one.
+    /// Direction of circles in files of the system that the caller named. GENER's circles are left-handed, but a file counts as
+    /// GENER's in this respect only if the caller named GENER.
     #[inline]
     pub fn said_sense(&self) -> Option<Sense> {
         match self.report.dialect.filter(|_| self.said)? {
@@ -64,7 +64,7 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Who wrote the file shows in its first lines, unless the caller named it.
+    /// Recognises the dialect from the first lines, unless the caller named it.
     pub fn look_at<'l>(&mut self, lines: impl Iterator<Item = &'l [u8]>) {
         if !self.said
             && let Some((dialect, line, mark)) = Dialect::of_head(lines)
@@ -74,12 +74,12 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// A warning, once.
+    /// Adds a warning, once.
     pub fn warn(&mut self, code: Code, message: impl Into<String>, help: &str) {
         self.warn_at(self.place, code, message, help);
     }
 
-    /// A warning about an earlier place, once.
+    /// Adds a warning at an earlier location, once.
     pub fn warn_at(&mut self, place: Place, code: Code, message: impl Into<String>, help: &str) {
         let message = message.into();
         let warnings = &mut self.report.warnings;
@@ -88,14 +88,14 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Something that the file says of itself, once.
+    /// Adds a fact, once.
     pub fn fact(&mut self, fact: String) {
         if self.report.facts.len() < MOST_FACTS && !self.report.facts.contains(&fact) {
             self.report.facts.push(fact);
         }
     }
 
-    /// A major word that nothing is done for.
+    /// Counts a major word that was not handled.
     pub fn unknown(&mut self, name: &str) {
         let unknown = &mut self.report.unknown;
         match unknown.iter().position(|(known, _, _)| known == name) {
@@ -109,8 +109,8 @@ impl<'r> Notes<'r> {
     pub fn tell_unknown(&mut self) {
         for (name, line, count) in std::mem::take(&mut self.report.unknown) {
             let times = if count == 1 { String::new() } else { format!(", {count} times") };
-            let message = format!("`{name}` is not known and nothing is done for it{times}");
-            let diag = Diag::new(Code::PL003, message).help("look whether it moves or switches anything");
+            let message = format!("`{name}` is unknown and is ignored{times}");
+            let diag = Diag::new(Code::PL003, message).help("check whether it moves or switches anything");
             self.report.warnings.push(diag.place(Location::line(line)));
         }
     }

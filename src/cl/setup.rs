@@ -1,5 +1,5 @@
-//! Setups of a file whose tool points several ways. The part is turned by hand between them, so each is a job of its own, in
-//! a frame whose z is its tool axis.
+//! Setups of a file with several tool axes. An operator turns the part between them, so each setup is a job of its own. The z
+//! axis of its frame is its tool axis.
 
 use std::fmt;
 
@@ -8,26 +8,27 @@ use super::job::Job;
 use super::vector::cross;
 use crate::diag::Code;
 
-/// Components of unit vectors that differ by less are one.
+/// Tolerance for the components of unit vectors.
 const SAME: f64 = 1e-6;
-/// A coordinate system belongs to an axis that differs from its z by less.
+/// Tolerance between a tool axis and the z axis of its coordinate system.
 const LIKE: f64 = 1e-3;
-/// Most setups that are told apart: files of five axes have one for each motion.
+/// Maximum number of setups: a file for five axes would have one for each motion.
 const MOST: usize = 1000;
-/// Most that a message names.
+/// Maximum number of setups in a message.
 const MOST_SAID: usize = 8;
 
-/// Motions of a file, one after the other, with one tool axis.
+/// A sequence of motions in a file with one tool axis.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Setup {
     /// The tool axis in the file's coordinates, a unit vector: the setup's z.
     pub axis: [f64; 3],
-    /// The setup's x: of the file's CSYS with this z, else level and to the right of whoever looks along the tool.
+    /// The setup's x axis: that of the file's CSYS with this z axis, else horizontal and to the right when looking along the
+    /// tool.
     pub x: [f64; 3],
-    /// Lines of its first and last motion.
+    /// Lines of the first and last motion.
     pub lines: (u64, u64),
-    /// How many motions it has.
+    /// Number of motions.
     pub motions: u64,
 }
 
@@ -40,12 +41,12 @@ impl fmt::Display for Setup {
     }
 }
 
-/// A frame of its own: its three directions in the file's coordinates.
+/// A frame: its three directions in the file's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame([[f64; 3]; 3]);
 
 impl Frame {
-    /// A vector of the file in this frame.
+    /// Converts a vector of the file to this frame.
     pub fn of(&self, vector: [f64; 3]) -> [f64; 3] {
         self.0.map(|direction| direction.iter().zip(vector).map(|(a, b)| a * b).sum())
     }
@@ -56,15 +57,15 @@ pub(super) fn lies_along(z: [f64; 3], axis: [f64; 3]) -> bool {
     z.iter().zip(axis).all(|(a, b)| (a - b).abs() < LIKE)
 }
 
-/// The setups so far, and which of them is read.
+/// The setups so far, and the number of the selected one.
 #[derive(Debug)]
 pub(super) struct Setups {
-    /// Counted from 1; none where they are only listed.
+    /// Selected setup, from 1; `None` if setups are only listed.
     chosen: Option<usize>,
     found: Vec<Setup>,
-    /// x and z of the CSYS in force.
+    /// x and z of the current CSYS.
     csys: Option<[[f64; 3]; 2]>,
-    /// Another setup came before this one, and this one has no motion yet.
+    /// The current setup follows another one and has no motion yet.
     pub is_fresh: bool,
 }
 
@@ -75,8 +76,7 @@ impl Setups {
         setups
     }
 
-    /// The tool axis is another one; a setup without a motion never was.
-    /// Answers whether another setup begins.
+    /// Handles a new tool axis. A setup without a motion is dropped. Returns whether another setup begins.
     pub fn turn(&mut self, axis: [f64; 3]) -> bool {
         if self.found.last().is_some_and(|last| last.motions == 0) {
             self.found.pop();
@@ -85,14 +85,14 @@ impl Setups {
         let is_last = |last: &Setup| last.axis.iter().zip(axis).all(|(a, b)| (a - b).abs() < SAME);
         let begins = !self.found.last().is_some_and(is_last) && self.found.len() < MOST;
         if begins {
-            // a file may begin with a cut
+            // not for the first setup: a file may begin with a cut
             self.is_fresh = !self.found.is_empty();
             self.found.push(Setup { axis, x: self.x_of(axis), lines: (0, 0), motions: 0 });
         }
         begins
     }
 
-    /// CSYS: x and z of a coordinate system.
+    /// Handles CSYS: the x and z axes of a coordinate system.
     pub fn csys(&mut self, x: [f64; 3], z: [f64; 3]) {
         self.csys = Some([x, z]);
         if let Some(Setup { axis, .. }) = self.found.last().filter(|last| last.motions == 0) {
@@ -101,18 +101,18 @@ impl Setups {
         }
     }
 
-    /// The x of a setup: the CSYS's where its z is the axis; else level, as Fanuc's G68.3 has it.
+    /// The x axis of a setup: that of the CSYS if its z is the tool axis; else horizontal, as defined for Fanuc's G68.3.
     fn x_of(&self, axis: [f64; 3]) -> [f64; 3] {
         if let Some([x, z]) = self.csys
             && lies_along(z, axis)
         {
-            // square to the axis that the motions have
+            // made perpendicular to the tool axis of the motions
             return unit(cross(cross(axis, x), axis)).unwrap_or(x);
         }
         unit(cross([0.0, 0.0, 1.0], axis)).unwrap_or([1.0, 0.0, 0.0])
     }
 
-    /// A motion at this line.
+    /// Counts a motion at this line.
     pub fn motion(&mut self, line: u64) {
         if let Some(last) = self.found.last_mut() {
             last.motions += 1;
@@ -121,17 +121,17 @@ impl Setups {
         }
     }
 
-    /// Is the setup of the motions that come the one that is read?
+    /// Is the current setup the selected one?
     pub fn is_chosen(&self) -> bool {
         self.chosen == Some(self.found.len())
     }
 
-    /// Are they only listed?
+    /// Are the setups only listed?
     pub fn are_listed(&self) -> bool {
         self.chosen.is_none()
     }
 
-    /// The file is read.
+    /// Handles the end of the file.
     pub fn end(&self, job: &mut Job<'_>) -> Done {
         let Some(chosen) = self.chosen else { return Ok(()) };
         let found = self.found();
@@ -144,13 +144,13 @@ impl Setups {
         fault(Code::PL004, format!("the file has no setup {chosen}"), help)
     }
 
-    /// Its frame.
+    /// The frame of the current setup.
     pub fn frame(&self) -> Option<Frame> {
         let Setup { axis, x, .. } = self.found.last()?;
         Some(Frame([*x, cross(*axis, *x), *axis]))
     }
 
-    /// Those that have motions.
+    /// The setups that have motions.
     pub fn found(&self) -> &[Setup] {
         let moved = self.found.iter().rposition(|setup| setup.motions > 0).map_or(0, |last| last + 1);
         &self.found[..moved]
@@ -190,9 +190,9 @@ mod tests {
         let frame = setups.frame().unwrap();
         let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(near(frame.of([0.6, 0.0, 0.8]), [0.0, 0.0, 1.0]));
-        // level: its x is the part's y
+        // horizontal: the setup's x axis is the part's y axis
         assert!(near(frame.of([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]));
-        // as the CAM system has it, where it says so
+        // the CSYS of the CAM system overrides it
         setups.csys([0.8, 0.0, -0.6], [0.6, 0.0, 0.8]);
         assert!(near(setups.frame().unwrap().of([0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]));
     }

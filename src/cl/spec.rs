@@ -1,4 +1,4 @@
-//! A coded CYCLE as a cycle: clearances, dwells, depths, steps and feeds in units of the file.
+//! Converts a CYCLE statement to a cycle: clearances, dwells, depths, steps and feeds in the file's units.
 
 use super::coded::Coded;
 use super::cycle_words::Opt;
@@ -10,7 +10,7 @@ use crate::cycle::stepped_pecks;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec, Orient, Peck, SpindleTurn};
 
-/// The cycle that is coded, in units of the file a minute.
+/// The cycle of a statement. Feeds are per minute, in the file's units.
 pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<CycleSpec> {
     let kind = coded.kind.unwrap_or(CycleKind::Drill);
     if coded.has(Opt::Float) && coded.has(Opt::Rigid) {
@@ -30,12 +30,12 @@ pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<
     spec.min_step = coded.number(Opt::Minstp);
     spec.times = coded.number(Opt::Times);
     if spec.times.is_some_and(|n| n < 1.0 || n.fract() != 0.0) {
-        return fault(Code::PC036, "TIMES is no whole number", "write TIMES,2");
+        return fault(Code::PC036, "TIMES is not a whole number", "write TIMES,2");
     }
     spec.ratio = coded.number(Opt::Ratio);
     spec.starts = coded.number(Opt::Multrd);
     if spec.starts.is_some_and(|n| !(1.0..=100.0).contains(&n) || n.fract() != 0.0) {
-        return fault(Code::PC036, "MULTRD is no whole number of starts", "write MULTRD,2");
+        return fault(Code::PC036, "MULTRD is not a whole number of starts", "write MULTRD,2");
     }
     spec.rigid = (coded.has(Opt::Rigid) || coded.has(Opt::Float)).then(|| coded.has(Opt::Rigid));
     spec.rapout = coded.has(Opt::Rapout);
@@ -56,12 +56,12 @@ pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<
     depths(job, coded, kind, &mut spec)?;
     let turns = job.spindle.now.turn;
     if kind == CycleKind::Tap && turns.is_some_and(|t| (t == SpindleTurn::Ccw) != left && t != SpindleTurn::Off) {
-        job.notes.warn(Code::PC054, "a tap against the spindle's direction", "look at INVERS, and at SPINDL");
+        job.notes.warn(Code::PC054, "a tap whose direction is opposite to the spindle's", "check INVERS and SPINDL");
     }
     Ok(spec)
 }
 
-/// CLEAR is remembered, its second number is not.
+/// Reads CLEAR. It is kept for later cycles, but its second number is not.
 fn clearances(cycle: &mut Cycle, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done<Option<f64>> {
     let clear = coded.numbers(Opt::Clear);
     cycle.clear = clear.map(|numbers| numbers[0]).or(cycle.clear);
@@ -74,17 +74,17 @@ fn clearances(cycle: &mut Cycle, coded: &Coded, kind: CycleKind, spec: &mut Cycl
     }
     if coded.has(if jogs { Opt::Ofsetl } else { Opt::Back }) {
         let help = "keep the second number of CLEAR, or BACK or OFSETL";
-        return fault(Code::PC011, "the second clearance is there twice", help);
+        return fault(Code::PC011, "the second clearance is given twice", help);
     }
     Ok(Some(second))
 }
 
-/// Depths, steps and feeds.
+/// Reads depths, steps and feeds.
 fn depths(job: &Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done {
     let pecks = matches!(kind, CycleKind::Deep | CycleKind::Chipbreak) || coded.mode.is_some();
     let feeds = coded.groups.iter().filter(|group| group.feed.is_some()).count();
     if feeds > 1 && (!pecks || coded.mode.is_some()) {
-        return fault(Code::PC007, "two feeds where the cycle has one", "keep one");
+        return fault(Code::PC007, "two feeds, but the cycle takes one", "keep one");
     }
     let mut last = None;
     let mut of_groups = Vec::new();
@@ -118,7 +118,7 @@ fn depths(job: &Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -
         spec.pecks =
             with_feeds.flat_map(|(group, feed)| group.depths.iter().map(|&to| Peck { to, feed: *feed })).collect();
         if spec.pecks.iter().any(|peck| peck.feed.is_none()) {
-            return fault(Code::PC005, "the cycle has no feed", "give MMPM, IPM or another after its depths");
+            return fault(Code::PC005, "the cycle has no feed", "give MMPM, IPM or another feed word after its depths");
         }
         return Ok(());
     }

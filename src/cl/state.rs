@@ -1,4 +1,4 @@
-//! What a file has said so far, in parts by the statements that touch them.
+//! State of reading a file, in parts for the statements that use them.
 
 use super::coded::Coded;
 use super::cycle_dialects::Heights;
@@ -8,37 +8,37 @@ use super::job::Job;
 use super::setup::{Frame, Setups};
 use crate::toolpath::{CycleSpec, LastDwell, Side};
 
-/// All parts. A statement's function takes those that it touches; the whole where a motion may mean any of them.
+/// The whole state. Functions take only the parts that they use, or the whole if a motion may need all of it.
 pub(super) struct State<'s> {
     pub job: Job<'s>,
     pub motion: Motion,
     pub arcs: Arcs,
     pub feeds: Feeds,
     pub cycle: Cycle,
-    /// Where one setup of several is read, or all are listed.
+    /// The setups, if one of several is read or all are listed.
     pub setups: Option<Setups>,
 }
 
-/// Where the tool is, and how it goes to the next point.
+/// The tool's position, and the mode of the next motion.
 #[derive(Default)]
 pub(super) struct Motion {
     pub shift: Shift,
-    /// Where the tool is; after a hole, where it was left.
+    /// Position of the tool; after a hole, the position above it.
     pub position: Option<[f64; 3]>,
-    /// The last point that was said, from which GODLTA counts.
+    /// Last programmed point, the start for GODLTA.
     pub point: Option<[f64; 3]>,
     /// The tool axis.
     pub axis: Axis,
     /// The next motion is a rapid.
     pub rapid: bool,
-    /// The next motion after the end of a cycle is a rapid, unless a feed comes first.
+    /// The first motion after the end of a cycle is a rapid, unless a feed comes first.
     pub rapid_after_cycle: bool,
     pub cutcom: Cutcom,
-    /// A coordinate system of the file that no motion has been in: its z axis, and its line.
+    /// A coordinate system of the file that has no motion yet: its z axis, and its line.
     pub frame: Option<([f64; 3], u64)>,
 }
 
-/// The tool axis, a unit vector; a file begins with an upright tool.
+/// The tool axis, a unit vector. At the start of a file the tool is vertical.
 pub(super) struct Axis(pub [f64; 3]);
 
 impl Default for Axis {
@@ -47,17 +47,17 @@ impl Default for Axis {
     }
 }
 
-/// What is added to all positions: TRANS, less ORIGIN.
+/// Offset of all positions: TRANS minus ORIGIN.
 #[derive(Default)]
 pub(super) struct Shift {
     pub trans: [f64; 3],
     pub origin: [f64; 3],
-    /// The setup that is read has a frame of its own.
+    /// Frame of the selected setup.
     pub frame: Option<Frame>,
 }
 
 impl Shift {
-    /// A position of the file as one of the job.
+    /// Converts a position of the file to one of the job.
     #[inline]
     pub fn of(&self, point: [f64; 3]) -> [f64; 3] {
         let mut to = point;
@@ -67,7 +67,7 @@ impl Shift {
         self.turned(to)
     }
 
-    /// A direction of the file as one of the job.
+    /// Converts a direction of the file to one of the job.
     #[inline]
     pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
         match &self.frame {
@@ -80,22 +80,22 @@ impl Shift {
 /// Cutter compensation.
 #[derive(Default)]
 pub(super) struct Cutcom {
-    /// What the next motion turns on, or (`None` inside) off.
+    /// The side that the next motion turns on; `None` inside: the next motion turns compensation off.
     pub asked: Option<Option<Side>>,
     /// Compensation is on, or will be with the next motion.
     pub on: bool,
 }
 
-/// Arcs that are to come, and which way they turn.
+/// Pending arcs, and the direction of circles.
 #[derive(Default)]
 pub(super) struct Arcs {
-    /// The circle that the next GOTO cuts along.
+    /// The circle along which the next GOTO cuts.
     pub pending: Option<PendingArc>,
-    /// The direction in which INDIRV says that the next TLON leaves.
+    /// Direction from INDIRV in which the next TLON starts.
     pub direction: Option<[f64; 3]>,
-    /// Where the tool was heading at the end of the last motion.
+    /// Direction of the tool at the end of the last motion.
     pub heading: Option<Heading>,
-    /// Which way circles turn, as their tangents showed.
+    /// Direction of circles, as found from their tangents.
     pub sense: Option<Sense>,
 }
 
@@ -104,7 +104,7 @@ pub(super) struct Arcs {
 pub(super) struct Heading(pub [f64; 3]);
 
 impl Heading {
-    /// From one point to another.
+    /// The direction from one point to another.
     pub fn between(from: [f64; 3], to: [f64; 3]) -> Option<Heading> {
         let way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let length = way.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -112,32 +112,32 @@ impl Heading {
     }
 }
 
-/// A circle that the next GOTO cuts along.
+/// A circle along which the next GOTO cuts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PendingArc {
     pub centre: [f64; 3],
-    /// Which of x, y, z its axis is, and whether it points up.
+    /// Index of its axis (x, y or z), and whether the axis points in the positive direction.
     pub axis: usize,
     pub up: bool,
-    /// The radius, where it is said.
+    /// The radius, if given.
     pub radius: Option<f64>,
-    /// The sense, where the statement itself has one.
+    /// The direction, if the statement defines it.
     pub sense: Option<Sense>,
-    /// TIMES,n: it is the n-th time that the tool comes to the end.
+    /// TIMES,n: the arc ends at the n-th arrival at the end point.
     pub times: Option<u32>,
-    /// ANGLE,a: degrees from the beginning to the end.
+    /// ANGLE,a: degrees from start to end.
     pub angle: Option<f64>,
 }
 
-/// The feed in force.
+/// The active feed.
 #[derive(Default)]
 pub(super) struct Feeds {
     pub feed: Option<Feed>,
-    /// The line of the tool change that ended a cycle, until a feed or a cycle says how points are cut.
+    /// Line of a tool change that ended a cycle; cleared when a feed or a cycle follows.
     pub cut_off: Option<u64>,
 }
 
-/// CYCLE/RETURN: what sets the return plane of the cycles that follow.
+/// CYCLE/RETURN: it sets the return plane of the following cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum ReturnMode {
     #[default]
@@ -148,8 +148,8 @@ pub(super) enum ReturnMode {
 }
 
 impl ReturnMode {
-    /// Where a cycle comes back to whose statement says `coded`: CYCLE/RETURN goes first. `None`: to each hole's
-    /// clearance.
+    /// The return of a cycle. CYCLE/RETURN overrides `coded`, the return in the cycle's own statement. `None`: the tool returns
+    /// to each hole's clearance.
     pub fn over(self, coded: Option<CodedReturn>) -> Option<CodedReturn> {
         match self {
             ReturnMode::AsCoded => coded,
@@ -160,20 +160,20 @@ impl ReturnMode {
     }
 }
 
-/// Where a cycle comes back to.
+/// Return plane of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CodedReturn {
-    /// As high as the clearance of the first point.
+    /// The clearance of the first point.
     Clearance,
     /// A height above the first point of the cycle.
     Above(f64),
-    /// Where the tool was before.
+    /// The tool's height before the cycle.
     Start,
-    /// At this height of the file.
+    /// This height in the file's coordinates.
     Height(f64),
 }
 
-/// The cycle in force, and what is remembered from one to the next.
+/// The active cycle, and values that are kept between cycles.
 #[derive(Debug, Default)]
 pub(super) struct Cycle {
     pub active: Option<CycleSpec>,
@@ -182,16 +182,16 @@ pub(super) struct Cycle {
     pub dwell: LastDwell,
     pub emulate: bool,
     pub return_mode: ReturnMode,
-    /// The return plane of the cycle in force, decided at its statement; `None`: each hole's own clearance.
+    /// Return plane of the active cycle, set by its statement; `None`: each hole's own clearance.
     pub returns: Option<CodedReturn>,
-    /// Heights that a system says instead of a clearance.
+    /// Heights of the cycle, for a system that gives them instead of a clearance.
     pub heights: Option<Heights>,
-    /// The return plane, once its first point is known: as a height of the file.
+    /// Return plane as a height of the file, known from the first point on.
     pub plane: Option<Option<f64>>,
 }
 
 impl Cycle {
-    /// Are points holes?
+    /// Is a cycle active, so that points are holes?
     #[inline]
     pub fn is_active(&self) -> bool {
         self.active.is_some()

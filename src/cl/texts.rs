@@ -1,4 +1,4 @@
-//! Text statements: the part's name, remarks, and words for the program.
+//! Text statements: the part's name, comments, and text for the program.
 
 use super::dialect::Dialect;
 use super::fault::Done;
@@ -7,21 +7,21 @@ use super::report::Notes;
 use crate::diag::Code;
 use crate::toolpath::Place;
 
-/// What a text statement puts into the program.
+/// Output of a text statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Said<'t> {
     Nothing,
     Comment(&'t str),
-    /// A block as it stands.
+    /// A block that is printed unchanged.
     Block(&'t str),
-    /// A stop, and what it tells the operator.
+    /// A stop, with a message for the operator.
     Stop(&'t str),
 }
 
-/// What a text statement means in the files of a system.
+/// The output of a text statement in files of this system.
 fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     match (dialect, word) {
-        // Makino's PPRINT carries data for its own post processor
+        // Makino's PPRINT holds data for its own post processor
         (Dialect::Makino, "PPRINT") => Said::Nothing,
         (Dialect::SolidWorksCam, "INSERT") => stop(text).map_or(Said::Comment(text), Said::Stop),
         (_, "INSERT") if !text.starts_with('[') => Said::Block(text),
@@ -29,22 +29,22 @@ fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     }
 }
 
-/// What stands after STOP.
+/// The text after STOP.
 fn stop(text: &str) -> Option<&str> {
     let (word, message) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     word.eq_ignore_ascii_case("STOP").then(|| message.trim())
 }
 
-/// Holders, stock and stops are known; any other INSERT of SolidWorks CAM describes the tool if CUTTER follows.
+/// Holders, stock and stops are known. Any other INSERT of SolidWorks CAM describes the tool only if CUTTER follows.
 fn may_be_lost(text: &str) -> bool {
     let stock = text.get(..10).is_some_and(|head| head.eq_ignore_ascii_case("STOCK SIZE"));
     !stock && !text.starts_with('[') && stop(text).is_none()
 }
 
-/// An INSERT that may describe the tool that follows, and its place.
+/// An INSERT that may describe the following tool, and its location.
 pub(super) type Insert = Option<(String, Place)>;
 
-/// A text statement.
+/// Handles a text statement.
 pub(super) fn text(word: &str, text: String, insert: &mut Insert, job: &mut Job<'_>) -> Done {
     lone_insert(insert, &mut job.notes);
     match word {
@@ -57,7 +57,7 @@ pub(super) fn text(word: &str, text: String, insert: &mut Insert, job: &mut Job<
             }
             if word == "PPRINT" && job.name.is_none() && !job.has_operation() && job.notes.dialect() != Dialect::Makino
             {
-                job.name = Some(text.clone()); // a file without PARTNO names its part so
+                job.name = Some(text.clone()); // in a file without PARTNO this is the name of the part
             }
             if word == "INSERT" && may_be_lost(&text) {
                 *insert = Some((text.clone(), job.notes.place));
@@ -82,10 +82,10 @@ fn say(said: Said<'_>, job: &mut Job<'_>) -> Done {
     }
 }
 
-/// Text that no tool follows may have been meant for the machine.
+/// Warns of an INSERT that no tool follows, because it may have been meant for the machine.
 pub(super) fn lone_insert(insert: &mut Insert, notes: &mut Notes<'_>) {
     let Some((text, place)) = insert.take().filter(|_| notes.dialect() == Dialect::SolidWorksCam) else { return };
-    let help = "if the machine shall do something there, write INSERT/STOP, AUXFUN/code or PREFUN/code";
+    let help = "if the machine must do something here, write INSERT/STOP, AUXFUN/code or PREFUN/code";
     notes.warn_at(place, Code::PL008, format!("INSERT/{text} is printed as a comment"), help);
 }
 

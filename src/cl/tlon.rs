@@ -7,7 +7,7 @@ use super::vector::cross;
 use super::words::{Word, numbers};
 use crate::diag::Code;
 
-/// INDIRV: the direction in which the next TLON leaves.
+/// Handles INDIRV: the direction in which the next TLON starts.
 pub(super) fn indirv(words: &[Word], arcs: &mut Arcs, shift: &Shift) -> Done {
     match numbers(words).as_deref() {
         Some([i, j, k]) => {
@@ -18,7 +18,7 @@ pub(super) fn indirv(words: &[Word], arcs: &mut Arcs, shift: &Shift) -> Done {
     }
 }
 
-/// TLON,GOFWD/(CIRCLE/x,y,z,r),ON,[n,INTOF,](LINE/x,y,z,x,y,z): an arc to the line's second point.
+/// Handles TLON,GOFWD/(CIRCLE/x,y,z,r),ON,[n,INTOF,](LINE/x,y,z,x,y,z): an arc to the line's second point.
 pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
     let number = |at: usize| words.get(at).and_then(Word::number);
     let circle = words.iter().position(|word| word.is("CIRCLE"));
@@ -26,14 +26,14 @@ pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
     let point = |at: usize| Some([number(at)?, number(at + 1)?, number(at + 2)?]);
     let read = circle.zip(line).and_then(|(circle, line)| Some((point(circle + 1)?, point(line + 4)?)));
     let (Some((centre, to)), Some(direction)) = (read, state.arcs.direction.take()) else {
-        let help = "only INDIRV, then TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z) is";
+        let help = "write INDIRV, then TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z)";
         return fault(Code::PL004, "a TLON that can't be read", help);
     };
     let Some(from) = state.motion.position else {
         return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
     };
     if state.cycle.is_active() {
-        return fault(Code::PC042, "an arc inside a cycle", "end the cycle before with CYCLE/OFF");
+        return fault(Code::PC042, "an arc inside a cycle", "end the cycle first, with CYCLE/OFF");
     }
     if state.motion.rapid {
         return fault(Code::PL004, "a rapid along an arc", "take RAPID out");
@@ -50,8 +50,8 @@ pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
     let turn = cross(radius, direction)[axis];
     let length = |vector: [f64; 3]| vector.iter().map(|c| c * c).sum::<f64>().sqrt();
     if turn.abs() < 0.1 * length(radius) * length(direction) {
-        let help = "INDIRV must lie along the arc";
-        return fault(Code::PL004, "INDIRV points to the centre, so nothing says which way the arc turns", help);
+        let help = "INDIRV must point along the arc";
+        return fault(Code::PL004, "INDIRV points to the centre, so the direction of the arc is unknown", help);
     }
     state.motion.point = Some(to);
     let arc = PendingArc { centre, axis, up: true, radius: None, sense: None, times: None, angle: None };

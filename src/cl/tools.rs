@@ -1,4 +1,4 @@
-//! Tools and the spindle: what the file has said of them, for the tool change that comes.
+//! Tools and spindle as defined in the file so far, for the next tool change.
 
 use super::options::{Assumed, AssumedSpeed};
 use crate::toolpath::{Coolant, Spindle, SpindleTurn};
@@ -6,36 +6,36 @@ use crate::toolpath::{Coolant, Spindle, SpindleTurn};
 /// Tools of a file.
 #[derive(Default)]
 pub(super) struct Tools {
-    /// Numbers of tools that the file does not load.
+    /// Numbers for tools that the file does not load.
     assumed: Option<Assumed>,
-    /// The diameter that CUTTER or TLDATA said last.
+    /// Diameter from the last CUTTER or TLDATA.
     pub diameter: Option<f64>,
-    /// The tool in use, as TOOL PATH names it.
+    /// Name of the current tool, from TOOL PATH.
     pub name: Option<String>,
-    /// The operation that begins, as TOOL PATH names it.
+    /// Name of the next operation, from TOOL PATH.
     pub operation: Option<String>,
-    /// What TPRINT says of the tool that comes.
+    /// Text of TPRINT about the next tool.
     pub said: Option<String>,
-    /// Tools that were named and not loaded.
+    /// Tools that were named but not loaded.
     not_loaded: Vec<String>,
-    /// The number that was loaded last.
+    /// Number of the last loaded tool.
     pub loaded: Option<f64>,
-    /// The greatest number that was loaded.
+    /// Greatest number of a loaded tool.
     pub greatest: f64,
-    /// The coolant, which stays from tool to tool.
+    /// Coolant. It is kept from tool to tool.
     pub coolant: Option<Coolant>,
 }
 
 impl Tools {
-    /// Before any tool.
+    /// The state before any tool.
     pub fn new(assumed: Option<Assumed>) -> Self {
         Tools { assumed, ..Tools::default() }
     }
 
-    /// The number of a tool that is not loaded. `first`: no tool was before it.
+    /// The number of a tool that is not loaded. `first`: it is the first tool.
     ///
     /// # Errors
-    /// The option that says it.
+    /// The number is unknown. The error is the option that sets it.
     pub fn number(&self, first: bool) -> Result<f64, String> {
         let assumed = self.assumed.as_ref();
         let one = assumed.and_then(Assumed::one).filter(|_| first);
@@ -58,33 +58,33 @@ impl Tools {
         Err(format!("--assume-tool {}", all.collect::<Vec<_>>().join(",")))
     }
 
-    /// The tool in use was not loaded, and has a number all the same.
+    /// Records that the current tool was not loaded but has a number.
     pub fn goes_by_its_name(&mut self) {
         let new = self.name.iter().filter(|name| !self.not_loaded.contains(name)).cloned().collect::<Vec<_>>();
         self.not_loaded.extend(new);
     }
 }
 
-/// The spindle as the file has said it.
+/// The spindle as defined in the file.
 #[derive(Default)]
 pub(super) struct Turning {
-    /// What is in force.
+    /// Current values.
     pub now: Spindle,
-    /// The direction in which it turned last.
+    /// Direction of the last rotation.
     last: Option<SpindleTurn>,
-    /// The spindle was said since the last motion, so perhaps for the tool that comes.
+    /// The spindle was set after the last motion, possibly for the next tool.
     pub is_new: bool,
-    /// What turns a tool for which the file says nothing.
+    /// Values for a tool without a spindle in the file.
     assumed: Option<Spindle>,
 }
 
 impl Turning {
-    /// Before any SPINDL.
+    /// The state before any SPINDL.
     pub fn new(assumed: Option<AssumedSpeed>) -> Self {
         Turning { assumed: assumed.map(AssumedSpeed::spindle), ..Turning::default() }
     }
 
-    /// What is in force: as said, else as assumed.
+    /// The active values: from the file, else assumed.
     pub fn in_force(&self) -> Spindle {
         match self.assumed {
             Some(assumed) if self.says_no_speed() => {
@@ -94,24 +94,24 @@ impl Turning {
         }
     }
 
-    /// Nothing says how fast it turns, nor that it stands.
+    /// Is the speed unknown, and the spindle not switched off?
     #[inline]
     pub fn says_no_speed(&self) -> bool {
         self.now.speed.is_none() && self.now.turn != Some(SpindleTurn::Off)
     }
 
-    /// Is there a speed to cut with, or does it stand as it was told?
+    /// Is the speed known or assumed, or the spindle switched off on purpose?
     #[inline]
     pub fn is_known(&self) -> bool {
         !self.says_no_speed() || self.assumed.is_some()
     }
 
-    /// The direction that SPINDL/ON asks for.
+    /// The direction for SPINDL/ON.
     pub fn direction(&self) -> SpindleTurn {
         self.last.unwrap_or(SpindleTurn::Cw)
     }
 
-    /// What a SPINDL statement says; the rest stays.
+    /// Applies a SPINDL statement. Values that it does not give are kept.
     pub fn say(&mut self, said: Spindle) {
         self.now = Spindle {
             speed: said.speed.or(self.now.speed),
@@ -123,7 +123,7 @@ impl Turning {
         self.is_new = true;
     }
 
-    /// Revolutions a minute, where it turns at a fixed speed.
+    /// Revolutions per minute, if the spindle turns at a fixed speed.
     pub fn rpm(&self) -> Option<f64> {
         let now = self.in_force();
         let turns = now.turn.is_some_and(|turn| turn != SpindleTurn::Off) && now.css != Some(true);

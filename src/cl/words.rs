@@ -1,4 +1,4 @@
-//! The words of a statement: numbers, names, and places left empty.
+//! The words of a statement: numbers, names, and empty fields.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ pub(super) enum Word {
     Number(f64),
     /// A name in capitals, or quoted text.
     Name(String),
-    /// Nothing between two commas.
+    /// An empty field between two commas.
     Null,
 }
 
@@ -37,13 +37,13 @@ impl fmt::Display for Word {
     }
 }
 
-/// Words that are all numbers.
+/// The numbers, if all words are numbers.
 pub(super) fn numbers(words: &[Word]) -> Option<Vec<f64>> {
     words.iter().map(Word::number).collect()
 }
 
-/// The words of a statement; slashes, commas and parentheses part them, blanks count nowhere outside quotes.
-/// `Err`: a number that is not finite.
+/// Splits a statement into words at slashes, commas and parentheses. Spaces are ignored outside quotes. `Err`: a number that is
+/// not finite.
 pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
     let (mut list, mut word, mut quoted, mut after_comma) = (Vec::new(), String::new(), false, false);
     for &byte in text.iter().chain(b"\n") {
@@ -74,7 +74,7 @@ fn one(word: &str) -> Result<Word, String> {
     }
 }
 
-/// The numbers of a plain `GOTO/x,y,z[,i,j,k]`, which most of a file is; anything else is left to [`words`].
+/// The numbers of a plain `GOTO/x,y,z[,i,j,k]`, the most frequent statement. Other statements are left to [`words`].
 #[inline]
 pub(super) fn plain_goto(line: &[u8]) -> Option<([f64; 7], usize)> {
     let rest = line.trim_ascii_start().strip_prefix(b"GOTO")?;
@@ -100,7 +100,8 @@ fn blanks(mut text: &[u8]) -> &[u8] {
     text
 }
 
-/// A decimal of at most 15 digits: its digits and its power of ten are exact doubles, so one division gives the nearest.
+/// Parses a decimal number of at most 15 digits. Its digits and its power of ten are exact doubles, so that one division gives
+/// the nearest double.
 #[inline]
 fn number(text: &[u8]) -> Option<(f64, &[u8])> {
     let (negative, mut rest) = match text {
@@ -161,7 +162,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// The short way reads what the long way reads.
+        /// The fast parser gives the same result as the general one.
         #[test]
         fn both_ways_read_the_same(text in "[+-]?[0-9]{1,9}(\\.[0-9]{0,6})?|[+-]?\\.[0-9]{1,12}") {
             let line = format!("GOTO/{text}");

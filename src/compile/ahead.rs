@@ -1,4 +1,4 @@
-//! What a form says of the job's end, where some of its properties are known before the job is.
+//! Values in a form that are known only at the end of a job, if some of its properties are known before the job.
 
 use std::ops::Range;
 
@@ -7,20 +7,20 @@ use super::routine::{Branch, Node, Routine};
 use crate::lang::{AHEAD, Coolant, TOOLS_AHEAD, TextId, VarId, VarSet};
 use crate::sema::{PropertyKind, PropertyValue, Target, Values};
 
-/// Values of properties that nothing changes any more, by their rows.
+/// Values of properties that nothing changes any more, by row.
 pub type Fixed = [(u16, PropertyValue)];
 
-/// What a form asks of a job that only its end tells.
+/// Values in a form that are known only at the end of the job.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Asks {
-    /// Lists, extents, sums.
+    /// Lists, extents or sums.
     pub all: bool,
-    /// Which tools come next.
+    /// The tools that come next.
     pub tools: bool,
 }
 
 impl Program {
-    /// What it says of a job that only the job's end tells, while these properties have these values.
+    /// The values in the form that are known only at the end of the job, if the properties have these fixed values.
     pub fn asks_ahead(&self, fixed: &Fixed) -> Asks {
         let lists = self.ops.iter().any(|op| matches!(op, Op::List { .. }));
         let asks = |vars: VarSet, lists: bool| Asks { all: lists || vars.meets(AHEAD), tools: vars.meets(TOOLS_AHEAD) };
@@ -36,17 +36,17 @@ impl Program {
     }
 }
 
-/// The properties that are known.
+/// The known properties.
 struct Known<'k> {
     program: &'k Program,
     fixed: &'k Fixed,
 }
 
 impl Known<'_> {
-    /// A value; `None` also where the form sets it.
+    /// The value of a property; `None` if it is unknown, or if the form sets it.
     fn get(&self, row: u16) -> Option<&PropertyValue> {
         let set = self.program.sets.iter().any(|(target, _)| *target == Target::Property(row));
-        // a length counts in the units of the program, which are the job's
+        // a length is in the units of the program, which depend on the job
         let length = self.program.settings.properties[usize::from(row)].kind == PropertyKind::Length;
         let fixed = self.fixed.iter().rev().find(|(own, _)| *own == row && !set && !length);
         fixed.map(|(_, value)| value)
@@ -75,7 +75,7 @@ impl Values for Known<'_> {
     }
 }
 
-/// Gathers what the branches ask that may be taken.
+/// Collects the values used by all branches that may be taken.
 struct Walk<'w> {
     program: &'w Program,
     known: Known<'w>,
@@ -91,7 +91,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A part of a sequence: its nodes, and the operations around their branches.
+    /// Collects from a part of a sequence: its nodes, and the operations around their branches.
     fn part(&mut self, ops: &Range<usize>, nodes: &[Node]) {
         let mut at = ops.start;
         for node in nodes {

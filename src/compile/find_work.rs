@@ -1,4 +1,4 @@
-//! Finds the words by which a form selects its work offset.
+//! Finds the words with which a form selects its work offset.
 
 use std::ops::Range;
 
@@ -8,15 +8,16 @@ use crate::control::{Code, Group, Meaning};
 use crate::lang::{SequenceId, VarId, VarSet};
 use crate::nc::{Kind, tokens};
 
-/// A word that may say the offset.
+/// A word that may select the offset.
 struct Found {
     op: usize,
     word: WorkWord,
-    /// A code, or the parameter of one that selects offsets; a word of its own; a value after a text. Only the best of these in a form counts.
+    /// 0: a code, or the parameter of a code that selects offsets. 1: a word of its own. 2: a value after a text. Only the words
+    /// with the lowest rank in a form are used.
     rank: u8,
 }
 
-/// How a form prints its work offset. The tool changes come first.
+/// Finds the work offset words of a form. Those in the tool changes come first.
 pub(super) fn find_work(program: &Program) -> WorkWords {
     let is_line = |at: usize| program.ops.get(at).is_none_or(|op| matches!(op, Op::Line { .. }));
     let mut found = Vec::new();
@@ -58,7 +59,7 @@ pub(super) fn find_work(program: &Program) -> WorkWords {
     words
 }
 
-/// The lines of `MoreWork`.
+/// The rows of `MoreWork`.
 fn more_words(program: &Program) -> Vec<(f64, WorkWord, f64)> {
     let first = program.settings.work;
     let more = program.settings.more_work.iter().map(|more| {
@@ -73,7 +74,7 @@ const BY_CODE: u8 = 0;
 const OF_ITS_OWN: u8 = 1;
 const BEHIND_TEXT: u8 = 2;
 
-/// The words of one block, unless they are arguments there.
+/// Finds the words of one block, unless they are arguments.
 fn in_block(block: Range<usize>, program: &Program, found: &mut Vec<Found>) {
     let control = program.settings.codes();
     let own = VarSet::of(&[VarId::Work]);

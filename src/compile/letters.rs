@@ -1,16 +1,16 @@
-//! What a form says of each letter: its format, the letter it prints as, its sign, its modality.
+//! Properties of each letter in a form: its format, printed letter, sign and modality.
 
 use crate::number::LetterFormat;
 use crate::sema::{Form, Settings};
 
-/// What a letter stands for, as far as modality cares.
+/// Kind of a letter, as needed for modality.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LetterKind {
     /// The position of an axis.
     Axis,
-    /// G codes: registers are modal groups.
+    /// G codes: each modal group has a register.
     GCode,
-    /// M codes: likewise.
+    /// M codes: each modal group has a register.
     MCode,
     /// Any other value.
     Other,
@@ -21,7 +21,7 @@ pub enum LetterKind {
 pub struct Letter {
     /// The format of numbers after this letter.
     pub format: LetterFormat,
-    /// The form gives that format; else it is a built-in one.
+    /// The format is from the form; otherwise it is a built-in one.
     pub has_format: bool,
     /// The letter that is printed (`Rename`).
     pub printed: u8,
@@ -29,9 +29,9 @@ pub struct Letter {
     pub dummy: bool,
     /// The sign is reversed (`RevSigns`).
     pub reversed: bool,
-    /// Motion blocks may drop it when it did not change (`ModalLetters`).
+    /// Motion blocks may leave it out if its value did not change (`ModalLetters`).
     pub modal: bool,
-    /// What the letter stands for.
+    /// Kind of the letter.
     pub kind: LetterKind,
 }
 
@@ -41,7 +41,7 @@ pub struct LetterTable {
     rows: [Letter; 128],
     /// The format of a value without a letter.
     pub bare: LetterFormat,
-    /// Packed words by letter: what `[tparams]` prints without a value.
+    /// Packed words by letter: the digits that `[tparams]` prints if it has no value.
     pub packed: Vec<(u8, String)>,
 }
 
@@ -65,10 +65,11 @@ const BUILT_IN: &[(&[u8], &str, &str)] = &[
     (b"HDOLN:", ">6", ">6"),
 ];
 
-/// Every other letter, and values without one.
+/// Format of all other letters, and of values without a letter.
 const ANY: (&str, &str) = ("->6~>4", "->6~>4");
 
-/// Values after a text, in a language whose cycles take their words so: levels and pitches that are added and multiplied.
+/// Format of values after a text, for languages whose cycles consist of such words. Levels and pitches are added and multiplied
+/// there.
 const FINE: &str = "->6~>6";
 
 impl LetterTable {

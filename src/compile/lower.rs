@@ -1,4 +1,4 @@
-//! Lowering: lines of words become operations.
+//! Lowering: converts lines of words to operations.
 
 use super::find_work::find_work;
 use super::letters::LetterTable;
@@ -79,7 +79,7 @@ fn speaks_g(program: &Program) -> bool {
     generated || program.literals.iter().any(motion)
 }
 
-/// Do sequences of parts of the path type both M3 or M4 and M5, or does a sequence of moves print the speed?
+/// Do sequences for parts of the path type M3 or M4 and also M5, or does a sequence of moves print the speed?
 fn switches_spindle(program: &Program) -> bool {
     use SequenceId as S;
     const PARTS: [SequenceId; 14] = [
@@ -129,7 +129,7 @@ fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Routine {
     routine
 }
 
-/// The lines of a body, `count` of which print at the first hole only.
+/// Lowers the lines of a body. The first `count` lines print at the first hole only.
 fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: Option<usize>, span: Span) -> Routine {
     let start = program.ops.len();
     let flow = match steps {
@@ -145,7 +145,7 @@ fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: O
     routine
 }
 
-/// A routine that nobody has looked at.
+/// A routine without results of the analysis.
 fn routine(ops: Range<usize>, flow: Option<Arc<Flow>>, count: Option<usize>, span: Span) -> Routine {
     Routine {
         repeat: ops.start,
@@ -182,7 +182,7 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
                 program.ops.push(Op::List { index });
                 program.spans.push(*span);
                 let start = program.ops.len();
-                // its place is kept for it: lists inside it come after
+                // reserves the row: lists inside this one get later rows
                 program.lists.push(List { each: *each, routine: routine(start..start, None, None, *span) });
                 let inner = lower_steps(program, lines, steps, branches);
                 let ops = start..program.ops.len();
@@ -209,14 +209,14 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
     nodes
 }
 
-/// Adds what is asked, and returns its row.
+/// Adds a formula that is evaluated, and returns its row.
 fn asked(program: &mut Program, formula: &Formula) -> u32 {
     program.texts_printed = program.texts_printed.with(formula.texts());
     program.asked = program.asked.with(formula.vars());
     push(&mut program.formulas, formula.clone())
 }
 
-/// Adds what is printed, and returns its row.
+/// Adds a formula that is printed, and returns its row.
 fn formula(program: &mut Program, formula: &Formula) -> u32 {
     program.printed = program.printed.with(formula.vars());
     asked(program, formula)
@@ -266,7 +266,7 @@ fn push<T>(table: &mut Vec<T>, item: T) -> u32 {
     (table.len() - 1) as u32
 }
 
-/// No G or M code but G0 to G3.
+/// Is the word either no G or M code, or one of G0 to G3?
 fn is_motion_or_no_code(word: &WordKind) -> bool {
     match word {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),

@@ -1,4 +1,4 @@
-//! From a checked form to a flat program: one array of small operations, run for each event.
+//! Compiles a checked form to a flat program: an array of small operations that runs for each event.
 
 mod ahead;
 mod find_work;

@@ -11,15 +11,15 @@ use crate::sema::{Formula, Settings, Target};
 use crate::source::Source;
 use crate::span::Span;
 
-/// How much of a form's hash is printed.
+/// Number of bytes of a form's hash that are printed.
 const HASH_BYTES: usize = 6;
 
-/// One operation. Small, because a long job runs them by the hundred million.
+/// One operation. It is small, because a long job executes hundreds of millions of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Op {
-    /// A line begins. `droppable`: it has no code but G0 to G3, so a cycle may drop its unchanged words.
+    /// Start of a line. `droppable`: the line has no codes except G0 to G3, so that a cycle may leave out its unchanged words.
     Line {
-        /// See above.
+        /// See the variant.
         droppable: bool,
     },
     /// A letter and a variable's value.
@@ -28,42 +28,42 @@ pub enum Op {
         letter: u8,
         /// The variable.
         var: VarId,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
     /// A variable's value alone.
     Value {
         /// The variable.
         var: VarId,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
-    /// A variable's value inside a comment of the program: no control reads it.
+    /// A variable's value inside a comment of the program, which the control ignores.
     Remark {
         /// The variable.
         var: VarId,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
     /// A letter and a number as typed.
     Literal {
         /// Row in [`Program::literals`].
         index: u32,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
     /// Text as typed.
     Text {
         /// Row in [`Program::texts`].
         index: u32,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
-    /// Text in backquotes, which nothing changes.
+    /// Text in backquotes, which is never changed.
     Quote {
         /// Row in [`Program::texts`].
         index: u32,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
     /// A letter and a calculated value.
@@ -72,24 +72,24 @@ pub enum Op {
         letter: u8,
         /// Its row in [`Program::formulas`].
         index: u32,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
     /// A calculated value alone.
     ValueFormula {
         /// Its row in [`Program::formulas`].
         index: u32,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
     /// A calculated value inside a comment of the program.
     RemarkFormula {
         /// Its row in [`Program::formulas`].
         index: u32,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
-    /// A variable of the form has another value from here on.
+    /// `@set`: a variable or property gets a value.
     Set {
         /// Its row in [`Program::sets`].
         index: u32,
@@ -98,12 +98,12 @@ pub enum Op {
     PropertyText {
         /// Its row in the settings.
         row: u16,
-        /// In a comment, which holds more characters than words do.
+        /// In a comment, where more characters are allowed than in words.
         in_comment: bool,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
-    /// What follows is a list: a row of [`Program::lists`].
+    /// A list follows: a row of [`Program::lists`].
     List {
         /// The row.
         index: u32,
@@ -112,14 +112,14 @@ pub enum Op {
     TextVar {
         /// Which.
         var: TextVar,
-        /// In a comment, which holds more characters than words do.
+        /// In a comment, where more characters are allowed than in words.
         in_comment: bool,
-        /// No blank before it.
+        /// No space before it.
         glued: bool,
     },
-    /// A comment begins that holds texts of the job: where all of them are empty it is left out.
+    /// Start of a comment with texts of the job. The comment is left out if all of them are empty.
     Comment {
-        /// How many operations it has.
+        /// Number of its operations.
         words: u32,
     },
 }
@@ -133,23 +133,23 @@ pub struct Literal {
     pub text: String,
     /// The number after the letter.
     pub value: f64,
-    /// The code that it prints, if it is one.
+    /// The printed code, if the word is one.
     pub code: Option<Code>,
 }
 
 /// Lines that print once for each tool, operation or work offset.
 #[derive(Clone, Debug)]
 pub struct List {
-    /// What it goes through.
+    /// Kind of the items.
     pub each: Each,
-    /// What it prints for one of them.
+    /// Output for one item.
     pub routine: Routine,
 }
 
-/// How a canned cycle prints (render.md section 3).
+/// Printing style of a canned cycle (render.md section 3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CycleStyle {
-    /// One line, `End Cancel`: later holes print what changed.
+    /// One line, `End Cancel`: later holes print only the changes.
     Machine,
     /// One line, plain `End`: the whole line at every hole.
     WholeLine,
@@ -175,27 +175,27 @@ pub struct Upon {
 /// A compiled form. It is immutable; many renderers may share it.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// What the commands say.
+    /// Settings from the commands.
     pub settings: Settings,
     /// All operations.
     pub ops: Vec<Op>,
-    /// The place of each operation; read on errors and for the source map only.
+    /// Location of each operation in the form; used only for errors and the source map.
     pub spans: Vec<Span>,
     /// Literal words.
     pub literals: Vec<Literal>,
     /// Texts.
     pub texts: Vec<String>,
-    /// What is calculated: values and conditions.
+    /// Formulas of values and conditions.
     pub formulas: Vec<Formula>,
-    /// What `@set` gives values: the variable or property, and the value's row in `formulas`.
+    /// The `@set` directives: the variable or property, and the row of its value in `formulas`.
     pub sets: Vec<(Target, u32)>,
-    /// What `@for` goes through.
+    /// The lists of `@for`.
     pub lists: Vec<List>,
-    /// The texts of the job that the form prints anywhere.
+    /// The texts of the job that the form uses anywhere.
     pub texts_printed: TextSet,
-    /// Name of the form: as it says, else as its file is called.
+    /// Name of the form: from `Name`, else from its file.
     pub name: String,
-    /// What tells it from other forms, where it prints that.
+    /// Hash of the form, if the form prints it.
     pub hash: String,
     /// The sequences, by [`SequenceId`].
     pub(super) routines: Vec<Option<Routine>>,
@@ -205,17 +205,17 @@ pub struct Program {
     pub upon_vars: VarSet,
     /// The variables that the form prints anywhere.
     pub printed: VarSet,
-    /// The variables that conditions and calculations ask.
+    /// The variables in conditions and calculations.
     pub asked: VarSet,
-    /// The form says motions by G codes: its sequences type G0 to G3, or blocks of moves are generated.
+    /// The form uses G codes for motions: its sequences type G0 to G3, or blocks of moves are generated.
     pub speaks_g: bool,
-    /// The form's own sequences switch the spindle along the path (torch, laser): none is generated between them.
+    /// The form's own sequences switch the spindle along the path (torch, laser), so that no spindle codes are generated.
     pub switches_spindle: bool,
-    /// How the form prints its work offset, and which operations do.
+    /// The form's work offset words, and the operations that print them.
     pub work: WorkWords,
-    /// What the form says of each letter, for programs in inches and in millimetres.
+    /// Letters of the form, for programs in inches and in millimetres.
     pub letters: [LetterTable; 2],
-    /// Remarks of the Custom cycles: the kind that each serves.
+    /// Comments of the Custom cycles; each names the kind of cycle.
     pub custom: [Option<String>; 3],
 }
 
@@ -226,12 +226,12 @@ impl Program {
         self.routines[id as usize].as_ref()
     }
 
-    /// The variables whose values it prints or asks for.
+    /// The variables that the form prints, evaluates or watches.
     pub fn used(&self) -> VarSet {
         self.printed.with(self.asked).with(self.upon_vars)
     }
 
-    /// Gives it its name and what tells it from other forms, from its files: the form first, then those that it calls.
+    /// Sets the name and the hash from the files of the form: the form itself first, then those that it calls.
     #[must_use]
     pub fn identified(mut self, files: &[Source]) -> Program {
         self.name.clone_from(&self.settings.name);

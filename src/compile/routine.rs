@@ -1,4 +1,4 @@
-//! A sequence's operations, and the ways through them.
+//! The operations of a sequence, and its branches.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,71 +13,71 @@ use crate::span::Span;
 /// A sequence's operations.
 #[derive(Clone, Debug)]
 pub struct Routine {
-    /// Which part of [`Program::ops`].
+    /// Range in [`Program::ops`].
     pub ops: Range<usize>,
-    /// Parts of `ops` that this way through the sequence leaves out, in their order.
+    /// Parts of `ops` that belong to branches that were not taken, in order.
     pub left_out: Option<Arc<[Range<usize>]>>,
-    /// Which branches this way takes, a bit each; none: all ways together.
+    /// The branches that were taken, one bit each. 0 before the selection: all branches together.
     pub branches: u128,
-    /// Where directives say which lines print.
+    /// The branches of the sequence; `None` if it has no directives.
     pub flow: Option<Arc<Flow>>,
-    /// How many lines of a cycle print at its first hole only, if it has a count.
+    /// Number of lines that a cycle prints at its first hole only, if it has a count.
     pub count: Option<usize>,
-    /// Where the lines begin that an advanced cycle repeats; else the start.
+    /// Start of the lines that an advanced cycle repeats; otherwise the start of the sequence.
     pub repeat: usize,
     /// The variables it prints outside comments.
     pub vars: VarSet,
     /// The texts of the job that it prints.
     pub texts: TextSet,
-    /// What the values are made of that a cycle prints at its first hole only.
+    /// Variables and properties in the words that a cycle prints at its first hole only.
     pub first_only: Sources,
     /// `End Cancel`.
     pub cancel: bool,
-    /// The lines leave the control in a cycle, a macro or another motion of its own.
+    /// At the end of the lines the control is in a cycle, a macro or another motion of its own.
     pub stays: bool,
-    /// How the routine prints as a cycle.
+    /// Printing style as a cycle.
     pub style: CycleStyle,
-    /// The routine prints `[retplane]`, `[rplane]` or G98: the tool comes back to the return plane.
+    /// The routine prints `[retplane]`, `[rplane]` or G98, so that the tool returns to the return plane.
     pub returns: bool,
     /// The name line.
     pub span: Span,
 }
 
-/// The ways through a sequence.
+/// The branches of a sequence.
 #[derive(Clone, Debug)]
 pub struct Flow {
-    /// Its parts in their order.
+    /// Its parts in order.
     pub nodes: Vec<Node>,
 }
 
 /// A part of a sequence.
 #[derive(Clone, Debug)]
 pub enum Node {
-    /// A variable gets a value, which conditions after it ask.
+    /// A variable gets a value; later conditions may use it.
     Set(Target, u32),
-    /// The first branch whose condition holds.
+    /// Branches: the first one whose condition is true is taken.
     If(Vec<Branch>),
-    /// A list by its row in [`Program::lists`], and its operations, which have a routine of their own.
+    /// A list: its row in [`Program::lists`], and its operations, which have their own routine.
     List(u32, Range<usize>),
 }
 
 /// A branch.
 #[derive(Clone, Debug)]
 pub struct Branch {
-    /// Its bit.
+    /// Number of its bit.
     pub number: u32,
-    /// Its row in [`Program::formulas`]; `None`: else.
+    /// Row of its condition in [`Program::formulas`]; `None`: `@else`.
     pub condition: Option<u32>,
-    /// Which operations it has.
+    /// Range of its operations.
     pub ops: Range<usize>,
-    /// What is in it.
+    /// Its parts.
     pub nodes: Vec<Node>,
     /// The directive.
     pub span: Span,
 }
 
 impl Routine {
-    /// Does it print this variable, or ask it in a condition?
+    /// Does it print this variable, or use it in a condition?
     pub fn asks(&self, var: VarId, program: &Program) -> bool {
         fn of(nodes: &[Node], var: VarId, program: &Program) -> bool {
             nodes.iter().any(|node| match node {
@@ -91,7 +91,7 @@ impl Routine {
         self.vars.has(var) || self.flow.as_ref().is_some_and(|flow| of(&flow.nodes, var, program))
     }
 
-    /// What its operations say together.
+    /// Computes the properties of all its operations together.
     pub(super) fn look_at(&mut self, program: &Program) {
         let (mut vars, mut texts) = (VarSet::default(), TextSet::default());
         let (mut lines, mut returns, mut stays) = (0, false, false);
@@ -113,7 +113,7 @@ impl Routine {
                 let literal = &program.literals[index as usize];
                 returns |= literal.letter == b'G' && literal.value == program.settings.return_plane[1];
             }
-            // the last code that says whether the control moves by itself counts
+            // the last code decides: one that moves by itself, or one that ends this
             if let Some(code) = typed_code(op, program) {
                 let moves = control.moves_by_itself(code);
                 if moves || control.meaning(code).is_some_and(Meaning::ends_cycle) {
@@ -133,7 +133,7 @@ impl Routine {
         self.first_only = of_first_hole(steps, self.count.is_some());
     }
 
-    /// The way that takes these branches.
+    /// The routine with only these branches.
     pub fn way(&self, branches: u128, program: &Program) -> Routine {
         let mut left_out = Vec::new();
         if let Some(flow) = &self.flow {
@@ -150,7 +150,7 @@ impl Routine {
         self.steps_in(self.ops.clone())
     }
 
-    /// Those of its operations that lie in this part.
+    /// Its operations inside this range.
     #[inline]
     pub fn steps_in(&self, part: Range<usize>) -> Steps<'_> {
         let left_out = self.left_out.as_deref().unwrap_or_default();
@@ -158,7 +158,7 @@ impl Routine {
     }
 }
 
-/// The operations of a routine by their places.
+/// Iterates over the indices of a routine's operations.
 #[derive(Clone, Debug)]
 pub struct Steps<'r> {
     left: Range<usize>,
@@ -191,7 +191,7 @@ impl DoubleEndedIterator for Steps<'_> {
     }
 }
 
-/// The operations of branches that are not taken.
+/// Collects the operations of branches that are not taken.
 fn leave_out(nodes: &[Node], branches: u128, left_out: &mut Vec<Range<usize>>) {
     for node in nodes {
         let all = match node {
@@ -221,7 +221,7 @@ fn vars_of(op: Op, program: &Program) -> VarSet {
     }
 }
 
-/// The G or M code that an operation types; after the slash of block delete, too.
+/// The typed G or M code of an operation, also after the slash of block delete.
 fn typed_code(op: Op, program: &Program) -> Option<Code> {
     match op {
         Op::Literal { index, .. } => {
@@ -237,7 +237,7 @@ fn typed_code(op: Op, program: &Program) -> Option<Code> {
     }
 }
 
-/// What a step prints or sets of what its values are made of; `None`: nothing.
+/// The step of an operation that prints or sets a value; `None` for other operations.
 fn step(op: Op, program: &Program) -> Option<Step<'_>> {
     let printed = |letter: u8| program.letters[0][letter].printed;
     let formula = |index: u32| &program.formulas[index as usize];

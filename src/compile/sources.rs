@@ -1,19 +1,19 @@
-//! What the values of a sequence are made of: variables and properties of the form, also through what its directives set.
+//! The variables and properties that the values of a sequence depend on, also through `@set`.
 
 use crate::lang::{VarId, VarSet};
 use crate::sema::{Formula, Target};
 
-/// What values are made of.
+/// Variables and properties that a value depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sources {
     /// Variables.
     pub vars: VarSet,
-    /// Properties of the form, a bit for each row: a form has at most 64.
+    /// Properties of the form, one bit for each row: a form has at most 64.
     properties: u64,
 }
 
 impl Sources {
-    /// Either's.
+    /// The union of both.
     #[must_use]
     fn with(self, other: Sources) -> Sources {
         Sources { vars: self.vars.with(other.vars), properties: self.properties | other.properties }
@@ -28,7 +28,7 @@ impl Sources {
         }
     }
 
-    /// Is there none?
+    /// Is the value constant?
     #[inline]
     pub fn is_empty(self) -> bool {
         self == Sources::default()
@@ -40,12 +40,12 @@ impl Sources {
     }
 }
 
-/// What the directives of a sequence have set so far, and of what.
+/// Targets of `@set` in a sequence so far, with the sources of their values.
 #[derive(Default)]
 struct Carried(Vec<(Target, Sources)>);
 
 impl Carried {
-    /// A value that was set is made of what it was calculated from.
+    /// The sources of a variable or property: if it was set, those of the assigned value.
     fn of(&self, target: Target) -> Sources {
         let set = self.0.iter().rfind(|(own, _)| *own == target);
         set.map_or_else(|| Sources::of(target), |(_, sources)| *sources)
@@ -70,19 +70,19 @@ impl Carried {
     }
 }
 
-/// What a step of a sequence prints, by the letter that is printed ([`BARE`] for none), or sets.
+/// A step of a sequence: a printed value with its printed letter ([`BARE`] for none), or an assignment.
 pub(super) enum Step<'p> {
     Sets(Target, &'p Formula),
     Var(u8, VarId),
     Formula(u8, &'p Formula),
 }
 
-/// A value without a letter.
+/// Placeholder letter of a value without a letter.
 pub(super) const BARE: u8 = b' ';
 
-/// What the values are made of that a cycle prints at its first hole only: those of its counted lines, or, where it is one
-/// line, those without a letter. A word that its other lines print as well is said at every hole. `steps`: those of the
-/// cycle's sequence, each with whether it stands in a line for every hole; `counted`: some do not.
+/// The sources of words that a cycle prints at its first hole only. In a cycle with a count these are the words of the counted
+/// lines; in a cycle of one line, the values without a letter. A word that the other lines print too does not count. `steps`: the
+/// steps of the cycle's sequence, each with whether its line prints at every hole; `counted`: the cycle has a count.
 pub(super) fn of_first_hole<'p>(steps: impl Iterator<Item = (Step<'p>, bool)>, counted: bool) -> Sources {
     let mut carried = Carried::default();
     let (mut first, mut again) = (Vec::new(), Vec::new());

@@ -1,48 +1,49 @@
-//! How a form prints a work offset: by G codes, by words of its own, whose values may be calculated, or after a text.
+//! Printing of a work offset: by G codes, by words of the form's own (possibly calculated), or after a text.
 
 use crate::control::{Code, Control, Group, WorkOffset};
 use crate::lang::{VarId, additional_work};
 use crate::sema::{Formula, Values};
 
-/// One way in which a form prints its work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, `[work]` after a text.
+/// A format for the work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, or `[work]` after a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkWord {
     /// The G code before it in its block.
     pub code: Option<Code>,
-    /// The letter of the word; `None`: the value is printed after a text.
+    /// The letter of the word; `None`: a value after a text.
     pub letter: Option<u8>,
     /// The value is the number of a G code.
     pub is_code: bool,
-    /// How the form makes its value, as `[work-53]`; `None`: it is the job's.
+    /// Calculation of the value, as `[work-53]`; `None`: the job's value is printed.
     pub(super) calculated: Option<Formula>,
 }
 
-/// How a form prints its work offset, and where. An argument of a macro, of a subprogram or of G10 is none of it.
+/// All formats of a form for the work offset, and the operations that print it. Arguments of macros, subprograms and G10 are not
+/// included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkWords {
-    /// The ways, those of the tool changes first; none: G codes say it, or nothing.
+    /// The formats; those of the tool changes come first. Empty: G codes, or no work offset at all.
     pub ways: Vec<WorkWord>,
-    /// The operations that say it, in their order.
+    /// The operations that print the work offset, in order.
     pub(super) says: Vec<usize>,
-    /// What `G[work]` prints for further fixtures: the first value of `[work]`, its words, and the number of their last one.
+    /// Words of `G[work]` for further fixtures: the first value of `[work]`, the words, and the number of the last one.
     pub(super) more: Vec<(f64, WorkWord, f64)>,
-    /// G54 to G59 select offsets beside words of the form's own. Not where such a word has another code: G56 of an Okuma, which
-    /// has G15, is a length.
+    /// G54 to G59 select offsets besides the form's own words. False if such a word follows another code: on an Okuma with G15,
+    /// G56 is a length.
     pub shares_its_codes: bool,
 }
 
 impl WorkWords {
-    /// Does this operation say the work offset?
+    /// Does this operation print the work offset?
     pub fn says(&self, op: usize) -> bool {
         self.says.binary_search(&op).is_ok()
     }
 
-    /// Do G codes alone say it, so that each of them is one?
+    /// Is the work offset printed only by G codes, so that each such code is an offset?
     pub fn by_code(&self) -> bool {
         self.ways.is_empty() || self.ways.iter().any(|way| way.is_code)
     }
 
-    /// How an offset is said: the first way for which the control has such an offset, and the value of its word.
+    /// The first format that is possible on the control for this offset, and the value of its word.
     pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
         if let Some((word, value)) = values.number(VarId::Work).and_then(|work| self.more(work)) {
             return word.has(value, control).then_some((word, value));
@@ -62,7 +63,7 @@ impl WorkWords {
         Some((word, number + (work - first)))
     }
 
-    /// What a program calls the offset that the form prints so: its code, its number, or the name of an additional one.
+    /// The identifier of the printed offset in a program: its code, its number, or the name of an additional offset.
     pub fn name(&self, values: &dyn Values, control: &Control) -> Option<f64> {
         let (way, value) = self.way(values, control)?;
         Some(match way.is_code {
@@ -73,7 +74,7 @@ impl WorkWords {
     }
 }
 
-/// What a program calls the offset that this G code selects: a control may have several codes for one.
+/// The identifier of the offset that a G code selects. A control may have several codes for one offset.
 fn code_of_work(value: f64, control: &Control) -> Option<f64> {
     match control.row(Code::of(b'G', value)?)?.runs.work? {
         WorkOffset::Usual(tenths) => Some(f64::from(tenths) / 10.0),
@@ -83,23 +84,23 @@ fn code_of_work(value: f64, control: &Control) -> Option<f64> {
 }
 
 impl WorkWord {
-    /// Is it the parameter of a code that selects additional offsets?
+    /// Is the word a parameter of a code that selects additional offsets?
     fn is_parameter(&self, control: &Control) -> bool {
         !self.is_code && self.code.is_some_and(|code| control.group(code) == Some(Group::Work))
     }
 
-    /// Is it the parameter of a code that selects offsets beside those that have codes of their own?
+    /// Is the word a parameter of a code that selects offsets besides those with codes of their own?
     fn is_additional(&self, control: &Control) -> bool {
         let row = self.code.and_then(|code| control.row(code));
         self.is_parameter(control) && !matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
     }
 
-    /// Does the control have such an offset, as far as that is known?
+    /// Does the control have this offset, as far as is known?
     fn has(&self, value: f64, control: &Control) -> bool {
         match self.is_code {
             true => Code::of(b'G', value).is_some_and(|code| control.group(code) == Some(Group::Work)),
             false if self.is_parameter(control) => value >= 1.0 && value.fract() == 0.0,
-            // E19 of a control that has E1 to E18
+            // E19 on a control with E1 to E18
             false => {
                 let traits = control.traits();
                 let most = traits.most_work.filter(|_| self.code.is_none() && self.letter == traits.work_letter);

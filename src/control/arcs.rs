@@ -1,29 +1,29 @@
-//! How exactly the words of an arc must agree.
+//! Tolerances for the words of an arc.
 
 use serde::Deserialize;
 
-/// How far an arc's numbers may be from one circle.
+/// How far the numbers of an arc may deviate from one circle.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tolerance {
-    /// The end may always be so far off the circle of the start, a length.
+    /// Distance from the circle of the start up to which the end is always accepted, a length.
     pub least: f64,
-    /// How far off the end may be as a part of the radius.
+    /// Allowed distance of the end from the circle, as a fraction of the radius.
     pub part: f64,
-    /// How far off the end may be whatever the radius, a length.
+    /// Distance of the end from the circle above which the arc is always refused, a length.
     pub most: f64,
-    /// How much longer than R half the distance of the ends may be, a length.
+    /// Amount by which half the distance of the ends may be greater than R, a length.
     pub chord: f64,
 }
 
 impl Tolerance {
-    /// Are they lengths?
+    /// Whether all values are valid lengths.
     pub fn is_possible(&self) -> bool {
         let Tolerance { least, part, most, chord } = *self;
         [least, part, most, chord].iter().all(|length| length.is_finite() && *length >= 0.0) && least <= most
     }
 
-    /// Is a circle that begins at one radius and ends at the other no circle?
+    /// Whether an arc with these radii at its start and end is refused.
     pub fn refuses(&self, start: f64, end: f64) -> bool {
         let off = (start - end).abs();
         off > self.most || (off > self.least && off > self.part * start)
@@ -35,7 +35,7 @@ impl Tolerance {
 pub struct Arcs {
     /// In millimetres.
     pub mm: Tolerance,
-    /// In inches; not said: the same lengths as in millimetres.
+    /// In inches; `None`: the same lengths as in millimetres.
     pub inch: Option<Tolerance>,
 }
 

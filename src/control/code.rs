@@ -3,12 +3,12 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A code. Codes are compared as whole numbers of tenths, so `G59.1` is no rounded `G59`.
+/// A code. Codes are compared in whole tenths, so `G59.1` is never rounded to `G59`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code {
-    /// `G` or `M`; a command of a form may name another.
+    /// `G` or `M`; a command of a form may have another letter.
     pub letter: u8,
-    /// Ten times its number.
+    /// Ten times the number.
     pub tenths: u16,
 }
 
@@ -23,7 +23,8 @@ impl Code {
         Code { letter: b'M', tenths: number * 10 }
     }
 
-    /// The code of a word's letter and value; `None`: it has another letter, a sign, or more than one decimal.
+    /// The code of a word's letter and value; `None`: the letter is not G or M, the value is negative, or it has more
+    /// than one decimal.
     pub fn of(letter: u8, value: f64) -> Option<Code> {
         let letter = letter.to_ascii_uppercase();
         let tenths = value * 10.0;
@@ -32,7 +33,7 @@ impl Code {
         (is_code && (0.0..=f64::from(u16::MAX)).contains(&whole)).then_some(Code { letter, tenths: whole as u16 })
     }
 
-    /// Is it the G code of this number?
+    /// Whether this is the G code of this number.
     pub fn is_g(self, number: f64) -> bool {
         self.letter == b'G' && self.value() == number
     }
@@ -43,7 +44,7 @@ impl Code {
     }
 }
 
-/// `G0`.
+/// The default is `G0`.
 impl Default for Code {
     fn default() -> Self {
         Code::g(0)
@@ -60,14 +61,14 @@ impl fmt::Display for Code {
     }
 }
 
-/// What is no code.
+/// The error for a text that is not a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoCode;
 
 impl FromStr for Code {
     type Err = NoCode;
 
-    /// `G0`, `G59.1`, `M3`.
+    /// Reads `G0`, `G59.1`, `M3`.
     fn from_str(text: &str) -> Result<Code, NoCode> {
         let letter = *text.as_bytes().first().ok_or(NoCode)?;
         let number = text.get(1..).ok_or(NoCode)?;

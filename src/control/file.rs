@@ -1,4 +1,4 @@
-//! Control files: TOML, read into what a control is. What a file says wrongly is an error with its line and column.
+//! Reads control files, in TOML, into the description of a control. An error in a file has its line and column.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,26 +16,26 @@ use super::traits::{Rules, Traits};
 use super::words::Words;
 use super::{Control, Row, Rows};
 
-/// Longest chain of `like`.
+/// The longest chain of `like`.
 const LONGEST_CHAIN: usize = 8;
 
-/// What is wrong with the file of a control or a machine.
+/// An error in the file of a control or a machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrong {
-    /// The file's name.
+    /// Name of the file.
     pub file: String,
     /// Line and column, from 1.
     pub at: (usize, usize),
-    /// Where the wrong part begins, in bytes.
+    /// Byte where the wrong part begins.
     pub start: usize,
-    /// What, one sentence.
+    /// The problem, in one sentence.
     pub message: String,
-    /// What to write instead; empty where the message says it.
+    /// The correction; empty if the message contains it.
     pub help: String,
 }
 
 impl Wrong {
-    /// What is wrong at a byte of a file's text.
+    /// An error at a byte of a file's text.
     pub(crate) fn at(file: &str, text: &str, at: usize, message: impl Into<String>, help: impl Into<String>) -> Wrong {
         let before = text.get(..at).unwrap_or(text);
         let line = before.matches('\n').count() + 1;
@@ -54,10 +54,10 @@ impl fmt::Display for Wrong {
 
 impl std::error::Error for Wrong {}
 
-/// Finds the control that a file is like, which is so deep in its chain.
+/// Finds the control that a file is `like`. The number is its depth in the chain.
 type Find = dyn Fn(&str, usize) -> Option<Result<Control, Wrong>>;
 
-/// Reads a file's text. `find` gives the control that it is `like`.
+/// Reads the text of a file. `find` returns the control that it is `like`.
 pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<Control, Wrong> {
     let reader = Reader { name, text };
     let file: File = toml::from_str(text).map_err(|error| {
@@ -66,11 +66,12 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     })?;
     let is_run = file.rules != Some(Rules::None);
     if is_run && file.like.is_none() && file.codes.is_empty() {
-        let message = format!("`{}` has no codes: it is like no control, and lists none", file.name.get_ref());
+        let message = format!("`{}` has no codes: it has neither `like` nor [codes]", file.name.get_ref());
         return Err(reader.wrong(
             file.name.span().start,
             message,
-            "write like = \"fanuc\", or the codes under [codes], or rules = \"none\" if its language has no G codes",
+            "write like = \"fanuc\", or write the codes under [codes], or rules = \"none\" if the language has no G \
+             codes",
         ));
     }
     let mut control = match &file.like {
@@ -78,14 +79,14 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
         Some(like) if depth == LONGEST_CHAIN => {
             return Err(reader.wrong(
                 like.span().start,
-                "the chain of `like` comes back to itself",
-                "end it somewhere",
+                "`like` leads in a circle back to this control",
+                "remove one `like` of the circle",
             ));
         }
         Some(like) => match find(like.get_ref(), depth + 1) {
             Some(found) => found?,
             None => {
-                let message = format!("there is no control `{}` to be like", like.get_ref());
+                let message = format!("there is no control `{}`", like.get_ref());
                 let help = format!("one of {}", super::names().collect::<Vec<_>>().join(", "));
                 return Err(reader.wrong(like.span().start, message, help));
             }
@@ -93,26 +94,26 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     };
     control.chain.insert(0, file.name.get_ref().clone());
     control.title = file.title.clone().unwrap_or(control.title);
-    // what is not known of the one that it is like, its own rows may say
+    // not inherited, because the file's own rows may fill these gaps
     control.unknown = file.unknown.clone().unwrap_or_default();
     reader.traits(&file, &mut control.traits)?;
     reader.rows(&file.codes, &mut control.rows)?;
     if !control.is_run() {
-        // the codes of another language would count as words of this one
+        // codes of another language must not be read as words of this control
         control.rows = Rows::default();
     }
     control.rows.finish();
     Ok(control)
 }
 
-/// The text that is being read, for places.
+/// The text that is being read, for the locations of errors.
 struct Reader<'t> {
     name: &'t str,
     text: &'t str,
 }
 
 impl Reader<'_> {
-    /// What the file says of them; the rest stays as in the control that it is like.
+    /// Reads the traits in the file. Others stay as in the control that it is like.
     fn traits(&self, file: &File, traits: &mut Traits) -> Result<(), Wrong> {
         fn take<T: Copy>(to: &mut T, said: Option<T>) {
             *to = said.unwrap_or(*to);
@@ -152,8 +153,8 @@ impl Reader<'_> {
         if let Some(said) =
             [&file.arcs.mm, &file.arcs.inch].into_iter().flatten().find(|said| !said.get_ref().is_possible())
         {
-            let help = "write lengths from 0 on, as { least = 0.005, part = 0.001, most = 0.5, chord = 0 }";
-            return Err(self.wrong(said.span().start, "an arc can't be off by that", help));
+            let help = "write lengths of 0 or more, as { least = 0.005, part = 0.001, most = 0.5, chord = 0 }";
+            return Err(self.wrong(said.span().start, "this is not a valid tolerance of arcs", help));
         }
         if let Some(mm) = &file.arcs.mm {
             traits.arcs = Arcs { mm: *mm.get_ref(), inch: None };
@@ -168,15 +169,15 @@ impl Reader<'_> {
         self.words(text)?;
         match text.get_ref().as_bytes() {
             [letter] => Ok(*letter),
-            _ => Err(self.wrong(text.span().start, "a word has one letter", "write it alone, as \"E\"")),
+            _ => Err(self.wrong(text.span().start, "the letter of a word is one letter", "write one letter, as \"E\"")),
         }
     }
 
-    /// The words of a tap's pitch.
+    /// Reads the words of a tap's pitch.
     fn pitch(&self, said: &Spanned<toml::Value>) -> Result<Vec<Pitch>, Wrong> {
         let wrong = || {
             let help = "write pitch = \"Q\", or pitch = { I = \"mm\", J = \"per-inch\" }";
-            self.wrong(said.span().start, "no letter of a word, and no letters with what they count", help)
+            self.wrong(said.span().start, "not a letter, and not letters with their units", help)
         };
         let letter = |text: &str| match text.as_bytes() {
             [letter @ b'A'..=b'Z'] => Ok(*letter),
@@ -195,12 +196,12 @@ impl Reader<'_> {
         }
     }
 
-    /// The holes that a cycle makes.
+    /// Reads the holes that a cycle makes.
     fn holes(&self, text: &Spanned<String>) -> Result<Vec<Hole>, Wrong> {
         let parse = |word: &str| {
             Hole::parse(word).ok_or_else(|| {
                 let near = super::nearest(word, Hole::ALL.iter().map(|hole| hole.name()));
-                self.wrong(text.span().start, format!("`{word}` is no hole that a cycle makes"), near)
+                self.wrong(text.span().start, format!("`{word}` is not a kind of hole"), near)
             })
         };
         text.get_ref().split_ascii_whitespace().map(parse).collect()
@@ -209,11 +210,11 @@ impl Reader<'_> {
     fn rows(&self, codes: &BTreeMap<Spanned<String>, RowText>, rows: &mut Rows) -> Result<(), Wrong> {
         for (key, row) in codes {
             let Some(parsed) = Key::parse(key.get_ref()) else {
-                let message = format!("`{}` is no code", key.get_ref());
+                let message = format!("`{}` is not a code", key.get_ref());
                 return Err(self.wrong(
                     key.span().start,
                     message,
-                    "write G154, G59.1, G110-G129, `G31.*` for all of a number, or `M*` for all others",
+                    "write G154, G59.1 or G110-G129; `G31.*` is all codes of that number, `M*` is all other M codes",
                 ));
             };
             if row.is.get_ref() == ABSENT {
@@ -223,11 +224,11 @@ impl Reader<'_> {
             let Some(meaning) = Meaning::parse(row.is.get_ref()) else {
                 let names = Meaning::ALL.iter().map(|meaning| meaning.name());
                 let near = crate::control::nearest(row.is.get_ref(), names);
-                let message = format!("`{}` is no meaning of a code", row.is.get_ref());
+                let message = format!("`{}` is not a meaning of a code", row.is.get_ref());
                 return Err(self.wrong(row.is.span().start, message, near));
             };
             if meaning == Meaning::Cycle && row.makes.is_none() && row.not_run.is_none() {
-                let message = format!("`{}` is a cycle, and nothing says which hole it makes", key.get_ref());
+                let message = format!("`{}` is a cycle, but its kind of hole is missing", key.get_ref());
                 let names: Vec<&str> = Hole::ALL.iter().map(|hole| hole.name()).collect();
                 let help = format!("write makes = \"drill\"; the holes are {}", names.join(", "));
                 return Err(self.wrong(row.is.span().start, message, help));
@@ -260,17 +261,21 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// What a row says for the simulator alone.
+    /// Reads the values of a row that only the simulator uses.
     fn runs(&self, row: &RowText, meaning: Meaning, makes: &[Hole]) -> Result<Runs, Wrong> {
         let of_another = |key: &str, at: usize, of: &str| {
-            self.wrong(at, format!("`{key}` is of {of}"), format!("this row means `{}`: take it out", meaning.name()))
+            self.wrong(
+                at,
+                format!("`{key}` belongs to {of}"),
+                format!("this row means `{}`: remove the key", meaning.name()),
+            )
         };
         let motions = match &row.motions {
             None => only_motions(makes),
             Some(text) if meaning != Meaning::Cycle => return Err(of_another("motions", text.span().start, "cycles")),
             Some(text) => Some(Motions::parse(text.get_ref()).ok_or_else(|| {
                 let near = super::nearest(text.get_ref(), Motions::ALL.iter().map(|motions| motions.name()));
-                self.wrong(text.span().start, format!("`{}` are no motions of a cycle", text.get_ref()), near)
+                self.wrong(text.span().start, format!("`{}` is not a kind of cycle motions", text.get_ref()), near)
             })?),
         };
         let work = match &row.work {
@@ -280,8 +285,9 @@ impl Reader<'_> {
             }
             Some(text) => Some(WorkOffset::parse(text.get_ref()).ok_or_else(|| {
                 let help =
-                    "write \"G54\" to \"G59.3\", \"G54.1 P1\" to \"G54.1 P99\", or the letter of its word, \"P\"";
-                self.wrong(text.span().start, format!("`{}` is no work offset", text.get_ref()), help)
+                    "write \"G54\" to \"G59.3\", \"G54.1 P1\" to \"G54.1 P99\", or the letter of the word with its \
+                     number, \"P\"";
+                self.wrong(text.span().start, format!("`{}` is not a work offset", text.get_ref()), help)
             })?),
         };
         let point = match &row.point {
@@ -293,7 +299,7 @@ impl Reader<'_> {
                 return Err(self.wrong(
                     at.span().start,
                     "there are two reference points",
-                    "write 1 as of G28, or 2 as of G30",
+                    "write 1 for the point of G28, or 2 for the point of G30",
                 ));
             }
             Some(at) => Some(*at.get_ref()),
@@ -308,14 +314,14 @@ impl Reader<'_> {
         Ok(Runs { motions, work, point, speed_out, tool, by_diameter: row.by_diameter })
     }
 
-    /// Words with their values, as `P0 P10000`.
+    /// Reads words with their values, such as `P0 P10000`.
     fn values(&self, text: &Spanned<String>) -> Result<Vec<(u8, f64)>, Wrong> {
         let parse = |word: &str| {
             let letter = word.bytes().next().filter(u8::is_ascii_uppercase)?;
             Some((letter, word[1..].parse::<f64>().ok().filter(|value| value.is_finite())?))
         };
         let values = text.get_ref().split_ascii_whitespace().map(|word| {
-            let message = || format!("`{}` is no word with its value", word.escape_default());
+            let message = || format!("`{}` is not a word with a value", word.escape_default());
             parse(word).ok_or_else(|| self.wrong(text.span().start, message(), "write them as \"P0 P10000\""))
         });
         values.collect()
@@ -325,8 +331,8 @@ impl Reader<'_> {
         match words.get_ref().bytes().find(|letter| !letter.is_ascii_uppercase()) {
             None => Ok(Words::of(words.get_ref())),
             Some(letter) => {
-                let message = format!("`{}` is no letter of a word", char::from(letter).escape_default());
-                Err(self.wrong(words.span().start, message, "write the letters alone, as \"PQR\""))
+                let message = format!("`{}` is not a letter of a word", char::from(letter).escape_default());
+                Err(self.wrong(words.span().start, message, "write only letters, as \"PQR\""))
             }
         }
     }
@@ -336,7 +342,7 @@ impl Reader<'_> {
     }
 }
 
-/// The motions of a cycle that makes this alone; `None`: a file must say them, as of bores.
+/// The motions of a cycle that makes only this kind of hole; `None`: the file must define them, for example for bores.
 fn only_motions(makes: &[Hole]) -> Option<Motions> {
     match makes {
         [Hole::Drill] => Some(Motions::Drill),

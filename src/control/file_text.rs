@@ -1,4 +1,4 @@
-//! The text of a control file, as serde reads it: its tables and rows.
+//! The text of a control file as serde reads it: tables and rows.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::arcs::Tolerance;
 use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Turns, WithoutPoint};
 
-/// A file as it is written.
+/// A control file as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct File {
@@ -18,7 +18,7 @@ pub(super) struct File {
     pub(super) rules: Option<Rules>,
     pub(super) machine: Option<Turns>,
     pub(super) complete: Option<bool>,
-    /// Sentences for its page.
+    /// Sentences for the page of the control.
     pub(super) unknown: Option<Vec<String>>,
     #[serde(default)]
     pub(super) numbers: Numbers,
@@ -48,7 +48,7 @@ pub(super) struct File {
     pub(super) codes: BTreeMap<Spanned<String>, RowText>,
 }
 
-/// `[text]`: what the control reads besides words.
+/// `[text]`: how the control reads text other than words.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Text {
@@ -59,7 +59,7 @@ pub(super) struct Text {
     pub(super) small_letters: Option<bool>,
 }
 
-/// `[blocks]`: what a block may hold.
+/// `[blocks]`: limits of a block.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Blocks {
@@ -73,14 +73,14 @@ pub(super) struct Numbers {
     pub(super) length_without_point: Option<WithoutPoint>,
 }
 
-/// `[start]`: what one program finds of the one before it.
+/// `[start]`: modes that one program leaves on for the next.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Start {
     pub(super) modes: Option<Kept>,
 }
 
-/// `[dwell]`: its words.
+/// `[dwell]`: the units of its words.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Dwell {
@@ -88,7 +88,7 @@ pub(super) struct Dwell {
     pub(super) p: Option<DwellUnit>,
 }
 
-/// `[stops]`: what M0 and M1 leave running.
+/// `[stops]`: functions that M0 and M1 leave on.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Stops {
@@ -100,12 +100,12 @@ pub(super) struct Stops {
 #[serde(deny_unknown_fields)]
 pub(super) struct ArcsText {
     pub(super) centres: Option<Centres>,
-    /// In millimetres, and in inches where other lengths count there.
+    /// In millimetres, and in inches if other lengths are in force for inches.
     pub(super) mm: Option<Spanned<Tolerance>>,
     pub(super) inch: Option<Spanned<Tolerance>>,
 }
 
-/// What becomes of a block that is longer.
+/// What the control does with a block that is too long.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Longer {
@@ -123,64 +123,64 @@ pub(super) struct WordsOf {
     pub(super) most_work: Option<u16>,
 }
 
-/// `[laser]`: of machines that have one.
+/// `[laser]`: for machines with a laser.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LaserText {
-    /// What it is in rapids.
+    /// The state of the laser in rapids.
     pub(super) rapids: Option<InRapids>,
 }
 
-/// What a laser is in rapids.
+/// The state of a laser in rapids.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum InRapids {
-    /// Off, whatever M3 and S said.
+    /// Off, independent of M3 and S.
     Off,
 }
 
-/// `[reference]`: the way to a reference point.
+/// `[reference]`: moves to a reference point.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Reference {
-    /// Which axes go where the block names none.
+    /// The axes that move if the block has no axis words.
     pub(super) without_axes: Option<WithoutAxes>,
 }
 
-/// Which axes go to a reference point where the block names none.
+/// The axes that move to a reference point if the block has no axis words.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum WithoutAxes {
-    /// All.
+    /// All axes.
     All,
 }
 
-/// `[coolant]`: what of it the machine has.
+/// `[coolant]`: kinds of coolant of the machine.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoolantText {
     pub(super) mist: Option<bool>,
 }
 
-/// `[tool]`: its length.
+/// `[tool]`: tool length and second T.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Tool {
     pub(super) length: Option<ToolLength>,
     pub(super) without_length: Option<Height>,
-    /// What a second T in the block of a tool change is.
+    /// The meaning of a second T in the block of a tool change.
     pub(super) second: Option<SecondTool>,
 }
 
-/// What a second T in the block of a tool change names.
+/// The meaning of a second T in the block of a tool change.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SecondTool {
-    /// The tool that comes after.
+    /// The next tool after the one of the change.
     Next,
 }
 
-/// What a height is while no length of a tool counts.
+/// The meaning of a height while no tool length is in force.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Height {
@@ -195,7 +195,7 @@ pub(super) struct RowText {
     pub(super) is: Spanned<String>,
     pub(super) words: Option<Spanned<String>>,
     pub(super) makes: Option<Spanned<String>>,
-    /// `"Q"`, or `{ I = "mm", J = "per-inch" }`.
+    /// The pitch words: `"Q"`, or `{ I = "mm", J = "per-inch" }`.
     pub(super) pitch: Option<Spanned<toml::Value>>,
     pub(super) text: Option<String>,
     pub(super) not_run: Option<String>,

@@ -1,21 +1,21 @@
-//! What canned cycles make.
+//! Holes that canned cycles make.
 
 macro_rules! holes {
     ($($name:ident $text:literal $about:literal;)*) => {
-        /// A hole that a canned cycle of a control makes. A control file names it by `makes`.
+        /// A hole that a canned cycle of a control makes. Control files select it by `makes`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Hole { $(#[doc = $about] $name),* }
 
         impl Hole {
-            /// All of them.
+            /// All holes.
             pub const ALL: &[Hole] = &[$(Hole::$name),*];
 
-            /// As control files write it.
+            /// The name in control files.
             pub const fn name(self) -> &'static str {
                 match self { $(Hole::$name => $text),* }
             }
 
-            /// What a cycle with this hole does, in words.
+            /// A description of the hole.
             pub const fn about(self) -> &'static str {
                 match self { $(Hole::$name => $about),* }
             }
@@ -35,7 +35,7 @@ holes! {
 }
 
 impl Hole {
-    /// The hole that control files name so.
+    /// The hole with this name in control files.
     pub fn parse(name: &str) -> Option<Hole> {
         Hole::ALL.iter().copied().find(|hole| hole.name() == name)
     }

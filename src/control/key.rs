@@ -1,19 +1,19 @@
-//! Keys of `[codes]`: a code, or many at once.
+//! Keys of `[codes]`: one code, or several at once.
 
 use super::code::Code;
 use super::{Row, Rows};
 
-/// What stands for the meaning of a code that the control has not, though the one that it is like has it.
+/// The meaning of a code that the control lacks although the control that it is like has it.
 pub(super) const ABSENT: &str = "absent";
 
-/// Where a key of `[codes]` stands for more than one code.
+/// A key of `[codes]`.
 pub(super) enum Key {
     One(Code),
     /// `G110-G129`: all codes with whole numbers from the first to the last.
     Range(Code, Code),
-    /// `G31.*`: all codes of a number.
+    /// `G31.*`: all codes with this whole number.
     Number(u8, u16),
-    /// `M*`: all others of a letter.
+    /// `M*`: all other codes of this letter.
     Letter(u8),
 }
 
@@ -37,7 +37,7 @@ impl Key {
 }
 
 impl Rows {
-    /// Takes out what the control that the file is like has of these codes.
+    /// Removes the rows of these codes that come from the control that the file is like.
     pub(super) fn remove(&mut self, key: Key) {
         let out = |row: &Row, number: bool| match key {
             Key::One(code) => !number && row.code == code,

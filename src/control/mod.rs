@@ -1,7 +1,7 @@
-//! What a control is, written once: a file of `controls/`, or a shop's own.
+//! Descriptions of controls, from the files of `controls/` or a shop's own file.
 //!
-//! A file says which codes the control has and what they mean, by the names of [`Meaning`]; what the meanings do is the
-//! program's. What a file does not say is as in the control that it is `like`.
+//! A file lists the codes of the control and their meanings, by the names of [`Meaning`]. The effect of each meaning is
+//! defined in the program. Everything that a file leaves out is as in the control that it is `like`.
 
 mod arcs;
 mod code;
@@ -29,51 +29,51 @@ pub use words::Words;
 /// A control.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Name of the control, then the names of those that it is like.
+    /// Name of the control, then the names of the controls that it is like.
     chain: Vec<String>,
     /// Title of the control.
     title: String,
-    /// What nothing public says of it, in sentences.
+    /// Facts about the control that are not public, in sentences.
     unknown: Vec<String>,
     traits: Traits,
     rows: Rows,
 }
 
-/// What a control has of one code.
+/// The description of one code of a control.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The code; of a row for many, the first.
+    /// The code; for a row with several codes, the first one.
     pub code: Code,
-    /// What the code means.
+    /// Meaning of the code.
     pub meaning: Meaning,
-    /// The words that it takes besides axes, F, S and T.
+    /// The words of the code, besides axes, F, S and T.
     pub words: Words,
-    /// The holes that it makes; none: it is no canned cycle.
+    /// The holes that the code makes; empty: it is not a canned cycle.
     pub makes: Vec<Hole>,
-    /// The words that say the pitch of a tap; none: the feed says it.
+    /// The words for the pitch of a tap; empty: the pitch comes from the feed.
     pub pitch: Vec<Pitch>,
-    /// More about it.
+    /// A further description.
     pub text: String,
-    /// Why it can't be run, though its meaning is known.
+    /// The reason why the code is not run although its meaning is known.
     pub not_run: Option<String>,
-    /// The words, with their values, beside one of which it has this meaning; none: beside any.
+    /// The words and values that give the code this meaning; empty: any values.
     pub only: Vec<(u8, f64)>,
-    /// The control stops the spindle before it runs the code: coolant through the spindle of a Haas.
+    /// Whether the control stops the spindle before it runs the code, as for coolant through the spindle of a Haas.
     pub stops_spindle: bool,
-    /// What it says for the simulator alone.
+    /// Values that only the simulator uses.
     pub runs: Runs,
 }
 
 /// The rows of a control, found by code.
 #[derive(Clone, Debug, Default)]
 struct Rows {
-    /// In the order of their codes.
+    /// Rows of single codes, in the order of the codes.
     one: Vec<Row>,
-    /// Where each G code is in `one`, by its tenths; past its end for those that have no row.
+    /// Index in `one` for each G code, by its tenths. It is past the end for codes without a row.
     index: Vec<u16>,
-    /// For all codes of a number.
+    /// Rows for all codes with the same whole number.
     numbers: Vec<Row>,
-    /// For all others of a letter.
+    /// Rows for all other codes of a letter.
     others: Vec<Row>,
 }
 
@@ -85,7 +85,7 @@ impl Rows {
         }
     }
 
-    /// All rows are there.
+    /// Builds the index after the last row.
     fn finish(&mut self) {
         let highest =
             self.one.iter().rfind(|row| row.code.letter == b'G').map_or(0, |row| usize::from(row.code.tenths) + 1);
@@ -121,11 +121,11 @@ fn replace(rows: &mut Vec<Row>, row: Row, key: impl Fn(&Row) -> (u8, u16)) {
 
 macro_rules! shipped {
     ($($name:literal)*) => {
-        /// Files that come with the program.
+        /// The control files of postform.
         const FILES: [(&str, &str); [$($name),*].len()] =
             [$(($name, include_str!(concat!("../../controls/", $name, ".toml")))),*];
 
-        /// Controls of the files, read when they are asked for; a test reads them all.
+        /// The controls of these files. Each is read at its first use. A test reads all of them.
         static CONTROLS: [LazyLock<Control>; FILES.len()] = [$(LazyLock::new(|| {
             let text = include_str!(concat!("../../controls/", $name, ".toml"));
             Control::read($name, text).unwrap_or_else(|_| Control::empty())
@@ -135,12 +135,12 @@ macro_rules! shipped {
 
 shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "centroid" "mitsubishi" "siemens" "siemens-iso" "heidenhain" "okuma" "linuxcnc" "emc2" "grbl" "grblhal" "fluidnc" "pathpilot" "mach3" }
 
-/// Does a control's name mean a file that describes it?
+/// Whether the name of a control is a file that describes it.
 pub fn is_file(name: &str) -> bool {
     name.len() > 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..].eq_ignore_ascii_case(".toml")
 }
 
-/// The names of the controls that come with the program.
+/// The names of the controls that come with postform.
 pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, _)| *name)
 }
@@ -155,19 +155,19 @@ fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> String {
 }
 
 impl Control {
-    /// The control of a name that comes with the program.
+    /// The control with this name, among those that come with postform.
     pub fn named(name: &str) -> Option<&'static Control> {
         let at = FILES.iter().position(|(known, _)| *known == name)?;
         Some(&CONTROLS[at])
     }
 
-    /// The control of programs that name none: a Fanuc mill.
+    /// The control for programs without a named control: a Fanuc mill.
     pub fn usual() -> &'static Control {
         &CONTROLS[0]
     }
 
-    /// The control of forms that name none: a Fanuc mill that has the common codes of other controls, too. Programs are
-    /// not run by it.
+    /// The control for forms without `Control`: a Fanuc mill that also has the common codes of other controls. Programs
+    /// are not run by it.
     pub fn of_no_name() -> &'static Control {
         static UNION: LazyLock<Control> = LazyLock::new(|| {
             let text = include_str!("../../controls/of-no-name.toml");
@@ -176,19 +176,19 @@ impl Control {
         &UNION
     }
 
-    /// Reads the text of a control file; `name` is what messages call it.
+    /// Reads the text of a control file. `name` is its name in messages.
     ///
     /// # Errors
-    /// What is wrong, with its line and column.
+    /// The file has an error, with its line and column.
     pub fn read(name: &str, text: &str) -> Result<Control, Wrong> {
         file::read(name, text, &like, 0)
     }
 
-    /// A shop's own control, which is there until the program ends: forms and programs name it as they name those that
-    /// ship. A text that was read before is not read again.
+    /// Reads a shop's own control and keeps it until the process ends. Forms and programs name it like the controls that
+    /// come with postform. The same text is read only once.
     ///
     /// # Errors
-    /// What is wrong, with its line and column.
+    /// The file has an error, with its line and column.
     pub fn own(name: &str, text: &str) -> Result<&'static Control, Wrong> {
         static READ: Mutex<BTreeMap<String, &'static Control>> = Mutex::new(BTreeMap::new());
         let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
@@ -210,47 +210,48 @@ impl Control {
         }
     }
 
-    /// The lathe of the same maker, where a file describes one: forms of lathes name it as they name the mill.
+    /// The lathe control of the same maker, if a file describes one. Forms for lathes give the name of the mill.
     pub fn of_lathe(&'static self) -> &'static Control {
         let lathe = |name: &String| Control::named(&format!("{name}-lathe"));
         if self.is_lathe() { self } else { self.chain.iter().find_map(lathe).unwrap_or(self) }
     }
 
-    /// Is it a lathe's?
+    /// Whether the control is for lathes.
     #[inline]
     pub fn is_lathe(&self) -> bool {
         self.traits.turns == Turns::Part
     }
 
-    /// The wire EDM machine of the same maker, where a file describes one: forms of such machines name it as they name the mill.
+    /// The wire EDM control of the same maker, if a file describes one. Forms for such machines give the name of the
+    /// mill.
     pub fn of_wire(&'static self) -> &'static Control {
         let wire = |name: &String| Control::named(&format!("{name}-wire"));
         if self.is_wire() { self } else { self.chain.iter().find_map(wire).unwrap_or(self) }
     }
 
-    /// Is it a wire EDM machine's?
+    /// Whether the control is for wire EDM machines.
     #[inline]
     pub fn is_wire(&self) -> bool {
         self.traits.turns == Turns::Nothing
     }
 
-    /// The letters of its axes, in the order of a position.
+    /// The letters of the axes, in the order of a position.
     #[inline]
     pub fn axes(&self) -> &'static [u8; 6] {
         if self.is_wire() { b"XYUVAB" } else { b"XYZABC" }
     }
 
-    /// Name of the control, as forms and options write it.
+    /// Name of the control, as in forms and options.
     pub fn name(&self) -> &str {
         self.chain.first().map_or("", String::as_str)
     }
 
-    /// The names of those that it is like, the nearest first.
+    /// The names of the controls that it is like, the nearest first.
     pub fn like(&self) -> impl Iterator<Item = &str> {
         self.chain.iter().skip(1).map(String::as_str)
     }
 
-    /// As messages name it.
+    /// Name of the control in messages.
     pub fn shown(&self) -> &str {
         if std::ptr::eq(self, Control::of_no_name()) { "most controls" } else { self.name() }
     }
@@ -260,47 +261,47 @@ impl Control {
         &self.title
     }
 
-    /// What nothing public says of it, in sentences: a program that depends on it is refused.
+    /// Facts about the control that are not public, in sentences. A program that depends on them is refused.
     pub fn unknown(&self) -> &[String] {
         &self.unknown
     }
 
-    /// Is it this control, or like it?
+    /// Whether this is the named control, or is like it.
     pub fn is_like(&self, name: &str) -> bool {
         self.chain.iter().any(|other| other == name)
     }
 
-    /// What the control is besides its codes.
+    /// Properties of the control besides its codes.
     #[doc(hidden)]
     pub fn traits(&self) -> &Traits {
         &self.traits
     }
 
-    /// By whose rules its programs are run.
+    /// The rules by which its programs are run.
     #[inline]
     #[doc(hidden)]
     pub fn rules(&self) -> Rules {
         self.traits.rules
     }
 
-    /// How far an arc's numbers may be from one circle, in programs in inches or in millimetres.
+    /// How far the numbers of an arc may deviate from one circle, in programs in inches or in millimetres.
     #[doc(hidden)]
     pub fn arc_tolerance(&self, inch: bool) -> Tolerance {
         self.traits.arcs.tolerance(inch)
     }
 
-    /// Does it read words of this letter, as far as anything public says?
+    /// Whether the control reads words of this letter, as far as is public.
     pub fn reads(&self, letter: u8) -> bool {
         self.traits.letters == Words::NONE || self.traits.letters.has(letter)
     }
 
-    /// Has it a code of this meaning?
+    /// Whether the control has a code of this meaning.
     #[doc(hidden)]
     pub fn has(&self, meaning: Meaning) -> bool {
         self.rows().any(|row| row.meaning == meaning && self.is_there(row))
     }
 
-    /// Its first code of this meaning.
+    /// The control's first code of this meaning.
     #[doc(hidden)]
     pub fn first(&self, meaning: Meaning) -> Option<&Row> {
         self.rows().find(|row| row.meaning == meaning && self.is_there(row))
@@ -310,30 +311,31 @@ impl Control {
         row.meaning != Meaning::Mist || !self.traits.no_mist
     }
 
-    /// Does it run programs as NIST's interpreter does, from which LinuxCNC, its predecessors and Grbl come?
+    /// Whether the control runs programs as NIST's interpreter does. LinuxCNC, its predecessors and Grbl come from that
+    /// interpreter.
     pub fn is_linuxcnc(&self) -> bool {
         self.traits.rules.is_nist()
     }
 
-    /// Are its programs run? Not where its file has `rules = "none"`.
+    /// Whether programs of the control are run. Not if its file has `rules = "none"`.
     pub fn is_run(&self) -> bool {
         self.traits.rules != Rules::None
     }
 
-    /// Are its programs words of letters with numbers, G codes among them? Forms of another language print what they say: no
-    /// rule of codes looks at them.
+    /// Whether its programs consist of words of a letter and a number, including G codes. Forms in another language print
+    /// their text without checks of codes.
     pub fn prints_codes(&self) -> bool {
         !matches!(self.traits.rules, Rules::None | Rules::Klartext | Rules::Siemens)
     }
 
-    /// The work offset before a program says one, by its code; `None`: there is none, or which one is unknown.
+    /// The code of the work offset in force before a program selects one; `None`: there is none, or it is unknown.
     pub fn first_work(&self) -> Option<f64> {
         let codes = matches!(self.traits.rules, Rules::Fanuc | Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl);
         (codes && self.traits.work_letter.is_none()).then_some(54.0)
     }
 
-    /// What the control knows of a code: the code's own row, else the row of its whole number, else the row of its
-    /// letter. `None`: nobody knows.
+    /// The control's row for a code: the row of the code, else the row of its whole number, else the row of its letter.
+    /// `None`: the code is unknown.
     #[doc(hidden)]
     pub fn row(&self, code: Code) -> Option<&Row> {
         let rows = &self.rows;
@@ -347,21 +349,21 @@ impl Control {
             .filter(|row| self.is_there(row))
     }
 
-    /// What a code means on it. `None`: nobody knows.
+    /// The meaning of a code on this control. `None`: the code is unknown.
     #[inline]
     #[doc(hidden)]
     pub fn meaning(&self, code: Code) -> Option<Meaning> {
         self.row(code).map(|row| row.meaning)
     }
 
-    /// The modal group of a code on it. `None`: the code is of none, or nobody knows it.
+    /// The modal group of a code on this control. `None`: the code has no group, or is unknown.
     #[inline]
     #[doc(hidden)]
     pub fn group(&self, code: Code) -> Option<Group> {
         self.meaning(code)?.group()
     }
 
-    /// Does a code call what is written elsewhere? Of those that nobody knows, the machine builder's may: from G100 on.
+    /// Whether a code calls a macro or subprogram. Unknown codes from G100 on may be calls of the machine builder.
     #[doc(hidden)]
     pub fn calls(&self, code: Code) -> bool {
         match self.meaning(code).filter(|&meaning| meaning != Meaning::Unsaid) {
@@ -370,13 +372,14 @@ impl Control {
         }
     }
 
-    /// Does it move by itself after a G code: in a cycle, in a thread, which it feeds by its pitch, in what it calls?
+    /// Whether the control makes moves of its own after a G code: in a cycle, in a thread with a feed from its pitch, or
+    /// in a call.
     #[doc(hidden)]
     pub fn moves_by_itself(&self, code: Code) -> bool {
         code.letter == b'G' && (self.meaning(code).is_some_and(Meaning::moves_by_itself) || self.calls(code))
     }
 
-    /// Is it known to refuse a code?
+    /// Whether the control is known to refuse a code.
     #[doc(hidden)]
     pub fn refuses(&self, code: Code) -> bool {
         self.traits.complete && self.row(code).is_none()
@@ -389,7 +392,8 @@ impl Control {
     }
 }
 
-/// The control that a file is like, read again: files are short, and a chain is read once.
+/// Reads the control that a file is like. It is read again each time, because files are short and a chain is read only
+/// once.
 fn like(name: &str, depth: usize) -> Option<Result<Control, Wrong>> {
     let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
     Some(file::read(name, text, &like, depth))
@@ -433,7 +437,7 @@ mod tests {
         assert_eq!(meaning("G86"), Some(Meaning::Cycle));
         for wrong in ["G112-G110", "G1-M3", "G1.5-G3"] {
             let text = format!("name = \"a\"\n[codes]\n\"{wrong}\" = {{ is = \"work\" }}\n");
-            assert!(Control::read("a.toml", &text).unwrap_err().to_string().contains("is no code"), "{wrong}");
+            assert!(Control::read("a.toml", &text).unwrap_err().to_string().contains("is not a code"), "{wrong}");
         }
     }
 
@@ -452,14 +456,14 @@ mod tests {
         assert!(wrong("name = \"a\"\nlike = \"hass\"").contains("my.toml:2:8: there is no control `hass`"));
         assert!(wrong("name = \"a\"\nsize = 1").contains("my.toml:2:1: unknown field `size`"));
         let codes = |row: &str| wrong(&format!("name = \"a\"\nlike = \"haas\"\n[codes]\n{row}\n"));
-        assert!(codes("\"X1\" = { is = \"work\" }").starts_with("my.toml:4:1: `X1` is no code"));
-        assert!(codes("\"G1.25\" = { is = \"work\" }").starts_with("my.toml:4:1: `G1.25` is no code"));
+        assert!(codes("\"X1\" = { is = \"work\" }").starts_with("my.toml:4:1: `X1` is not a code"));
+        assert!(codes("\"G1.25\" = { is = \"work\" }").starts_with("my.toml:4:1: `G1.25` is not a code"));
         let near = codes("\"G154\" = { is = \"works\" }");
         assert!(
-            near.starts_with("my.toml:4:17: `works` is no meaning") && near.ends_with("did you mean `work`?"),
+            near.starts_with("my.toml:4:17: `works` is not a meaning") && near.ends_with("did you mean `work`?"),
             "{near}"
         );
-        assert!(codes("\"G154\" = { is = \"work\", words = \"P,\" }").contains("my.toml:4:33: `,` is no letter"));
+        assert!(codes("\"G154\" = { is = \"work\", words = \"P,\" }").contains("my.toml:4:33: `,` is not a letter"));
         assert!(
             codes("\"G154\" = { is = \"work\" }\n\"G154\" = { is = \"line\" }").starts_with("my.toml:5:"),
             "a code twice"

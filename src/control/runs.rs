@@ -1,21 +1,22 @@
-//! What the simulator must know of a code besides its meaning: how a cycle moves, which offset, which reference point.
+//! Values of a code that the simulator needs besides its meaning: motions of a cycle, work offset, reference point.
 
 macro_rules! motions {
     ($($name:ident $text:literal $about:literal;)*) => {
-        /// How a canned cycle moves. A control file names it by `motions`; where its `makes` allows one alone, that one holds.
+        /// The motions of a canned cycle. Control files select them by `motions`. They may be left out if `makes` allows
+        /// only one kind.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Motions { $(#[doc = $about] $name),* }
 
         impl Motions {
-            /// All of them.
+            /// All motions.
             pub const ALL: &[Motions] = &[$(Motions::$name),*];
 
-            /// As control files write it.
+            /// The name in control files.
             pub const fn name(self) -> &'static str {
                 match self { $(Motions::$name => $text),* }
             }
 
-            /// What the tool does, in words.
+            /// A description of the motions.
             pub const fn about(self) -> &'static str {
                 match self { $(Motions::$name => $about),* }
             }
@@ -24,61 +25,62 @@ macro_rules! motions {
 }
 
 motions! {
-    Drill     "drill"     "Feeds in, goes out as a rapid.";
-    Peck      "peck"      "Feeds in by pecks, comes out of the hole after each.";
-    Chipbreak "chipbreak" "Feeds in by pecks, lifts a little after each.";
+    Drill     "drill"     "Feeds in, retracts at rapid.";
+    Peck      "peck"      "Feeds in by pecks, retracts out of the hole after each.";
+    Chipbreak "chipbreak" "Feeds in by pecks, retracts a little after each.";
     Tap       "tap"       "Feeds in clockwise, turns back, feeds out.";
     LeftTap   "left-tap"  "Feeds in counter-clockwise, turns back, feeds out.";
     FeedOut   "feed-out"  "Feeds in and out.";
-    StopOut   "stop-out"  "Feeds in, stops the spindle, goes out as a rapid.";
-    ShiftOut  "shift-out" "Feeds in, stops at an angle, moves off the wall, goes out as a rapid.";
-    Back      "back"      "Goes through the hole beside its axis, cuts upwards from below.";
-    ByHand    "by-hand"   "Feeds in, stops the spindle and the program; the operator takes the tool out.";
+    StopOut   "stop-out"  "Feeds in, stops the spindle, retracts at rapid.";
+    ShiftOut  "shift-out" "Feeds in, orients the spindle, moves off the wall, retracts at rapid.";
+    Back      "back"      "Goes through the hole off its axis, cuts upwards from below.";
+    ByHand    "by-hand"   "Feeds in, stops the spindle and the program; the operator retracts the tool.";
 }
 
 impl Motions {
-    /// The motions that control files name so.
+    /// The motions with this name in control files.
     pub fn parse(name: &str) -> Option<Motions> {
         Motions::ALL.iter().copied().find(|motions| motions.name() == name)
     }
 
-    /// Does the tool go aside at the bottom? Q, or I and J, say how far, and K is then no number of repeats.
+    /// Whether the tool moves aside at the bottom. The distance is Q, or I and J; K is then not a number of repeats.
     pub const fn shifts(self) -> bool {
         matches!(self, Motions::ShiftOut | Motions::Back)
     }
 
-    /// Does it drill by pecks?
+    /// Whether the cycle drills in pecks.
     pub const fn pecks(self) -> bool {
         matches!(self, Motions::Peck | Motions::Chipbreak)
     }
 
-    /// Does it tap?
+    /// Whether the cycle taps.
     pub const fn taps(self) -> bool {
         matches!(self, Motions::Tap | Motions::LeftTap)
     }
 }
 
-/// Which work offset a code selects.
+/// The work offset that a code selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkOffset {
-    /// One of G54 to G59.3, by ten times its usual number: 540, 593.
+    /// One of G54 to G59.3, as ten times its usual number: 540, 593.
     Usual(u16),
-    /// An additional one, from 1: G54.1 P1.
+    /// An additional offset, from 1: G54.1 P1.
     Additional(u16),
-    /// An additional one, whose number the word of this letter says.
+    /// An additional offset. Its number is in the word with this letter.
     Word(u8),
-    /// The one of a number that the word of this letter says; they count from 1, and there are no others.
+    /// An offset by its number in the word with this letter. Numbers begin at 1, and the control has no other offsets.
     Counted(u8),
 }
 
-/// The codes of the usual work offsets, in their order.
+/// The codes of the usual work offsets, in order.
 const USUAL: [u16; 9] = [540, 550, 560, 570, 580, 590, 591, 592, 593];
 
 impl WorkOffset {
-    /// Highest additional offset.
+    /// The highest additional offset.
     pub const MOST: u16 = 99;
 
-    /// `G54`, `G59.1`, `G54.1 P7`, or the letter of a word: `P`. or `number H` where they count from 1. `None`: it is none of them.
+    /// Reads `G54`, `G59.1`, `G54.1 P7`, or the letter of a word: `P`, or `number H` if offsets are numbered from 1.
+    /// `None`: the text is not an offset.
     pub fn parse(text: &str) -> Option<WorkOffset> {
         if let [letter @ b'A'..=b'Z'] = text.as_bytes() {
             return Some(WorkOffset::Word(*letter));
@@ -94,7 +96,7 @@ impl WorkOffset {
         (code.letter == b'G' && USUAL.contains(&code.tenths)).then_some(WorkOffset::Usual(code.tenths))
     }
 
-    /// The one that is so many after it; `None`: there are not so many.
+    /// The offset that is `count` offsets later; `None`: there is no such offset.
     pub fn after(self, count: u16) -> Option<WorkOffset> {
         match self {
             WorkOffset::Usual(code) => {
@@ -109,68 +111,68 @@ impl WorkOffset {
         }
     }
 
-    /// Its place among the usual ones, from 1. `None`: it is an additional one.
+    /// Its index among the usual offsets, from 1. `None`: it is an additional offset.
     pub fn usual(self) -> Option<usize> {
         let WorkOffset::Usual(code) = self else { return None };
         USUAL.iter().position(|usual| *usual == code).map(|at| at + 1)
     }
 }
 
-/// What the word of a tap's pitch counts.
+/// The unit of a tap's pitch word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PitchUnit {
-    /// The distance of one turn in the program's units; F is then the turns a minute.
+    /// The distance per turn in the program's units; F is then the revolutions per minute.
     Turn,
-    /// The distance of one turn in millimetres, in programs in millimetres alone; S turns.
+    /// The distance per turn in millimetres, only in programs in millimetres; S is the speed.
     Mm,
-    /// Threads an inch, in programs in inches alone; S turns.
+    /// Threads per inch, only in programs in inches; S is the speed.
     PerInch,
 }
 
-/// A word that says the pitch of a tap.
+/// A word for the pitch of a tap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pitch {
-    /// Its letter.
+    /// Letter of the word.
     pub letter: u8,
-    /// What it counts.
+    /// Unit of the word.
     pub unit: PitchUnit,
 }
 
-/// What a row says for the simulator alone.
+/// Values of a row that only the simulator uses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
-    /// How a canned cycle moves.
+    /// The motions of a canned cycle.
     pub motions: Option<Motions>,
-    /// Which work offset the code selects.
+    /// The work offset that the code selects.
     pub work: Option<WorkOffset>,
-    /// Which reference point it means: 1 as G28, 2 as G30.
+    /// The reference point of the code: 1 as G28, 2 as G30.
     pub point: Option<u8>,
-    /// The word of a tap that says how fast the spindle turns on the way out; L is then no number of repeats.
+    /// The word of a tap with the speed of the spindle on the way out; L is then not a number of repeats.
     pub speed_out: Option<u8>,
-    /// The tool that the code brings in: drills of a bank.
+    /// The tool that the code brings in, for drills of a bank.
     pub tool: Option<u16>,
-    /// A compensation names no register: D is a diameter, or the tool has its own.
+    /// Whether compensation names no register: D is a diameter, or the tool has its own.
     pub by_diameter: bool,
 }
 
 impl super::Row {
-    /// Does a canned cycle dwell at the bottom? Where it takes P.
+    /// Whether a canned cycle dwells at the bottom. It does if it has a P word.
     pub fn dwells(&self) -> bool {
         self.words.has(b'P')
     }
 
-    /// What its file must say so that it can be run; `None`: it says all.
+    /// The value that is missing in the file for running the code; `None`: nothing is missing.
     pub fn lacks(&self) -> Option<&'static str> {
         use super::Meaning as M;
         let runs = &self.runs;
         match self.meaning {
-            M::Cycle if runs.motions.is_none() => Some("how it moves: `motions = \"peck\"`"),
+            M::Cycle if runs.motions.is_none() => Some("its motions: `motions = \"peck\"`"),
             M::Work if runs.work.is_none() => {
-                Some("which work offset: `work = \"G54\"`, `\"G54.1 P1\"`, or the letter of its word, `\"P\"`")
+                Some("its work offset: `work = \"G54\"`, `\"G54.1 P1\"`, or the letter of its word, `\"P\"`")
             }
-            M::ToolNumber if runs.tool.is_none() => Some("which tool: `tool = 5`"),
-            M::Reference | M::SetReference if runs.point.is_none() => Some("which reference point: `point = 1`"),
+            M::ToolNumber if runs.tool.is_none() => Some("its tool: `tool = 5`"),
+            M::Reference | M::SetReference if runs.point.is_none() => Some("its reference point: `point = 1`"),
             _ => None,
         }
     }

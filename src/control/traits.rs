@@ -1,22 +1,22 @@
-//! What a control is besides its codes. What no file says is unknown, and nobody goes by it.
+//! Properties of a control besides its codes. A property that no file defines is unknown, and nothing depends on it.
 
 use serde::Deserialize;
 
 use super::arcs::Arcs;
 use super::words::Words;
 
-/// By whose rules programs are run: what no table says, as in which order a block acts.
+/// The rules by which programs are run: everything that no table contains, such as the order of effects in a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rules {
     /// The usual reading of Fanuc and Haas mills.
     #[default]
     Fanuc,
-    /// LinuxCNC 2.9, as its interpreter was observed.
+    /// LinuxCNC 2.9, as observed on its interpreter.
     Linuxcnc,
-    /// EMC as its manual of about 2005 describes the cycles; else as LinuxCNC.
+    /// EMC, with cycles as described in its manual of about 2005; otherwise as LinuxCNC.
     Emc2,
-    /// Grbl 1.1, as its own parser answers.
+    /// Grbl 1.1, as observed on its own parser.
     Grbl,
     /// Siemens 840D and 828D mills in their own language.
     Siemens,
@@ -24,22 +24,23 @@ pub enum Rules {
     Klartext,
     /// Okuma OSP mills.
     Osp,
-    /// Not at all: its language is not that of G codes, as Klartext. Forms print it, and no program is run or proven.
+    /// Programs are not run: the language does not use G codes, as Klartext. Forms print it, but no program is run or
+    /// proven.
     None,
 }
 
 impl Rules {
-    /// Are programs run as by NIST's interpreter, from which LinuxCNC, its predecessors and Grbl come?
+    /// Whether programs are run as by NIST's interpreter. LinuxCNC, its predecessors and Grbl come from that interpreter.
     pub fn is_nist(self) -> bool {
         matches!(self, Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl)
     }
 }
 
-/// What a length without a point counts.
+/// The unit of a length without a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WithoutPoint {
-    /// Nothing public says.
+    /// Not public.
     #[default]
     Unknown,
     /// Inches or millimetres.
@@ -48,136 +49,136 @@ pub enum WithoutPoint {
     LeastIncrement,
 }
 
-/// What P of a dwell counts.
+/// The unit of P in a dwell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DwellUnit {
-    /// Nothing public says.
+    /// Not public.
     #[default]
     Unknown,
     /// Milliseconds.
     Ms,
     /// Seconds.
     S,
-    /// Seconds where it has a point, milliseconds where it has none.
+    /// Seconds with a point, milliseconds without one.
     ByPoint,
 }
 
-/// How the length of a tool is turned on.
+/// How a tool length offset is turned on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 pub enum ToolLength {
-    /// By a code with its register.
+    /// By a code with a register.
     #[default]
     #[serde(rename = "G43 H")]
     CodeAndRegister,
-    /// By the code alone, for the tool in the spindle; a register may stand beside it.
+    /// By the code alone, for the tool in the spindle. A register may be given.
     #[serde(rename = "G43")]
     Code,
-    /// By the register alone; a code may stand beside it.
+    /// By the register alone. A code may be given.
     #[serde(rename = "H")]
     Register,
-    /// By calling the tool, or an edge of it: length and radius are the tool's own, and no register is named.
+    /// By calling the tool or one of its edges. Length and radius belong to the tool, and no register is named.
     #[serde(rename = "tool")]
     Tool,
-    /// The control has no registers of lengths.
+    /// The control has no length registers.
     #[serde(rename = "none")]
     None,
 }
 
-/// From where I, J and K of an arc count.
+/// The origin of I, J and K of an arc.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Centres {
-    /// Nothing public says.
+    /// Not public.
     #[default]
     Unknown,
-    /// From the start of the arc.
+    /// The start of the arc.
     Incremental,
-    /// From the origin.
+    /// The origin of the coordinates.
     Absolute,
 }
 
-/// What is left as it is, where a control may also put it back.
+/// Whether a state is kept or reset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kept {
-    /// Nothing public says.
+    /// Not public.
     #[default]
     Unknown,
-    /// A stop keeps what was on.
+    /// The state is kept.
     #[serde(rename = "kept")]
     Yes,
-    /// A stop puts back or ends what was on.
+    /// The state is reset or ended.
     #[serde(rename = "lost")]
     No,
 }
 
-/// What its spindle turns.
+/// What the spindle turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 pub enum Turns {
-    /// The tool, as of a mill.
+    /// The tool, as on a mill.
     #[default]
     #[serde(rename = "mill")]
     Tool,
-    /// The part: X is a diameter, U and W are increments, T changes the tool at once.
+    /// The part, as on a lathe: X is a diameter, U and W are increments, and T changes the tool at once.
     #[serde(rename = "lathe")]
     Part,
-    /// Nothing: the wire of an EDM machine, with X Y at its lower guide and U V at the upper one.
+    /// Nothing, as on a wire EDM machine: X Y are at the lower guide of the wire and U V at the upper one.
     #[serde(rename = "wire")]
     Nothing,
 }
 
-/// What a control is besides its codes.
+/// Properties of a control besides its codes.
 #[derive(Clone, Debug, Default)]
 pub struct Traits {
-    /// By whose rules its programs are run.
+    /// The rules by which its programs are run.
     pub rules: Rules,
-    /// A block may have one M code.
+    /// Whether a block may have only one M code.
     pub one_m: bool,
-    /// The longest block that the control reads, in characters; `None`: nothing public says.
+    /// The longest block that the control reads, in characters; `None`: not public.
     pub longest_line: Option<usize>,
-    /// The control stops at a longer block. Of others a sender cuts what is too long.
+    /// Whether the control stops at a longer block. For other controls, a sender cuts longer blocks.
     pub stops_at_longer: bool,
-    /// A comment may go on to the end of its line without its closing mark.
+    /// Whether a comment may run to the end of its line without a closing bracket.
     pub open_comments: bool,
-    /// The control reads words with small letters.
+    /// Whether the control reads words in lower case.
     pub small_letters: bool,
-    /// What a length without a point counts.
+    /// The unit of a length without a point.
     pub without_point: WithoutPoint,
-    /// What P of a dwell counts.
+    /// The unit of P in a dwell.
     pub dwell: DwellUnit,
-    /// From where I, J and K count.
+    /// The origin of I, J and K.
     pub centres: Centres,
-    /// The modes that one program leaves on, as G91, at the start of the next one.
+    /// Whether modes that one program leaves on, such as G91, are kept at the start of the next one.
     pub modes_at_start: Kept,
-    /// The spindle at M0 and M1.
+    /// Whether the spindle keeps turning at M0 and M1.
     pub spindle_at_stop: Kept,
-    /// How the length of a tool is turned on.
+    /// How a tool length offset is turned on.
     pub tool_length: ToolLength,
-    /// A height is a place of the machine while no length of a tool counts.
+    /// Whether a height is a machine position while no tool length is in force.
     pub height_is_machine: bool,
     /// The words that need no code in their block.
     pub everywhere: Words,
     /// The letter of a word that selects a work offset, beside its codes.
     pub work_letter: Option<u8>,
-    /// The highest number of that word.
+    /// The highest number of the `work_letter` word.
     pub most_work: Option<u16>,
-    /// The letters of all words that it reads; none: nothing public says.
+    /// The letters of all words that the control reads; empty: not public.
     pub letters: Words,
-    /// Blanks and comments do not count for the length of a block.
+    /// Whether spaces and comments are left out of the length of a block.
     pub bare_line: bool,
-    /// The control has no mist coolant.
+    /// Whether the control has no mist coolant.
     pub no_mist: bool,
-    /// How far an arc's numbers may be from one circle.
+    /// How far the numbers of an arc may deviate from one circle.
     pub arcs: Arcs,
-    /// What its spindle turns.
+    /// What the spindle turns.
     pub turns: Turns,
-    /// A laser is off in rapids, whatever M3 and S said.
+    /// Whether a laser is off in rapids, independent of M3 and S.
     pub beam_off_in_rapids: bool,
-    /// G28 and G30 without axis words send all axes home.
+    /// Whether G28 and G30 without axis words send all axes home.
     pub all_go_home: bool,
-    /// A second T in the block of a tool change names the next tool: `T3 T7 M6`.
+    /// Whether a second T in the block of a tool change names the next tool: `T3 T7 M6`.
     pub next_beside_change: bool,
-    /// All its codes are known: it refuses others.
+    /// Whether all codes of the control are known, so that it refuses all others.
     pub complete: bool,
 }

@@ -5,18 +5,18 @@
 pub struct Words(u32);
 
 impl Words {
-    /// None of them.
+    /// The empty set.
     pub const NONE: Words = Words(0);
 
-    /// All of them.
+    /// All letters.
     pub const ALL: Words = Words::of("ABCDEFGHIJKLMNOPQRSTUVWXYZ");
 
-    /// Is this letter one of them?
+    /// Whether the letter is in the set.
     pub const fn has(self, letter: u8) -> bool {
         letter.is_ascii_uppercase() && self.0 & 1 << (letter - b'A') != 0
     }
 
-    /// The set of the capital letters in a text; other characters count for nothing.
+    /// The set of the capital letters in a text. Other characters are ignored.
     pub const fn of(text: &str) -> Words {
         let (mut bits, mut i) = (0, 0);
         while i < text.len() {
@@ -29,7 +29,7 @@ impl Words {
         Words(bits)
     }
 
-    /// As bits: bit 0 is A.
+    /// The set as bits: bit 0 is A.
     pub const fn bits(self) -> u32 {
         self.0
     }

@@ -1,11 +1,11 @@
-//! Boring: out with the spindle stopped, or moved off the wall at a known angle; and boring from below.
+//! Boring: retract with the spindle stopped, or moved off the wall at a known angle; and boring from below.
 
 use super::plan::{Defaults, Plan, Step};
 use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::CycleSpec;
 
-/// Down, then out with the spindle stopped, or oriented and off the wall.
+/// Down, then retract with the spindle stopped, or oriented and moved off the wall.
 pub(super) fn bore(
     spec: &CycleSpec,
     plan: &Plan,
@@ -31,7 +31,7 @@ pub(super) fn bore(
     Ok(())
 }
 
-/// Down beside the hole, across, up to the bottom that is cut from below, and out the same way.
+/// Down beside the hole, across, up to cut the bottom from below, and out on the same path.
 pub(super) fn back_bore(
     spec: &CycleSpec,
     plan: &Plan,
@@ -40,11 +40,12 @@ pub(super) fn back_bore(
     steps: &mut Vec<Step>,
 ) -> Result<(), Problem> {
     let Some(below) = spec.rapto else {
-        let message = "a back bore does not say how far below the point the tool goes before it cuts upward";
+        let message =
+            "a back bore without `rapto`: the distance below the point where its upward cut begins is missing";
         return Err(Problem::new(Code::PC012, message, "give `rapto`"));
     };
     if -below > plan.bottom {
-        let message = format!("the cut of a back bore ends {} below the point, it begins at {below}", -plan.bottom);
+        let message = format!("the cut of a back bore ends {} below the point, but begins at {below}", -plan.bottom);
         return Err(Problem::new(Code::PC014, message, "give a smaller `depth`, or a deeper `rapto`"));
     }
     let angle = spec.orient.map_or(defaults.orient, |orient| orient.angle(defaults.orient));
@@ -63,7 +64,7 @@ pub(super) fn back_bore(
     Ok(())
 }
 
-/// How far the tool moves off the wall: as the cycle says, or its jog at the spindle's angle.
+/// The move off the wall: the offset in the cycle, or its jog at the spindle's angle.
 fn aside(spec: &CycleSpec, angle: f64, defaults: &Defaults) -> (f64, f64) {
     if let (Some(x), Some(y)) = (spec.offset, spec.offset_y) {
         return (x, y);

@@ -1,11 +1,11 @@
-//! What is wrong with a cycle whatever its points are.
+//! Errors of a cycle that do not depend on its points.
 
 use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::CycleKind::{self, *};
 use crate::toolpath::CycleSpec;
 
-/// Checks a cycle as a whole: options that belong to another kind, that exclude each other, that can't be.
+/// Checks a cycle as a whole: options that belong to another kind, exclude each other, or are impossible.
 ///
 /// # Errors
 /// The first problem, with its code.
@@ -16,7 +16,7 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
         return problem(Code::PC005, "the cycle has no feed", "give `feed`");
     }
     if spec.ratio.is_some_and(|ratio| ratio <= 0.0) {
-        let help = "give a ratio above zero, or take it out";
+        let help = "give a ratio above zero, or remove it";
         return problem(Code::PC006, "a `ratio` of 0: the tool would never come out", help);
     }
     if spec.dwell.is_some() && spec.revs.is_some() {
@@ -34,11 +34,15 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
         return problem(Code::PC016, "a tap that pecks and does not reverse", help);
     }
     if spec.kind == Bore && spec.orient.is_none() && (spec.offset.is_some() || spec.jog.is_some()) {
-        let message = "the tool moves off the wall at an unknown spindle angle";
+        let message = "the spindle angle at which the tool moves off the wall is missing";
         return problem(Code::PC015, message, "give `orient`, or take `offset` and `jog` out");
     }
     if spec.starts.is_some_and(|starts| !(1.0..=100.0).contains(&starts) || starts.fract() != 0.0) {
-        return problem(Code::PC036, "`starts` is no whole number from 1 to 100", "count the starts of the thread");
+        return problem(
+            Code::PC036,
+            "`starts` is not a whole number from 1 to 100",
+            "give the number of starts of the thread",
+        );
     }
     if spec.starts.is_some_and(|starts| starts > 1.0) && spec.rigid != Some(true) && spec.mode.is_none() {
         return problem(Code::PC020, "several starts with a floating tap", "make the tap rigid, or take `starts` out");
@@ -60,9 +64,9 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
     countersink(spec)
 }
 
-/// Options by the kinds that have them (cycles.md section 1.5).
+/// Checks that the options are allowed for the kind of cycle (cycles.md section 1.5).
 fn options(spec: &CycleSpec) -> Result<(), Problem> {
-    // a tap's steps are for the sequence that prints them
+    // a tap may have steps, because a sequence can print them
     let pecks: &[CycleKind] = &[Deep, Chipbreak, Tap, LTap];
     let steps_back: &[CycleKind] = &[Deep, Chipbreak, Tap, LTap, Thru];
     let table: [(bool, &str, &[CycleKind]); 20] = [
@@ -88,21 +92,21 @@ fn options(spec: &CycleSpec) -> Result<(), Problem> {
         (!spec.webs.is_empty(), "webs", &[Thru]),
     ];
     if matches!(spec.kind, Custom1 | Custom2 | Custom3) {
-        return Ok(()); // what a custom cycle has, only its form knows
+        return Ok(()); // only the form defines the options of a custom cycle
     }
     let wrong = table.iter().find(|(given, _, kinds)| *given && !kinds.contains(&spec.kind));
     let manual = spec.kind == Manual
         && (spec.feed.or(spec.depth).or(spec.return_height).or(spec.dwell).or(spec.revs).or(spec.rapto).is_some());
     match wrong {
         None if manual => {
-            let help = "take everything but `clear` out of it";
-            Err(Problem::new(Code::PC017, "a manual cycle goes to its clearance and stops, nothing else", help))
+            let help = "remove all keys except `clear`";
+            Err(Problem::new(Code::PC017, "a manual cycle can only go to its clearance and stop", help))
         }
         None => Ok(()),
         Some((_, name, kinds)) => {
             let message = format!("`{}` has no `{name}`", spec.kind.name());
             let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
-            Err(Problem::new(Code::PC017, message, format!("it is for {}: take it out", names.join(", "))))
+            Err(Problem::new(Code::PC017, message, format!("`{name}` is for {}: remove it", names.join(", "))))
         }
     }
 }
@@ -115,8 +119,8 @@ fn webs(spec: &CycleSpec) -> Result<(), Problem> {
     }
     match spec.webs.windows(2).find(|pair| pair[0] > pair[1]) {
         Some(pair) => {
-            let message = format!("the webs go from {} back to {}", pair[0], pair[1]);
-            Err(Problem::new(Code::PC023, message, "give them deeper one by one"))
+            let message = format!("the web depth {} is followed by the smaller depth {}", pair[0], pair[1]);
+            Err(Problem::new(Code::PC023, message, "give each web deeper than the one before"))
         }
         None => Ok(()),
     }

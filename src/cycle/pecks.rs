@@ -5,15 +5,15 @@ use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::{self, CycleKind, CycleSpec, MOST_PECKS};
 
-/// Depths that differ by less are one (units of any length).
+/// Depths with a smaller difference count as equal (in units of any length).
 const SAME: f64 = 1e-9;
 
-/// One peck: the height it feeds to, and its feed where it has its own.
+/// One peck: its depth, and its feed if it has its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peck {
     /// Height above the point; negative below it.
     pub height: f64,
-    /// Feed of the peck, if not the cycle's, in units a minute or a turn as the cycle's.
+    /// Feed of the peck, if not the cycle's, in units per minute or per revolution, as for the cycle.
     pub feed: Option<f64>,
 }
 
@@ -55,8 +55,7 @@ pub(super) fn peck(
     Ok(())
 }
 
-/// The pecks down to the bottom of a plan. `list` is cleared first: it is the caller's, so that a hole allocates
-/// nothing.
+/// The pecks down to the bottom of a plan. `list` is cleared first; the caller owns it, so that a hole allocates nothing.
 pub(super) fn pecks(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, list: &mut Vec<Peck>) -> Result<(), Problem> {
     list.clear();
     let bottom = plan.bottom;
@@ -78,7 +77,7 @@ fn absolute(spec: &CycleSpec, plan: &Plan, list: &mut Vec<Peck>) -> Result<(), P
     for peck in &spec.pecks {
         if -peck.to >= reached - SAME && !(list.is_empty() && -peck.to <= reached) {
             let message = format!("the peck to {} does not go deeper than the one before", peck.to);
-            return Err(Problem::new(Code::PC004, message, "give absolute pecks deeper one by one"));
+            return Err(Problem::new(Code::PC004, message, "give each absolute peck deeper than the one before"));
         }
         reached = (-peck.to).max(plan.bottom);
         list.push(Peck { height: reached, feed: peck.feed });
@@ -89,7 +88,7 @@ fn absolute(spec: &CycleSpec, plan: &Plan, list: &mut Vec<Peck>) -> Result<(), P
     Ok(())
 }
 
-/// Steps count from the clearance plane like a control's Q, or from the point like those of APT.
+/// Steps are measured from the clearance plane like a control's Q, or from the point as in APT.
 fn stepped(
     spec: &CycleSpec,
     plan: &Plan,
@@ -97,14 +96,14 @@ fn stepped(
     list: &mut Vec<Peck>,
 ) -> Result<(), Problem> {
     let exhausted = || {
-        let message = "the steps shrink to nothing before the bottom is reached";
+        let message = "the steps become zero before the bottom is reached";
         Problem::new(Code::PC029, message, "give a smaller `decr`, or a `min_step`")
     };
     let from = if spec.steps_from_point { 0.0 } else { plan.clear };
     let decr = spec.decr.unwrap_or(0.0);
     let first = spec.first_step.unwrap_or(step);
     let least = spec.min_step.unwrap_or(defaults.min_step);
-    // distances below `from`; k * step rather than a running sum keeps the depths exact
+    // distances below `from`; k * step instead of a running sum keeps the depths exact
     let total = from - plan.bottom;
     let (mut reached, mut next, mut repeats) = (0.0, first, 0);
     while reached + next < total - SAME {
@@ -129,11 +128,11 @@ fn stepped(
     Ok(())
 }
 
-/// Absolute pecks from a list of steps, each with its feed: the last one repeats, `decr` less each time but never under
-/// `least`, until `depth` is reached; steps that are not needed are left out. Lengths in any unit.
+/// Converts a list of steps, each with its feed, to absolute pecks. The last step repeats until `depth` is reached. It shrinks
+/// by `decr` each time, but not below `least`. Steps that are not needed are left out. Lengths are in any unit.
 ///
 /// # Errors
-/// A step that is not above zero, or steps that shrink to nothing.
+/// A step is not above zero, or the steps shrink to nothing.
 ///
 /// ```
 /// use postform::internals::cycle::stepped_pecks;
@@ -157,7 +156,7 @@ pub fn stepped_pecks(
         let step = if shrunk > 0.0 { (step - shrunk).max(least.unwrap_or(0.0)) } else { step };
         if step <= 0.0 {
             let (code, message) = match shrunk > 0.0 {
-                true => (Code::PC029, "the steps shrink to nothing before the depth is reached"),
+                true => (Code::PC029, "the steps become zero before the depth is reached"),
                 false => (Code::PC028, "a step that is not above zero"),
             };
             return Err(Problem::new(code, message, "give larger steps, a smaller `decr`, or a least step"));

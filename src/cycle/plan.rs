@@ -1,10 +1,10 @@
-//! The planes and feed of a cycle, and the steps that a plan is made of (cycles.md section 1.5).
+//! The planes and the feed of a cycle, and the steps of a plan (cycles.md section 1.5).
 
 use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// What a form gives where a cycle names nothing, in the units of the cycle.
+/// Values of a form for cycles that lack them, in the units of the cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
 pub struct Defaults {
@@ -20,9 +20,9 @@ pub struct Defaults {
     pub orient: f64,
     pub jog: f64,
     pub sink_clear: Option<f64>,
-    /// Countersinks by the formula that GENER's manual prints, tan(l / 2) k / 2.
+    /// The depth of countersinks follows the formula printed in GENER's manual, tan(l / 2) k / 2.
     pub sink_as_printed: bool,
-    /// Taps that only a control can make are planned too: for those who compare, not for those who print.
+    /// Taps that only a control can make are planned too: for comparison, not for printing.
     pub rigid: bool,
 }
 
@@ -31,7 +31,7 @@ pub struct Defaults {
 pub enum Step {
     /// Rapid to a height over the point.
     Rapid(f64),
-    /// Rapid to a height, aside from the point by x and y.
+    /// Rapid to a height, offset from the point by x and y.
     RapidAside(f64, f64, f64),
     /// Feed to a height.
     Feed(f64, f64),
@@ -39,28 +39,28 @@ pub enum Step {
     Dwell(f64),
     /// Stop the spindle.
     SpindleStop,
-    /// Start it in the direction, and with the speed, that it had before the cycle.
+    /// Start the spindle in its direction, and with its speed, from before the cycle.
     SpindleStart,
-    /// Turn it the other way, at this many times its speed.
+    /// Reverse the spindle, at this multiple of its speed.
     SpindleReverse(f64),
-    /// Stop it at an angle.
+    /// Orient the spindle to an angle.
     Orient(f64),
-    /// Let the operator act.
+    /// Stop the program for the operator.
     ProgramStop,
 }
 
 /// The cycle's planes and feed, with the defaults filled in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Where the feed begins, above the point.
+    /// Height above the point at which the feed begins.
     pub clear: f64,
-    /// The bottom, above the point, so mostly negative.
+    /// Height of the bottom relative to the point, usually negative.
     pub bottom: f64,
     /// The feed.
     pub feed: f64,
     /// The dwell at the bottom in seconds.
     pub dwell: Option<f64>,
-    /// How far the feed goes in a revolution, where the spindle speed is known.
+    /// Feed per revolution, if the spindle speed is known.
     pub lead: Option<f64>,
 }
 
@@ -68,7 +68,7 @@ impl Plan {
     /// The planes of a cycle at a point with its own depth or the cycle's.
     ///
     /// # Errors
-    /// A depth or feed that is missing, a depth above the clearance.
+    /// The depth or the feed is missing, or the depth is above the clearance.
     pub fn of(
         spec: &CycleSpec,
         own_depth: Option<f64>,
@@ -104,7 +104,7 @@ impl Plan {
                     let help = "give the operation a spindle speed, or `dwell` in seconds";
                     return Err(Problem::new(
                         Code::PC009,
-                        "a dwell in revolutions, and the spindle does not turn",
+                        "a dwell in revolutions, but the spindle does not turn",
                         help,
                     ));
                 }

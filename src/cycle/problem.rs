@@ -1,16 +1,16 @@
-//! Why a cycle can't be made.
+//! The reason why a cycle can't be made.
 
 use crate::diag::{Code, Diag};
 use crate::toolpath::Stop;
 
-/// A problem of a cycle; its code has a name, as `cycle.depth.missing`.
+/// A problem of a cycle; its code has a name, such as `cycle.depth.missing`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Row in the table of codes.
     pub code: Code,
-    /// What is wrong, a sentence.
+    /// The error in a sentence.
     pub message: String,
-    /// What to write instead.
+    /// A proposed correction.
     pub help: String,
 }
 

@@ -1,4 +1,4 @@
-//! What the tool does at one point of a cycle (cycles.md section 1.5).
+//! The motion of the tool at one point of a cycle (cycles.md section 1.5).
 
 use super::bore::{back_bore, bore};
 use super::pecks::{Peck, peck};
@@ -8,7 +8,7 @@ use super::tap::tap;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// The steps at one point, and what planning needs; kept from hole to hole so that a hole allocates nothing.
+/// The steps at one point, and buffers for planning; they are reused from hole to hole, so that a hole allocates nothing.
 #[derive(Debug, Default)]
 pub struct Steps {
     /// Steps of the plan, in their order.
@@ -16,10 +16,10 @@ pub struct Steps {
     pecks: Vec<Peck>,
 }
 
-/// Plans the steps at one point. The tool is over the point at `top`, a height, and comes back there.
+/// Plans the steps at one point. The tool begins above the point at the height `top` and returns to it.
 ///
 /// # Errors
-/// What can't be made of single moves, or makes no sense.
+/// The motion is impossible with single moves, or makes no sense.
 pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &mut Steps) -> Result<(), Problem> {
     use CycleKind as K;
     let Steps { list: steps, pecks } = out;
@@ -31,10 +31,10 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
         enter = clear - rapto;
         let (lowest, what) = match spec.kind {
             K::Thru => (-webs(spec, &[-bottom])[0], "the bottom of the first web"),
-            K::Csink => (contact(spec).unwrap_or(bottom), "where the tool meets the hole"),
+            K::Csink => (contact(spec).unwrap_or(bottom), "the top of the hole"),
             _ => (bottom, "the bottom"),
         };
-        // 0.1 - 0.4 is a little less than -0.3
+        // 0.1 - 0.4 is slightly less than -0.3
         if enter < lowest - 1e-9 {
             let message = format!("the extra rapid of {rapto} from the clearance plane ends below {what}");
             return Err(Problem::new(Code::PC013, message, "give a smaller `rapto`"));
@@ -72,26 +72,26 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
             return Ok(());
         }
         K::Custom1 | K::Custom2 | K::Custom3 => {
-            let message = "only the form knows what a custom cycle does, and it has no such sequence";
-            return Err(Problem::new(Code::PC001, message, "add the sequence to the form, or take another `kind`"));
+            let message = "a custom cycle needs its sequence in the form, and the form has none";
+            return Err(Problem::new(Code::PC001, message, "add the sequence to the form, or use another `kind`"));
         }
     }
     steps.push(Step::Rapid(top));
     Ok(())
 }
 
-/// How high the cone of a countersink meets the hole that is there, if the job gives its diameter.
+/// The height at which the cone of a countersink meets the existing hole, if the job contains its diameter.
 fn contact(spec: &CycleSpec) -> Option<f64> {
     let (hole, angle) = (spec.hole_diameter?, spec.angle?);
     Some(-(hole / 2.0) / (angle.to_radians() / 2.0).tan())
 }
 
-/// End of the first web, start and end of each further one, counted down; one web to `whole` where the job lists none.
+/// End of the first web, then start and end of each further web, as positive depths; one web to `whole` if the job lists none.
 fn webs<'s>(spec: &'s CycleSpec, whole: &'s [f64; 1]) -> &'s [f64] {
     if spec.webs.is_empty() { whole } else { &spec.webs }
 }
 
-/// Drilling through webs: end, then start and end of each further web.
+/// Drilling through webs: end of the first, then start and end of each further web.
 fn thru(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, steps: &mut Vec<Step>) {
     let whole = [-plan.bottom];
     let webs = webs(spec, &whole);
@@ -169,7 +169,7 @@ mod tests {
         assert_eq!(steps(|_| (), CycleKind::Back), Err(Code::PC012));
         assert_eq!(steps(|s| s.webs = vec![0.5, 1.0], CycleKind::Thru), Err(Code::PC022));
         assert_eq!(steps(|s| s.rapto = Some(2.0), CycleKind::Drill), Err(Code::PC013));
-        // into the first web, into the edge of the hole that is there
+        // into the first web, into the edge of the existing hole
         let webs = |s: &mut CycleSpec, rapto| (s.depth, s.webs, s.rapto) = (None, vec![0.3, 0.6, 1.0], Some(rapto));
         assert!(steps(|s| webs(s, 0.4), CycleKind::Thru).is_ok());
         assert_eq!(steps(|s| webs(s, 0.5), CycleKind::Thru), Err(Code::PC013));
@@ -182,7 +182,7 @@ mod tests {
         assert_eq!(steps(|_| (), CycleKind::Custom1), Err(Code::PC001));
     }
 
-    /// Reference motions of what only a control can make: two starts, the second a lead's half lower.
+    /// Reference motions of threads that only a control can tap: two starts, the second offset by half a lead.
     #[test]
     fn rigid_taps_are_planned_for_comparison() {
         let mut spec = CycleSpec::new(CycleKind::Tap);

@@ -1,4 +1,4 @@
-//! Tapping: feed and spindle keep step. With a floating holder single moves can do it; rigidly only the control can.
+//! Tapping: feed and spindle are synchronised. Single moves are enough with a floating holder; a rigid tap needs the control.
 
 use super::pecks::{Peck, pecks};
 use super::plan::{Defaults, Plan, Step};
@@ -6,7 +6,7 @@ use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// Feed down, reverse, feed out; what is rigid only for comparison.
+/// Feed down, reverse, feed out. A rigid tap is planned only for comparison.
 pub(super) fn tap(
     spec: &CycleSpec,
     plan: &Plan,
@@ -23,8 +23,12 @@ pub(super) fn tap(
     }
     let rigid = spec.rigid == Some(true) || spec.mode.is_some();
     if rigid && !defaults.rigid {
-        let message = "a rigid or pecking tap keeps step with the spindle, which single moves can't";
-        return Err(Problem::new(Code::PC021, message, "give the form a Tap sequence that prints what the tap needs"));
+        let message = "a rigid or pecking tap must be synchronized with the spindle: single moves can't do this";
+        return Err(Problem::new(
+            Code::PC021,
+            message,
+            "give the form a Tap sequence with the tapping cycle of the control",
+        ));
     }
     let starts = spec.starts.unwrap_or(1.0).max(1.0) as u32;
     let lead = plan.lead.unwrap_or(0.0);

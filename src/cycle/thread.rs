@@ -3,21 +3,21 @@
 use super::problem::Problem;
 use crate::diag::Code;
 
-/// Most passes of one thread: more is a slip of the decimal point.
+/// Maximum number of passes of one thread: more is a misplaced decimal point.
 const MOST_PASSES: usize = 1000;
 
-/// Less of the first pass than this is no pass of its own.
+/// A remainder smaller than this share of the first pass gets no pass of its own.
 const REST: f64 = 1e-3;
 
-/// How deep each pass of a thread goes below its crest, in the units of `depth`.
+/// The depth of each pass of a thread below its crest, in the units of `depth`.
 ///
-/// What is left for a last pass and no more than the digits of the job is none: the one before goes to the whole depth.
+/// If the remainder for a last pass is not more than a rounding error of the job, the pass before it goes to the whole depth.
 ///
 /// Equal chip area: pass k cuts to `first * sqrt(k)`, the last to the whole depth. `passes` sets the first cut to
-/// `depth / sqrt(passes)`; else `first` is given. No pass cuts less than `least`, except the last.
+/// `depth / sqrt(passes)`; without `passes`, `first` is required. No pass cuts less than `least`, except the last.
 ///
 /// # Errors
-/// Nothing that says how many passes, or too many of them.
+/// Neither `passes` nor `first` is given, or there are too many passes.
 ///
 /// ```
 /// use postform::internals::cycle::thread_passes;
@@ -71,7 +71,7 @@ mod tests {
         }
     }
 
-    /// A depth and a first pass of few digits, which make seven passes.
+    /// A depth and a first pass with few digits, which make seven passes.
     #[test]
     fn what_the_digits_leave_is_no_pass() {
         assert_eq!(thread_passes(0.07937254, Some(0.03), None, 0.0).unwrap().len(), 7);

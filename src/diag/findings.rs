@@ -1,4 +1,4 @@
-//! Findings with the text that they are about.
+//! Findings with the text of the form.
 
 use std::fmt;
 
@@ -6,14 +6,14 @@ use super::{Diag, Severity};
 use crate::source::Source;
 use crate::terminal::escaped;
 
-/// What was found, with the form's text: enough to show it or to write a report of it.
+/// Findings with the form's text: enough to display them or to write a report.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// Findings in the order of the files and of the places in them.
+    /// Findings in the order of the files and of the locations in them.
     pub diags: Vec<Diag>,
-    /// The form, and those that it calls: the spans of labels and fixes are places in them. Empty where no form is concerned.
+    /// The form and the forms that it calls; the spans of labels and fixes refer to them. Empty if no form is involved.
     pub files: Vec<Source>,
-    /// How many findings more there are that comments of the form allow.
+    /// Number of further findings that comments of the form allow.
     pub suppressed: usize,
 }
 
@@ -23,14 +23,14 @@ impl Findings {
         self.diags.is_empty()
     }
 
-    /// How many findings have this severity.
+    /// Number of findings with this severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.diags.iter().filter(|diag| diag.severity == severity).count()
     }
 }
 
 impl fmt::Display for Findings {
-    /// A line each: `form.pf:13:6: warning PF426: .. (print G43 before it)`.
+    /// One line per finding: `form.pf:13:6: warning PF426: .. (print G43 before it)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lines: Vec<String> = self.diags.iter().map(|diag| diag.line(&self.files)).collect();
         f.write_str(&lines.join("\n"))
@@ -38,7 +38,7 @@ impl fmt::Display for Findings {
 }
 
 impl Diag {
-    /// The finding in one line, without a line end: place, severity, code, message and help. `files` are those of its form.
+    /// The finding in one line, without a line end: location, severity, code, message and help. `files` are those of its form.
     pub fn line(&self, files: &[Source]) -> String {
         let in_form = self.labels.first().and_then(|label| {
             let source = files.get(label.span.file as usize)?;
@@ -52,7 +52,7 @@ impl Diag {
         format!("{place}{} {}: {}{help}", self.severity.name(), self.code.name(), self.message)
     }
 
-    /// The line of the form that the finding is about, with a mark under the words: two lines without an end. `None`: it is
+    /// The form line of the finding, with a mark under the words: two lines, without a final line end. `None`: the finding is
     /// about no form. `files` are those of the form.
     pub(crate) fn marked(&self, files: &[Source]) -> Option<String> {
         let span = self.labels.first()?.span;

@@ -1,12 +1,12 @@
-//! Places in jobs and programs, as data: text is made of them where they are shown.
+//! Locations in jobs and programs, as data; they become text only for display.
 
 use std::fmt;
 
-/// A place in a job or in a program. What is not known is `None`.
+/// A location in a job or in a program. Unknown parts are `None`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Location {
-    /// The name of the job or program, where somebody gave it one.
+    /// The name of the job or program, if it has one.
     pub file: Option<String>,
     /// Line of the file, from 1.
     pub line: Option<u64>,
@@ -14,7 +14,7 @@ pub struct Location {
     pub column: Option<u32>,
     /// Step of the job, as a path in the document: `operations[0].path[3].cycle.points[2]`.
     pub step: Option<String>,
-    /// Line of the program that was made of the job, from 1, where one is concerned.
+    /// Line of the program that was printed from the job, from 1, if the finding is about it.
     pub program_line: Option<u64>,
 }
 
@@ -29,20 +29,20 @@ impl Location {
         Location { line: Some(line), ..Location::default() }
     }
 
-    /// The location with the step of the job; an empty step is none.
+    /// Adds the step of the job; an empty step becomes `None`.
     pub(crate) fn step(mut self, step: String) -> Location {
         self.step = Some(step).filter(|step| !step.is_empty());
         self
     }
 
-    /// Is nothing known of the place?
+    /// Are all parts unknown?
     pub fn is_empty(&self) -> bool {
         *self == Location::default()
     }
 }
 
 impl fmt::Display for Location {
-    /// `job.json:12:9, operations[0].path[3]`; the line of the program is not in it.
+    /// `job.json:12:9, operations[0].path[3]`; without the line of the program.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut between = "";
         if let Some(file) = &self.file {

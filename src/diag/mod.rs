@@ -1,4 +1,4 @@
-//! Findings as data: raised anywhere, shown by the command line.
+//! Findings as data: created anywhere, displayed by the command line.
 
 mod codes;
 mod findings;
@@ -11,12 +11,12 @@ pub use location::Location;
 use crate::span::Span;
 use crate::terminal::{escaped, steers};
 
-/// How bad a finding is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Worth knowing; does not change the exit status.
+    /// Useful information; does not change the exit status.
     Note,
-    /// The program is printed, but look at it.
+    /// The program is printed, but check it.
     Warning,
     /// An error: nothing is printed.
     Error,
@@ -33,23 +33,23 @@ impl Severity {
     }
 }
 
-/// A place in form text and what is to be said of it.
+/// A location in form text and a text about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// The place in the form's text.
+    /// The location in the form's text.
     pub span: Span,
-    /// A few words under the place.
+    /// A few words under the location.
     pub text: String,
 }
 
-/// A change of form text that would fix a finding.
+/// A change of the form text that fixes a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
     /// What the change does, in the imperative.
     pub title: String,
     /// Safe: the NC output of every job stays the same, byte for byte.
     pub safe: bool,
-    /// Pieces of text and what replaces each; they do not overlap.
+    /// Pieces of text and their replacements; they do not overlap.
     pub edits: Vec<(Span, String)>,
 }
 
@@ -58,24 +58,24 @@ pub struct Fix {
 pub struct Diag {
     /// Row in the table of codes.
     pub code: Code,
-    /// As the table says, unless limits were relaxed or a shop's levels say otherwise.
+    /// The severity from the table, unless relaxed limits or a shop's levels change it.
     pub severity: Severity,
-    /// What is wrong, one sentence.
+    /// The error in one sentence.
     pub message: String,
-    /// The places in the form, the main one first.
+    /// The locations in the form, the main one first.
     pub labels: Vec<Label>,
-    /// The place in the job or in the program.
+    /// The location in the job or in the program.
     pub place: Option<Location>,
-    /// What to type instead.
+    /// A proposed correction.
     pub help: Option<String>,
-    /// What to type instead, as an edit of the form.
+    /// The correction as an edit of the form.
     pub fix: Option<Fix>,
 }
 
 impl Diag {
-    /// A finding with the severity of its code and no place yet.
+    /// A finding with the severity of its code and no location yet.
     ///
-    /// Messages hold text from files: what would steer a terminal is escaped, what is too long is cut in the middle.
+    /// Messages may contain text from files: control characters are escaped, and long text is cut in the middle.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Diag {
             code,
@@ -88,25 +88,25 @@ impl Diag {
         }
     }
 
-    /// Adds a place in the form; the first one added is the main one.
+    /// Adds a location in the form; the first one added is the main one.
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: shown(text.into()) });
         self
     }
 
-    /// Adds the place in the job or in the program.
+    /// Adds the location in the job or in the program.
     pub fn place(mut self, place: impl Into<Location>) -> Self {
         self.place = Some(place.into());
         self
     }
 
-    /// Adds what to type instead.
+    /// Adds a proposed correction.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(shown(help.into()));
         self
     }
 
-    /// Adds an edit that fixes it.
+    /// Adds an edit that fixes the finding.
     pub fn fix(mut self, title: impl Into<String>, safe: bool, edits: Vec<(Span, String)>) -> Self {
         self.fix = Some(Fix { title: shown(title.into()), safe, edits });
         self
@@ -120,7 +120,7 @@ impl Diag {
 
 /// Longest message or help, in characters.
 const LONGEST: usize = 400;
-/// How many characters of a word messages show; a number of 309 digits is longer.
+/// Maximum number of characters of a word in messages; a number may have 309 digits.
 const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {
@@ -132,7 +132,7 @@ fn shown(text: String) -> String {
     cut(&words.join(" "), LONGEST, " … ")
 }
 
-/// A text without its middle where it is longer than `most` characters.
+/// A text whose middle is cut out if it is longer than `most` characters.
 fn cut(text: &str, most: usize, mark: &str) -> String {
     let count = text.chars().count();
     if count <= most {

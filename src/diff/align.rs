@@ -11,12 +11,12 @@ use super::key::key;
 use super::program::Program;
 use super::words::{likeness, within, words};
 
-/// How programs are compared.
+/// Settings of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// What does not count.
+    /// Ignored differences.
     pub ignore: Ignore,
-    /// By how much numbers of a changed block may differ and be the same.
+    /// Numbers of a changed block with at most this difference are equal.
     pub tolerance: f64,
 }
 
@@ -26,31 +26,31 @@ impl Default for Options {
     }
 }
 
-/// One finding. Lines count from 0.
+/// One difference. Lines are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edit {
-    /// A line of the old program is gone.
+    /// A line of the old program is missing in the new one.
     Removed(usize),
-    /// A line of the new program was not there.
+    /// A line of the new program is missing in the old one.
     Added(usize),
-    /// A line became another.
+    /// A line of the old program became a line of the new one.
     Changed(usize, usize),
-    /// A line stands elsewhere: at this end in the old program, and in the new one.
+    /// A line moved: its number in the old program, and in the new one.
     Moved(usize, usize),
 }
 
-/// Findings that stand together.
+/// Adjacent differences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hunk {
     /// Lines of the old program.
     pub old: Range<usize>,
     /// Lines of the new program.
     pub new: Range<usize>,
-    /// Removed and changed lines in the order of the old program, added ones where they stand.
+    /// Removed and changed lines in the order of the old program; added lines at their position.
     pub edits: Vec<Edit>,
 }
 
-/// What changed.
+/// The result of a comparison.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Comparison {
     /// Hunks in the order of the programs.
@@ -63,17 +63,17 @@ impl Comparison {
         self.hunks.is_empty()
     }
 
-    /// All findings.
+    /// All differences.
     pub fn edits(&self) -> impl Iterator<Item = &Edit> {
         self.hunks.iter().flat_map(|hunk| &hunk.edits)
     }
 }
 
-/// Lines that count, with their keys, of the part of a program that is compared.
+/// The compared lines of a part of a program, with their keys.
 struct Lines {
     keys: Vec<u64>,
     numbers: Vec<u32>,
-    /// Where the part ends.
+    /// End of the part.
     end: usize,
 }
 
@@ -94,8 +94,8 @@ impl Lines {
         self.numbers[at] as usize
     }
 
-    /// Lines of the program that a range of those that count covers; an empty one stands before the next line that counts, or at the end of
-    /// the part.
+    /// The lines of the program from the first to the last compared line of a range. An empty range is before the next compared
+    /// line, or at the end of the part.
     fn covered(&self, range: &Range<usize>) -> Range<usize> {
         if range.is_empty() {
             let at = self.numbers.get(range.start).map_or(self.end, |&number| number as usize);
@@ -105,8 +105,8 @@ impl Lines {
     }
 }
 
-/// Compares two programs. The same programs have the same comparison on every machine: the search for the shortest one is
-/// bounded in steps, and where two large programs have little in common a longer one may come.
+/// Compares two programs. The result is the same on every machine, because the search for the shortest one is limited by steps,
+/// not by time. If two large programs have little in common, the result may be longer than the shortest.
 pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     let mut comparison = Comparison::default();
     for [from, to] in gaps(old, new) {
@@ -126,10 +126,10 @@ pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     comparison
 }
 
-/// Most lines of a hunk that are compared each with each.
+/// Maximum number of lines of a hunk that are compared pairwise.
 const MOST: usize = 64;
 
-/// Which removed line became which added one.
+/// Pairs removed lines with the added lines that replaced them.
 fn pair(
     old: &Program,
     new: &Program,
@@ -145,7 +145,7 @@ fn pair(
     for at in from {
         let line = before.number(at);
         let old_words = words(old.line(line), &options.ignore);
-        // line by line where there are as many, else the next one that is alike
+        // line by line if the numbers are equal; else the next similar line
         let reach = if even { 1 } else { MOST };
         let found = (next..to.end.min(next + reach)).find_map(|candidate| {
             let number = after.number(candidate);
@@ -168,7 +168,7 @@ fn pair(
     edits
 }
 
-/// A line that is gone here and new there, once each, was moved.
+/// Marks a line as moved if it is removed once and added once elsewhere.
 fn find_moves(comparison: &mut Comparison, old: &Program, new: &Program, ignore: &Ignore) {
     let mut gone: HashMap<u64, (usize, usize)> = HashMap::new();
     let mut come: HashMap<u64, (usize, usize)> = HashMap::new();

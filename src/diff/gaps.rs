@@ -1,26 +1,26 @@
-//! The parts of two programs between lines that are the same, byte for byte: most programs that are compared differ in few
-//! blocks, and only those parts need a key for each line and a search.
+//! Finds the parts that differ between lines that are equal, byte for byte. Most compared programs differ in few blocks, and
+//! only these parts need a key for each line and a search.
 
 use std::ops::Range;
 
 use super::program::Program;
 
-/// Lines of the old and the new program that must be compared; between two such parts the lines are the same.
+/// Lines of the old and the new program that must be compared; the lines between two such parts are equal.
 pub(super) type Gap = [Range<usize>; 2];
 
-/// So many lines after a difference, on either side, it is looked for lines that are the same again.
+/// Number of lines after a difference, on either side, in which equal lines are searched.
 const WINDOW: usize = 64;
 
-/// So many lines in a row must be the same again: fewer may be so by chance in programs whose blocks repeat, and the answer would be
-/// longer than it must be.
+/// Number of consecutive lines that must be equal. In programs with repeated blocks, fewer lines may be equal by chance, and
+/// the result would be longer than necessary.
 const RUN: usize = 32;
 
-/// Programs of fewer lines are searched as a whole: where blocks repeat, lines that are the same again may not be those of the
-/// shortest answer.
+/// Programs with fewer lines are searched as a whole: with repeated blocks, the first equal lines may not belong to the
+/// shortest result.
 const SMALL: usize = 20_000;
 
-/// Finds the parts. Where the programs are small, or do not meet again within a few lines, the last part is all that is left, without the
-/// lines that are the same at the end.
+/// Finds the parts. If the programs are small, or no equal lines are near, the last part is the whole rest, without the equal
+/// lines at the end.
 pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     let same = |a: usize, b: usize| old.line(a) == new.line(b);
     let most = old.len().min(new.len());
@@ -45,11 +45,11 @@ pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     }
 }
 
-/// Where the lines of two parts are the same again, after as few lines as can be.
+/// The nearest lines at which two parts are equal again.
 fn meet([a, b]: Gap, same: impl Fn(usize, usize) -> bool) -> Option<(usize, usize)> {
     let is_run = |x: usize, y: usize| x + RUN <= a.end && y + RUN <= b.end && (0..RUN).all(|at| same(x + at, y + at));
     (1..=WINDOW).find_map(|far| {
-        // changed lines first, then added or removed ones, then both
+        // changed lines first, then added or removed lines, then both
         let ways = (0..far).flat_map(|near| [(near, far), (far, near)]);
         let mut found = std::iter::once((far, far)).chain(ways).map(|(old, new)| (a.start + old, b.start + new));
         found.find(|&(x, y)| is_run(x, y))

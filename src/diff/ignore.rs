@@ -1,13 +1,13 @@
-//! Differences that do not count.
+//! Ignored differences.
 
-/// What two blocks may differ in and be the same.
+/// The kinds of differences that are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Ignore {
     /// Block numbers.
     pub numbers: bool,
-    /// Comments, and lines that hold nothing else.
+    /// Comments, and lines that contain only comments.
     pub comments: bool,
-    /// Blanks, line ends, and empty lines.
+    /// Spaces, line ends, and empty lines.
     pub spaces: bool,
     /// Upper and lower case of words.
     pub case: bool,
@@ -18,14 +18,14 @@ pub struct Ignore {
 }
 
 impl Ignore {
-    /// The names of all that can be ignored.
+    /// The names of all kinds.
     pub const NAMES: [&'static str; 6] = ["numbers", "comments", "spaces", "case", "format", "order"];
 
-    /// What a machine does not see: block numbers, blanks, case and the format of numbers.
+    /// Differences that do not matter to a machine: block numbers, spaces, case and the format of numbers.
     pub const USUAL: Ignore =
         Ignore { numbers: true, comments: false, spaces: true, case: true, format: true, order: false };
 
-    /// Sets what can be ignored by its name; `false`: nothing has this name.
+    /// Ignores a kind by its name; returns `false` if the name is unknown.
     pub fn set(&mut self, name: &str) -> bool {
         let field = match name {
             "numbers" => &mut self.numbers,

@@ -1,4 +1,4 @@
-//! A line as a number: lines are the same when their numbers are.
+//! A line as a number: equal numbers mean equal lines.
 
 use std::hash::{BuildHasher, Hash, Hasher};
 
@@ -7,14 +7,14 @@ use foldhash::quality::{FixedState, FoldHasher};
 use super::ignore::Ignore;
 use crate::nc::{Kind, Token, tokens};
 
-/// A hasher whose numbers are the same on every machine.
+/// A hasher with the same results on every machine.
 pub(super) fn hasher() -> FoldHasher<'static> {
     FixedState::with_seed(0).build_hasher()
 }
 
-/// The key of a line; `None` when nothing of it counts.
+/// The key of a line; `None` if everything in it is ignored.
 ///
-/// Two different lines have one key by chance once in 2^64: a program has fewer lines than that.
+/// The chance that two different lines have the same key is 1 in 2^64; a program has fewer lines than that.
 pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
     let mut whole = hasher();
     let mut sum = 0u64;
@@ -23,11 +23,11 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
     while let Some(token) = parts.next() {
         if !is_seen(&token, ignore) {
             leaves_out |= !is_blank(&token);
-            // the blanks after a number go with it
+            // the spaces after an ignored number are ignored as well
             while matches!(token.kind, Kind::Word(..)) && parts.next_if(|next| next.kind == Kind::Blank).is_some() {}
             continue;
         }
-        // and those before a comment with that
+        // spaces before an ignored comment are ignored as well
         if token.kind == Kind::Blank && parts.peek().is_some_and(|next| !is_seen(next, ignore)) {
             continue;
         }
@@ -35,7 +35,7 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
         has_blanks |= is_blank(&token);
         let mut one = hasher();
         hash_token(&token, line, ignore, &mut one);
-        // what belongs to a letter stays with it
+        // the expression after a letter belongs to the letter
         if matches!(token.kind, Kind::Letter(_)) {
             while let Some(next) = parts.next_if(is_value) {
                 if is_seen(&next, ignore) {
@@ -46,11 +46,11 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
         let one = one.finish();
         if ignore.order { sum = sum.wrapping_add(one) } else { one.hash(&mut whole) }
     }
-    // the line of a comment goes with it, though blanks count; an empty line stays
+    // a line with only an ignored comment is ignored even if spaces are compared; an empty line stays
     (counts || has_blanks && !leaves_out).then(|| if ignore.order { sum } else { whole.finish() })
 }
 
-/// Does a token count?
+/// Is a token compared?
 pub(super) fn is_seen(token: &Token, ignore: &Ignore) -> bool {
     match token.kind {
         Kind::Blank | Kind::LineEnd => !ignore.spaces,
@@ -64,7 +64,7 @@ fn is_blank(token: &Token) -> bool {
     matches!(token.kind, Kind::Blank | Kind::LineEnd)
 }
 
-/// Part of an expression after a letter.
+/// A token of an expression after a letter.
 fn is_value(token: &Token) -> bool {
     matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted | Kind::Blank)
 }
@@ -78,7 +78,7 @@ fn hash_token(token: &Token, line: &[u8], ignore: &Ignore, hasher: &mut impl Has
             } else {
                 text[0].hash(hasher)
             }
-            // zero has one sign
+            // -0 and 0 are equal
             (number.value + 0.0).to_bits().hash(hasher);
         }
         Kind::Number(number) if ignore.format => number.value.to_bits().hash(hasher),

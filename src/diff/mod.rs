@@ -1,4 +1,4 @@
-//! What changed between two NC programs: blocks compared by their words, not by their text.
+//! Differences between two NC programs: blocks are compared by their words, not by their text.
 
 mod align;
 mod gaps;

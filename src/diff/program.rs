@@ -1,14 +1,14 @@
-//! A program in memory: its bytes, and where its lines are.
+//! A program in memory: its bytes, and the positions of its lines.
 
-/// A program whose lines are known by number.
+/// A program with an index of its lines.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     bytes: Vec<u8>,
-    /// Where lines begin, and where the last one ends.
+    /// Start of each line, and the end of the last one.
     starts: Vec<u32>,
 }
 
-/// A program is larger than what 32 bits count: its size in bytes.
+/// The size in bytes of a program that is too large for 32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooLarge(pub usize);
 
@@ -34,22 +34,22 @@ impl Program {
         &self.bytes
     }
 
-    /// How many lines the program has.
+    /// The number of lines.
     pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// Has the program no line?
+    /// Is the program empty?
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A line, from 0, with its end.
+    /// A line with its line end, counted from 0.
     pub fn line(&self, number: usize) -> &[u8] {
         &self.bytes[self.starts[number] as usize..self.starts[number + 1] as usize]
     }
 
-    /// A line without its end.
+    /// A line without its line end.
     pub fn text(&self, number: usize) -> &[u8] {
         let line = self.line(number);
         let line = line.strip_suffix(b"\n").unwrap_or(line);

@@ -1,4 +1,4 @@
-//! What changed, by kinds.
+//! The changes, counted by kind.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -7,7 +7,7 @@ use super::ignore::Ignore;
 use super::program::Program;
 use super::words::{Word, words};
 
-/// Counts of what changed.
+/// The numbers of changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// Blocks changed, removed, added, moved.
@@ -18,9 +18,9 @@ pub struct Summary {
     pub added: usize,
     #[allow(missing_docs)]
     pub moved: usize,
-    /// Changed blocks in which a letter's number changed, by letter.
+    /// Number of changed blocks in which the number of a letter changed, by letter.
     pub letters: BTreeMap<char, usize>,
-    /// Codes and words that changed blocks have more, and less.
+    /// Codes and words that were added to changed blocks, and those that were removed from them.
     pub more: BTreeMap<String, usize>,
     #[allow(missing_docs)]
     pub less: BTreeMap<String, usize>,
@@ -42,17 +42,17 @@ impl Summary {
                 }
             }
         }
-        summary.moved = moved / 2; // it is told at both ends
+        summary.moved = moved / 2; // each move is reported at both ends
         summary
     }
 
     fn block(&mut self, old: &[Word], old_text: &[u8], new: &[Word], new_text: &[u8]) {
-        // codes are themselves, other words are their letter
+        // a code is listed with its number, any other word only with its letter
         let is_code = |word: &Word| matches!(word.letter, 0 | b'G' | b'M');
         let name = |word: &Word, text: &[u8]| {
             let text = String::from_utf8_lossy(&text[word.span.clone()]).trim().to_owned();
             match word.letter {
-                0 => text, // a comment is as it is written
+                0 => text, // a comment is listed as written
                 _ if is_code(word) => text.to_ascii_uppercase(),
                 letter => char::from(letter).to_string(),
             }

@@ -1,4 +1,4 @@
-//! Inside a changed block: which words changed.
+//! The changed words of a changed block.
 
 use std::hash::{Hash, Hasher};
 use std::ops::Range;
@@ -14,22 +14,22 @@ use crate::nc::{Kind, tokens};
 pub(super) struct Word {
     /// The bytes of the word in the line.
     pub span: Range<usize>,
-    /// The letter of the word; 0 for what is no word.
+    /// The letter of the word; 0 for anything else.
     pub letter: u8,
-    /// The number after the letter, where there is one.
+    /// The number after the letter, if any.
     pub value: Option<f64>,
-    /// The word as a number, made of what is compared: two different words have one by chance once in 2^64.
+    /// A hash of the compared parts: two different words have the same hash with a chance of 1 in 2^64.
     key: u64,
 }
 
 impl Word {
-    /// Is another word the same, as compared?
+    /// Is another word equal in the compared parts?
     pub fn is(&self, other: &Word) -> bool {
         self.key == other.key
     }
 }
 
-/// The words of a block that count.
+/// The compared words of a block.
 pub(super) fn words(line: &[u8], ignore: &Ignore) -> Vec<Word> {
     let mut list: Vec<Word> = Vec::new();
     let mut open = false;
@@ -66,7 +66,7 @@ fn key_of(part: &impl Hash) -> u64 {
     hasher.finish()
 }
 
-/// Are two blocks the same when numbers may differ by so much?
+/// Are two blocks equal if numbers may differ by `tolerance`?
 pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
     old.len() == new.len()
         && old.iter().zip(new).all(|(a, b)| match (a.value, b.value) {
@@ -75,7 +75,7 @@ pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
         })
 }
 
-/// How many words two blocks share, of the longer one's.
+/// The share of common words, relative to the longer block.
 pub(super) fn likeness(old: &[Word], new: &[Word]) -> f64 {
     let mut has = [false; 256];
     new.iter().for_each(|word| has[usize::from(word.letter)] = true);
@@ -83,7 +83,7 @@ pub(super) fn likeness(old: &[Word], new: &[Word]) -> f64 {
     shared as f64 / old.len().max(new.len()).max(1) as f64
 }
 
-/// The places of changed words in an old and a new block.
+/// The byte ranges of changed words in an old and a new block.
 pub fn changed_spans(old: &[u8], new: &[u8], ignore: &Ignore) -> [Vec<Range<usize>>; 2] {
     let (before, after) = (words(old, ignore), words(new, ignore));
     let keys = |list: &[Word]| -> Vec<u64> { list.iter().map(|word| word.key).collect() };

@@ -1,18 +1,18 @@
-//! What is known of a control, and what is not: for `explain`, for docs/controls, and as a file to start from.
+//! Known and unknown facts of a control: for `explain`, for docs/controls, and as a file to start from.
 
 use crate::control::{
     Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, WorkOffset, names,
 };
 
-/// What nothing public says.
+/// The text for a fact without a public source.
 const UNKNOWN: &str = "not known";
 
-/// The traits of a control, by name: what is known of each.
+/// The traits of a control by name, with the known facts.
 fn facts(control: &Control) -> Vec<(&'static str, String)> {
     let traits = control.traits();
     let kept = |kept: Kept| match kept {
-        Kept::Yes => "stays as it is",
-        Kept::No => "is put back, or stops",
+        Kept::Yes => "stays on",
+        Kept::No => "is reset or stops",
         Kept::Unknown => UNKNOWN,
     };
     let rules = match traits.rules {
@@ -27,8 +27,8 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     };
     let line = match (traits.longest_line, traits.stops_at_longer) {
         (None, _) => UNKNOWN.to_owned(),
-        (Some(line), true) => format!("{line} characters; it stops at a longer one"),
-        (Some(line), false) => format!("{line} characters; a sender cuts what is longer"),
+        (Some(line), true) => format!("{line} characters; the control stops at a longer line"),
+        (Some(line), false) => format!("{line} characters; a sender cuts longer lines"),
     };
     let point = match traits.without_point {
         WithoutPoint::Unknown => UNKNOWN,
@@ -48,10 +48,10 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     };
     let length = match traits.tool_length {
         ToolLength::CodeAndRegister => "by G43 with H",
-        ToolLength::Code => "by G43, which is the tool's own without H",
+        ToolLength::Code => "by G43; without H it is the tool's own length",
         ToolLength::Register => "by H alone",
-        ToolLength::Tool => "by calling the tool, or an edge of it",
-        ToolLength::None => "it has no registers of lengths",
+        ToolLength::Tool => "by calling the tool or one of its edges",
+        ToolLength::None => "it has no length registers",
     };
     let others = match traits.complete {
         true => "refused",
@@ -60,18 +60,18 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     let machine = match traits.turns {
         Turns::Tool => "a mill",
         Turns::Part => "a lathe: X is a diameter, U and W are increments, and T changes the tool with its register",
-        Turns::Nothing => "a wire EDM machine: X and Y are places of the lower guide, U and V of the upper one",
+        Turns::Nothing => "a wire EDM machine: X and Y are positions of the lower guide, U and V of the upper guide",
     };
     vec![
         ("programs", rules.to_owned()),
-        ("what it drives", machine.to_owned()),
+        ("type of machine", machine.to_owned()),
         ("longest block", line),
         ("M codes in a block", if traits.one_m { "one" } else { UNKNOWN }.to_owned()),
-        ("small letters", if traits.small_letters { "read" } else { "not to be counted on" }.to_owned()),
-        ("a length without a point counts", point.to_owned()),
-        ("P of a dwell counts", dwell.to_owned()),
-        ("I, J and K count", centres.to_owned()),
-        ("the length of a tool is turned on", length.to_owned()),
+        ("small letters", if traits.small_letters { "read" } else { "may be refused" }.to_owned()),
+        ("unit of a length without a point", point.to_owned()),
+        ("unit of P of a dwell", dwell.to_owned()),
+        ("I, J and K are measured", centres.to_owned()),
+        ("the tool length offset is turned on", length.to_owned()),
         ("G91 of the program before", kept(traits.modes_at_start).to_owned()),
         ("the spindle at M0 and M1", kept(traits.spindle_at_stop).to_owned()),
         ("codes that are not listed", others.to_owned()),
@@ -82,7 +82,7 @@ fn letters(words: Words) -> String {
     (b'A'..=b'Z').filter(|letter| words.bits() & 1 << (letter - b'A') != 0).map(char::from).collect()
 }
 
-/// What a code is, in words.
+/// The meaning of a code, in words.
 fn about(row: &Row) -> String {
     let mut text = row.meaning.about().to_owned();
     if !row.makes.is_empty() {
@@ -111,17 +111,17 @@ fn about(row: &Row) -> String {
     }
 }
 
-/// What a code does on a control, in words. `None`: nobody knows it there.
+/// The function of a code on a control, in words. `None`: it is unknown on this control.
 pub fn code(control: &Control, code: Code) -> Option<String> {
     control.row(code).map(about)
 }
 
-/// What `postform explain haas` prints.
+/// The text that `postform explain haas` prints.
 pub fn text(control: &Control) -> String {
     let mut text = format!("{} is the control {}\n\n", control.name(), control.title());
     let like: Vec<&str> = control.like().collect();
     if !like.is_empty() {
-        text += &format!("  {:<36} {}\n", "what its file does not say is as in", like.join(", "));
+        text += &format!("  {:<36} {}\n", "based on", like.join(", "));
     }
     facts(control).iter().for_each(|(name, fact)| text += &format!("  {name:<36} {fact}\n"));
     control.unknown().iter().for_each(|fact| text += &format!("  {:<36} {fact}\n", "not known"));
@@ -149,13 +149,13 @@ pub fn page(control: &Control) -> String {
     text
 }
 
-/// docs/controls/README.md, and what `postform controls` lists.
+/// docs/controls/README.md, also the list of `postform controls`.
 pub fn index() -> String {
     let mut text = String::from(
-        "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md says how to add one, \
-         `postform new --control-file NAME` prints one to start from. \
-         `rules = \"none\"` is for a control without G codes: its forms print, lint checks no codes, \
-         and the verdict is that the program was not read.\n\n| control | title | codes | cycles |\n| --- | --- | --- | --- |\n",
+        "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md \
+         explains how to add one, `postform new --control-file NAME` prints a template. `rules = \"none\"` is for a \
+         control without G codes: its forms print, lint checks no codes, and programs are not proven.\n\n| control | \
+         title | codes | cycles |\n| --- | --- | --- | --- |\n",
     );
     for control in names().filter_map(Control::named) {
         let (codes, cycles) = counts(control);
@@ -164,7 +164,7 @@ pub fn index() -> String {
     text
 }
 
-/// What `postform controls` prints.
+/// The text that `postform controls` prints.
 pub fn list() -> String {
     let mut text = String::new();
     for control in names().filter_map(Control::named) {
@@ -174,55 +174,55 @@ pub fn list() -> String {
     text
 }
 
-/// How many codes and how many cycles of a control are run.
+/// The number of codes and of cycles of a control that can be run.
 fn counts(control: &Control) -> (usize, usize) {
     let has = |row: &&Row| row.not_run.is_none() && !control.refuses(row.code);
     let cycles = control.rows().filter(has).filter(|row| row.meaning.is_cycle()).count();
     (control.rows().filter(has).count(), cycles)
 }
 
-/// A commented file to start from, for a machine whose control is like this one.
+/// A commented file to start from, for a machine with a similar control.
 pub fn file(control: &Control) -> String {
     format!(
         "# A control of your own. Put it beside the form and write `Control my-control.toml` in the form; simulate and verify take
-# it by `--control my-control.toml`. What it does not say is as in {name}: `postform explain {name}`.
+# it with `--control my-control.toml`. Everything that is not in this file is as in {name}: `postform explain {name}`.
 name = \"my-control\"
 title = \"My machine\"
 like = \"{name}\"
 
-# A language without G codes, as Klartext: its forms print, lint takes none of their words for codes, nothing is proven.
+# For a language without G codes, as Klartext: its forms print, lint checks no codes, and no program is proven.
 # rules = \"none\"
 
-# What differs besides codes: take the mark away where it does.
+# Differences other than codes: remove the first `#` of a line where your control differs.
 # [dwell]
-# P = \"s\"                          # what P of G4 counts: s or ms
+# P = \"s\"                          # unit of P of G4: s or ms
 # [text]
 # line = 80                          # longest block, in characters
-# longer = \"stops\"                 # what becomes of a longer one: stops or cut
+# longer = \"stops\"                 # effect of a longer block: stops or cut
 # [numbers]
 # length_without_point = \"units\"   # X10 is 10 mm: units; 0.01 mm: least-increment
 # [start]
-# modes = \"kept\"                   # G91 or G20 of the program before: kept or lost
+# modes = \"kept\"                   # a G91 or G20 of the program before is kept or lost
 # [stops]
-# spindle = \"kept\"                 # M0 leaves spindle and coolant on: kept or lost
+# spindle = \"kept\"                 # spindle and coolant at M0 are kept or lost
 # [arcs]
-# centres = \"incremental\"          # I and J count from the start of the arc: incremental; from zero: absolute
+# centres = \"incremental\"          # I and J are measured from the start of the arc: incremental; from zero: absolute
 # [tool]
-# length = \"G43 H\"                 # what turns the tool's length on: G43 H, G43, H or none
+# length = \"G43 H\"                 # the words that turn the tool length offset on: G43 H, G43, H or none
 
-# The codes that differ. `is` says what a code does; `words` are the letters that it takes besides axes, F, S and T.
+# The codes that differ. `is` is the meaning of a code; `words` are the letters that it takes besides axes, F, S and T.
 [codes]
 # coolant through the spindle
 # \"M88\" = {{ is = \"through\", stops_spindle = true }}
 # a code of the builder that changes nothing in the program's motions
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
-# a code that calls a program of the builder: positions are said again after it
+# a code that calls a program of the builder: all positions are printed again after it
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
-# the spindles of a drill bank: M201 is tool 101, and each code after it the next tool
+# the spindles of a drill bank: M201 is tool 101, and each later code is the next tool
 # \"M201-M206\" = {{ is = \"tool-number\", tool = 101 }}
-# `G310-G319` stands for all of them, `G31.*` for all with a decimal, `M*` for all others; `absent` takes a code of {name} away
+# `G310-G319` is all of these codes, `G31.*` all with a decimal, `M*` all others; `absent` removes a code of {name}
 
-# What `is` may say:
+# The values of `is`:
 {meanings}",
         name = control.name(),
         meanings = crate::control::Meaning::ALL

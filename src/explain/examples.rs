@@ -1,10 +1,10 @@
-//! Examples out of the forms that ship: what `explain` shows is what renders.
+//! Examples from the shipped forms: `explain` shows only lines that render.
 
 use crate::lang::{SequenceId, VarId};
 use crate::source::Source;
 use crate::syntax::parse;
 
-/// The posts, the commonest first.
+/// The posts, beginning with the most common.
 const POSTS: &[(&str, &str)] = &[
     ("postforms/fanuc.pf", include_str!("../../postforms/fanuc.pf")),
     ("postforms/haas-4axis.pf", include_str!("../../postforms/haas-4axis.pf")),
@@ -24,7 +24,7 @@ macro_rules! samples {
     };
 }
 
-// one for each sequence that no post has, by the table of sequences
+// one for each sequence that no post contains, from the table of sequences
 samples! {
     "back-machine" "begin-row" "between" "bore-machine" "can-thread" "cancel-with" "ccw-code" "chipbreak-machine"
     "custom1-machine" "cw-code" "drill-machine" "end-code" "end-row" "first-tool-change" "index" "infeed"
@@ -37,7 +37,7 @@ samples! {
 pub struct Example {
     /// The lines of the example.
     pub text: String,
-    /// Name of the form in which the lines stand.
+    /// Name of the form that contains the lines.
     pub form: &'static str,
 }
 
@@ -45,7 +45,7 @@ fn forms() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
     POSTS.iter().chain(SAMPLES)
 }
 
-/// The text of a sequence from its name to its End, in a form that ships.
+/// The text of a sequence from its name to its End, in a shipped form.
 pub fn sequence(id: SequenceId) -> Option<Example> {
     forms().find_map(|(form, text)| {
         let tree = parse(&Source::from_text(*form, *text), 0);
@@ -64,7 +64,7 @@ pub fn variable(var: VarId) -> Option<Example> {
     })
 }
 
-/// A command as forms give it.
+/// A command as forms write it.
 pub fn command(name: &str) -> Option<Example> {
     forms().find_map(|(form, text)| {
         let tree = parse(&Source::from_text(*form, *text), 0);

@@ -1,4 +1,5 @@
-//! What each code, command, variable, sequence, cycle and control means, from the tables and pages that the reference is made of.
+//! The meaning of each code, command, variable, sequence, cycle and control, from the tables and pages that are the source of
+//! the reference.
 // pages name variables as [var]
 #![allow(rustdoc::broken_intra_doc_links)]
 
@@ -16,21 +17,21 @@ use crate::lang::{
     COMMANDS, CommandId, DIRECTIVES, LONGEST_NAME, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId, did_you_mean,
 };
 
-/// The text for a code, command, variable, sequence, cycle or control, whatever the case it is asked for in.
+/// The text for a code, command, variable, sequence, cycle or control; the case does not matter.
 ///
 /// # Errors
-/// There is no such thing; the text says what may have been meant.
+/// Nothing has this name; the text proposes similar names.
 pub fn explain(what: &str) -> Result<String, String> {
     let asked = what.trim();
     let upon = asked.get(..5).is_some_and(|head| head.eq_ignore_ascii_case("Upon "));
-    // `X[h]` asks for the variable
+    // `X[h]` means the variable
     let inner = asked.split_once(['[', '<']).filter(|(letter, _)| letter.len() <= 1).map(|(_, name)| name);
     let bare = inner.unwrap_or(asked).trim_matches(['[', ']', '<', '>']);
     let mut texts = Vec::new();
     if let Some(row) = CODES.iter().find(|row| names_of(row).any(|name| name.eq_ignore_ascii_case(asked))) {
         texts.push(code(row));
     }
-    // whoever asks with brackets wants the variable of that name alone
+    // a name in brackets means only the variable
     if asked == bare {
         texts.extend(SequenceId::parse(asked).map(words::sequence));
         texts.extend(CommandId::parse(asked).map(words::command));
@@ -49,7 +50,7 @@ pub fn explain(what: &str) -> Result<String, String> {
     if asked == bare {
         texts.extend(words::cycle(asked));
     }
-    // a line of a form asks for what it begins with: `Back 3`, `Force X Z`
+    // a line of a form is looked up by its first word: `Back 3`, `Force X Z`
     if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty() && asked.len() < LONGEST_NAME) {
         texts.extend(explain(head));
     }
@@ -57,14 +58,14 @@ pub fn explain(what: &str) -> Result<String, String> {
     match texts.is_empty() {
         false => Ok(texts.join("\n")),
         true => Err(did_you_mean(bare, all_names()).unwrap_or_else(|| {
-            "ask for a code (PF101, cycle.depth.missing), a command, a variable, a sequence or a kind of cycle; \
-             --list names them all"
+            "give a code (PF101, cycle.depth.missing), a command, a variable, a sequence or a kind of cycle; --list \
+             shows all of them"
                 .into()
         })),
     }
 }
 
-/// Everything that can be asked for, in groups.
+/// All names that can be looked up, in groups.
 pub fn list() -> String {
     let mut text = String::from("Codes\n");
     for row in CODES {
@@ -78,7 +79,7 @@ pub fn list() -> String {
         ("Upon [var]", "when a variable changes"),
         ("Upon Every [var]", "whenever a variable is used"),
         ("End", "ends a sequence; End Cancel ends a canned cycle with Cancel"),
-        ("None", "a body that says nothing"),
+        ("None", "a body that prints nothing"),
     ];
     let rows = SEQUENCES.iter().map(|row| (row.name, row.meaning)).chain(upons);
     rows.for_each(|(name, meaning)| text += &format!("  {name:<20} {meaning}\n"));
@@ -96,7 +97,7 @@ pub fn list() -> String {
     text
 }
 
-/// What a code is called.
+/// The names of a code.
 fn names_of(row: &'static CodeRow) -> impl Iterator<Item = &'static str> {
     [row.name, row.code.key()].into_iter().filter(|name| !name.is_empty())
 }
@@ -112,7 +113,7 @@ fn all_names() -> impl Iterator<Item = &'static str> {
         .chain(words::CYCLES.iter().map(|row| row.name))
 }
 
-/// A code: its page, or its section of one.
+/// The page of a code, or its section of a page.
 fn code(row: &CodeRow) -> String {
     let title = row.title.split_once(": ").map_or(row.title, |(_, title)| title);
     let head = format!("{} ({}): {title}\n", row.code.title(), row.severity.name());

@@ -1,4 +1,4 @@
-//! The text of codes: a page each for those of forms, a section for the others.
+//! The texts of codes: one page for each code of forms, one section for each other code.
 
 use crate::diag::{Code, CodeRow};
 
@@ -22,7 +22,7 @@ pages! {
     PF715
 }
 
-/// Pages with a section for each code, headed by its name.
+/// Pages with one section per code, with its name as heading.
 const SECTIONS: [&str; 5] = [
     include_str!("../../docs/cycles.md"),
     include_str!("../../docs/programs.md"),

@@ -1,11 +1,11 @@
-//! The reference pages of docs/, made from the tables. A test holds the files to them.
+//! The reference pages of docs/, generated from the tables. A test compares the files with this output.
 
 use super::words::{origin, standing, takes, unit};
 use crate::diag::CODES;
 use crate::lang::{COMMANDS, Machines, SEQUENCES, TEXTS, VARIABLES};
 use crate::lint::RULES;
 
-/// The first lines of a page that nobody should edit.
+/// The first lines of a generated page.
 fn head(title: &str, lead: &str) -> String {
     format!("# {title}\n\n<!-- made from the tables of the source: `just overwrite` -->\n\n{lead}\n\n")
 }
@@ -19,7 +19,7 @@ fn cell(text: &str) -> String {
 pub fn commands() -> String {
     let mut text = head(
         "Commands of forms",
-        "They stand before the first sequence. `postform explain NAME` shows one with an example.",
+        "Commands come before the first sequence. `postform explain NAME` shows a command with an example.",
     );
     text += "| command | takes | without it | does | standing |\n| --- | --- | --- | --- | --- |\n";
     for row in COMMANDS {
@@ -40,7 +40,8 @@ pub fn commands() -> String {
 pub fn variables() -> String {
     let mut text = head(
         "Variables of forms",
-        "Written with a letter, as `X[h]`, or alone. `postform explain NAME` shows one with an example.",
+        "A variable is written with a letter, as `X[h]`, or alone. `postform explain NAME` shows a variable with an \
+         example.",
     );
     let mut group = "";
     for row in VARIABLES {
@@ -54,7 +55,8 @@ pub fn variables() -> String {
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
-    text += "\n## Texts\n\nFor people; ours, not the manual's. `[toolname:12]` has a width: [language](language.md#texts).\n\n";
+    text += "\n## Texts\n\nTexts are for comments and names; they are not in the manual. `[toolname:12]` has a \
+        width: see [language](language.md#texts).\n\n";
     text += "| variable | is | set by |\n| --- | --- | --- |\n";
     for row in TEXTS {
         text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);
@@ -64,10 +66,8 @@ pub fn variables() -> String {
 
 /// The text of docs/sequences.md.
 pub fn sequences() -> String {
-    let mut text = head(
-        "Sequences",
-        "Every sequence, the machines that have it, the job's item that prints it, and a sample that shows it.",
-    );
+    let mut text =
+        head("Sequences", "Every sequence with its machines, the item of the job that prints it, and a sample.");
     text += "| sequence | machines | event | sample | printed | needed on |\n| --- | --- | --- | --- | --- | --- |\n";
     for row in SEQUENCES {
         let needed = if row.required == Machines::of("") { "-".into() } else { row.required.to_string() };
@@ -83,14 +83,15 @@ pub fn sequences() -> String {
     }
     text += "| `Upon [var]` | mill | the next use of a variable that changed | [upon-work](../samples/upon-work) | when a variable changes | - |\n";
     text += "| `Upon Every [var]` | mill | every use of a variable | [upon-every-tool](../samples/upon-every-tool) | whenever a variable is used | - |\n";
-    text += "| `Thread G33` (a command) | lathe | `thread` | [thread-g33](../samples/thread-g33) | each pass, where the form has no threading cycle | - |\n";
+    text += "| `Thread G33` (a command) | lathe | `thread` | [thread-g33](../samples/thread-g33) | each pass, if the \
+        form has no threading cycle | - |\n";
     text
 }
 
-/// Families of a form's codes.
+/// Code families of a form.
 const FAMILIES: [(&str, &str); 8] = [
     ("PF0", "Structure"),
-    ("PF1", "Blanks and comments"),
+    ("PF1", "Spaces and comments"),
     ("PF2", "Names"),
     ("PF3", "Numbers and letter formats"),
     ("PF4", "Sequences and cycles"),
@@ -101,8 +102,8 @@ const FAMILIES: [(&str, &str); 8] = [
 
 /// docs/rules/README.md.
 pub fn rules() -> String {
-    let lead = "What `postform lint` finds in a form. An *error* keeps anything from being printed; *rule* marks what is found \
-                beyond reading the form, and may be turned off ([lint](../lint.md)).";
+    let lead = "The findings of `postform lint`. A form with an *error* prints nothing. A finding marked *rule* can \
+        be turned off ([lint](../lint.md)).";
     let mut text = head("Findings in forms", lead);
     for (family, title) in FAMILIES {
         text += &format!("## {title}\n\n| code | finds | severity | |\n| --- | --- | --- | --- |\n");

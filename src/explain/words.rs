@@ -1,4 +1,4 @@
-//! Commands, variables, sequences and kinds of cycles in words.
+//! Texts for commands, variables, sequences and kinds of cycles.
 
 use super::examples::{self, Example};
 use crate::lang::{
@@ -7,11 +7,11 @@ use crate::lang::{
 };
 use crate::toolpath::CycleKind;
 
-/// A kind of cycle that jobs ask for.
+/// A kind of cycle in jobs.
 pub struct CycleRow {
-    /// Name of the cycle, as jobs write it.
+    /// Its name in jobs.
     pub name: &'static str,
-    /// What the tool does.
+    /// The motion of the tool.
     pub meaning: &'static str,
 }
 
@@ -34,23 +34,23 @@ cycles! {
     "deep"      "pecks with a full retract after each"
     "chipbreak" "pecks with a short retract after each"
     "thru"      "feed through one web after the other"
-    "csink"     "to the depth that a diameter and an angle ask for"
-    "manual"    "stop over the point; a person does the rest"
-    "custom1"   "what the form's Custom1 does"
-    "custom2"   "what the form's Custom2 does"
-    "custom3"   "what the form's Custom3 does"
+    "csink"     "to the depth that follows from a diameter and an angle"
+    "manual"    "stop above the point, for work by hand"
+    "custom1"   "the moves of the form's Custom1"
+    "custom2"   "the moves of the form's Custom2"
+    "custom3"   "the moves of the form's Custom3"
 }
 
-/// Where a meaning comes from.
+/// The source of a meaning.
 pub fn standing(standing: Standing) -> &'static str {
     match standing {
         Standing::Doc => "stated in the manual",
-        Standing::Ex => "the only reading that prints the manual's examples",
-        Standing::Ours => "decided by us, because nothing public settles it",
+        Standing::Ex => "the only interpretation that reproduces the manual's examples",
+        Standing::Ours => "our decision, because no public source defines it",
     }
 }
 
-/// What a command takes.
+/// The arguments of a command.
 pub fn takes(args: Args) -> String {
     let range = |least: u8, most: u8, one: &str, many: &str| match (least, most) {
         (1, 1) => format!("one {one}"),
@@ -71,7 +71,7 @@ pub fn takes(args: Args) -> String {
     }
 }
 
-/// What a value counts.
+/// The unit of a value.
 pub fn unit(unit: Unit) -> &'static str {
     match unit {
         Unit::Length => "length",
@@ -85,7 +85,7 @@ pub fn unit(unit: Unit) -> &'static str {
     }
 }
 
-/// Who sets a value.
+/// The origin of a value.
 pub fn origin(origin: Origin) -> &'static str {
     match origin {
         Origin::Computed => "postform, from the toolpath",
@@ -122,7 +122,7 @@ pub fn command(id: CommandId) -> String {
     page(&format!("{} (command)", row.name), &lines, examples::command(row.name).or_else(|| as_it_would_be(row)))
 }
 
-/// A command that no form gives, with what it could say.
+/// An example for a command that no form uses.
 fn as_it_would_be(row: &Command) -> Option<Example> {
     let default = Some(row.without.arguments(Machine::Mill, UnitChoice::Inch)).filter(|default| !default.is_empty());
     let value = row.example.or(match row.args {
@@ -132,7 +132,7 @@ fn as_it_would_be(row: &Command) -> Option<Example> {
         Args::Words(_, _, what) => what.rsplit('`').nth(1),
         _ => default,
     })?;
-    Some(Example { text: format!("{} {value}", row.name), form: "as a form would say it" })
+    Some(Example { text: format!("{} {value}", row.name), form: "in a form" })
 }
 
 /// The page of a variable, as `explain` prints it.
@@ -148,7 +148,7 @@ pub fn variable(id: VarId) -> String {
     page(&format!("[{}] (variable)", row.name), &lines, examples::variable(id).or_else(|| in_a_comment(id)))
 }
 
-/// A variable that no form prints, where any may be printed.
+/// An example for a variable that no form prints: any variable may be printed in a comment.
 fn in_a_comment(id: VarId) -> Option<Example> {
     let text = format!("({} [{}])", id.name().to_uppercase(), id.name());
     Some(Example { text, form: "in a comment of the program" })
@@ -161,7 +161,7 @@ pub fn text(id: TextId) -> String {
         ("is", row.meaning.to_owned()),
         ("counts", "text".to_owned()),
         ("set by", row.from.to_owned()),
-        ("width", format!("[{0}:12] for 12 characters, [{0}:-12] to have it at their right", row.name)),
+        ("width", format!("[{0}:12] for 12 characters, [{0}:-12] for 12 characters aligned right", row.name)),
         ("standing", standing(Standing::Ours).to_owned()),
         ("sample", "samples/texts".to_owned()),
     ];
@@ -206,7 +206,7 @@ pub fn sequence(id: SequenceId) -> String {
 /// The page of `Upon [var]`, as `explain` prints it.
 pub fn upon() -> String {
     let lines = [
-        ("is", "a sequence that is printed when a variable changes, before what uses it".to_owned()),
+        ("is", "a sequence that is printed when a variable changes, before its next use".to_owned()),
         ("every", "Upon Every [var] is printed at every use".to_owned()),
         ("on", "mill".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
@@ -216,41 +216,41 @@ pub fn upon() -> String {
     page("Upon [var] (sequence)", &lines, Some(Example { text, form: "postforms/fanuc.pf" }))
 }
 
-/// `End`, which closes a sequence.
+/// The page of `End`, which closes a sequence.
 pub fn end() -> String {
     let lines = [
-        ("is", "the end of a sequence, on a line of its own".to_owned()),
-        ("Cancel", "End Cancel, of a canned cycle alone, prints the sequence Cancel after its last hole".to_owned()),
+        ("is", "the end of a sequence, alone on a line".to_owned()),
+        ("Cancel", "End Cancel, only for a canned cycle, prints the sequence Cancel after the last hole".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
         ("sample", "samples/cancel-with".to_owned()),
     ];
     page("End (of a sequence)", &lines, examples::sequence(SequenceId::Drill))
 }
 
-/// `None`, in place of a body.
+/// The page of `None`, which replaces a body.
 pub fn none() -> String {
     let lines = [
-        ("is", "the whole body of a sequence that says nothing: its event prints no block".to_owned()),
+        ("is", "the complete body of a sequence that prints nothing: its event prints no block".to_owned()),
         ("in cycles", "a canned cycle with the body None is printed as single moves".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
     ];
     let text = "Peck\nNone\nEnd".to_owned();
-    page("None (body of a sequence)", &lines, Some(Example { text, form: "as a form would say it" }))
+    page("None (body of a sequence)", &lines, Some(Example { text, form: "in a form" }))
 }
 
-/// A kind of cycle; sequences have their own page.
+/// The page of a kind of cycle; sequences have their own page.
 pub fn cycle(name: &str) -> Option<String> {
     let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
     let kind = CycleKind::parse(name)?;
     let served_by = match kind.sequence() {
         Some(id) => format!("{}, or a Custom labelled {}", id.name(), row.name),
-        None if kind == CycleKind::Face => "a Custom labelled face, or Drill where that prints [dwell]".to_owned(),
+        None if kind == CycleKind::Face => "a Custom labelled face, or Drill if it prints [dwell]".to_owned(),
         None => format!("a Custom labelled {}", row.name),
     };
     let lines = [
         ("is", row.meaning.to_owned()),
         ("served by", served_by),
-        ("else", "moves that postform makes; a rigid tap is an error then".to_owned()),
+        ("else", "moves generated by postform; a rigid tap is then an error".to_owned()),
         ("in a job", format!("{{\"cycle\": {{\"kind\": \"{}\", ..}}}} (docs/cycles.md)", row.name)),
     ];
     Some(page(&format!("{} (cycle of a job)", row.name), &lines, None))

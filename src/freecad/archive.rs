@@ -1,4 +1,4 @@
-//! The zip archive of a document. What it unpacks to has a bound: an archive of a few kilobytes can hold terabytes.
+//! The zip archive of a document. Its unpacked size is limited, because an archive of a few kilobytes can unpack to terabytes.
 
 use std::io::{BufRead, BufReader, Read, Seek};
 
@@ -8,14 +8,14 @@ use zip::result::ZipError;
 use crate::diag::{Code, Diag};
 use crate::toolpath::ReadError;
 
-/// Largest `Document.xml`, in bytes: one of a thousand objects has three million.
+/// Maximum size of `Document.xml` in bytes. A document with a thousand objects has three million.
 pub(super) const LARGEST_DOCUMENT: u64 = 64 << 20;
-/// Largest path of one operation, in bytes: twenty million moves.
+/// Maximum size of one operation's path in bytes: about twenty million moves.
 const LARGEST_PATH: u64 = 1 << 30;
 
-/// How many times its packed size a member may be: deflate itself ends at 1,032 times, and paths are far below.
+/// Maximum ratio of unpacked to packed size. The limit of deflate itself is 1,032, and paths are far below.
 const MOST_TIMES: u64 = 1000;
-/// As much may come of a member whatever its packed size, in bytes.
+/// Unpacked size in bytes that is always accepted.
 const ALWAYS: u64 = 1 << 20;
 
 /// A document's archive.
@@ -41,7 +41,7 @@ impl<R: Read + Seek> Archive<R> {
         }
     }
 
-    /// A path, to be read a line at a time. An operation without one has no moves.
+    /// A path, for reading line by line. An operation without a path has no moves.
     pub fn member(&mut self, name: &Option<String>) -> Result<Option<impl BufRead + use<'_, R>>, ReadError> {
         match name {
             Some(name) => Ok(Some(BufReader::new(self.bounded(name, LARGEST_PATH)?))),
@@ -60,7 +60,7 @@ impl<R: Read + Seek> Archive<R> {
     }
 }
 
-/// A reader that fails where more comes than may come.
+/// A reader that fails if there is more data than allowed.
 struct Bounded<R> {
     inner: R,
     left: u64,
@@ -71,13 +71,15 @@ impl<R: Read> Read for Bounded<R> {
         let count = self.inner.read(buffer)?;
         match self.left.checked_sub(count as u64) {
             Some(left) => self.left = left,
-            None => return Err(std::io::Error::new(std::io::ErrorKind::FileTooLarge, "it unpacks to too much")),
+            None => {
+                return Err(std::io::Error::new(std::io::ErrorKind::FileTooLarge, "its unpacked size is too large"));
+            }
         }
         Ok(count)
     }
 }
 
-/// Why a member could not be opened.
+/// The error for a member that can't be opened.
 fn refused(what: &str, error: ZipError) -> ReadError {
     match error {
         ZipError::Io(error) if is_of_system(&error) => ReadError::Io(error),
@@ -86,7 +88,7 @@ fn refused(what: &str, error: ZipError) -> ReadError {
     }
 }
 
-/// Why a member could not be read to its end.
+/// The error for a member that can't be read to its end.
 pub(super) fn unpacked(name: &str, error: std::io::Error) -> ReadError {
     if is_of_system(&error) {
         return ReadError::Io(error);
@@ -94,7 +96,7 @@ pub(super) fn unpacked(name: &str, error: std::io::Error) -> ReadError {
     ReadError::Job(no_document(format!("`{name}` can't be unpacked: {error}")))
 }
 
-/// Did the system refuse to read? Else the archive is damaged.
+/// Is it an error of the operating system? Otherwise the archive is damaged.
 fn is_of_system(error: &std::io::Error) -> bool {
     error.raw_os_error().is_some()
 }

@@ -1,18 +1,18 @@
-//! Which job of a document is meant.
+//! Selects the job of a document.
 
 use super::document::{Document, Object};
 use super::{Report, wrong};
 use crate::diag::{Code, Diag};
 
-/// The job that is read.
+/// The selected job.
 pub(super) struct Job<'d> {
-    /// The name that the user sees.
+    /// Label in FreeCAD.
     pub label: String,
     /// The object of the job, with its properties.
     pub object: &'d Object,
 }
 
-/// Is an object a job? By its class; where 1.1 has dropped the classes of a document of 0.20, by its properties.
+/// Is an object a job? Its class decides. If 1.1 has dropped the classes of a document from 0.20, its properties decide.
 fn is_job(object: &Object) -> bool {
     let properties = ["Operations", "Fixtures", "PostProcessor"];
     object
@@ -20,7 +20,7 @@ fn is_job(object: &Object) -> bool {
         .map_or_else(|| properties.iter().all(|name| object.get(name).is_some()), |class| class == "ObjectJob")
 }
 
-/// The job of that name or label; without one the only job that the document has.
+/// Finds the job with this name or label; without one, the only job of the document.
 pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut Report) -> Result<Job<'d>, Box<Diag>> {
     let jobs: Vec<(&str, &str, &Object)> = document
         .objects
@@ -34,7 +34,7 @@ pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut 
         .collect();
     let list = list.join(", ");
     let found: Vec<&(&str, &str, &Object)> = match asked {
-        // names are unique, labels need not be
+        // names are unique, but labels may not be
         Some(asked) => match jobs.iter().find(|(name, ..)| *name == asked) {
             Some(job) => vec![job],
             None => jobs.iter().filter(|(_, label, _)| *label == asked).collect(),
@@ -51,7 +51,7 @@ pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut 
                 wrong(Code::PD002, format!("the document has no job `{asked}`"), format!("it has {list}"))
             }
             _ => {
-                let help = format!("say which with `--job NAME`: {list}");
+                let help = format!("choose one with `--job NAME`: {list}");
                 wrong(Code::PD002, format!("the document has {} jobs of that kind", found.len()), help)
             }
         };

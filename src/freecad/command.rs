@@ -1,4 +1,4 @@
-//! The text of a path: one command a line, its name first.
+//! The text of a path: one command per line, its name first.
 
 use std::io::{BufRead, Read};
 
@@ -7,10 +7,10 @@ use crate::control;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{ReadError, Stop};
 
-/// Longest line of a path, in bytes.
+/// Maximum length of a line in a path, in bytes.
 const LONGEST: u64 = 64 << 10;
 
-/// What G98 and G99 choose.
+/// The return level selected by G98 and G99.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Return {
     /// To the height before the cycle: G98.
@@ -32,7 +32,7 @@ pub(super) enum Command {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Words {
     values: Vec<(u8, f64)>,
-    /// The mode of return that FreeCAD 1.2 notes after the words.
+    /// The return mode that FreeCAD 1.2 writes after the words.
     pub returns: Option<Return>,
 }
 
@@ -42,7 +42,7 @@ impl Words {
         self.values.iter().find(|(own, _)| *own == letter).map(|(_, value)| *value)
     }
 
-    /// The block as it was typed, its feed as `feed` has it.
+    /// The block as typed; its feed is converted with `feed`.
     pub fn block(&self, code: control::Code, feed: impl Fn(f64) -> f64) -> String {
         let words = self.values.iter().map(|&(letter, value)| {
             let value = if letter == b'F' { feed(value) } else { value };
@@ -52,13 +52,13 @@ impl Words {
         format!("{code}{}", words.collect::<String>())
     }
 
-    /// The first letter that is there and not among these.
+    /// The first letter that is not among these.
     pub fn beyond(&self, known: &[u8]) -> Option<char> {
         self.values.iter().map(|(letter, _)| *letter).find(|letter| !known.contains(letter)).map(char::from)
     }
 }
 
-/// Gives each command of a path, the member `name` of the archive, with its line, from 1.
+/// Calls `take` for each command of a path (the member `name` of the archive), with its line from 1.
 pub(super) fn each(
     name: &str,
     path: Option<impl BufRead>,
@@ -88,17 +88,17 @@ pub(super) fn each(
 }
 
 fn unread(text: &str) -> Box<Diag> {
-    let help = "postform reads what FreeCAD saves: a command and words such as `G1 X1.000000`";
+    let help = "write the line as FreeCAD saves it: a command and its words, as `G1 X1.000000`";
     let message = format!("a line of a path that can't be read: {}", text.trim());
     Box::new(Diag::new(Code::PD003, message).help(help))
 }
 
-/// A line; `Some(None)` for an empty one, `None` for one that can't be read.
+/// Parses a line. `Some(None)`: it is empty; `None`: it can't be read.
 fn parse(line: &str) -> Option<Option<Command>> {
     if line.is_empty() {
         return Some(None);
     }
-    // FreeCAD drops inner parentheses, and not all of them: the comment reaches to the last
+    // FreeCAD removes inner parentheses, but not always: the comment extends to the last one
     if let Some(rest) = line.strip_prefix('(') {
         let text = rest.rfind(')').map_or(rest, |end| &rest[..end]);
         return Some(Some(Command::Comment(text.trim().to_owned())));
@@ -125,7 +125,7 @@ fn word(token: &str) -> Option<(u8, f64)> {
     (letter.is_ascii_uppercase() && value.is_finite()).then_some((letter, value))
 }
 
-/// The notes `RetractMode:'G98' operation:'tapping' depth:1.5` of FreeCAD 1.2; `None` for one that is not known.
+/// Parses the notes `RetractMode:'G98' operation:'tapping' depth:1.5` of FreeCAD 1.2; `None` if one is unknown.
 fn returns(notes: &str) -> Option<Option<Return>> {
     let mut returns = None;
     for note in notes.split_ascii_whitespace() {

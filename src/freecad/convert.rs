@@ -1,4 +1,4 @@
-//! The commands of one operation's path as events.
+//! Converts the commands of one operation's path to events.
 
 use super::command::{Command, Return, Words};
 use super::cycles::{Cycle, Drilling, kind_of};
@@ -16,23 +16,23 @@ type Done<T = ()> = Result<T, Stop>;
 /// Letters of the six axes.
 const AXES: &[u8; 6] = b"XYZABC";
 
-/// The words that a command may have. `None`: no job has the command, or it is a cycle, which reads its own.
+/// The words that a command may have. `None`: jobs do not support the command, or it is a cycle, which checks its own words.
 fn words_of(letter: u8, tenths: u16) -> Option<&'static [u8]> {
     Some(match (letter, tenths) {
-        (b'G', 0 | 10) => b"XYZABCF", // F of a rapid is the machine's affair
+        (b'G', 0 | 10) => b"XYZABCF", // F of a rapid is ignored
         (b'G', 20 | 30) => b"XYZIJKRF",
         (b'G', 40) => b"P",
-        (b'G', 400 | 410 | 420) => b"D", // the register is the tool's
+        (b'G', 400 | 410 | 420) => b"D", // the register comes from the tool
         (b'G', 170 | 180 | 190 | 800 | 900 | 980 | 990) | (b'M', 0 | 10 | 70 | 80 | 90) => b"",
         (b'M', 30 | 40 | 50) => b"S",
         _ => return None,
     })
 }
 
-/// A step that is being read. The position where the step before left the tool is unknown.
+/// Conversion of one step. The tool position at its start is unknown.
 pub(super) struct Convert<'a, 'h, 's> {
     label: &'a str,
-    /// Comments and stops have none.
+    /// The operation; `None` for comments and stops.
     operation: Option<&'a Operation>,
     hold: &'h mut Hold<'s>,
     place: Place,
@@ -42,10 +42,10 @@ pub(super) struct Convert<'a, 'h, 's> {
     plane: Plane,
     cycle: Option<Cycle>,
     side: Option<Side>,
-    /// Compensation that the next move turns on (its side) or off.
+    /// Compensation that the next move turns on (with its side) or off.
     turning: Option<Option<Side>>,
     spindle: (Option<f64>, SpindleTurn),
-    /// A G code was printed as text: what moves after it mean is unknown, so that they are text too.
+    /// A G code was printed as text, so that the meaning of later moves is unknown: they are printed as text too.
     as_text: bool,
 }
 
@@ -100,7 +100,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         })
     }
 
-    /// Takes the command on a line of the path.
+    /// Handles the command on a line of the path.
     pub fn take(&mut self, line: u64, command: &Command) -> Done {
         self.place.item = line;
         let taken = match command {
@@ -113,14 +113,14 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 stop
             }),
         };
-        // what the sink refuses has its place
+        // add the location to errors of the sink
         let (place, label) = (self.place, self.label);
         taken.map_err(|stop| {
             stop.placed(|| Location::default().step(format!("{place}, operation `{label}`, line {line} of its path")))
         })
     }
 
-    /// The path is over.
+    /// Handles the end of the path.
     pub fn end(&mut self) -> Done {
         self.end_cycle()?;
         if self.side.is_some() || self.turning.is_some() {
@@ -134,7 +134,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.hold.push(event, self.place)
     }
 
-    /// Is this a command that the user typed and no job has? A tool change and an end of the program stay errors.
+    /// Is this a typed command that jobs do not support? A tool change and an end of the program remain errors.
     fn is_text(&self, code: control::Code, words: &Words) -> bool {
         let Some(Operation { typed: true, .. }) = self.operation else { return false };
         match (code.letter, code.tenths) {
@@ -145,7 +145,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
     }
 
-    /// Prints what the user typed.
+    /// Prints a typed command as text.
     fn text(&mut self, code: control::Code, words: &Words) -> Done {
         let Some(operation) = self.operation else { return Ok(()) };
         self.as_text |= code.letter == b'G';
@@ -194,26 +194,25 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 self.between(Event::Coolant(coolant))
             }
             _ => {
-                let help =
-                    "postform reads moves, cycles, dwells, stops, spindle and coolant of a path: take the command out";
-                wrong(Code::PD003, "a command that no job can say", help)
+                let help = "a path may contain moves, cycles, dwells, stops, spindle and coolant: remove the command";
+                wrong(Code::PD003, "a command that a job can't contain", help)
             }
         }
     }
 
-    /// A word that would be lost is an error.
+    /// Reports a word that would be lost.
     fn only(&self, words: &Words, known: &[u8]) -> Done {
         match words.beyond(known) {
             Some(letter) => {
-                let help = "take the word out of the path; postform leaves no word out";
-                wrong(Code::PD003, format!("a word {letter} that no job can say"), help)
+                let help = "remove the word from the path; postform does not skip words";
+                wrong(Code::PD003, format!("a word {letter} that a job can't contain"), help)
             }
             None => Ok(()),
         }
     }
 
     fn comment(&mut self, text: &str) -> Done {
-        // a path begins with its operation's name, which FreeCAD has stripped of parentheses
+        // a path begins with its operation's name, from which FreeCAD removed parentheses
         let bare = |text: &str| text.replace(['(', ')', ' '], "");
         if text.is_empty() || self.place.item == 1 && bare(text) == bare(self.label) {
             return Ok(());
@@ -221,7 +220,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.between(Event::Comment(text))
     }
 
-    /// What is done where the tool stands.
+    /// Pushes an event that happens at the tool's current position.
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         self.push(event)
@@ -241,7 +240,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.between(Event::Spindle(Spindle { speed, turn: Some(turn), ..Spindle::default() }))
     }
 
-    /// The axes that a command says; the tool is there afterwards.
+    /// The target axes of a command. Updates the tool's position.
     fn target(&mut self, words: &Words) -> Axes {
         let mut to = Axes::default();
         for (axis, letter) in AXES.iter().enumerate() {
@@ -269,7 +268,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
     }
 
-    /// The feed of a cut, in millimetres a minute; the last one where the command has none.
+    /// The feed of a cut in millimetres per minute. Without one in the command, the last feed applies.
     fn feed(&mut self, words: &Words) -> Done<Option<f64>> {
         let Some(operation) = self.operation else { return Ok(None) };
         if let Some(feed) = words.get(b'F') {
@@ -314,17 +313,13 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
         let offset = |axis: usize| words.get(b"IJK"[axis]).unwrap_or(0.0);
         if offset(third) != 0.0 || (offset(first), offset(second)) == (0.0, 0.0) {
-            let help = "say the centre by I and J from the start of the arc (in G17)";
+            let help = "give the centre by I and J from the start of the arc (in G17)";
             return wrong(Code::PD003, "an arc whose centre is not in its plane", help);
         }
         let mut center = Axes::default();
         for axis in [first, second] {
             let Some(from) = self.position[axis] else {
-                return wrong(
-                    Code::PD003,
-                    "an arc from a place that the path does not say",
-                    "begin the path with a rapid",
-                );
+                return wrong(Code::PD003, "an arc from an unknown position", "begin the path with a rapid");
             };
             center.set(axis, from + offset(axis));
         }
@@ -340,7 +335,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.push(Event::Arc { arc: &arc, feed })
     }
 
-    /// An arc as users type it: FreeCAD's own have centres.
+    /// Handles an arc with a radius, as users type it. FreeCAD's own arcs have centres.
     fn arc_by_radius(&mut self, words: &Words, radius: f64, direction: Direction) -> Done {
         if words.beyond(b"XYZRF").is_some() {
             return wrong(Code::PD003, "an arc with a radius and a centre", "give one of them: I and J, or R");
@@ -386,7 +381,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         Ok(())
     }
 
-    /// A cycle that is open ends, and the rapids after its last hole are made.
+    /// Ends an open cycle, and then pushes the rapids after its last hole.
     fn end_cycle(&mut self) -> Done {
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
         self.place.point = 0;

@@ -1,4 +1,4 @@
-//! Canned cycles of a path. Every hole has a command of its own and rapids before it; together they are one cycle.
+//! Canned cycles of a path. In a path, every hole has its own command and rapids before it; these are combined to one cycle.
 
 use super::command::{Return, Words};
 use super::order::Operation;
@@ -6,10 +6,10 @@ use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Place};
 
-/// Heights that differ by less are the same: paths have six decimals.
+/// Tolerance for equal heights: paths have six decimals.
 const SAME: f64 = 1e-6;
 
-/// Which kind of cycle a G code is, by its tenths.
+/// The kind of cycle for a G code, given as tenths.
 pub(super) fn kind_of(tenths: u16) -> Option<CycleKind> {
     Some(match tenths {
         730 => CycleKind::Chipbreak,
@@ -23,27 +23,27 @@ pub(super) fn kind_of(tenths: u16) -> Option<CycleKind> {
     })
 }
 
-/// One hole as its command says it.
+/// One hole, as in its command.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drilling {
     kind: CycleKind,
-    /// Where the hole is, in X and Y, in mm.
+    /// Position of the hole in X and Y, in mm.
     pub at: [f64; 2],
     bottom: f64,
     /// The R plane.
     r: f64,
-    /// The height to which the cycle returns.
+    /// Height to which the cycle returns.
     pub level: f64,
     peck: Option<f64>,
     dwell: Option<f64>,
-    /// Millimetres a minute.
+    /// Millimetres per minute.
     feed: f64,
-    /// Revolutions a minute, of a tap.
+    /// Revolutions per minute, for a tap.
     pub speed: Option<f64>,
 }
 
 impl Drilling {
-    /// Reads a command that comes at this position.
+    /// Reads the command of a hole. `position`: the tool position before it.
     pub fn read(
         kind: CycleKind,
         words: &Words,
@@ -51,23 +51,25 @@ impl Drilling {
         returns: Return,
         operation: &Operation,
     ) -> Result<Drilling, Box<Diag>> {
-        let help = "let FreeCAD make the operation's path again";
+        let help = "recompute the operation in FreeCAD";
         if let Some(letter) = words.beyond(if kind.is_tap() { b"XYZRFSPQ" } else { b"XYZRFPQ" }) {
             return wrong(
                 Code::PD003,
                 format!("a cycle with a word {letter}"),
-                "no cycle of FreeCAD has one: take it out",
+                "cycles of FreeCAD do not use this word: remove it",
             );
         }
         let [Some(x), Some(y), Some(bottom), Some(r)] =
             [words.get(b'X').or(position[0]), words.get(b'Y').or(position[1]), words.get(b'Z'), words.get(b'R')]
         else {
-            return wrong(Code::PD003, "a cycle that does not say X, Y, Z and R", help);
+            return wrong(Code::PD003, "a cycle without X, Y, Z and R", help);
         };
         let level = match (words.returns.unwrap_or(returns), position[2]) {
             (Return::Clearance, _) => r,
             (Return::Before, Some(z)) => z.max(r),
-            (Return::Before, None) => return wrong(Code::PD003, "a cycle with G98 and no height before it", help),
+            (Return::Before, None) => {
+                return wrong(Code::PD003, "a cycle with G98, but the height before it is unknown", help);
+            }
         };
         if bottom > r {
             return wrong(Code::PD003, format!("a cycle whose bottom Z{bottom} is above its R{r}"), help);
@@ -76,12 +78,12 @@ impl Drilling {
             let help = format!("give {} a feed in FreeCAD", operation.controller.label);
             return wrong(Code::PD004, "a cycle without a feed", help);
         };
-        // of a tap F is the pitch; read as a feed it would break the tap
+        // F of a tap is the pitch; as a feed it would break the tap
         let (feed, speed) = match (kind.is_tap(), words.get(b'S').filter(|s| *s > 0.0)) {
             (false, _) => (operation.controller.feed(f), None),
             (true, Some(speed)) => (f * speed, Some(speed)),
             (true, None) => {
-                let help = "make it with FreeCAD 1.1's Tapping: there F is the pitch and S the speed";
+                let help = "use Tapping of FreeCAD 1.1: its F is the pitch and its S the speed";
                 return wrong(Code::PD003, "a tap without a speed S: its F may be a feed or a pitch", help);
             }
         };
@@ -94,8 +96,8 @@ impl Drilling {
         Ok(Drilling { kind, at: [x, y], bottom, r, level, peck, dwell: words.get(b'P'), feed, speed })
     }
 
-    /// The cycle that begins with this hole. The point of a hole is its top, where the operation begins to cut: FreeCAD
-    /// says one for all holes of an operation.
+    /// The cycle that begins with this hole. The point of a hole is its top, where the operation begins to cut. FreeCAD has one
+    /// top for all holes of an operation.
     fn spec(&self, top: f64) -> CycleSpec {
         let mut spec = CycleSpec::new(self.kind);
         spec.clear = Some(self.r - top);
@@ -116,13 +118,14 @@ impl Drilling {
     }
 }
 
-/// A cycle to which holes are added.
+/// A cycle that accepts further holes.
 #[derive(Debug)]
 pub(super) struct Cycle {
     first: Drilling,
     last: [f64; 2],
     top: f64,
-    /// Rapids since its last hole, with the places they lead to: its own, unless they say something else.
+    /// Rapids since its last hole, with their target positions. They belong to the cycle unless a rapid leads to some other
+    /// position.
     pub pending: Vec<(Axes, [Option<f64>; 6], Place)>,
 }
 
@@ -134,8 +137,8 @@ impl Cycle {
         (cycle, first.spec(top), first.hole(top, &first))
     }
 
-    /// One more hole, if it is of this cycle: with the same words, and rapids that only lead to it. A rapid to a greater
-    /// height than the cycle returns to avoids something.
+    /// Adds a hole if it belongs to this cycle: its words are the same, and the rapids before it only lead to it. A rapid above
+    /// the return height avoids an obstacle, so the hole does not belong to the cycle.
     pub fn add(&mut self, next: &Drilling) -> Option<Hole> {
         let key = |d: &Drilling| (d.kind, [d.r, d.level, d.feed], [d.peck, d.dwell, d.speed]);
         let leads = |position: &[Option<f64>; 6]| {

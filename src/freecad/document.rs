@@ -7,7 +7,7 @@ use quick_xml::events::{BytesStart, Event};
 use super::wrong;
 use crate::diag::{Code, Diag};
 
-/// A value of a property.
+/// Value of a property.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     /// A float or an integer.
@@ -22,22 +22,22 @@ pub(super) enum Value {
     Link(String),
     /// Names of other objects in order.
     Links(Vec<String>),
-    /// The archive's member that holds a path.
+    /// The archive's member with a path.
     Path(String),
-    /// A class of FreeCAD's Python code, without its module.
+    /// Class of FreeCAD's Python code, without its module.
     Class(String),
-    /// A tool as documents before 0.19 hold it.
+    /// A tool in the format of documents before 0.19.
     Tool(OldTool),
 }
 
-/// A tool inside a property, as documents before 0.19 hold it.
+/// A tool inside a property, in the format of documents before 0.19.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct OldTool {
     /// Name of the tool.
     pub name: String,
-    /// Millimetres.
+    /// Diameter in millimetres.
     pub diameter: Option<f64>,
-    /// Corner radius, millimetres.
+    /// Corner radius in millimetres.
     pub corner: Option<f64>,
 }
 
@@ -48,12 +48,12 @@ pub(super) struct Object {
 }
 
 impl Object {
-    /// A property, if the object has it.
+    /// A property; `None` if the object lacks it.
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.properties.get(name)
     }
 
-    /// A number.
+    /// The number in a property.
     pub fn number(&self, name: &str) -> Option<f64> {
         match self.get(name) {
             Some(Value::Number(number)) => Some(*number),
@@ -61,7 +61,7 @@ impl Object {
         }
     }
 
-    /// A text, or the chosen value of an enumeration.
+    /// The text in a property, or the selected value of an enumeration.
     pub fn text(&self, name: &str) -> Option<&str> {
         match self.get(name) {
             Some(Value::Text(text)) => Some(text),
@@ -69,7 +69,7 @@ impl Object {
         }
     }
 
-    /// Yes or no.
+    /// The yes-or-no value of a property.
     pub fn yes(&self, name: &str) -> Option<bool> {
         match self.get(name) {
             Some(Value::Yes(yes)) => Some(*yes),
@@ -77,7 +77,7 @@ impl Object {
         }
     }
 
-    /// The name of another object. Of a list (a path array of 1.1) the first counts.
+    /// The name of a linked object. For a list (a path array of 1.1), the first one.
     pub fn link(&self, name: &str) -> Option<&str> {
         match self.get(name) {
             Some(Value::Link(link)) => Some(link.as_str()),
@@ -87,7 +87,7 @@ impl Object {
         .filter(|link| !link.is_empty())
     }
 
-    /// Names of other objects.
+    /// The names of linked objects.
     pub fn links(&self, name: &str) -> &[String] {
         match self.get(name) {
             Some(Value::Links(links)) => links,
@@ -95,7 +95,7 @@ impl Object {
         }
     }
 
-    /// Texts.
+    /// The texts in a property.
     pub fn texts(&self, name: &str) -> &[String] {
         match self.get(name) {
             Some(Value::Texts(texts)) => texts,
@@ -103,7 +103,7 @@ impl Object {
         }
     }
 
-    /// The class of its Python code. It is lost where 1.1 has saved a document of 0.20 without the old modules.
+    /// The class of its Python code. It is missing if 1.1 has saved a document of 0.20 without the old modules.
     pub fn class(&self) -> Option<&str> {
         match self.get("Proxy") {
             Some(Value::Class(class)) => Some(class),
@@ -146,19 +146,19 @@ impl Document {
                     at.end(tag.name().as_ref(), &mut document);
                 }
                 Event::End(tag) => at.end(tag.name().as_ref(), &mut document),
-                // FreeCAD writes none, and what it could stand for has no bound
+                // FreeCAD writes no DTD, and entities could expand without limit
                 Event::DocType(_) => return broken("it declares entities"),
                 Event::Eof if root && !at.data && at.object.is_none() => return Ok(document),
-                Event::Eof => return broken("it is cut short, or is another file"),
+                Event::Eof => return broken("the file is incomplete or not a FreeCAD document"),
                 _ => {}
             }
         }
     }
 
-    /// The value of a property that an operation has itself or through what it dresses up (FreeCAD's `opProperty`).
+    /// The value of a property of an operation, or of the operation that it dresses up (as FreeCAD's `opProperty`).
     pub fn inherited<'a>(&'a self, name: &str, property: &str) -> Option<&'a Value> {
         let mut object = self.objects.get(name)?;
-        // as many steps as there are objects: a circle of bases ends
+        // at most as many steps as objects, so that a cycle of bases ends
         for _ in 0..=self.objects.len() {
             if let Some(value) = object.get(property) {
                 return Some(value);
@@ -169,10 +169,10 @@ impl Document {
     }
 }
 
-/// Where the reader stands.
+/// State of the reader.
 #[derive(Default)]
 struct Cursor {
-    /// In the part that has the values, not the list of objects.
+    /// In the section with the values, after the list of objects.
     data: bool,
     object: Option<(String, Object)>,
     property: Option<String>,

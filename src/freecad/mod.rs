@@ -1,8 +1,9 @@
-//! FreeCAD documents as toolpaths: the job of a saved `.FCStd`, read without FreeCAD.
+//! FreeCAD documents as toolpaths: reads the job of a saved `.FCStd` without FreeCAD.
 //!
-//! A document is a zip archive. `Document.xml` names all objects; each operation's path is a text member of its own.
-//! Lengths are millimetres, feeds millimetres a second, angles degrees, whatever unit the user sees. Documents of 0.20
-//! ("Path") and 1.1 ("CAM") differ in class names and in when they repeat a tool change; where they do, it is said.
+//! A document is a zip archive. `Document.xml` lists all objects; the path of each operation is a separate text member. Lengths
+//! are in millimetres, feeds in millimetres per second, and angles in degrees, independent of the units that FreeCAD displays.
+//! Documents of 0.20 ("Path") and 1.1 ("CAM") differ in class names and in when they repeat a tool change; comments describe
+//! these differences where they matter.
 
 mod archive;
 mod choose;
@@ -22,18 +23,18 @@ use archive::Archive;
 use convert::Convert;
 use document::Document;
 
-/// Which job of a document is read.
+/// Selects the job of a document.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The job's name or label, where the document has several.
+    /// Name or label of the job, if the document has several.
     pub job: Option<String>,
 }
 
 /// Reads the job of a document.
 ///
 /// # Errors
-/// The input fails or is no FreeCAD document; the job is not said clearly (none, several); an operation holds what no
-/// job can say, or lacks what a program needs: a tool, a speed, a feed.
+/// The input fails or is no FreeCAD document. The job is missing or not unique. An operation contains a command that jobs do not
+/// support, or lacks a tool, a speed or a feed.
 pub fn read_freecad(
     input: impl Read + Seek,
     options: &Options,
@@ -68,7 +69,7 @@ pub fn read_freecad(
     Ok(())
 }
 
-/// An error of a document.
+/// Returns an error about the document.
 fn wrong<T, E: From<Box<Diag>>>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Result<T, E> {
     Err(Box::new(Diag::new(code, message).help(help)).into())
 }

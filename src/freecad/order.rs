@@ -1,4 +1,4 @@
-//! Which operations are posted, and in which order.
+//! Selects the operations that are posted, and their order.
 
 use super::choose::Job;
 use super::document::{Document, Object, Value};
@@ -10,15 +10,15 @@ use crate::toolpath::{Coolant, SpindleTurn, StopKind};
 /// One step of a job.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
-    /// The name that the user sees.
+    /// Label in FreeCAD.
     pub label: String,
-    /// What is done.
+    /// Kind of the step.
     pub kind: Kind,
-    /// The archive's member that holds its path.
+    /// The archive's member with its path.
     pub path: Option<String>,
 }
 
-/// What a step does.
+/// Kinds of steps.
 #[derive(Clone, Debug)]
 pub(super) enum Kind {
     /// An operation with a tool, in a work offset (54 to 59.9).
@@ -32,15 +32,15 @@ pub(super) enum Kind {
 /// An operation.
 #[derive(Clone, Debug)]
 pub(super) struct Operation {
-    /// The tool controller of the operation: tool, speed and feeds.
+    /// Tool controller of the operation: tool, speed and feeds.
     pub controller: Controller,
-    /// Coolant of the operation, on before it and off after it.
+    /// Coolant of the operation: on before it, off after it.
     pub coolant: Coolant,
-    /// The top of its holes: where it begins to cut.
+    /// The top of its holes, where it begins to cut.
     pub top: Option<f64>,
-    /// Its commands are typed by the user: those that no job has are printed as they stand.
+    /// The user typed its commands. Those that jobs do not support are printed as typed.
     pub typed: bool,
-    /// What its author says of it.
+    /// Comment of its author.
     pub comment: Option<String>,
 }
 
@@ -64,7 +64,10 @@ pub(super) fn steps(document: &Document, job: &Job<'_>, report: &mut Report) -> 
     let fixtures = fixtures(job)?;
     let order = job.object.text("OrderOutputBy").unwrap_or("Fixture");
     if job.object.yes("SplitOutput") == Some(true) {
-        let message = format!("the job asks for one program for each {}: it becomes one program", order.to_lowercase());
+        let message = format!(
+            "Split Output of the job makes one program per {}, but postform makes one program",
+            order.to_lowercase()
+        );
         let help = "switch Split Output off in the job's Output tab";
         report.warnings.push(Diag::new(Code::PD005, message).help(help));
     }
@@ -77,7 +80,7 @@ pub(super) fn steps(document: &Document, job: &Job<'_>, report: &mut Report) -> 
         "Fixture" => vec![&operations],
         other => {
             let help = "choose Fixture, Tool or Operation in the job's Output tab";
-            return wrong(Code::PD003, format!("an order of output that postform does not know: {other}"), help);
+            return wrong(Code::PD003, format!("an unknown order of output: {other}"), help);
         }
     };
     let mut steps = Vec::new();
@@ -94,8 +97,8 @@ pub(super) fn steps(document: &Document, job: &Job<'_>, report: &mut Report) -> 
     Ok(steps)
 }
 
-/// Runs of steps with the same tool; what has no tool stays in the run. To 0.20 a tool is its number, to 1.1 its number,
-/// speed and direction.
+/// Groups steps with the same tool; steps without a tool stay in the current group. In 0.20 a tool is identified by its number,
+/// in 1.1 by number, speed and direction.
 fn by_tool(steps: &[Step], number_only: bool) -> Vec<&[Step]> {
     let key = |step: &Step| match &step.kind {
         Kind::Operation(operation, _) => {
@@ -122,20 +125,23 @@ fn by_tool(steps: &[Step], number_only: bool) -> Vec<&[Step]> {
 fn fixtures(job: &Job<'_>) -> Result<Vec<f64>, Box<Diag>> {
     let names = job.object.texts("Fixtures");
     if names.is_empty() {
-        let help = "tick G54, or another, in the job's Output tab: FreeCAD itself posts nothing without one";
+        let help =
+            "tick G54 or another work offset in the job's Output tab: without a work offset FreeCAD posts nothing";
         return wrong(Code::PD004, format!("the job {} has no work offset", job.label), help);
     }
     let code = |name: &String| {
         let code = name.strip_prefix('G').and_then(|code| code.parse::<f64>().ok());
         match code.filter(|code| (54.0..60.0).contains(code)) {
             Some(code) => Ok(code),
-            None => wrong(Code::PD003, format!("a work offset that no job can say: {name}"), "choose G54 to G59.9"),
+            None => {
+                wrong(Code::PD003, format!("a work offset that a job can't contain: {name}"), "choose G54 to G59.9")
+            }
         }
     };
     names.iter().map(code).collect()
 }
 
-/// The active operations in the order in which they were made.
+/// The active operations in the order of their creation.
 fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result<Vec<Step>, Box<Diag>> {
     let group = job.object.link("Operations").and_then(|name| document.objects.get(name));
     let Some(group) = group else {
@@ -175,7 +181,7 @@ fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result
     Ok(steps)
 }
 
-/// A comment or a stop: known by its class, else by its property, which no operation with a tool has alone.
+/// Is the object a comment or a stop? Its class decides, else its property, which operations with a tool do not have alone.
 fn bare(object: &Object) -> Option<Kind> {
     let plain = object.class().is_none() && object.get("CoolantMode").is_none() && object.get("Base").is_none();
     if object.class() == Some("Stop") || plain && object.get("Stop").is_some() {
@@ -192,7 +198,7 @@ fn operation(document: &Document, name: &str, object: &Object, label: &str) -> R
     let controller = match document.inherited(name, "ToolController") {
         Some(Value::Link(link)) if !link.is_empty() => Controller::of(document, link)?,
         _ => {
-            let help = "choose one in the operation, or make the operation inactive";
+            let help = "choose a tool controller in the operation, or make the operation inactive";
             return wrong(Code::PD004, format!("the operation {label} has no tool controller"), help);
         }
     };
@@ -206,13 +212,17 @@ fn operation(document: &Document, name: &str, object: &Object, label: &str) -> R
                 let help = "choose None, Flood or Mist";
                 return wrong(
                     Code::PD003,
-                    format!("the operation {label}: a coolant that no job can say: {other}"),
+                    format!("the operation {label}: a coolant that a job can't contain: {other}"),
                     help,
                 );
             }
         },
         Some(_) => {
-            return wrong(Code::PD001, format!("the operation {label}: no text is its CoolantMode"), "save it again");
+            return wrong(
+                Code::PD001,
+                format!("the operation {label}: its CoolantMode is not a text"),
+                "save it again",
+            );
         }
     };
     let top = match document.inherited(name, "StartDepth") {

@@ -5,33 +5,37 @@ use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Given, SpindleTurn, Tool};
 
-/// Most by which saving changes a feed: paths hold six decimals, controllers sixteen.
+/// Maximum change of a feed by saving: paths have six decimals, controllers sixteen.
 const SAVED: f64 = 1e-6;
 
 /// A tool controller.
 #[derive(Clone, Debug)]
 pub(super) struct Controller {
-    /// The name that the user sees.
+    /// Label in FreeCAD.
     pub label: String,
     /// The tool.
     pub tool: Tool,
-    /// Revolutions per minute.
+    /// Speed in revolutions per minute.
     pub speed: f64,
-    /// Which way the spindle turns.
+    /// Direction of the spindle.
     pub turn: SpindleTurn,
-    /// Feeds across and down, millimetres a second.
+    /// Feeds across and down, in millimetres per second.
     feeds: [f64; 2],
 }
 
 impl Controller {
-    /// The controller of that name.
+    /// Finds the controller by its name.
     pub fn of(document: &Document, name: &str) -> Result<Controller, Box<Diag>> {
         let Some(object) = document.objects.get(name) else {
             return wrong(Code::PD001, format!("the document has no object `{name}`"), "save it again in FreeCAD");
         };
         let label = object.text("Label").unwrap_or(name).to_owned();
         let Some(number) = object.number("ToolNumber").filter(|number| *number >= 0.0) else {
-            return wrong(Code::PD004, format!("the tool controller {label} has no tool number"), "give it one");
+            return wrong(
+                Code::PD004,
+                format!("the tool controller {label} has no tool number"),
+                "give it a tool number in FreeCAD",
+            );
         };
         let turn = match object.text("SpindleDir") {
             Some("Forward") => SpindleTurn::Cw,
@@ -40,15 +44,15 @@ impl Controller {
         };
         let speed = object.number("SpindleSpeed").unwrap_or(0.0);
         if turn != SpindleTurn::Off && speed <= 0.0 {
-            let help = "give it one in FreeCAD; a tool that does not turn has the direction None";
+            let help = "give it a spindle speed in FreeCAD; for a tool that does not turn set the direction None";
             return wrong(Code::PD004, format!("the tool controller {label} has no spindle speed"), help);
         }
         let feeds = ["HorizFeed", "VertFeed"].map(|name| object.number(name).unwrap_or(0.0));
         Ok(Controller { tool: tool(document, object, number), label, speed, turn, feeds })
     }
 
-    /// A feed of a path in millimetres a minute: the controller's own where the path has it rounded, else rounded to four
-    /// decimals, which saving has spoilt beyond.
+    /// Converts a feed of a path to millimetres per minute. If it is a rounded feed of the controller, that exact feed is used;
+    /// otherwise it is rounded to four decimals, because saving makes further ones inaccurate.
     pub fn feed(&self, saved: f64) -> f64 {
         match self.feeds.iter().find(|own| (**own - saved).abs() <= SAVED) {
             Some(own) => rounded(own * 60.0, 1e8),
@@ -61,7 +65,7 @@ fn rounded(value: f64, units: f64) -> f64 {
     (value * units).round() / units
 }
 
-/// Properties of a tool bit that are for people, and how jobs call them. Lengths are millimetres.
+/// Descriptive properties of a tool bit, and their names in jobs. Lengths are in millimetres.
 const DATA: [(&str, &str); 6] = [
     ("Length", "length"),
     ("CuttingEdgeHeight", "cutting_length"),
@@ -71,7 +75,7 @@ const DATA: [(&str, &str); 6] = [
     ("Material", "material"),
 ];
 
-/// A property that says something: FreeCAD has 0 for numbers that nobody gave.
+/// A property with a value. FreeCAD stores 0 for numbers that were not given.
 fn data(bit: &Object, name: &str) -> Option<Given> {
     match bit.get(name)? {
         Value::Number(number) if *number > 0.0 => Some(Given::Number(*number)),
@@ -80,7 +84,7 @@ fn data(bit: &Object, name: &str) -> Option<Given> {
     }
 }
 
-/// The tool of a controller: a tool bit, or a value inside the controller as documents before 0.19 have it.
+/// The tool of a controller: a tool bit, or a value inside the controller in documents before 0.19.
 fn tool(document: &Document, controller: &Object, number: f64) -> Tool {
     let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
     let mut tool = Tool { number, ..Tool::default() };

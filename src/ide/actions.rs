@@ -1,4 +1,4 @@
-//! What can be done about findings, and to a form as a whole.
+//! Actions for findings, and for a form as a whole.
 
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
@@ -8,54 +8,54 @@ use crate::lint::{Changed, edited};
 use crate::span::Span;
 use crate::syntax::{Head, Line, Tail};
 
-/// Something that can be done.
+/// An action that the user may select.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
-    /// In the imperative.
+    /// Title, in the imperative.
     pub title: String,
-    /// What the action does.
+    /// Kind of the action.
     pub kind: Kind,
-    /// The finding that it is about: its place in [`Document::findings`].
+    /// Index of its finding in [`Document::findings`].
     pub finding: Option<usize>,
-    /// The text that it changes.
+    /// Edits of the text.
     pub edits: Vec<(Span, String)>,
-    /// What the action does to the program of the current job, where it does anything.
+    /// Effect on the program of the current job, if there is any.
     pub preview: Option<Preview>,
 }
 
-/// What actions do.
+/// Kinds of actions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Mends a finding and changes no program.
+    /// Fixes a finding without changing a program.
     Safe,
-    /// Mends a finding and may change programs.
+    /// Fixes a finding and may change programs.
     Unsafe,
-    /// Allows a finding where it stands.
+    /// Allows a finding at its location.
     Allow,
     /// Allows a finding in the whole file.
     AllowFile,
-    /// Puts letter formats in order.
+    /// Sorts letter formats.
     Formats,
 }
 
-/// What a change of the form does to a program.
+/// Effect of a change of the form on a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
-    /// How many blocks are other ones.
+    /// Number of changed blocks.
     pub blocks: usize,
-    /// The blocks that go, with a minus, and those that come, with a plus: the first of them.
+    /// Removed blocks with a minus and added blocks with a plus, up to a maximum number of lines.
     pub text: String,
 }
 
-/// Lines of a preview.
+/// Maximum number of lines in a preview.
 const MOST_LINES: usize = 24;
 
-/// The order of letters in a form: axes, arcs, cycles, feeds and tools, the program's own.
+/// The order of letters in a form: axes, arcs, cycles, feeds and tools, letters of the program itself.
 const ORDER: &[u8] = b"XYZUVWABCIJKRQFPESTHDONLGM";
 
 impl Document {
-    /// What can be done about the findings that a span touches. `print` gives the program of the current job with changed text for
-    /// files, by their names; `None`: it can't be printed.
+    /// The actions for the findings that a span touches. `print` returns the program of the current job with changed text of
+    /// files, by file name; `None` if it can't be printed.
     pub fn actions(&self, within: Span, print: &mut dyn FnMut(&Changed) -> Option<String>) -> Vec<Action> {
         let mut actions = Vec::new();
         let mut before: Option<Option<String>> = None;
@@ -122,7 +122,7 @@ impl Document {
         changed
     }
 
-    /// Comments that allow a finding: above its line, and at the head of the file.
+    /// Actions that add a comment to allow a finding: above its line, and at the head of the file.
     fn allowing(&self, index: usize, diag: &Diag, span: Span) -> Vec<Action> {
         let code = diag.code.name();
         let Some((line, _)) = self.line_before(span.file, span.start) else { return Vec::new() };
@@ -137,8 +137,8 @@ impl Document {
         ]
     }
 
-    /// Letter formats put in the order of their letters, where they are in another one. Formats that stand together stay together,
-    /// each with the comment after it.
+    /// Sorts letter formats by their letters, if they are in another order. Each block of adjacent formats is sorted separately,
+    /// and each format keeps the comment after it.
     pub fn organised_formats(&self, file: u32) -> Option<Action> {
         let mut edits = Vec::new();
         let mut group: Vec<(&Line, u8)> = Vec::new();
@@ -164,7 +164,7 @@ impl Document {
         let rank = |letter: u8| ORDER.iter().position(|own| *own == letter).unwrap_or(ORDER.len());
         let mut sorted = formats.clone();
         sorted.sort_by_key(|(_, letter)| rank(*letter));
-        // what is lost after two blanks must stay where somebody sees it
+        // text lost after two spaces must stay visible where it is
         let lost = formats.iter().any(|(line, _)| matches!(line.tail, Tail::Lost(_)));
         if lost || sorted.iter().map(|(line, _)| line.span).eq(formats.iter().map(|(line, _)| line.span)) {
             return;
@@ -186,7 +186,7 @@ fn capital(title: &str) -> String {
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// What differs between two programs.
+/// The difference between two programs.
 fn compare(before: &str, after: &str) -> Preview {
     let [old, new]: [Vec<&str>; 2] = [before, after].map(|text| text.lines().collect());
     let (mut gone, mut come, mut lines) = (0, 0, Vec::new());
@@ -216,7 +216,7 @@ mod tests {
     use crate::sema::{Limits, analyse};
     use crate::source::Source;
 
-    /// What can be done at the mark, and the form after each.
+    /// Actions at the mark, and the form after each of them.
     fn done(document: &Document, offset: u32) -> Vec<(Action, String)> {
         let at = Span { file: 0, start: offset, end: offset };
         let read = |changed: &Changed| {

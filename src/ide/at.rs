@@ -1,4 +1,4 @@
-//! What stands at a place of a form.
+//! Elements at a location in a form.
 
 use super::Document;
 use crate::control::Code;
@@ -6,16 +6,16 @@ use crate::lang::{CommandId, SequenceId, SequenceName, TextId, TextVar, VarId};
 use crate::span::Span;
 use crate::syntax::{Body, DirectiveKind, End, Expr, Head, Piece, PieceKind, SequenceNode, Spanned, Statement, Unread};
 
-/// What stands at a place.
+/// An element of a form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct At {
-    /// The whole of it.
+    /// Its whole span.
     pub span: Span,
-    /// What.
+    /// Its kind.
     pub what: What,
 }
 
-/// The kinds of things that stand in forms.
+/// Kinds of elements in forms.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum What {
@@ -35,20 +35,20 @@ pub enum What {
     Cancel,
     /// `None` as the body of a sequence.
     Nothing,
-    /// A variable, with the letter that prints it.
+    /// A variable, and the letter that prints it.
     Variable(VarId, Option<u8>),
-    /// A text of the job, with whatever width.
+    /// A text of the job, with or without a width.
     Text(TextId),
     /// Text in backquotes.
     Quote,
-    /// A code that is typed.
+    /// A typed code.
     Code(Code),
-    /// A typed word of this letter that is none of the others.
+    /// Any other typed word with this letter.
     Word(u8),
 }
 
 impl Document {
-    /// What stands at a byte of a file: a word that ends there counts where nothing begins there.
+    /// The element at a byte of a file. An element that ends there is used only if none begins there.
     pub fn at(&self, file: u32, offset: u32) -> Option<At> {
         let mut ends = None;
         let mut hit = None;
@@ -62,7 +62,7 @@ impl Document {
         hit.or(ends)
     }
 
-    /// Everything that stands in a file, in its order.
+    /// Calls `found` for all elements of a file, in order.
     pub(super) fn each(&self, file: u32, mut found: impl FnMut(At)) {
         for item in self.items(file) {
             match item {

@@ -1,4 +1,4 @@
-//! What could stand here.
+//! Completions at a location.
 
 use super::words::markdown;
 use super::{Current, Document};
@@ -11,24 +11,24 @@ use crate::lang::{
 };
 use crate::span::Span;
 
-/// One thing that could stand here.
+/// A completion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Completion {
-    /// As it is listed.
+    /// Text in the list.
     pub label: String,
-    /// What kind of thing it is.
+    /// Kind of the completed element.
     pub kind: Kind,
-    /// A few words beside it.
+    /// Short description.
     pub detail: String,
-    /// The text that it replaces.
+    /// Span of the replaced text.
     pub replaces: Span,
-    /// What is written there.
+    /// Inserted text.
     pub text: String,
-    /// The completion as a snippet of the Language Server Protocol, where there is something to fill in.
+    /// The completion as a snippet of the Language Server Protocol, if it has parts to fill in.
     pub snippet: Option<String>,
 }
 
-/// Kinds of things.
+/// Kinds of completed elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A command of the form.
@@ -47,8 +47,8 @@ pub enum Kind {
     Finding,
 }
 
-/// What is known of a thing that could stand somewhere, as Markdown: made for the one that is looked at, because an example is
-/// searched for each. Nothing is known of values.
+/// Documentation of a completion, as Markdown. It is created only for the selected completion, because each needs a search for an
+/// example. Values have no documentation.
 pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
     let page = match kind {
         Kind::Command => explain::command(CommandId::parse(label)?),
@@ -70,13 +70,13 @@ pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Kind; 7] =
         [Kind::Command, Kind::Value, Kind::Sequence, Kind::Keyword, Kind::Variable, Kind::Code, Kind::Finding];
 }
 
 impl Document {
-    /// What could stand at a byte of a file, by what stands before it.
+    /// The completions at a byte of a file, from the text before it.
     pub fn complete(&self, file: u32, offset: u32, current: Option<&Current>) -> Vec<Completion> {
         let Some((start, before)) = self.line_before(file, offset) else { return Vec::new() };
         let span = |length: usize| Span::new(file, offset as usize - length, offset as usize);
@@ -92,9 +92,9 @@ impl Document {
             && !before[at..].contains([']', '>'])
         {
             let line = self.line_of(file, offset).unwrap_or_default();
-            // in an expression the last name is the one that is typed
+            // in an expression, the name being typed is the last one
             let name = before[at + 1..].rsplit(|c: char| !(c.is_alphanumeric() || c == '_' || c == '#')).next();
-            // the letter of the word says what it is likely to be
+            // the letter of the word shows which variables are likely
             let letter = before[..at].bytes().last().filter(u8::is_ascii_alphabetic);
             return self.variables(span(name.map_or(0, str::len)), before.as_bytes()[at], letter, line, current);
         }
@@ -106,7 +106,7 @@ impl Document {
         }
     }
 
-    /// `# postform: allow PF`: the codes that are found.
+    /// `# postform: allow PF`: the codes of existing findings.
     fn allowances(&self, before: &str, span: &dyn Fn(usize) -> Span) -> Option<Vec<Completion>> {
         let comment = before.rsplit_once('#')?.1.trim_start();
         let rest = comment.strip_prefix("postform:")?.trim_start();
@@ -129,7 +129,7 @@ impl Document {
         Some(rows.map(|row| new(row.name, row.title, Kind::Finding)).collect())
     }
 
-    /// The variables of this machine, with what each holds in the current job, and the texts of jobs.
+    /// The variables of this machine, with their values in the current job, and the texts of jobs.
     fn variables(
         &self,
         replaces: Span,
@@ -184,7 +184,10 @@ impl Document {
             return match first.split_once([' ', '\t']) {
                 None => DIRECTIVES.iter().map(|row| keyword(row.name, row.meaning)).collect(),
                 Some((for_, rest)) if for_.eq_ignore_ascii_case("@for") && rest.trim_start().len() == word.len() => {
-                    Each::ALL.iter().map(|(name, _)| keyword(name, "each of the job")).collect()
+                    Each::ALL
+                        .iter()
+                        .map(|(name, _)| keyword(name, "repeats its lines for each item of the job"))
+                        .collect()
                 }
                 Some(_) => Vec::new(),
             };
@@ -227,10 +230,10 @@ impl Document {
         let statements = || self.checked.trees.iter().flat_map(|tree| tree.statements());
         let there = |id: CommandId| statements().any(|statement| CommandId::parse(&statement.name.text) == Some(id));
         let replaces = span(word.len());
-        // commands stand before the first sequence
+        // commands are allowed only before the first sequence
         let any_above =
             self.checked.trees[replaces.file as usize].sequences().any(|node| node.span().start < replaces.start);
-        // what is typed in full is listed, there or not: nobody gets another one for it
+        // a name typed in full is always listed, even if the form already has it
         let typed = |name: &str| name.eq_ignore_ascii_case(word);
         let commands = COMMANDS.iter().filter(|row| typed(row.name) || !any_above && (row.repeats || !there(row.id)));
         let mut list: Vec<Completion> = commands
@@ -257,7 +260,7 @@ impl Document {
         list.push(Completion {
             label: "Upon".to_owned(),
             kind: Kind::Sequence,
-            detail: "when a variable changes, before what uses it".to_owned(),
+            detail: "when a variable changes, before its next use".to_owned(),
             replaces,
             text: "Upon".to_owned(),
             snippet: Some("Upon [${1:work}]\n$0\nEnd".to_owned()),
@@ -265,7 +268,7 @@ impl Document {
         list
     }
 
-    /// What a command could say.
+    /// The values that a command accepts.
     fn values(&self, name: &str, index: usize, replaces: Span) -> Vec<Completion> {
         let new = |label: &str, detail: &str| Completion {
             label: label.to_owned(),
@@ -299,7 +302,7 @@ impl Document {
     }
 }
 
-/// What a word of this letter is likely to print, the likeliest first: as the posts have it that ship.
+/// Variables that a word with this letter is likely to print, most likely first, as in the posts that ship.
 fn likely(letter: u8, machine: Machine) -> &'static [VarId] {
     use VarId as V;
     match (letter, machine) {
@@ -345,7 +348,7 @@ pub(super) fn codes(control: &Control, letter: Option<u8>, replaces: Span) -> Ve
     .collect()
 }
 
-/// A command with what holds without it, to be changed.
+/// A snippet of a command with its default, ready to be changed.
 fn shape(id: CommandId, machine: Machine) -> String {
     let row = id.row();
     let default = row.without.arguments(machine, UnitChoice::Inch);
@@ -444,7 +447,7 @@ mod tests {
         assert_eq!(first("T[tool] M6", "T[|"), "tool");
         assert_eq!(first("S[speed]", "S[|"), "speed");
         assert_eq!(first("X[h] Y[v]", "X[h] Y[|"), "v");
-        // a form has one Tap, and whoever types the word means it
+        // a form has only one Tap, but a word typed in full is still listed
         let (document, offset) = haas("\nCancel", "\nTap|\nCancel");
         let list = listed(&document, offset);
         assert!(list.iter().any(|item| item.label == "Tap"), "{list:?}");

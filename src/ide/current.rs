@@ -1,4 +1,4 @@
-//! The current job: what it prints with the form as it stands.
+//! The current job, printed with the current text of the form.
 
 use std::io::Cursor;
 
@@ -13,13 +13,13 @@ use crate::span::Span;
 use crate::trace::Trace;
 use crate::verify::Verdict;
 
-/// A job printed with a form.
+/// A job that was printed with a form.
 #[derive(Debug)]
 pub struct Current {
-    /// The job's name, for people.
+    /// Name of the job, for display.
     pub name: String,
     text: String,
-    /// Where each line of the text begins.
+    /// Start of each line of the text.
     starts: Vec<usize>,
     trace: Trace,
     seen: Vec<Seen>,
@@ -28,24 +28,24 @@ pub struct Current {
     proven: Option<Proven>,
 }
 
-/// What a line of the form printed.
+/// Output of a line of the form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Printed<'a> {
-    /// How many blocks.
+    /// Number of blocks.
     pub times: usize,
-    /// The first of them: the line of the program, from 1, and the block.
+    /// The first blocks: line of the program, from 1, and text.
     pub first: Vec<(u64, &'a str)>,
 }
 
 impl Document {
-    /// Prints a job with the form and proves the program; `None`: the form has errors. Questions of the form that the job does
-    /// not answer are answered by their defaults, else by 1, so that something is printed.
+    /// Prints a job with the form and verifies the program; `None` if the form has errors. Prompts without an answer in the job
+    /// get their defaults, else 1, so that a program is printed.
     pub fn print(&self, name: &str, mut job: Job<'_>) -> Option<Current> {
         let post = self.post()?;
         let mut options = Options { shop_properties: self.properties.clone(), ..Options::default() };
         let mut followed = post.follow(job.again(), &options).ok()?;
         if followed.stopped.is_some() {
-            // what the job says itself counts: only what it lacks is made up
+            // values of the job are kept: only missing values are added
             let set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
             let answered = Options { program: Some(1), set, ..options.clone() };
             let again = post.follow(job.again(), &answered).ok().filter(|again| again.stopped.is_none());
@@ -66,7 +66,7 @@ impl Document {
         Some(Current { name: name.to_owned(), text, starts, trace, seen, notes, stopped, proven })
     }
 
-    /// The built-in job for the form, printed: what is shown where no job is named.
+    /// Prints the built-in job for the form. It is shown if no job is named.
     pub fn print_sample(&self) -> Option<Current> {
         let text = sample_job(&self.checked.form.settings);
         self.print("the sample job", Job::json(text))
@@ -86,37 +86,37 @@ impl Current {
         self.text[start..].lines().next().unwrap_or("")
     }
 
-    /// How many lines the program has.
+    /// Number of lines of the program.
     pub fn lines(&self) -> usize {
         self.text.lines().count()
     }
 
-    /// Where a line of the program came from; lines count from 1.
+    /// Origin of a line of the program; lines count from 1.
     pub fn origin(&self, line: u64) -> Option<&TraceLine> {
         self.trace.line(line)
     }
 
-    /// The source map, both ways.
+    /// The source map, for both directions.
     pub fn trace(&self) -> &Trace {
         &self.trace
     }
 
-    /// Warnings and notes of the job and of printing it.
+    /// Warnings and notes about the job and its output.
     pub fn notes(&self) -> &[Diag] {
         &self.notes
     }
 
-    /// Why the program ends before its job does.
+    /// The error that stopped the program before the end of the job, if any.
     pub fn stopped(&self) -> Option<&Error> {
         self.stopped.as_ref()
     }
 
-    /// Does the program make the motions of its job? `None`: it is not whole, or the job can't be read.
+    /// The verdict on the motions of the program; `None` if the program is incomplete or the job can't be read.
     pub fn verdict(&self) -> Option<&Verdict> {
         self.proven.as_ref().map(|proven| &proven.verdict)
     }
 
-    /// How printing the job came out, in a few words: `119 blocks, proven`.
+    /// The result of printing the job, in a few words: `119 blocks, proven`.
     pub fn outcome(&self) -> String {
         let blocks = match self.lines() {
             1 => "1 block".to_owned(),
@@ -131,21 +131,21 @@ impl Current {
             (None, Some(Verdict::Identical | Verdict::Equivalent(_))) => format!("{blocks}, proven"),
             (None, Some(Verdict::Different(found))) => {
                 let why = found.first().map_or("", |finding| finding.message.as_str());
-                format!("{blocks}, does not do what the job asks for: {why}")
+                format!("{blocks}, different from the job: {why}")
             }
             (None, Some(Verdict::NotProven(unproven))) => format!("{blocks}, not proven: {}", unproven.why),
             (None, _) => format!("{blocks}, not proven"),
         }
     }
 
-    /// What the lines of the form that a span touches printed: how many blocks, and the first `most` of them.
+    /// The output of the form lines that a span touches: the number of blocks, and the first `most` of them.
     pub fn printed(&self, span: Span, most: usize) -> Printed<'_> {
         let lines: Vec<u64> = self.trace.printed_by_form(span).collect();
         let first = lines.iter().take(most).map(|&line| (line, self.block(line))).collect();
         Printed { times: lines.len(), first }
     }
 
-    /// A line of the form where it printed first.
+    /// The first output of a line of the form.
     pub fn seen(&self, line: Span) -> Option<&Seen> {
         self.seen.iter().find(|seen| touches(seen.form, line))
     }
@@ -155,7 +155,7 @@ impl Current {
         &self.seen
     }
 
-    /// What a variable held where the first line within a span printed first, in the program's units.
+    /// The value of a variable at the first output of the first line in a span, in the program's units.
     pub fn value(&self, within: Span, var: VarId) -> Option<f64> {
         self.seen(within)?.values.iter().find(|(own, _)| *own == var).map(|(_, value)| *value)
     }

@@ -1,4 +1,4 @@
-//! A form as it stands in the editor.
+//! A form as in the editor.
 
 use crate::compile::compile;
 use crate::control::Control;
@@ -10,23 +10,23 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{Head, SequenceNode};
 
-/// A form as it stands in the editor, with those that it calls: read, checked, and compiled where it can print.
+/// A form as in the editor, with the forms that it calls: parsed, checked, and compiled if it can print.
 #[derive(Debug)]
 pub struct Document {
     pub(super) checked: Checked,
     found: Found,
     post: Option<Post>,
-    /// What the shop gives the form's properties, by their names.
+    /// Values of the form's properties from the shop, by name.
     pub(super) properties: Vec<(String, String)>,
 }
 
 impl Document {
-    /// Checks a form. `files` gives the text of the files that it calls, unsaved text before that of the disk.
+    /// Checks a form. `files` returns the text of the files that it calls; unsaved text comes before that on the disk.
     pub fn new(form: Source, files: &dyn Files, limits: Limits, levels: &Levels) -> Document {
         Document::of(analyse(form, limits, &mut |name| files.read(name)), levels)
     }
 
-    /// A form that was analysed.
+    /// A document from an analysed form.
     pub fn of(checked: Checked, levels: &Levels) -> Document {
         let found = lint(&checked, levels);
         let is_right = !found.diags.iter().any(Diag::is_error);
@@ -34,13 +34,13 @@ impl Document {
         Document { checked, found, post, properties: Vec::new() }
     }
 
-    /// With values of the shop for the form's properties, by their names: what is printed has them.
+    /// Sets the shop's values for the form's properties, by name. They apply to the printed programs.
     #[must_use]
     pub fn with_properties(self, properties: &[(String, String)]) -> Document {
         Document { properties: properties.to_vec(), ..self }
     }
 
-    /// The files: the form itself first, then those that it calls. Spans are places in them.
+    /// The files: the form itself first, then those that it calls. Spans refer to them.
     pub fn files(&self) -> &[Source] {
         &self.checked.files
     }
@@ -50,17 +50,17 @@ impl Document {
         &self.checked
     }
 
-    /// What lint finds in it, in the order of the places.
+    /// The findings of lint, by location.
     pub fn findings(&self) -> &[Diag] {
         &self.found.diags
     }
 
-    /// What prints; `None`: the form has errors.
+    /// The compiled post; `None` if the form has errors.
     pub fn post(&self) -> Option<&Post> {
         self.post.as_ref()
     }
 
-    /// The control whose codes count: the form's own, else what most controls have.
+    /// The control whose codes apply: that of the form, else the default control.
     pub fn control(&self) -> &'static Control {
         self.checked.form.settings.control.unwrap_or_else(Control::of_no_name)
     }
@@ -75,14 +75,15 @@ impl Document {
         self.checked.trees.get(file as usize).map_or(&[], |tree| &tree.items)
     }
 
-    /// The sequence that a place lies in, its name line and its end included. One without an end takes the lines after it.
+    /// The sequence that contains a location, including its name line and end. A sequence without an end includes the lines after
+    /// it.
     pub(super) fn sequence_at(&self, file: u32, offset: u32) -> Option<&SequenceNode> {
         let nodes = self.checked.trees.get(file as usize)?.sequences();
         let above = nodes.take_while(|node| node.span().start <= offset).last();
         above.filter(|node| node.end.is_none() || offset <= node.span().end)
     }
 
-    /// The line of a file that a place is in, up to that place, and where the line begins.
+    /// The text of the line before a location, and the start of the line.
     pub(super) fn line_before(&self, file: u32, offset: u32) -> Option<(u32, &str)> {
         let source = self.files().get(file as usize)?;
         let start = *source.line_starts().get(source.line(offset))?;
@@ -95,7 +96,7 @@ pub(super) mod tests {
     use super::*;
     use crate::post::NoFiles;
 
-    /// A form from text, with the place of the mark `|`, which is taken out.
+    /// Creates a form from text, and returns the location of the mark `|`, which is removed.
     pub(in crate::ide) fn marked(text: &str) -> (Document, u32) {
         let at = text.find('|').unwrap_or(0);
         let text = text.replacen('|', "", 1);
@@ -103,7 +104,7 @@ pub(super) mod tests {
         (Document::new(form, &NoFiles, Limits::default(), &Levels::default()), at as u32)
     }
 
-    /// The post for Haas mills that ships, in which the first `from` is replaced.
+    /// The shipped post for Haas mills, with the first `from` replaced.
     pub(in crate::ide) fn haas(from: &str, to: &str) -> (Document, u32) {
         let text = include_str!("../../postforms/haas.pf");
         assert!(text.contains(from), "{from}");

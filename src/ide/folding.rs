@@ -1,12 +1,12 @@
-//! Parts of a form that can be folded away.
+//! Parts of a form that an editor can fold.
 
 use super::Document;
 use crate::syntax::{Head, Tail};
 
-/// Lines that can be folded away, from 0, both included.
+/// A range of lines that can be folded, from 0, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fold {
-    /// The line that stays.
+    /// The line that stays visible.
     pub first: u32,
     /// The last line.
     pub last: u32,
@@ -15,7 +15,7 @@ pub struct Fold {
 }
 
 impl Document {
-    /// Sequences, and comments of several lines.
+    /// The foldable parts: sequences, and comments of several lines.
     pub fn folding(&self, file: u32) -> Vec<Fold> {
         let Some(source) = self.files().get(file as usize) else { return Vec::new() };
         let line = |at: u32| source.line(at) as u32;

@@ -1,4 +1,4 @@
-//! What each word of a form prints in the current job.
+//! Hints: the output of each word of a form in the current job.
 
 use super::{Current, Document};
 use crate::sema::WordKind;
@@ -9,12 +9,12 @@ use crate::span::Span;
 pub struct Hint {
     /// The word.
     pub span: Span,
-    /// What the line printed in its first block; empty where it was left out, because the control held it already.
+    /// Output in the first block of the line; empty if the word was left out because the control already had its value.
     pub text: String,
 }
 
 impl Document {
-    /// What the words with variables within a span printed, each in the first block of its line.
+    /// Hints for the words with variables in a span, each from the first block of its line.
     pub fn hints(&self, within: Span, current: &Current) -> Vec<Hint> {
         let mut hints = Vec::new();
         let form = &self.checked.form;

@@ -1,4 +1,4 @@
-//! What is said of the thing under the pointer.
+//! Information about the element under the pointer.
 
 use super::formats::examples;
 use super::words::{blocks, escape, markdown};
@@ -9,25 +9,25 @@ use crate::lang::{Unit, VarId};
 use crate::number::LetterFormat;
 use crate::span::Span;
 
-/// What is said, and of what.
+/// Information about an element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hover {
-    /// The thing.
+    /// Span of the element.
     pub span: Span,
     /// Markdown.
     pub text: String,
 }
 
-/// What backquotes do.
-const QUOTE: &str = "**text in backquotes**\n\nprints as it stands, with its blanks, `#` and brackets; two backquotes in it are one. \
-    `Replace`, `Rename`, `Spaces` and `UpperCaseComments` leave it alone.";
+/// Description of backquotes.
+const QUOTE: &str = "**text in backquotes**\n\nis printed unchanged, with its spaces, `#` and brackets; two \
+    backquotes inside print one. `Replace`, `Rename`, `Spaces` and `UpperCaseComments` do not change it.";
 
-/// Blocks of a line that are shown.
+/// Maximum number of blocks of a line in a hover.
 const MOST_BLOCKS: usize = 3;
 
 impl Document {
-    /// What is known of the thing at a byte of a file: `explain`'s words, what a code does, how a format looks; and what its line
-    /// printed in the current job.
+    /// Information about the element at a byte of a file: the text of `explain`, the effect of a code, examples of a format, and
+    /// the output of its line in the current job.
     pub fn hover(&self, file: u32, offset: u32, current: Option<&Current>) -> Option<Hover> {
         let line = self.line_of(file, offset)?;
         let printed = current.and_then(|current| printed(current, line));
@@ -61,12 +61,12 @@ impl Document {
         }
     }
 
-    /// How the numbers of a letter look.
+    /// Examples of numbers with this letter.
     fn format(&self, letter: u8) -> String {
         let shown = char::from(letter);
         let settings = &self.checked.form.settings;
         let Some((format, span)) = self.checked.form.formats.get(&letter) else {
-            return format!("**{shown}**\n\nThe form gives this letter no format: a built-in one holds.");
+            return format!("**{shown}**\n\nThe form has no format for this letter: the built-in format is used.");
         };
         let spelt = self.slice(*span).trim();
         let head = format!("**{}**\n\n{}", escape(spelt), in_words(format));
@@ -75,7 +75,7 @@ impl Document {
         format!("{head}\n```text\n{}\n```", rows.join("\n"))
     }
 
-    /// The line of a byte, without its end.
+    /// The line that contains a byte, without its end.
     pub fn line_of(&self, file: u32, offset: u32) -> Option<Span> {
         let (start, _) = self.line_before(file, offset)?;
         let text = &self.files()[file as usize].text[start as usize..];
@@ -83,7 +83,7 @@ impl Document {
         Some(Span::new(file, start as usize, start as usize + text[..length].trim_end().len()))
     }
 
-    /// What a variable holds in the current job: where the line printed first, else where its sequence did.
+    /// The value of a variable in the current job: at the first output of its line, else of its sequence.
     pub(super) fn value(&self, line: Span, var: VarId, current: &Current) -> Option<String> {
         let sequence = self.sequence_at(line.file, line.start).map(|node| node.span());
         let value = current.value(line, var).or_else(|| current.value(sequence?, var))?;
@@ -91,7 +91,7 @@ impl Document {
     }
 }
 
-/// A value with what it counts.
+/// A value with its unit.
 fn shown(value: f64, var: VarId) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     match var.row().unit {
@@ -100,12 +100,12 @@ fn shown(value: f64, var: VarId) -> String {
     }
 }
 
-/// What a code does on a control.
+/// The effect of a code on a control.
 pub(super) fn about_code(code: Code, control: &Control) -> String {
     match explain::controls::code(control, code) {
         Some(about) => format!("**{code}** on {}\n\n{}", escape(control.shown()), escape(&about)),
         None if control.refuses(code) => format!("**{code}**\n\n{} refuses it", escape(control.shown())),
-        None => format!("**{code}**\n\nNobody knows what it does on {}.", escape(control.shown())),
+        None => format!("**{code}**\n\nThe effect of this code on {} is unknown.", escape(control.shown())),
     }
 }
 
@@ -113,7 +113,7 @@ fn in_words(format: &LetterFormat) -> String {
     use crate::number::{Point, Sign};
     let sign = match format.sign {
         Sign::Unsigned => "no sign: a negative value is an error",
-        Sign::Minus => "a minus where the value is negative",
+        Sign::Minus => "a minus if the value is negative",
         Sign::Always => "always a sign",
     };
     let digits = |digits: crate::number::Digits| match digits.fixed {
@@ -129,7 +129,7 @@ fn in_words(format: &LetterFormat) -> String {
     format!("{sign}; {} digits{point}", digits(format.int))
 }
 
-/// What a line printed.
+/// The output of a line.
 fn printed(current: &Current, line: Span) -> Option<String> {
     let printed = current.printed(line, MOST_BLOCKS);
     let times = match printed.times {
@@ -165,7 +165,7 @@ mod tests {
         assert!(code.starts_with("**G40** on haas\n\n"), "{code}");
         let format = text("Y->4.>4", "Y->|4.>4");
         assert!(
-            format.contains("a minus where the value is negative; up to 4 digits, always a point, up to 4 decimals"),
+            format.contains("a minus if the value is negative; up to 4 digits, always a point, up to 4 decimals"),
             "{format}"
         );
         assert!(format.contains("12.5     → Y12.5\n-0.25    → Y-.25\n3        → Y3."), "{format}");

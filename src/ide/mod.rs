@@ -1,8 +1,8 @@
-//! What an editor asks about a form that is being written, and about a program: queries, no I/O.
+//! Queries of an editor about a form that is being written, and about a program. There is no I/O here.
 //!
-//! A [`Document`] is a form as it stands in the editor, checked; a [`Current`] is a job printed with it. Places are bytes of
-//! the text, as [`Span`](crate::span::Span) counts them; [`utf16`] has them as editors do.
-// meanings name variables as [var]
+//! A [`Document`] is a form as in the editor, checked; a [`Current`] is a job printed with it. Locations are bytes of the text,
+//! as in [`Span`](crate::span::Span); [`utf16`] converts them for editors.
+// meanings contain variables as [var]
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod actions;

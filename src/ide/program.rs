@@ -1,4 +1,4 @@
-//! NC programs: what a control says of them, and what their codes do.
+//! NC programs: findings of a control, and the effects of their codes.
 
 use std::io::Cursor;
 
@@ -10,33 +10,33 @@ use crate::nc::{Kind, RunError, RunSettings, Simulator, Unpointed, tokens};
 use crate::source::Source;
 use crate::span::Span;
 
-/// What a control says of a program.
+/// Findings of a control about a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// What the control warns of, and what it refuses.
+    /// Warnings and errors of the control.
     pub diags: Vec<Diag>,
-    /// Blocks that were run.
+    /// Number of blocks that were run.
     pub blocks: u64,
-    /// How many blocks the control refuses; the others are run.
+    /// Number of blocks with errors; the other blocks are run.
     pub refused: u64,
-    /// The program was not run to its end, because that would take too long while somebody types.
+    /// The program was not run to its end, because that would take too long while the user types.
     pub cut: bool,
 }
 
-/// Actions of a machine after which a program is not run on.
+/// Maximum number of machine actions; the rest of the program is not run.
 const MOST_ACTIONS: usize = 3_000_000;
-/// Findings of a program; one that is wrong in each block is wrong in the same way.
+/// Maximum number of findings. A fault that occurs in each block needs no more.
 const MOST_FINDINGS: usize = 200;
 
-/// Runs a program by the rules of a control. A length without a point, which means one thing or another by a setting of some
-/// controls, is told once, and the program run on as if it were whole units.
+/// Runs a program by the rules of a control. On some controls a setting decides the meaning of a length without a point. Such a
+/// length is reported once, and the program is run with lengths in whole units.
 pub fn check(text: &str, control: &'static Control) -> Checked {
     let mut checked = run(text, RunSettings::new(control));
     let unpointed = |diag: &Diag| diag.code == FindingCode::PN017;
     if let Some(at) = checked.diags.iter().position(unpointed) {
         let mut told = checked.diags.swap_remove(at);
         told.severity = Severity::Warning;
-        told.help = Some("write X1. for whole units; the rest is read as if each had a point".into());
+        told.help = Some("write X1. for whole units; the following numbers are read as if they had a point".into());
         checked = run(text, RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control) });
         checked.diags.insert(0, told);
     }
@@ -72,7 +72,7 @@ fn run(text: &str, settings: RunSettings) -> Checked {
     checked
 }
 
-/// The place of a finding in the text of a program: the word that it is about, else its line.
+/// The span of a finding in a program: the word with the fault, else its line.
 pub fn place(source: &Source, location: &Location) -> Span {
     let line = location.line.unwrap_or(1).saturating_sub(1) as usize;
     let Some(&start) = source.line_starts().get(line) else { return Span::default() };
@@ -87,8 +87,8 @@ pub fn place(source: &Source, location: &Location) -> Span {
     Span::new(0, start as usize + from, start as usize + to.max(from))
 }
 
-/// The control that a comment of the program names, `(postform: control haas)` or `; postform: control haas`, in its first
-/// twenty lines.
+/// The control named by a comment in the first twenty lines of a program, `(postform: control haas)` or
+/// `; postform: control haas`.
 pub fn named_control(text: &str) -> Option<&str> {
     text.lines().take(20).find_map(|line| {
         let at = line.to_ascii_lowercase().find("postform:")?;
@@ -101,7 +101,7 @@ pub fn named_control(text: &str) -> Option<&str> {
     })
 }
 
-/// The word at a byte of a program, with the code that it is.
+/// The word at a byte of a program, and its code.
 pub fn code_at(source: &Source, offset: u32) -> Option<(Span, Code)> {
     let start = *source.line_starts().get(source.line(offset))?;
     let text = source.text.get(start as usize..)?.lines().next()?;
@@ -116,13 +116,13 @@ pub fn code_at(source: &Source, offset: u32) -> Option<(Span, Code)> {
     })
 }
 
-/// What a code of a program does.
+/// Information about a code of a program.
 pub fn hover(source: &Source, offset: u32, control: &Control) -> Option<Hover> {
     let (span, code) = code_at(source, offset)?;
     Some(Hover { span, text: about_code(code, control) })
 }
 
-/// The codes of the control, after G and M.
+/// Completions after G and M: the codes of the control.
 pub fn complete(source: &Source, offset: u32, control: &Control) -> Vec<Completion> {
     let Some(&start) = source.line_starts().get(source.line(offset)) else { return Vec::new() };
     let before = source.text.get(start as usize..offset as usize).unwrap_or("");

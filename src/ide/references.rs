@@ -1,17 +1,17 @@
-//! Where else a thing stands.
+//! References to an element.
 
 use super::{At, Document, What};
 use crate::lang::SequenceId;
 use crate::span::Span;
 
 impl Document {
-    /// All places of the thing at a byte of a file, in all files of the form, in their order: a variable, a code, a letter's
-    /// words and format, a sequence with its calls, a command.
+    /// All occurrences of the element at a byte of a file, in all files of the form, in order: of a variable, a code, the words
+    /// and format of a letter, a sequence with its calls, or a command.
     pub fn references(&self, file: u32, offset: u32) -> Vec<Span> {
         self.at(file, offset).map_or_else(Vec::new, |at| self.places(&at.what))
     }
 
-    /// All places of a thing.
+    /// All occurrences of an element.
     pub(super) fn places(&self, what: &What) -> Vec<Span> {
         let mut found = Vec::new();
         for file in 0..self.checked.trees.len() as u32 {
@@ -24,8 +24,8 @@ impl Document {
         found
     }
 
-    /// Where the thing at a byte of a file is said: a sequence for `Cancel`, the question or the property of a variable, the format
-    /// of a letter.
+    /// The definition of the element at a byte of a file: the sequence for `Cancel`, the prompt or property for a variable, the
+    /// format for a letter.
     pub fn definition(&self, file: u32, offset: u32) -> Option<Span> {
         let at = self.at(file, offset)?;
         match at.what {

@@ -1,42 +1,41 @@
-//! New names for what a form may name as it likes: free values, and the three Custom sequences.
+//! Renaming of variables and sequences whose names the form may choose: val1 to val10, and the three Custom sequences.
 
 use super::{At, Document, What};
 use crate::lang::{SequenceId, VarId};
 use crate::span::Span;
 
-/// Text that takes the place of spans.
+/// Replacements of text.
 pub type Renamed = Vec<(Span, String)>;
 
-/// Why something keeps its name, in a sentence.
+/// Reason why an element can't be renamed, as a sentence.
 pub type CantRename = String;
 
 const CUSTOM: [SequenceId; 3] = [SequenceId::Custom1, SequenceId::Custom2, SequenceId::Custom3];
 
-/// Is it one of `val1` to `val10`?
+/// Is the variable one of `val1` to `val10`?
 fn is_free(var: VarId) -> bool {
     var.name().strip_prefix("val").is_some_and(|number| number.parse::<u8>().is_ok())
 }
 
 impl Document {
-    /// The name at a byte of a file, where it may be another one.
+    /// The name at a byte of a file, if it can be renamed.
     ///
     /// # Errors
-    /// It is a word of the language, which has one name.
+    /// It is a fixed word of the language.
     pub fn renameable(&self, file: u32, offset: u32) -> Result<Span, CantRename> {
         match self.at(file, offset) {
             Some(At { span, what: What::Variable(var, _) }) if is_free(var) => Ok(name_in(self, span, var)),
             Some(At { span, what: What::Sequence(id) }) if CUSTOM.contains(&id) => Ok(span),
-            _ => Err(
-                "only val1 to val10 and Custom1 to Custom3 can have another name: the others are words of the language"
-                    .into(),
-            ),
+            _ => Err("only val1 to val10 and Custom1 to Custom3 can be renamed: the other names are words of the \
+                 language"
+                .into()),
         }
     }
 
-    /// The edits that give the thing at a byte of a file another name.
+    /// The edits that rename the element at a byte of a file.
     ///
     /// # Errors
-    /// It keeps its name; the new name is none, or is taken.
+    /// The element can't be renamed, or the new name is invalid or already used.
     pub fn rename(&self, file: u32, offset: u32, name: &str) -> Result<Renamed, CantRename> {
         self.renameable(file, offset)?;
         let Some(At { what, .. }) = self.at(file, offset) else { return Ok(Vec::new()) };
@@ -44,18 +43,18 @@ impl Document {
         match what {
             What::Variable(var, _) => {
                 let new = VarId::parse(name).filter(|new| is_free(*new));
-                let new = new.ok_or_else(|| format!("`{name}` is no free value: val1 to val10 are"))?;
+                let new = new.ok_or_else(|| format!("`{name}` is not a free variable: use val1 to val10"))?;
                 if new != var && !self.places(&What::Variable(new, None)).is_empty() {
-                    return Err(format!("[{}] is used in this form already", new.name()));
+                    return Err(format!("[{}] is already used in this form", new.name()));
                 }
                 let places = self.places(&What::Variable(var, None));
                 Ok(places.into_iter().map(|span| (name_in(self, span, var), new.name().to_owned())).collect())
             }
             What::Sequence(id) => {
                 let new = SequenceId::parse(name).filter(|new| CUSTOM.contains(new));
-                let new = new.ok_or_else(|| format!("`{name}` is none of Custom1, Custom2 and Custom3"))?;
+                let new = new.ok_or_else(|| format!("`{name}` is not Custom1, Custom2 or Custom3"))?;
                 if new != id && self.checked.form.sequences.contains_key(&new) {
-                    return Err(format!("the form has a {} already", new.name()));
+                    return Err(format!("the form already has a {}", new.name()));
                 }
                 let places = self.places(&What::Sequence(id));
                 Ok(places.into_iter().map(|span| (span, new.name().to_owned())).collect())
@@ -65,7 +64,7 @@ impl Document {
     }
 }
 
-/// The name alone in `X[val1]`.
+/// The span of only the name in `X[val1]`.
 fn name_in(document: &Document, span: Span, var: VarId) -> Span {
     let text = document.slice(span).to_ascii_lowercase();
     match text.find(var.name()) {

@@ -1,25 +1,25 @@
-//! Which word of a command is meant.
+//! Help for the arguments of a command.
 
 use super::Document;
 use crate::explain;
 use crate::lang::{Args, CommandId};
 
-/// What a command takes, word by word.
+/// The arguments of a command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signature {
     /// `Coolant on off mist`.
     pub label: String,
-    /// The words that it takes, in their order: bytes of the label.
+    /// The arguments in order, as byte ranges of the label.
     pub words: Vec<(usize, usize)>,
-    /// Which of them is being written, from 0.
+    /// Index of the current argument, from 0.
     pub active: usize,
-    /// What the command does.
+    /// Description of the command.
     pub meaning: String,
 }
 
 impl Document {
-    /// The command of the line that a byte of a file is in, with the word that is being written there; `None`: the line is no
-    /// command, or its name is still being written.
+    /// The command on the line of a byte, with the argument being typed. `None`: the line is no command, or its name is still
+    /// being typed.
     pub fn signature(&self, file: u32, offset: u32) -> Option<Signature> {
         let (start, before) = self.line_before(file, offset)?;
         let inside = self.sequence_at(file, start).filter(|node| node.name.line.span.start < start);
@@ -49,7 +49,7 @@ impl Document {
     }
 }
 
-/// What the words of a command are called: those that its meaning lists, else those of the text about what it takes.
+/// The names of a command's arguments: from its description if that lists them, else from the text about its arguments.
 fn names(args: Args, meaning: &str, takes: &str) -> Vec<String> {
     let most = args.count().map_or(1, |(_, most)| most);
     let list = |text: &str, by: &str| text.split(by).map(|name| name.trim().to_owned()).collect::<Vec<_>>();

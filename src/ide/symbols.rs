@@ -10,19 +10,19 @@ use crate::syntax::{Head, SequenceNode, Tail, parse};
 /// A part of a form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Symbol {
-    /// As the form names it: `Drill`, `Upon [work]`, `Coolant`.
+    /// Name in the form: `Drill`, `Upon [work]`, `Coolant`.
     pub name: String,
-    /// What the symbol does, or what a command says.
+    /// Description of the symbol, or the arguments of a command.
     pub detail: String,
-    /// What the symbol is.
+    /// Kind of the symbol.
     pub kind: Kind,
-    /// The whole of it.
+    /// Its whole span.
     pub span: Span,
-    /// The name of the symbol in the text.
+    /// Span of the name.
     pub name_span: Span,
 }
 
-/// What a part of a form is.
+/// Kinds of symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A command.
@@ -42,7 +42,7 @@ impl Document {
     }
 }
 
-/// Symbols of a form that is only read.
+/// The symbols of a form that is parsed only.
 pub fn symbols_of(form: &Source) -> Vec<Symbol> {
     parse(form, 0).items.iter().filter_map(symbol).collect()
 }

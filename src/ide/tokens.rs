@@ -1,4 +1,4 @@
-//! What each word of a form is, for its colour.
+//! Classification of the words in a form, for syntax colouring.
 
 use super::{At, Document, What};
 use crate::span::Span;
@@ -7,18 +7,18 @@ use crate::syntax::{Head, Line, Piece, PieceKind, Tail};
 /// A coloured word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// Where: within one line.
+    /// Span, within one line.
     pub span: Span,
-    /// What.
+    /// Kind.
     pub kind: Kind,
 }
 
-/// What words are.
+/// Kinds of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A command.
     Command,
-    /// What a command takes.
+    /// An argument of a command.
     Argument,
     /// A letter format.
     Format,
@@ -30,18 +30,18 @@ pub enum Kind {
     Variable,
     /// A G or M code.
     Code,
-    /// A typed word that is none of the others.
+    /// Any other typed word.
     Word,
-    /// A comment of the program, text in backquotes.
+    /// A comment of the program, or text in backquotes.
     Note,
     /// A comment of the form.
     Comment,
-    /// Text after two blanks, which is not printed.
+    /// Text after two spaces, which is not printed.
     Lost,
 }
 
 impl Document {
-    /// The words of a file, in their order, none within another.
+    /// The words of a file in order. No word contains another.
     pub fn tokens(&self, file: u32) -> Vec<Token> {
         let mut tokens = Vec::new();
         self.each(file, |At { span, what }| {
@@ -82,7 +82,7 @@ fn tail(line: &Line) -> Option<Token> {
     }
 }
 
-/// The text of a comment of the program, around the words in it: `tokens` has those of the file, in their order.
+/// Adds the text of a program's comment around the words in it. `tokens`: the words of the file, in order.
 fn notes(piece: &Piece, tokens: &[Token], notes: &mut Vec<Token>) {
     if !matches!(piece.kind, PieceKind::Note { .. }) {
         return;
@@ -131,7 +131,7 @@ mod tests {
         );
     }
 
-    /// A value that is calculated in a comment is a word of its own.
+    /// A calculated value in a comment is a word of its own.
     #[test]
     fn a_comment_is_around_its_calculated_values() {
         let (document, _) = marked("Drill\n(P[work-59] X[h])\nEnd\n");

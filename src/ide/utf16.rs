@@ -1,9 +1,9 @@
-//! Places as editors count them: a line, and UTF-16 code units in it, both from 0.
+//! Positions as editors count them: a line, and UTF-16 code units in it, both from 0.
 
 use crate::source::Source;
 use crate::span::Span;
 
-/// A place in a text.
+/// A position in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Place {
     /// Line, from 0.
@@ -12,7 +12,7 @@ pub struct Place {
     pub character: u32,
 }
 
-/// The place of a byte. One inside a character is the place of that character.
+/// The position of a byte. For a byte inside a character, this is the position of that character.
 pub fn place(source: &Source, at: u32) -> Place {
     let mut at = (at as usize).min(source.text.len());
     while !source.text.is_char_boundary(at) {
@@ -24,7 +24,8 @@ pub fn place(source: &Source, at: u32) -> Place {
     Place { line: line as u32, character: units as u32 }
 }
 
-/// The byte of a place. What lies after the end of its line is the end of the line, what lies after the text its end.
+/// The byte at a position. A position after the end of its line is the end of the line; one after the text is the end of the
+/// text.
 pub fn offset(source: &Source, place: Place) -> u32 {
     let starts = source.line_starts();
     let Some(&start) = starts.get(place.line as usize) else { return source.text.len() as u32 };
@@ -40,7 +41,7 @@ pub fn offset(source: &Source, place: Place) -> u32 {
     start + line.len() as u32
 }
 
-/// First and last place of a span.
+/// Start and end position of a span.
 pub fn range(source: &Source, span: Span) -> (Place, Place) {
     (place(source, span.start), place(source, span.end))
 }

@@ -1,7 +1,6 @@
-//! The pages of `explain` as Markdown, which editors show.
+//! Conversion of `explain` pages to Markdown for editors.
 
-/// A page: its heading bold, what it says first as a paragraph, the other lines in italics with their values, its example as
-/// code.
+/// Converts a page: its heading becomes bold, its first text a paragraph, the labels of other lines italic, and its example code.
 pub fn markdown(page: &str) -> String {
     let mut lines = page.lines();
     let mut out = lines.next().map(|head| format!("**{}**", head.trim())).unwrap_or_default();
@@ -38,7 +37,7 @@ fn said(facts: &mut Vec<String>) -> String {
     if facts.is_empty() { String::new() } else { format!("\n\n{}", std::mem::take(facts).join("  \n")) }
 }
 
-/// Text in which nothing is Markdown.
+/// Escapes text so that none of it is Markdown.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -50,7 +49,7 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// A program's blocks as code.
+/// Blocks of a program as Markdown code.
 pub fn blocks<'a>(lines: impl IntoIterator<Item = &'a str>) -> String {
     let lines: Vec<String> = lines.into_iter().map(|line| line.replace("```", "` ` `")).collect();
     format!("```nc\n{}\n```", lines.join("\n"))

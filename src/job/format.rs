@@ -1,4 +1,4 @@
-//! Which format a job is in: by its name, else by how it begins.
+//! The format of a job, found by its file name or else by its first bytes.
 
 /// Formats of jobs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -6,11 +6,11 @@
 pub enum Format {
     /// One JSON document.
     Json,
-    /// JSON Lines: an item a line.
+    /// JSON Lines: one item per line.
     JsonLines,
     /// An APT CL file.
     Cl,
-    /// An NC program, whose motions become a job.
+    /// An NC program whose motions are read as a job.
     Nc,
     /// A FreeCAD document.
     Freecad,
@@ -18,7 +18,7 @@ pub enum Format {
     Nci,
 }
 
-/// What files of each format are called.
+/// The file name extensions of each format.
 const EXTENSIONS: [(Format, &[&str]); 6] = [
     (Format::Json, &["json"]),
     (Format::JsonLines, &["jsonl", "ndjson"]),
@@ -28,11 +28,11 @@ const EXTENSIONS: [(Format, &[&str]); 6] = [
     (Format::Nci, &["nci"]),
 ];
 
-/// How many bytes of a job are looked at to guess its format.
+/// Number of bytes of a job that are examined to guess its format.
 const LOOKED_AT: usize = 4096;
 
 impl Format {
-    /// By the name of a file: its extension, also before the version that Creo adds (`op010.ncl.1`).
+    /// The format by the extension of a file name, also if Creo adds a version after it (`op010.ncl.1`).
     pub fn of_name(name: &str) -> Option<Format> {
         let name = name.rsplit(['/', '\\']).next()?;
         let (mut stem, mut extension) = name.rsplit_once('.')?;
@@ -43,22 +43,23 @@ impl Format {
         EXTENSIONS.iter().find(|(_, known)| known.iter().any(|known| is(known))).map(|(format, _)| *format)
     }
 
-    /// By how a job begins: as a zip archive, with a brace, record 1050, a word with a slash, or a block of an NC program. `None`: by none of them.
+    /// The format by the first bytes of a job: a zip archive, a brace, record 1050, a word with a slash, or a block of an NC
+    /// program. `None`: none of these.
     pub fn of_content(bytes: &[u8]) -> Option<Format> {
         let start = bytes.get(..LOOKED_AT).unwrap_or(bytes);
         if start.starts_with(b"PK\x03\x04") {
-            return Some(Format::Freecad); // the only job that is a zip archive
+            return Some(Format::Freecad); // no other job format is a zip archive
         }
         let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
         let mut lines = start.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
         let first = lines.clone().next()?;
         if first.starts_with(b"{") {
-            // the head of JSON Lines is an object on a line of its own
+            // JSON Lines begin with an object on a line of its own
             let head = first[1..].trim_ascii_start().starts_with(b"\"start\"");
             return Some(if head { Format::JsonLines } else { Format::Json });
         }
         if first == b"1050" {
-            return Some(Format::Nci); // the first record of every file
+            return Some(Format::Nci); // the first record of every NCI file
         }
         lines.find_map(|line| match (line, is_statement(line)) {
             (_, true) => Some(Format::Cl),

@@ -1,4 +1,4 @@
-//! Jobs: what is to be made, whatever its format. Bytes come in, events go out.
+//! Jobs: the work to be machined, in any format. A job turns bytes into events.
 
 mod format;
 mod select;
@@ -22,62 +22,62 @@ use crate::remarks::Remarks;
 use crate::toolpath::json::{read_document, read_document_again, read_lines};
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
-/// What a CL file, NCI file or NC program does not contain. JSON needs none of it.
+/// Information that a CL file, NCI file or NC program may lack. JSON needs none of it.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Reading {
-    /// Who wrote a CL file; else it is told from its first lines.
+    /// The system that wrote a CL file; without it the system is recognised from the first lines.
     pub dialect: Option<Dialect>,
-    /// Units of a CL file, NCI file or program that does not give them.
+    /// Units of a CL file, NCI file or program without units.
     pub units: Option<Units>,
-    /// The tool number of a CL file or program that loads none, or of each tool that a CL file names.
+    /// The tool number of a CL file or program without a tool change, or of each tool that a CL file names.
     pub tool: Option<Assumed>,
-    /// The spindle of tools for which a CL file says none.
+    /// The spindle speed of tools that have none in a CL file.
     pub speed: Option<AssumedSpeed>,
-    /// The feed of a CL file that says none: units of the file a minute.
+    /// The feed of a CL file that contains none, in units of the file per minute.
     pub feed: Option<f64>,
-    /// Where the tool is before a CL file or program that begins with a cut, in its units. A program that cuts from a place
-    /// of the machine begins there too.
+    /// The position before a CL file or program that begins with a cut, in the units of the file. A program that cuts from a
+    /// machine position also begins there.
     pub start: Option<[f64; 3]>,
-    /// A CL file is whole, though it does not end as its system ends files.
+    /// A CL file is complete even without the usual end statement of its system.
     pub end: bool,
-    /// Which setup of a CL file is read, counted from 1: the motions of one tool axis, in a frame of their own.
+    /// The setup of a CL file to read, counted from 1: the motions with one tool axis, in a frame of their own.
     pub setup: Option<usize>,
-    /// Whose rules an NC program follows; else Fanuc's.
+    /// The control whose rules an NC program follows; the default is Fanuc.
     pub control: Option<&'static Control>,
-    /// The name or label of the job of a FreeCAD document that has several.
+    /// The name or label of the job to read from a FreeCAD document with several jobs.
     pub job: Option<String>,
-    /// What a length without a point means in an NC program of a Fanuc; else it is an error.
+    /// The meaning of a length without a decimal point in an NC program of a Fanuc; without it such a length is an error.
     pub unpointed: Unpointed,
-    /// Which operations are taken.
+    /// The operations to read.
     pub select: Selection,
 }
 
-/// What can be read and gone back in.
+/// An input that can be read and rewound.
 trait Again: Read + Seek {}
 impl<T: Read + Seek> Again for T {}
 
-/// What pushes a custom job's events.
+/// A function that pushes the events of a custom job.
 type Maker<'a> = dyn FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a;
 
 enum Input<'a> {
     Bytes(&'a [u8]),
     File(Box<dyn Again + 'a>),
-    /// `None`: it was read.
+    /// `None`: it has been read.
     Stream(Option<Box<dyn Read + 'a>>),
     Events(Box<Maker<'a>>),
 }
 
-/// A job that can be read: its input and its format. Nothing is read before it is rendered or verified.
+/// A job that can be read: its input and its format. It is not read until it is rendered or verified.
 pub struct Job<'a> {
     input: Input<'a>,
     format: Format,
-    /// What its text does not say.
+    /// Information that the text of the job lacks.
     pub reading: Reading,
     report: Report,
-    /// Bytes read so far.
+    /// Number of bytes read so far.
     read: Rc<Cell<u64>>,
-    /// What its findings call it.
+    /// The name of the job in findings.
     name: Option<Rc<str>>,
 }
 
@@ -101,7 +101,7 @@ impl<'a> Job<'a> {
         Job::bytes(Format::Cl, text)
     }
 
-    /// An NC program, for another machine.
+    /// An NC program, which may be for another machine.
     pub fn nc(text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
         Job::bytes(Format::Nc, text)
     }
@@ -111,33 +111,34 @@ impl<'a> Job<'a> {
         Job::new(format, Input::Bytes(text.as_ref()))
     }
 
-    /// A job whose format its name says, or how it begins.
+    /// A job whose format is found by its name or else by its first bytes.
     ///
     /// # Errors
-    /// Neither says it.
+    /// The format is not recognised.
     pub fn open(name: &str, text: &'a (impl AsRef<[u8]> + ?Sized)) -> Result<Job<'a>, Error> {
         let format = Format::of_name(name).or_else(|| Format::of_content(text.as_ref()));
         let format = format.ok_or_else(|| {
             Error::usage(
-                "can't tell what the job is, by its name or by how it begins: it is no JSON, CL file or NC program",
+                "the format of the job is unknown: neither its name nor its beginning is that of JSON, a CL file or \
+                 an NC program",
             )
         })?;
         Ok(Job::bytes(format, text).named(name))
     }
 
-    /// The name by which errors, warnings and notes of this job give their places: `bracket.json:12:9`.
+    /// Sets the name of this job in the locations of errors, warnings and notes: `bracket.json:12:9`.
     pub fn named(mut self, name: &str) -> Job<'a> {
         self.name = Some(name.into());
         self
     }
 
-    /// An error of this job: its places get the job's name.
+    /// Adds the job's name to the locations of an error.
     pub(crate) fn names(&self, mut error: Error) -> Error {
         self.name_places(error.diags_mut());
         error
     }
 
-    /// Gives the places in this job its name.
+    /// Adds the job's name to the locations in this job.
     pub(crate) fn name_places(&self, diags: &mut [Diag]) {
         let Some(name) = &self.name else { return };
         for place in diags.iter_mut().filter_map(|diag| diag.place.as_mut()) {
@@ -145,26 +146,26 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// A job in a file or anything else that can be gone back in. It is read from its beginning, whatever its size.
+    /// A job in a file or another input that can be rewound. Every read starts from its beginning, and its size is not limited.
     pub fn file(format: Format, file: impl Read + Seek + 'a) -> Job<'a> {
         Job::new(format, Input::File(Box::new(file)))
     }
 
-    /// A job that comes as a stream and can be read once: it can be rendered or verified, not both. An NC program is kept
-    /// in memory, because it is run twice, and a FreeCAD document, because an archive is read from its end.
+    /// A job from a stream, which can be read only once: it can be rendered or verified, but not both. An NC program is kept in
+    /// memory because it is run twice. A FreeCAD document is kept because an archive is read from its end.
     pub fn stream(format: Format, input: impl Read + 'a) -> Job<'a> {
         Job::new(format, Input::Stream(Some(Box::new(input))))
     }
 
-    /// A job of another format: `make` pushes its events, again each time that it is called. Tool changes need no first move:
-    /// it is filled in from the events that follow.
+    /// A job of another format. `make` pushes its events; each call pushes all of them again. Tool changes need no first move,
+    /// because it is filled in from the events that follow.
     ///
-    /// [`Sink::push`] pushes an event; what it answers is passed on with `?`. The last event is [`Event::Finish`].
+    /// [`Sink::push`] pushes an event; pass its result on with `?`. The last event is [`Event::Finish`].
     pub fn events(make: impl FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a) -> Job<'a> {
         Job::new(Format::Json, Input::Events(Box::new(make)))
     }
 
-    /// The job once more, to render it first and verify it then.
+    /// Borrows the job, so that it can be rendered first and verified afterwards.
     pub fn again(&mut self) -> Job<'_> {
         let input = match &mut self.input {
             Input::Bytes(bytes) => Input::Bytes(bytes),
@@ -180,7 +181,7 @@ impl<'a> Job<'a> {
         matches!(self.input, Input::Stream(_))
     }
 
-    /// A stream is read into memory, so that it can be read again.
+    /// Reads a stream into memory, so that it can be read more than once.
     pub(crate) fn hold(&mut self) -> Result<(), Error> {
         if let Input::Stream(Some(input)) = &mut self.input {
             let mut text = Vec::new();
@@ -195,7 +196,7 @@ impl<'a> Job<'a> {
         self.format
     }
 
-    /// What was noticed when it was read last: warnings, and what a CL file says of itself.
+    /// The report of the last read: warnings, and the information that a CL file contains about itself.
     pub fn report(&self) -> &Report {
         &self.report
     }
@@ -205,25 +206,25 @@ impl<'a> Job<'a> {
         std::mem::take(&mut self.report)
     }
 
-    /// The bytes read so far, counted while the job is read; `None`: they say nothing of the job's size.
+    /// The number of bytes read so far, counted during the read. `None`: this number does not show the progress.
     pub(crate) fn bytes_read(&self) -> Option<Rc<Cell<u64>>> {
         (!matches!(self.input, Input::Events(_))).then(|| Rc::clone(&self.read))
     }
 
-    /// Reads it from its beginning and pushes its events. Memory does not grow with the job.
+    /// Reads the job from its beginning and pushes its events. Memory does not grow with the job.
     ///
     /// # Errors
-    /// The input fails; the job is wrong, or what the sink was asked to do is. The report has the warnings until then.
+    /// The input fails, the job is wrong, or the sink can't do what the job requests. The report has the warnings up to that point.
     pub fn read(&mut self, sink: &mut dyn Sink) -> Result<(), Error> {
         if matches!(self.input, Input::Stream(None)) {
-            return Err(Error::usage("a job that comes as a stream can be read once only"));
+            return Err(Error::usage("a job that comes as a stream can be read only once"));
         }
         self.report = Report::default();
         self.read.set(0);
         let selection = self.reading.select.clone();
         let read =
             if selection.is_all() { self.read_on(sink) } else { self.read_on(&mut Selecting::new(sink, &selection)) };
-        // a reader that watches its file reports here whether it stayed as it was
+        // a reader that detects changes to its file reports them here
         if let Input::File(input) = &mut self.input {
             input.rewind()?;
         }
@@ -234,7 +235,7 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// The units that it counts in; `None` for a job without events. It is read as far as it says them.
+    /// The units of the job; `None` for a job without events. The job is read until its units are known.
     ///
     /// # Errors
     /// As [`Job::read`].
@@ -244,11 +245,11 @@ impl<'a> Job<'a> {
         Ok(first.0)
     }
 
-    /// The setups of a CL file: runs of motions with one tool axis, of which `reading.setup` names one. None where the job
-    /// is no CL file, or comes as a stream.
+    /// The setups of a CL file: runs of motions with one tool axis; `reading.setup` selects one. Empty if the job is no CL file
+    /// or comes from a stream.
     ///
     /// # Errors
-    /// The input fails; a line of it is no statement.
+    /// The input fails, or a line is not a statement.
     pub fn setups(&mut self) -> Result<Vec<Setup>, Error> {
         let options = cl::Options { setup: None, ..cl_options(&self.reading) };
         let found = match &mut self.input {
@@ -272,7 +273,7 @@ impl<'a> Job<'a> {
         let (format, reading, report) = (self.format, &self.reading, &mut self.report);
         match &mut self.input {
             Input::Bytes(bytes) => {
-                // all of it is there
+                // the whole text is in memory
                 count.set(bytes.len() as u64);
                 match format {
                     Format::Nc => read_nc(Cursor::new(*bytes), reading, report, sink),
@@ -321,7 +322,7 @@ impl fmt::Debug for Job<'_> {
     }
 }
 
-/// Bytes of a document that are read at once.
+/// Number of bytes of a document that are read at once.
 const DOCUMENT_BUFFER: usize = 128 << 10;
 
 /// Formats that are read from beginning to end.
@@ -345,7 +346,7 @@ fn read_once(
     }
 }
 
-/// How a CL file is read.
+/// The options for a CL file.
 fn cl_options(reading: &Reading) -> cl::Options {
     cl::Options {
         dialect: reading.dialect,
@@ -359,7 +360,7 @@ fn cl_options(reading: &Reading) -> cl::Options {
     }
 }
 
-/// An NC program is run twice.
+/// Reads an NC program; this needs two runs.
 fn read_nc(
     input: impl io::Read + Seek,
     reading: &Reading,
@@ -377,7 +378,7 @@ fn read_nc(
     read_program(input, &options, &mut report.warnings, sink)
 }
 
-/// A document of FreeCAD: an archive is gone about in.
+/// Reads a document of FreeCAD; an archive is not read in sequence.
 #[cfg(feature = "freecad")]
 fn read_document_of_freecad(
     input: impl Read + Seek,
@@ -392,7 +393,7 @@ fn read_document_of_freecad(
     read
 }
 
-/// A document of FreeCAD, which this build can't read.
+/// Reports that this build can't read documents of FreeCAD.
 #[cfg(not(feature = "freecad"))]
 fn read_document_of_freecad(
     _: impl Read + Seek,
@@ -400,7 +401,7 @@ fn read_document_of_freecad(
     _: &mut Report,
     _: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    let diag = crate::diag::Diag::new(crate::diag::Code::PD001, "this build of postform reads no FreeCAD documents")
+    let diag = crate::diag::Diag::new(crate::diag::Code::PD001, "this build of postform can't read FreeCAD documents")
         .help("build it with the feature `freecad`");
     Err(ReadError::Job(Box::new(diag)))
 }
@@ -425,7 +426,7 @@ impl<R: Seek> Seek for Counted<R> {
     }
 }
 
-/// What the first event says of the units.
+/// The units in the first event.
 struct FirstUnits(Option<Units>);
 
 impl Sink for FirstUnits {

@@ -1,49 +1,49 @@
-//! Some operations of a job: from a tool on, until one, those of some tools, or all but these.
+//! Selection of operations of a job: from a tool on, up to a tool, only those with some tools, or all except those.
 //!
-//! What an operation that is left out says and what holds on (work offset, spindle, coolant, values) is said by the next one that
-//! is taken; where it begins is filled in from where the tool was.
+//! Some values of a left-out operation stay in force: work offset, spindle, coolant and set values. They are added to the next
+//! operation that is selected. That operation starts at the position that the tool would have reached.
 
 use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
 use crate::toolpath::{Axes, Event, First, Flow, Given, Hole, Place, Sink, Spindle, Start, ToolChange};
 
-/// Which operations are taken, by their tools, their numbers or their work offsets.
+/// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// From the first operation with this tool on.
     pub from: Option<u32>,
-    /// Up to the operations with this tool.
+    /// Up to and including the operations with this tool.
     pub until: Option<u32>,
-    /// Those with these tools; none: all.
+    /// Only operations with these tools; an empty list selects all.
     pub only: Vec<u32>,
-    /// Not those with these tools.
+    /// No operations with these tools.
     pub skip: Vec<u32>,
-    /// The one with this number, from 1 on.
+    /// Only the operation with this number, counted from 1.
     pub operation: Option<u64>,
-    /// Those that begin in this work offset; `Some(None)`: those before the job names one.
+    /// Only operations that begin in this work offset; `Some(None)`: those before the job's first work offset.
     pub work: Option<Option<f64>>,
 }
 
 impl Selection {
-    /// Is everything taken?
+    /// Are all operations selected?
     pub fn is_all(&self) -> bool {
         *self == Selection::default()
     }
 }
 
-/// Where in a selection a job is.
+/// Progress of a selection through the job.
 #[derive(Clone, Copy, Default)]
 struct Progress {
-    /// Operations so far.
+    /// Number of operations so far.
     count: u64,
     begun: bool,
-    /// An operation with the last tool was there.
+    /// An operation with the last tool has begun.
     reached: bool,
     over: bool,
 }
 
 impl Progress {
-    /// Is the next operation taken, which begins with this tool and work offset?
+    /// Is the next operation selected, given its tool and work offset?
     fn takes(&mut self, selection: &Selection, tool: Option<f64>, work: Option<f64>) -> bool {
         self.count += 1;
         self.takes_tool(selection, tool)
@@ -62,27 +62,27 @@ impl Progress {
     }
 }
 
-/// Passes the selected operations on.
+/// Passes only the selected operations on.
 pub(super) struct Selecting<'s> {
     sink: &'s mut dyn Sink,
     selection: &'s Selection,
     progress: Progress,
-    /// The operation is taken; before the first one all is.
+    /// The current operation is selected; everything before the first operation is.
     takes: bool,
-    /// Something was left out since the last operation that was taken.
+    /// An operation was left out since the last selected one.
     left_out: bool,
-    /// The next move is the first after something that was left out.
+    /// The next move is the first after a left-out operation, so its missing axes are filled in.
     fills: bool,
-    /// A subprogram is open: it stays, whoever calls it.
+    /// A subprogram is open: it is always kept, because any operation may call it.
     in_subprogram: bool,
     held: Held,
-    /// The position where it is known.
+    /// The position, with only the axes that are known.
     at: Axes,
     tools: Vec<f64>,
     taken: u64,
 }
 
-/// What holds on from operation to operation.
+/// Values that stay in force from operation to operation.
 #[derive(Default)]
 struct Held {
     spindle: Option<Spindle>,
@@ -108,7 +108,7 @@ impl<'s> Selecting<'s> {
         }
     }
 
-    /// An operation begins.
+    /// Handles the beginning of an operation.
     fn change(&mut self, change: &ToolChange, place: Place) -> Flow {
         let tool = change.tool.as_ref().map(|tool| tool.number);
         if let Some(tool) = tool.filter(|tool| !self.tools.contains(tool)) {
@@ -137,8 +137,9 @@ impl<'s> Selecting<'s> {
             First::Hole(_, hole) => hole.at = self.filled(hole.at),
             First::Cut => {
                 let name = change.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
-                let message = format!("the operation{name} begins with a cut, where one that is left out ended");
-                let help = "take the operation before it too";
+                let message =
+                    format!("the operation{name} begins with a cut, at the end of an operation that is left out");
+                let help = "include the operation before it too";
                 return Flow::Break(Diag::new(Code::PR060, message).help(help).place(place).into());
             }
             First::Nothing => {}
@@ -147,7 +148,7 @@ impl<'s> Selecting<'s> {
         self.sink.event(Event::ToolChange(&change), place)
     }
 
-    /// Keeps what the operation says.
+    /// Keeps the values that stay in force after the operation.
     fn hold(&mut self, change: &ToolChange) {
         let held = &mut self.held;
         held.spindle = change.spindle.map(|own| turned(own, held.spindle)).or(held.spindle);
@@ -161,7 +162,7 @@ impl<'s> Selecting<'s> {
         self.held.set.push((name.to_owned(), value.clone()));
     }
 
-    /// A position with the axes that it does not give, as far as they are known.
+    /// A position with its missing axes filled in, if they are known.
     fn filled(&self, to: Axes) -> Axes {
         let mut full = to;
         for axis in 0..6 {
@@ -180,7 +181,7 @@ impl<'s> Selecting<'s> {
         }
     }
 
-    /// What an event says that holds on.
+    /// Updates the values that stay in force after an event.
     fn follow(&mut self, event: &Event<'_>) {
         match event {
             Event::Rapid(to) | Event::Line { to, .. } | Event::Outfeed { to, .. } => self.goes(to),
@@ -188,7 +189,7 @@ impl<'s> Selecting<'s> {
             Event::Infeed { infeed, .. } => self.goes(&infeed.to),
             Event::Hole(Hole { at, .. }) => {
                 self.goes(at);
-                self.at.given &= !0b100; // it comes out at a height of the cycle
+                self.at.given &= !0b100; // the retract height depends on the cycle
             }
             Event::SubCall(_) | Event::Home | Event::Thread(_) | Event::Edm(_) => self.at = Axes::default(),
             Event::Work(work) => {
@@ -202,13 +203,13 @@ impl<'s> Selecting<'s> {
         }
     }
 
-    /// The head without the tools that are left out.
+    /// The head, without the tools that are left out.
     fn start(&mut self, start: &Start, place: Place) -> Flow {
         let Some(order) = &start.tool_order else { return self.sink.event(Event::Start(start), place) };
         let mut progress = Progress::default();
         let mut taken = order.clone();
         taken.retain(|tool| progress.takes_tool(self.selection, Some(*tool)));
-        // which tools some operations have is known when they are read
+        // with a selection by number or work offset, the tools are unknown until the operations are read
         let is_known = self.selection.operation.is_none() && self.selection.work.is_none();
         self.sink.event(Event::Start(&Start { tool_order: is_known.then_some(taken), ..start.clone() }), place)
     }
@@ -222,14 +223,14 @@ impl Sink for Selecting<'_> {
             Event::SubStart(_) => self.in_subprogram = true,
             Event::Finish if self.taken == 0 && !self.tools.is_empty() => {
                 let tools: Vec<String> = self.tools.iter().map(|tool| format!("T{tool}")).collect();
-                let message = format!("no operation is taken: the job has {}", tools.join(", "));
-                return Flow::Break(Diag::new(Code::PJ006, message).help("name tools that it has").into());
+                let message = format!("no operation is selected: the job has {}", tools.join(", "));
+                return Flow::Break(Diag::new(Code::PJ006, message).help("select tools of the job").into());
             }
             _ => {}
         }
         let passes = self.takes || self.in_subprogram || matches!(event, Event::Finish);
         if !self.in_subprogram {
-            // the move is filled in from where the tool was before it
+            // missing axes of the move are filled in from the position before it
             let filled = match &event {
                 Event::Rapid(to) if self.fills => Some(Event::Rapid(self.filled(*to))),
                 Event::Hole(hole) if self.fills => Some(Event::Hole(Hole { at: self.filled(hole.at), ..*hole })),
@@ -248,7 +249,7 @@ impl Sink for Selecting<'_> {
     }
 }
 
-/// A spindle with what the one before says and it does not.
+/// A spindle; values that are missing are taken from the spindle before.
 fn turned(own: Spindle, before: Option<Spindle>) -> Spindle {
     let Some(before) = before else { return own };
     Spindle {

@@ -3,9 +3,9 @@
 /// Coolant: one kind, several at once, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coolant {
-    /// The kinds that are on, a bit each.
+    /// The kinds that are on, one bit for each.
     kinds: u8,
-    /// The bit of the kind that is named first, which `[cool]` prints.
+    /// The bit of the first kind, which `[cool]` prints.
     first: u8,
 }
 
@@ -23,7 +23,7 @@ impl Coolant {
     /// Under high pressure.
     pub const HIGH: Coolant = Coolant::of(16);
 
-    /// All kinds by the names that jobs and forms give them.
+    /// All kinds with their names in jobs and forms.
     pub const NAMES: [(&'static str, Coolant); 7] = [
         ("on", Coolant::FLOOD),
         ("flood", Coolant::FLOOD),
@@ -38,40 +38,40 @@ impl Coolant {
         Coolant { kinds: kind, first: kind }
     }
 
-    /// Finds the name of a kind, in any case.
+    /// Finds a kind by its name, in any case.
     pub fn parse(name: &str) -> Option<Coolant> {
         Coolant::NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
     }
 
-    /// The first kind, as forms and messages write it.
+    /// Name of the first kind in forms and messages.
     pub fn name(self) -> &'static str {
         Coolant::NAMES.iter().find(|(_, kind)| *kind == self.first()).map_or("on", |(name, _)| *name)
     }
 
-    /// The kind that is named first.
+    /// The first kind.
     #[must_use]
     pub fn first(self) -> Coolant {
         Coolant::of(self.first)
     }
 
-    /// The kinds, each alone.
+    /// The kinds, one by one.
     pub fn each(self) -> impl Iterator<Item = Coolant> {
         (0..8).map(|bit| 1 << bit).filter(move |&kind| self.kinds & kind != 0).map(Coolant::of)
     }
 
-    /// The kinds beside the first, each alone.
+    /// The kinds other than the first, one by one.
     pub fn others(self) -> impl Iterator<Item = Coolant> {
         self.each().filter(move |kind| kind.first != self.first)
     }
 
-    /// With the kinds of another besides.
+    /// This coolant together with the kinds of another.
     #[must_use]
     pub fn and(self, other: Coolant) -> Coolant {
         let first = if self.first == 0 { other.first } else { self.first };
         Coolant { kinds: self.kinds | other.kinds, first }
     }
 
-    /// Without the kinds of another.
+    /// This coolant without the kinds of another.
     #[must_use]
     pub fn without(self, other: Coolant) -> Coolant {
         let kinds = self.kinds & !other.kinds;
@@ -79,7 +79,7 @@ impl Coolant {
         Coolant { kinds, first: if self.first & kinds == 0 { lowest } else { self.first } }
     }
 
-    /// Is this kind among those that are on? `OFF`: is none on?
+    /// Whether this kind is on. For `OFF`: whether no kind is on.
     pub fn holds(self, kind: Coolant) -> bool {
         if kind == Coolant::OFF { self == Coolant::OFF } else { self.kinds & kind.kinds == kind.kinds }
     }

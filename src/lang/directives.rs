@@ -1,15 +1,15 @@
-//! The table of directives: lines of a sequence that say which of its lines print.
+//! The table of directives: lines of a sequence that decide which of its lines are printed.
 
 use super::suggest::nearest;
 
-/// A directive's row.
+/// A row of the table.
 #[derive(Debug)]
 pub struct DirectiveRow {
-    /// As written, `@if`.
+    /// Name as written, such as `@if`.
     pub name: &'static str,
-    /// What stands after it.
+    /// Arguments after the name.
     pub takes: &'static str,
-    /// What it does.
+    /// Effect of the directive.
     pub meaning: &'static str,
 }
 
@@ -18,28 +18,28 @@ pub const DIRECTIVES: &[DirectiveRow] = &[
     DirectiveRow {
         name: "@if",
         takes: "a condition, as `[cool] = mist and [speed] > 0`",
-        meaning: "the lines after it, up to @elif, @else or @end, print where the condition holds",
+        meaning: "the lines after it, up to @elif, @else or @end, print if the condition is true",
     },
     DirectiveRow {
         name: "@elif",
         takes: "a condition",
-        meaning: "else the lines after it print, where this condition holds",
+        meaning: "otherwise the lines after it print if this condition is true",
     },
-    DirectiveRow { name: "@else", takes: "nothing", meaning: "else the lines after it print" },
+    DirectiveRow { name: "@else", takes: "nothing", meaning: "otherwise the lines after it print" },
     DirectiveRow { name: "@end", takes: "nothing", meaning: "ends @if or @for" },
     DirectiveRow {
         name: "@for",
         takes: "`tool`, `operation` or `work`",
-        meaning: "the lines after it, up to @end, print once for each of the job",
+        meaning: "the lines after it, up to @end, print once for each tool, operation or work offset of the job",
     },
     DirectiveRow {
         name: "@set",
         takes: "a variable from val1 to val10, `=` and an expression, as `val1 = [val1]+1`",
-        meaning: "the variable has this value to the end of the program",
+        meaning: "the variable has this value until the end of the program",
     },
 ];
 
-/// What other languages call them.
+/// Names in other languages, with the directive here.
 const OTHERS: &[(&str, &str)] = &[
     ("@elseif", "@elif"),
     ("@elsif", "@elif"),
@@ -52,35 +52,35 @@ const OTHERS: &[(&str, &str)] = &[
     ("@let", "@set"),
 ];
 
-/// The directive that somebody means by a name that is none.
+/// The directive that an unknown name is probably meant to be.
 pub fn directive_meant(name: &str) -> Option<&'static str> {
     let other = OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, own)| *own);
     let joined: String = name.split([' ', '\t']).collect(); // `@ if`
     other.or_else(|| nearest(&joined, DIRECTIVES.iter().map(|row| row.name)))
 }
 
-/// What `@for` goes through.
+/// The objects that `@for` repeats over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Each {
     /// Each tool of the job, in the order of use.
     Tool,
-    /// Each operation of the job; inside `@for tool` or `@for work` those of it.
+    /// Each operation of the job. Inside `@for tool` or `@for work`: the operations of that tool or offset.
     Operation,
     /// Each work offset of the job, in the order of use.
     Work,
 }
 
 impl Each {
-    /// All of them by their names.
+    /// All of them with their names.
     pub const ALL: [(&'static str, Each); 3] =
         [("tool", Each::Tool), ("operation", Each::Operation), ("work", Each::Work)];
 
-    /// Finds a name in any case.
+    /// Finds one by its name, in any case.
     pub fn parse(name: &str) -> Option<Each> {
         Each::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, each)| *each)
     }
 
-    /// As written after `@for`.
+    /// The name after `@for`.
     pub fn name(self) -> &'static str {
         Each::ALL[self as usize].0
     }

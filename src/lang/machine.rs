@@ -1,6 +1,6 @@
 //! Types of machine.
 
-/// What a form or a job is for.
+/// Type of machine of a form or job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Machine {
     /// Mill, drill, router.
@@ -13,7 +13,7 @@ pub enum Machine {
 }
 
 impl Machine {
-    /// As messages and forms write it.
+    /// Name in messages and forms.
     pub fn name(self) -> &'static str {
         match self {
             Machine::Mill => "mill",
@@ -22,7 +22,7 @@ impl Machine {
         }
     }
 
-    /// Reads a name in any case; a torch or a laser is a mill with another tool.
+    /// Reads a name in any case. A torch or laser is a mill with another tool.
     pub fn parse(name: &str) -> Option<Machine> {
         let own =
             [Machine::Mill, Machine::Lathe, Machine::Edm].into_iter().find(|m| m.name().eq_ignore_ascii_case(name));
@@ -30,7 +30,7 @@ impl Machine {
     }
 }
 
-/// What a machine cuts with that is switched on and off, and does not go up and down.
+/// Tools that are switched on and off instead of going up and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beam {
     /// A torch: plasma, flame.
@@ -40,7 +40,7 @@ pub enum Beam {
 }
 
 impl Beam {
-    /// As messages and forms write it.
+    /// Name in messages and forms.
     pub fn name(self) -> &'static str {
         match self {
             Beam::Torch => "torch",
@@ -54,7 +54,7 @@ impl Beam {
     }
 }
 
-/// Which lengths a form is written in.
+/// Units of a form's lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum UnitChoice {
     /// Inches.
@@ -62,7 +62,7 @@ pub enum UnitChoice {
     Inch,
     /// Millimetres.
     Mm,
-    /// Serves both; its own lengths are inches.
+    /// The form is for both units. Its own lengths are in inches.
     Both,
 }
 
@@ -74,14 +74,14 @@ impl UnitChoice {
     }
 }
 
-/// A set of machine types, as the manual gives one for each sequence.
+/// A set of machine types. The manual has such a set for each sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Machines {
-    /// Has mills.
+    /// Whether mills are in the set.
     pub mill: bool,
-    /// Has lathes.
+    /// Whether lathes are in the set.
     pub lathe: bool,
-    /// Has wire EDM machines.
+    /// Whether wire EDM machines are in the set.
     pub edm: bool,
 }
 
@@ -102,7 +102,7 @@ impl Machines {
         set
     }
 
-    /// Is this machine in the set?
+    /// Whether this machine is in the set.
     pub fn has(self, machine: Machine) -> bool {
         match machine {
             Machine::Mill => self.mill,

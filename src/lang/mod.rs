@@ -1,5 +1,5 @@
-//! The vocabulary of POSTFORM, in tables: checks, messages, `explain` and the reference come from here.
-// meanings name variables as [var]
+//! The vocabulary of POSTFORM in tables, for checks, messages, `explain` and the reference.
+// descriptions contain variables as [var], which are not links
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod commands;
@@ -23,13 +23,13 @@ pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::{additional_work, work_code};
 
-/// Where a rule comes from; the reference keeps the mark.
+/// Source of a rule. The reference shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// Stated in the manual.
     Doc,
     /// Not stated, but the only reading that prints the manual's examples.
     Ex,
-    /// Decided by us, because nothing public settles it.
+    /// Our decision, because no public source settles it.
     Ours,
 }

@@ -6,29 +6,29 @@ use super::machine::Machines;
 /// One row of the table.
 #[derive(Debug)]
 pub struct Sequence {
-    /// Which.
+    /// Id of the sequence.
     pub id: SequenceId,
-    /// As forms write it.
+    /// Name in forms.
     pub name: &'static str,
-    /// A canned cycle may carry a line count and `End Cancel`.
+    /// Whether it is a canned cycle. Such a sequence may have a line count and `End Cancel`.
     pub is_cycle: bool,
-    /// The machines that have it; of the manual unless marked.
+    /// The machines that have it. They are from the manual unless marked.
     pub machines: Machines,
-    /// Machines whose forms must have it.
+    /// Machines whose forms must contain it.
     pub required: Machines,
     /// When the sequence is printed.
     pub meaning: &'static str,
-    /// Where that comes from.
+    /// Source of the description.
     pub standing: Standing,
-    /// The job's item that prints it.
+    /// The job's item for which it is printed.
     pub event: &'static str,
-    /// The folder of samples/ that shows it.
+    /// The folder of samples/ with an example.
     pub sample: &'static str,
 }
 
 macro_rules! sequences {
     ($($id:ident $name:literal $kind:ident $machines:literal $required:literal $standing:ident $meaning:literal $event:literal $sample:literal)*) => {
-        /// A sequence; `Upon [var]` is one for each variable.
+        /// A sequence. `Upon [var]` exists for each variable.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum SequenceId { $(#[doc = $meaning] $id),* }
@@ -76,8 +76,8 @@ sequences! {
     EndZLevel         "EndZLevel"         plain "MLE" ""    Doc "after the moves of one Z level" "`end` zlevel" "sections"
     BeginRow          "BeginRow"          plain "M"   ""    Doc "before each pass of a pocket or surface cut" "`begin` row" "begin-row"
     EndRow            "EndRow"            plain "M"   ""    Doc "after each pass of a pocket or surface cut" "`end` row" "end-row"
-    BeginCut          "BeginCut"          plain "M"   ""    Ours "before what a torch or a laser cuts: on, pierce" "the first cut after a rapid" "plasma"
-    EndCut            "EndCut"            plain "M"   ""    Ours "after what a torch or a laser cuts: off" "the rapid after a cut" "plasma"
+    BeginCut          "BeginCut"          plain "M"   ""    Ours "before a cut with a torch or a laser: on, pierce" "the first cut after a rapid" "plasma"
+    EndCut            "EndCut"            plain "M"   ""    Ours "after a cut with a torch or a laser: off" "the rapid after a cut" "plasma"
     Index             "Index"             plain "M"   ""    Doc "instead of a rapid to another rotary view" "`rapid` to another rotary angle" "index"
     Unwind            "Unwind"            plain "M"   ""    Doc "when a rotary axis would leave its travel" "a rotary angle beyond `Limits`" "unwind"
     SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram" "`subprograms`" "sub-start"
@@ -88,31 +88,31 @@ sequences! {
     EdmThread         "EdmThread"         plain "E"   ""    Doc "threads the wire" "`edm` thread" "wire"
     EdmPreDrillThread "EdmPreDrillThread" plain "E"   ""    Doc "predrills a thread point" "`edm` predrill" "wire"
     SubmergeTank      "SubmergeTank"      plain "E"   ""    Doc "fills the tank" "`edm` submerge" "wire"
-    Stop              "Stop"              plain "MLE" ""    Doc "a program stop, and an optional one where there is no OptStop" "`stop`" "wire"
+    Stop              "Stop"              plain "MLE" ""    Doc "a program stop; also an optional stop if the form has no OptStop" "`stop`" "wire"
     OptStop           "OptStop"           plain "MLE" ""    Ours "an optional stop" "`stop` optional" "operations"
     DwellBlock        "DwellBlock"        plain "MLE" ""    Ours "a dwell outside cycles, instead of the generated block" "`dwell`" "operations"
     Operation         "Operation"         plain "ML"  ""    Ours "the beginning of an operation: after its tool change, before its first move" "operation" "operations"
     EndOperation      "EndOperation"      plain "ML"  ""    Ours "the end of an operation: after its last move" "end of an operation" "operations"
-    CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job, which is [text], instead of the generated one" "`comment`" "operations"
-    MoveHome          "MoveHome"          plain "MLE" ""    Ours "the machine's own place, where the job says no coordinates" "`home`" "operations"
-    WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, where no other sequence prints it" "`work`" "operations"
-    SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, where no other sequence prints it" "`spindle`" "operations"
-    CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "other coolant, where no other sequence prints it" "`coolant`" "operations"
-    FeedModeChange    "FeedModeChange"    plain "ML"  ""    Ours "feeds that count otherwise, where no other sequence prints it" "`feed_mode`" "operations"
+    CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job ([text]), instead of the generated one" "`comment`" "operations"
+    MoveHome          "MoveHome"          plain "MLE" ""    Ours "the way home to the machine's own position, without coordinates in the job" "`home`" "operations"
+    WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, if no other sequence prints it" "`work`" "operations"
+    SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, if no other sequence prints it" "`spindle`" "operations"
+    CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "other coolant, if no other sequence prints it" "`coolant`" "operations"
+    FeedModeChange    "FeedModeChange"    plain "ML"  ""    Ours "another feed mode, if no other sequence prints it" "`feed_mode`" "operations"
     AutoThread        "AutoThread"        cycle "L"   ""    Doc "the control's own threading cycle" "`thread`" "lathe-part"
-    CanThread         "CanThread"         cycle "L"   ""    Doc "a threading cycle of one pass each, instead of AutoThread" "`thread`" "can-thread"
+    CanThread         "CanThread"         cycle "L"   ""    Doc "a threading cycle with one block per pass, instead of AutoThread" "`thread`" "can-thread"
     Back              "Back"              cycle "M"   ""    Doc "back boring" "`cycle` back" "back-machine"
     Bore              "Bore"              cycle "ML"  ""    Doc "boring: feed down, rapid out" "`cycle` bore" "bore-machine"
     Cancel            "Cancel"            cycle "ML"  ""    Doc "ends a machine cycle" "end of a cycle with `End Cancel`" "cancel-with"
-    Chipbreak         "Chipbreak"         cycle "ML"  ""    Doc "pecking that only breaks the chip" "`cycle` chipbreak" "chipbreak-machine"
-    Custom1           "Custom1"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover" "`cycle` custom1, or the kind its remark names" "custom1-machine"
-    Custom2           "Custom2"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover" "`cycle` custom2, or the kind its remark names" "more-cycles"
-    Custom3           "Custom3"           cycle "ML"  ""    Doc "a cycle of the machine that the others do not cover" "`cycle` custom3, or the kind its remark names" "more-cycles"
+    Chipbreak         "Chipbreak"         cycle "ML"  ""    Doc "pecking with short retracts that break the chip" "`cycle` chipbreak" "chipbreak-machine"
+    Custom1           "Custom1"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom1, or the kind named after `Custom1`" "custom1-machine"
+    Custom2           "Custom2"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom2, or the kind named after `Custom2`" "more-cycles"
+    Custom3           "Custom3"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom3, or the kind named after `Custom3`" "more-cycles"
     Drill             "Drill"             cycle "ML"  ""    Doc "straight drilling" "`cycle` drill" "drill-machine"
     LTap              "LTap"              cycle "M"   ""    Doc "left-hand tapping" "`cycle` ltap" "ltap-machine"
-    Peck              "Peck"              cycle "ML"  ""    Doc "deep drilling with full retracts; `None` generates the moves" "`cycle` deep" "peck-machine"
+    Peck              "Peck"              cycle "ML"  ""    Doc "deep drilling with full retracts; with the body `None` postform generates the moves" "`cycle` deep" "peck-machine"
     Ream              "Ream"              cycle "ML"  ""    Doc "reaming: feed down, feed out" "`cycle` ream" "more-cycles"
-    Tap               "Tap"               cycle "ML"  ""    Ours "tapping; the manual lists it, its page is not public" "`cycle` tap" "more-cycles"
+    Tap               "Tap"               cycle "ML"  ""    Ours "tapping; the manual lists it, but its page is not public" "`cycle` tap" "more-cycles"
 }
 
 impl SequenceId {
@@ -122,17 +122,17 @@ impl SequenceId {
         &SEQUENCES[self as usize]
     }
 
-    /// As forms write it.
+    /// Name in forms.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Is it a canned cycle for holes, which neither ends one nor threads?
+    /// Whether it is a canned cycle for holes, and not the end of a cycle or a thread.
     pub fn makes_holes(self) -> bool {
         self.row().is_cycle && !matches!(self, SequenceId::Cancel | SequenceId::AutoThread | SequenceId::CanThread)
     }
 
-    /// Finds a name in any case; `Chip Break` is Chipbreak.
+    /// Finds a sequence by its name, in any case. `Chip Break` is Chipbreak.
     pub fn parse(name: &str) -> Option<SequenceId> {
         if name.eq_ignore_ascii_case("Chip Break") {
             return Some(SequenceId::Chipbreak);
@@ -141,10 +141,10 @@ impl SequenceId {
     }
 }
 
-/// What the words of a sequence name line say.
+/// The content of a line with a sequence name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SequenceName<'a> {
-    /// A named sequence, with what follows the name: perhaps a count.
+    /// A named sequence with the text after the name, such as a count.
     Plain(SequenceId, Option<&'a str>),
     /// `Upon [var]`, with the variable as written.
     Upon(&'a str),
@@ -153,7 +153,7 @@ pub enum SequenceName<'a> {
 }
 
 impl<'a> SequenceName<'a> {
-    /// Reads the words of a line; `None` when they name no sequence.
+    /// Reads the words of a line. `None`: they do not name a sequence.
     pub fn parse(words: &[&'a str]) -> Option<SequenceName<'a>> {
         let first = *words.first()?;
         if first.eq_ignore_ascii_case("Upon") {

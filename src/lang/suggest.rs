@@ -1,18 +1,18 @@
-//! "Did you mean": the known name nearest to a wrong one.
+//! "Did you mean": finds the known name nearest to a wrong one.
 
-/// No name is as long; what is, is no slip of the fingers.
+/// Names of this length or longer get no suggestion. No known name is so long.
 pub const LONGEST_NAME: usize = 64;
 
-/// The candidate nearest to `name` if it is near enough to be meant; case does not count.
+/// The candidate nearest to `name`, in any case, if it is near enough to be a typing mistake.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() >= LONGEST_NAME {
         return None;
     }
     let wrong = name.to_ascii_lowercase();
     let (length, letters) = shape(&wrong);
-    // one slip in a short name, a third of a long one
+    // one mistake in a short name, a third of its letters in a long one
     let allowed = (length / 3).clamp(1, 4);
-    // a slip changes the length by one at most, and which letters there are by two: few candidates are left to compare
+    // one mistake changes the length by at most one and the set of letters by at most two, so few candidates remain
     let may_be = |candidate: &&str| {
         let (own_length, own_letters) = shape(candidate);
         own_length.abs_diff(length) <= allowed && (own_letters ^ letters).count_ones() as usize <= 2 * allowed
@@ -22,7 +22,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter(may_be)
         .map(|candidate| (strsim::damerau_levenshtein(&wrong, &candidate.to_ascii_lowercase()), candidate))
         .filter(|&(distance, candidate)| {
-            // `dd` for `d`: the one letter twice
+            // accept `dd` for `d`: the same letter twice
             let twice = || wrong.chars().all(|c| candidate.chars().any(|own| own.eq_ignore_ascii_case(&c)));
             distance <= allowed && (distance < candidate.chars().count() || twice())
         })
@@ -30,13 +30,14 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// How many letters a name has, and which, a bit for each (some share one); case does not count.
+/// The number of letters of a name, and its set of letters as bits. Some letters share a bit. Upper and lower case are
+/// equal.
 fn shape(name: &str) -> (usize, u64) {
     let bit = |c: char| 1_u64 << (u32::from(c.to_ascii_lowercase()) % 64);
     name.chars().fold((0, 0), |(length, letters), c| (length + 1, letters | bit(c)))
 }
 
-/// `did you mean `x`?`, ready for a help line.
+/// `did you mean `x`?`, as text for a help line.
 pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }
@@ -59,7 +60,7 @@ mod tests {
     fn long_words_are_no_slips() {
         let name = "b".repeat(1_000_000);
         assert_eq!(nearest(&name, [name.as_str()]), None);
-        // and no near name is passed over
+        // a near name is still found
         assert_eq!(nearest("Sequence#", ["Sequence#s"]), Some("Sequence#s"));
         assert_eq!(nearest("fRAET", ["frate"]), Some("frate"));
     }

@@ -1,15 +1,15 @@
-//! Text variables: names and remarks of the job, the date, the form itself.
+//! Text variables: names and comments of the job, the date, the form itself.
 
-/// A text variable's row.
+/// A row of the table of text variables.
 #[derive(Debug)]
 pub struct Text {
-    /// The text of the row.
+    /// Id of the text.
     pub id: TextId,
-    /// Name of the text, as written between brackets.
+    /// Name of the text, as between brackets.
     pub name: &'static str,
-    /// What the text is.
+    /// Description of the text.
     pub meaning: &'static str,
-    /// Where the text comes from.
+    /// Source of the text.
     pub from: &'static str,
 }
 
@@ -30,24 +30,24 @@ macro_rules! texts {
 texts! {
     Progname "progname" "the program's name"                     "`name` of the job; PARTNO, the O-comment, the job's label"
     Partname "partname" "the part"                               "`part` of the job"
-    Material "material" "what the part is made of"               "`material` of the job"
-    Customer "customer" "who gets the part"                      "`customer` of the job"
-    Author   "author"   "who made the job"                       "`author` of the job; PPRINT of a CL file is no author"
+    Material "material" "the material of the part"               "`material` of the job"
+    Customer "customer" "the customer of the part"                      "`customer` of the job"
+    Author   "author"   "the author of the job"                       "`author` of the job; not PPRINT of a CL file"
     Toolname "toolname" "the tool's name"                        "`name` of the tool"
-    Tooltext "tooltext" "what the job says of the tool"          "`comment` of the tool"
+    Tooltext "tooltext" "the job's comment on the tool"          "`comment` of the tool"
     Opname   "opname"   "the operation's name"                   "`name` of the operation"
-    Optext   "optext"   "what the job says of the operation"     "`comment` of the operation"
+    Optext   "optext"   "the job's comment on the operation"     "`comment` of the operation"
     Text     "text"     "the comment that is printed, in CommentLine" "`comment` items"
-    Date     "date"     "the day of printing, as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
+    Date     "date"     "the date of printing, as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
     Time     "time"     "the time of printing, as 14:05"         "the clock, --date or SOURCE_DATE_EPOCH"
     Jobfile  "jobfile"  "the job's file, without its folder"     "the command line"
     Formname "formname" "the form's name"                        "`Name` of the form, else its file"
-    Formhash "formhash" "the first 12 digits of the form's SHA-256: of its file, and those it calls" "the form"
-    Control  "control"  "the control that the form names"        "`Control` of the form"
+    Formhash "formhash" "the first 12 digits of the SHA-256 of the form's file and of the files it calls" "the form"
+    Control  "control"  "the name of the control in the form"        "`Control` of the form"
     Version  "version"  "postform's version"                     "postform"
 }
 
-/// How many there are.
+/// Number of texts.
 pub const TEXT_COUNT: usize = TEXTS.len();
 
 /// A set of texts.
@@ -55,17 +55,17 @@ pub const TEXT_COUNT: usize = TEXTS.len();
 pub struct TextSet(u32);
 
 impl TextSet {
-    /// Adds one.
+    /// Adds a text.
     pub fn insert(&mut self, id: TextId) {
         self.0 |= 1 << id as u32;
     }
 
-    /// Is it in?
+    /// Whether the text is in the set.
     pub fn has(self, id: TextId) -> bool {
         self.0 & 1 << id as u32 != 0
     }
 
-    /// Both together.
+    /// The texts of both sets.
     #[must_use]
     pub fn with(self, other: TextSet) -> TextSet {
         TextSet(self.0 | other.0)
@@ -78,18 +78,18 @@ impl TextId {
         &TEXTS[self as usize]
     }
 
-    /// Finds a name in any case.
+    /// Finds a text by its name, in any case.
     pub fn parse(name: &str) -> Option<TextId> {
         TEXTS.iter().find(|text| text.name.eq_ignore_ascii_case(name)).map(|text| text.id)
     }
 }
 
-/// A text variable with its width, as `[toolname:12]`.
+/// A text variable with its width, such as `[toolname:12]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextVar {
-    /// Which text.
+    /// Id of the text.
     pub id: TextId,
-    /// So many characters: padded or cut; below zero at the right. Zero: as long as it is.
+    /// Number of characters to pad or cut to. A negative width aligns to the right. 0: the length of the text.
     pub width: i8,
 }
 
@@ -97,12 +97,12 @@ pub struct TextVar {
 pub const WIDEST: i8 = 100;
 
 impl TextVar {
-    /// Is this the name of a text, whatever its width is?
+    /// Whether this is the name of a text, with or without a width.
     pub fn is_text(name: &str) -> bool {
         TextId::parse(name.split(':').next().unwrap_or(name)).is_some()
     }
 
-    /// A name with its width, if it has one. `None`: no text, or no width.
+    /// Reads a name with an optional width. `None`: the name or the width is wrong.
     pub fn parse(name: &str) -> Option<TextVar> {
         let (name, width) = name.split_once(':').map_or((name, None), |(name, width)| (name, Some(width)));
         let id = TextId::parse(name)?;

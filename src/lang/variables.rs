@@ -2,10 +2,10 @@
 
 use super::machine::Machines;
 
-/// What a variable's value counts in.
+/// The unit of a variable's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Inches or millimetres, as the program's units.
+    /// Inches or millimetres, in the program's units.
     Length,
     /// Degrees.
     Angle,
@@ -23,39 +23,39 @@ pub enum Unit {
     Number,
 }
 
-/// Who gives a variable its value.
+/// The source of a variable's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The renderer, from the toolpath; a job can't set it.
     Computed,
     /// The job's `set`, or a prompt.
     Job,
-    /// The renderer, from the job; a prompt or `--set` where the job says nothing.
+    /// The renderer, from the job. If the job has no value: a prompt or `--set`.
     Asked,
 }
 
 /// One row of the table.
 #[derive(Debug)]
 pub struct Variable {
-    /// Which.
+    /// Id of the variable.
     pub id: VarId,
-    /// As written between brackets, lower case.
+    /// Name as between brackets, in lower case.
     pub name: &'static str,
-    /// The group it is listed under.
+    /// Its group in the reference.
     pub group: &'static str,
-    /// What its value counts in.
+    /// The unit of its value.
     pub unit: Unit,
-    /// Who sets it.
+    /// The source of its value.
     pub origin: Origin,
     /// The machines that have it.
     pub machines: Machines,
-    /// One line of meaning.
+    /// A description of one line.
     pub meaning: &'static str,
 }
 
 macro_rules! variables {
     ($($id:ident $name:literal $group:literal $unit:ident $origin:ident $machines:literal $meaning:literal)*) => {
-        /// A variable; its number is its slot at rendering.
+        /// A variable. Its number is its slot during rendering.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum VarId { $(#[doc = $meaning] $id),* }
@@ -91,7 +91,7 @@ variables! {
     Rotaxdir      "rotaxdir"       "Position"           Number  Computed  "M"    "direction of the rotary move: 1 or -1"
     Homeh         "homeh"          "Position"           Length  Job       "MLE"  "home position along the first axis"
     Homev         "homev"          "Position"           Length  Job       "MLE"  "home position along the second axis"
-    Endh          "endh"           "Position"           Length  Job       "MLE"  "end position along the first axis: where the tool waits after the program"
+    Endh          "endh"           "Position"           Length  Job       "MLE"  "end position along the first axis: the position of the tool after the program"
     Endv          "endv"           "Position"           Length  Job       "MLE"  "end position along the second axis"
     Hcdc          "hcdc"           "Position"           Length  Job       "MLE"  "cutter compensation along the first axis"
     Vcdc          "vcdc"           "Position"           Length  Job       "MLE"  "cutter compensation along the second axis"
@@ -117,11 +117,11 @@ variables! {
     Invtime       "invtime"        "Feeds and speeds"   Number  Computed  "M"    "inverse time of the move, 1/min"
     Maxrpm        "maxrpm"         "Feeds and speeds"   Speed   Asked     "ML"   "highest spindle speed at constant surface speed"
     Pitch         "pitch"          "Threads"            Length  Computed  "ML"   "thread pitch"
-    Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane, and not the R plane, which is [vclear]: where the tool is before and after a hole"
-    Vclear        "vclear"         "Cycles"             Length  Computed  "ML"   "clearance plane (R plane): where the feed begins"
+    Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane: the height of the tool before and after a hole; the R plane is [vclear]"
+    Vclear        "vclear"         "Cycles"             Length  Computed  "ML"   "clearance plane (R plane): the height where the feed begins"
     Depth         "depth"          "Cycles"             Length  Computed  "MLE"  "depth of the hole below its point, positive; in a thread its height"
     Inidep        "inidep"         "Cycles"             Length  Computed  "ML"   "depth after the first peck"
-    Vbite         "vbite"          "Cycles"             Length  Computed  "ML"   "peck; in a thread the least cut"
+    Vbite         "vbite"          "Cycles"             Length  Computed  "ML"   "peck; in a thread the smallest cut"
     Vleave        "vleave"         "Cycles"             Length  Computed  "ML"   "finish allowance of a thread; secondary clearance of a hole"
     Peck1         "peck1"          "Cycles"             Length  Computed  "ML"   "first peck; in a thread the first cut"
     Sbite         "sbite"          "Cycles"             Length  Computed  "ML"   "least peck"
@@ -135,16 +135,16 @@ variables! {
     Pointd        "pointd"         "Cycles"             Length  Computed  "ML"   "depth position of the cycle's point, the top of the hole"
     Tool          "tool"           "Tools"              Count   Computed  "ML"   "tool number"
     Tool1         "tool1"          "Tools"              Count   Computed  "ML"   "the program's first tool"
-    Isfirsttool   "isfirsttool"    "Tools"              Count   Computed  "ML"   "1 while the program's first tool is in, else 0"
-    Islasttool    "islasttool"     "Tools"              Count   Computed  "ML"   "1 while the program's last tool is in, else 0"
+    Isfirsttool   "isfirsttool"    "Tools"              Count   Computed  "ML"   "1 while the program's first tool is in the spindle, else 0"
+    Islasttool    "islasttool"     "Tools"              Count   Computed  "ML"   "1 while the program's last tool is in the spindle, else 0"
     Lasttool      "lasttool"       "Tools"              Count   Computed  "ML"   "the tool before this one"
-    Nexttool      "nexttool"       "Tools"              Count   Computed  "ML"   "the tool after this one; the first one at the last"
-    Toold         "toold"          "Tools"              Length  Computed  "MLE"  "tool diameter; of a wire its own"
+    Nexttool      "nexttool"       "Tools"              Count   Computed  "ML"   "the next tool; at the last tool, the first one"
+    Toold         "toold"          "Tools"              Length  Computed  "MLE"  "diameter of the tool or of the wire"
     Toolh         "toolh"          "Tools"              Length  Job       "ML"   "tool gauge length along the first axis"
     Toolv         "toolv"          "Tools"              Length  Job       "ML"   "tool gauge length along the second axis"
     Lcomp         "lcomp"          "Tools"              Count   Computed  "ML"   "length offset register"
     Dcomp         "dcomp"          "Tools"              Count   Computed  "MLE"  "diameter offset register"
-    Comp          "comp"           "Tools"              Count   Job       "MLE"  "offset register; on lathes the T number: tool x 100 + length register, or a tool number from 100 on as it is"
+    Comp          "comp"           "Tools"              Count   Job       "MLE"  "offset register; on lathes the T number: tool x 100 + length register, or the tool number itself if it is 100 or more"
     Turret        "turret"         "Tools"              Count   Computed  "L"    "turret of the tool"
     Cool          "cool"           "Tools"              Code    Computed  "MLE"  "coolant code (Coolant)"
     Coolantoff    "coolantoff"     "Tools"              Code    Computed  "MLE"  "code that turns coolant off"
@@ -176,27 +176,27 @@ variables! {
     Val8          "val8"           "Program"            Number  Job       "MLE"  "free value"
     Val9          "val9"           "Program"            Number  Job       "MLE"  "free value"
     Val10         "val10"          "Program"            Number  Job       "MLE"  "free value"
-    Hmin          "hmin"           "What lies ahead"    Length  Computed  "ML"   "least position of the cuts along the first axis"
-    Hmax          "hmax"           "What lies ahead"    Length  Computed  "ML"   "greatest position of the cuts along the first axis"
-    Vmin          "vmin"           "What lies ahead"    Length  Computed  "ML"   "least position of the cuts along the second axis"
-    Vmax          "vmax"           "What lies ahead"    Length  Computed  "ML"   "greatest position of the cuts along the second axis"
-    Dmin          "dmin"           "What lies ahead"    Length  Computed  "M"    "least position of the cuts along the depth axis"
-    Dmax          "dmax"           "What lies ahead"    Length  Computed  "M"    "greatest position of the cuts along the depth axis"
-    Rhmin         "rhmin"          "What lies ahead"    Length  Computed  "ML"   "as hmin, rapids with the cuts"
-    Rhmax         "rhmax"          "What lies ahead"    Length  Computed  "ML"   "as hmax, rapids with the cuts"
-    Rvmin         "rvmin"          "What lies ahead"    Length  Computed  "ML"   "as vmin, rapids with the cuts"
-    Rvmax         "rvmax"          "What lies ahead"    Length  Computed  "ML"   "as vmax, rapids with the cuts"
-    Rdmin         "rdmin"          "What lies ahead"    Length  Computed  "M"    "as dmin, rapids with the cuts"
-    Rdmax         "rdmax"          "What lies ahead"    Length  Computed  "M"    "as dmax, rapids with the cuts"
-    Toolcount     "toolcount"      "What lies ahead"    Count   Computed  "ML"   "number of tools"
-    Opcount       "opcount"        "What lies ahead"    Count   Computed  "MLE"  "number of operations"
-    Holecount     "holecount"      "What lies ahead"    Count   Computed  "ML"   "number of holes of cycles"
-    Cuttime       "cuttime"        "What lies ahead"    Time    Computed  "MLE"  "time of the cuts at their feeds, in seconds; on a machine with accelerations, with them"
-    Cutlength     "cutlength"      "What lies ahead"    Length  Computed  "MLE"  "length of the cuts"
+    Hmin          "hmin"           "Values of the whole job"    Length  Computed  "ML"   "least position of the cuts along the first axis"
+    Hmax          "hmax"           "Values of the whole job"    Length  Computed  "ML"   "greatest position of the cuts along the first axis"
+    Vmin          "vmin"           "Values of the whole job"    Length  Computed  "ML"   "least position of the cuts along the second axis"
+    Vmax          "vmax"           "Values of the whole job"    Length  Computed  "ML"   "greatest position of the cuts along the second axis"
+    Dmin          "dmin"           "Values of the whole job"    Length  Computed  "M"    "least position of the cuts along the depth axis"
+    Dmax          "dmax"           "Values of the whole job"    Length  Computed  "M"    "greatest position of the cuts along the depth axis"
+    Rhmin         "rhmin"          "Values of the whole job"    Length  Computed  "ML"   "as hmin, of cuts and rapids"
+    Rhmax         "rhmax"          "Values of the whole job"    Length  Computed  "ML"   "as hmax, of cuts and rapids"
+    Rvmin         "rvmin"          "Values of the whole job"    Length  Computed  "ML"   "as vmin, of cuts and rapids"
+    Rvmax         "rvmax"          "Values of the whole job"    Length  Computed  "ML"   "as vmax, of cuts and rapids"
+    Rdmin         "rdmin"          "Values of the whole job"    Length  Computed  "M"    "as dmin, of cuts and rapids"
+    Rdmax         "rdmax"          "Values of the whole job"    Length  Computed  "M"    "as dmax, of cuts and rapids"
+    Toolcount     "toolcount"      "Values of the whole job"    Count   Computed  "ML"   "number of tools"
+    Opcount       "opcount"        "Values of the whole job"    Count   Computed  "MLE"  "number of operations"
+    Holecount     "holecount"      "Values of the whole job"    Count   Computed  "ML"   "number of holes of cycles"
+    Cuttime       "cuttime"        "Values of the whole job"    Time    Computed  "MLE"  "time of the cuts at their feeds, in seconds; with accelerations if the machine's file has them"
+    Cutlength     "cutlength"      "Values of the whole job"    Length  Computed  "MLE"  "length of the cuts"
     Tparams       "tparams"        "Threads"            Number  Job       "L"    "packed passes, chamfer and angle of a threading cycle"
     Passes        "passes"         "Threads"            Count   Computed  "L"    "finish passes, or number of passes"
     Chams         "chams"          "Threads"            Number  Computed  "L"    "chamfer at the end of a thread"
-    Tipang        "tipang"         "Threads"            Angle   Computed  "L"    "angle of the thread's tip"
+    Tipang        "tipang"         "Threads"            Angle   Computed  "L"    "angle of the thread"
     Taper         "taper"          "Threads"            Length  Computed  "L"    "radius difference of a tapered thread"
     Flood         "flood"          "Wire EDM"           Code    Job       "E"    "flood code"
     Flush         "flush"          "Wire EDM"           Code    Computed  "E"    "flush code (Flush)"
@@ -211,7 +211,7 @@ variables! {
     Lowerdist     "lowerdist"      "Wire EDM"           Length  Job       "E"    "distance of the lower guide"
 }
 
-/// Names that the manual's list has for others.
+/// Other names for variables in the manual's list.
 const ALSO: [(&str, VarId); 2] = [("lastrotang", VarId::Lastrotangle), ("etplane", VarId::Retplane)];
 
 impl VarId {
@@ -221,19 +221,19 @@ impl VarId {
         &VARIABLES[self as usize]
     }
 
-    /// As written between brackets.
+    /// Name as between brackets.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Finds a name in any case.
+    /// Finds a variable by its name, in any case.
     pub fn parse(name: &str) -> Option<VarId> {
         let own = VARIABLES.iter().find(|v| v.name.eq_ignore_ascii_case(name)).map(|v| v.id);
         own.or_else(|| ALSO.iter().find(|(also, _)| also.eq_ignore_ascii_case(name)).map(|(_, id)| *id))
     }
 }
 
-/// Variables of what lies ahead in the job.
+/// Variables about later parts of the job.
 pub const AHEAD: VarSet = VarSet::of(&[
     VarId::Hmin,
     VarId::Hmax,
@@ -254,10 +254,10 @@ pub const AHEAD: VarSet = VarSet::of(&[
     VarId::Cutlength,
 ]);
 
-/// Variables of the tools ahead, which a job may say in its head.
+/// Variables about later tools, which the head of a job may contain.
 pub const TOOLS_AHEAD: VarSet = VarSet::of(&[VarId::Nexttool, VarId::Islasttool]);
 
-/// How many variables there may be.
+/// The largest number of variables.
 pub const MOST_VARIABLES: usize = 64 * WORDS;
 const WORDS: usize = 3;
 
@@ -266,7 +266,7 @@ const WORDS: usize = 3;
 pub struct VarSet([u64; WORDS]);
 
 impl VarSet {
-    /// The set of these.
+    /// The set of these variables.
     pub const fn of(ids: &[VarId]) -> VarSet {
         let (mut bits, mut i) = ([0; WORDS], 0);
         while i < ids.len() {
@@ -276,49 +276,49 @@ impl VarSet {
         VarSet(bits)
     }
 
-    /// Adds one.
+    /// Adds a variable.
     #[inline]
     pub fn insert(&mut self, id: VarId) {
         self.0[id as usize / 64] |= 1 << (id as usize % 64);
     }
 
-    /// Takes one out.
+    /// Removes a variable.
     #[inline]
     pub fn remove(&mut self, id: VarId) {
         self.0[id as usize / 64] &= !(1 << (id as usize % 64));
     }
 
-    /// Is it in?
+    /// Whether the variable is in the set.
     #[inline]
     pub const fn has(self, id: VarId) -> bool {
         self.0[id as usize / 64] & 1 << (id as usize % 64) != 0
     }
 
-    /// Has any of `other`?
+    /// Whether any variable of `other` is in the set.
     #[inline]
     pub fn meets(self, other: VarSet) -> bool {
         self.0.iter().zip(other.0).any(|(own, other)| own & other != 0)
     }
 
-    /// Is nothing in it?
+    /// Whether the set is empty.
     #[inline]
     pub fn is_empty(self) -> bool {
         self == VarSet::default()
     }
 
-    /// Variables that are in either set.
+    /// The variables of both sets.
     #[must_use]
     pub fn with(self, other: VarSet) -> VarSet {
         VarSet(std::array::from_fn(|word| self.0[word] | other.0[word]))
     }
 
-    /// Variables of this set that are not in `other`.
+    /// The variables of this set that are not in `other`.
     #[must_use]
     pub fn without(self, other: VarSet) -> VarSet {
         VarSet(std::array::from_fn(|word| self.0[word] & !other.0[word]))
     }
 
-    /// Variables of this set, one by one.
+    /// The variables of this set, one by one.
     pub fn iter(self) -> impl Iterator<Item = VarId> {
         VARIABLES.iter().map(|v| v.id).filter(move |&id| self.has(id))
     }

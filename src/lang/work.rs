@@ -1,8 +1,8 @@
-//! Work offsets as jobs name them.
+//! Work offsets as in jobs.
 
-/// A job's work offset as a form counts it, whose first one is `first`: a number below 50 counts fixtures from 1, from 50
-/// on it is the code itself. A form that counts from a small number (`G15 H1`, `E1`) takes 54 to 59 for its first six;
-/// other codes it does not have.
+/// The form's code for a job's work offset. `first` is the form's first offset. A number below 50 is a fixture, counted
+/// from 1; from 50 on it is the code itself. A form whose first offset is a small number (`G15 H1`, `E1`) uses 54 to 59
+/// for its first six offsets, and has no other codes.
 pub fn work_code(first: f64, work: f64) -> Option<f64> {
     const CODES: std::ops::RangeInclusive<f64> = 54.0..=59.0;
     match work {
@@ -13,7 +13,7 @@ pub fn work_code(first: f64, work: f64) -> Option<f64> {
     }
 }
 
-/// What an offset is called that is selected by its number after a code, as `G54.1 P1` or `G154 P1`.
+/// The number of an additional offset, which is selected by a number after a code, such as `G54.1 P1` or `G154 P1`.
 pub fn additional_work(number: f64) -> f64 {
     const FIRST: f64 = 1540.0;
     FIRST + number

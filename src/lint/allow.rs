@@ -1,4 +1,4 @@
-//! Suppression in the form: `# postform: allow PF103`, at the end of a line, above a line, or above a sequence; and
+//! Suppression comments in a form: `# postform: allow PF103` at the end of a line, above a line, or above a sequence;
 //! `# postform: allow-file PF103` above the form's first line, for the whole file.
 
 use std::collections::BTreeMap;
@@ -13,16 +13,17 @@ use crate::syntax::{Head, Line, Tail};
 use super::places::{Cover, Places};
 use super::{Levels, stops_printing};
 
-/// A code that a comment allows.
+/// A code in a suppression comment.
 struct Allow {
     code: Code,
     /// The code in the comment.
     word: Span,
-    /// Where the findings of the comment are allowed.
+    /// The range in which its findings are allowed.
     range: Span,
 }
 
-/// Takes out the findings that comments allow, and adds what is wrong with the comments. Returns how many were taken.
+/// Removes the findings that comments allow, and adds findings about the comments themselves. Returns the number of removed
+/// findings.
 pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -> usize {
     let mut allows = Vec::new();
     let mut wrong = Vec::new();
@@ -36,7 +37,7 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     }
     let before = diags.len();
     for (code, allows) in by_code(&allows) {
-        // what can't be printed can't be allowed, whatever a comment says
+        // errors of the form can't be allowed
         let place = |diag: &Diag| {
             diag.labels.first().map(|label| label.span).filter(|_| diag.code == code && !stops_printing(diag))
         };
@@ -60,26 +61,26 @@ fn by_code(allows: &[Allow]) -> BTreeMap<Code, Vec<&Allow>> {
 }
 
 fn unused(allow: &Allow) -> Diag {
-    // the form does not print while an error is found
+    // an error always prevents printing
     let help = match allow.code.row().severity {
         Severity::Error => "an error can't be allowed: fix it",
-        _ => "take it out, so that it does not hide the next one",
+        _ => "remove it, so that it does not hide a later finding",
     };
-    Diag::new(Code::PF108, format!("nothing here is allowed by `{}`", allow.code.name()))
+    Diag::new(Code::PF108, format!("`{}` allows nothing here", allow.code.name()))
         .at(allow.word, "no such finding")
         .help(help)
 }
 
-/// Where a comment may allow findings.
+/// The ranges to which a comment may apply.
 #[derive(Clone, Copy)]
 struct Ranges {
-    /// The line or sequence that the comment stands at.
+    /// The line or sequence at which the comment is.
     here: Span,
     /// The whole file, for a comment at its head.
     whole: Option<Span>,
 }
 
-/// The first line of a form that is no comment: what stands above it is the form's head.
+/// The first line of a form that is no comment. Comments above it are the form's head.
 fn head(items: &[Head]) -> Option<Span> {
     items.iter().find_map(|item| match item {
         Head::Blank(_) => None,
@@ -89,7 +90,7 @@ fn head(items: &[Head]) -> Option<Span> {
     })
 }
 
-/// All comments that begin with `#`, each with the place that it speaks of: its own line, else what comes after it.
+/// All comments that begin with `#`, each with the range to which it applies: its own line, or the item after it.
 fn comments(items: &[Head]) -> Vec<(Span, Span)> {
     let mut found = Vec::new();
     let mut waiting: Vec<Span> = Vec::new();
@@ -106,7 +107,7 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
             }
         }
     };
-    // an indented line is a comment that may look like words, and have a finding
+    // an indented line is a comment, but it may look like words and cause a finding
     let own = |line: &Line| matches!(line.tail, Tail::Lost(_)).then_some(line.span);
     for item in items {
         match item {
@@ -158,12 +159,12 @@ fn read(source: &Source, comment: Span, ranges: Ranges, allows: &mut Vec<Allow>,
     let is_verb = |verb: &str| whole_file || verb.eq_ignore_ascii_case("allow");
     match words.split_first() {
         Some(((_, verb), _)) if whole_file && ranges.whole.is_none() => {
-            let help = "move it above the first line of the form, or write `allow` for what stands here";
-            bad(*verb, "what is allowed in the whole file stands at its head".into(), Some(help.into()));
+            let help = "move it above the first line of the form, or write `allow` to allow findings only here";
+            bad(*verb, "`allow-file` must be above the first line of the form".into(), Some(help.into()));
         }
         Some(((verb, _), rest)) if is_verb(verb) && !rest.is_empty() => {
             let range = ranges.whole.filter(|_| whole_file).unwrap_or(ranges.here);
-            // after the codes a reason may stand
+            // a reason may follow the codes
             let is_code = |word: &str| word.get(..2).is_some_and(|head| head.eq_ignore_ascii_case("PF"));
             let told = rest.iter().position(|(word, _)| !is_code(word)).unwrap_or(rest.len()).max(1);
             for (word, span) in &rest[..told] {
@@ -177,14 +178,14 @@ fn read(source: &Source, comment: Span, ranges: Ranges, allows: &mut Vec<Allow>,
                         let full = || Some("name each code in full, as PF414".to_owned());
                         let near = || did_you_mean(word, forms().map(|row| row.name));
                         let help = if family { full() } else { near() };
-                        bad(*span, format!("`{word}` is no code of a form's findings"), help);
+                        bad(*span, format!("`{word}` is not a code of a finding in forms"), help);
                     }
                 }
             }
         }
         Some(((verb, span), _)) if !is_verb(verb) => {
-            bad(*span, format!("`{verb}` is nothing that a comment can ask for"), None);
+            bad(*span, format!("`{verb}` is unknown: a comment can contain only `allow` and `allow-file`"), None);
         }
-        _ => bad(comment, "the comment does not say what it allows".into(), None),
+        _ => bad(comment, "the comment names no code".into(), None),
     }
 }

@@ -1,13 +1,13 @@
-//! The blocks of a body as a control would read them: which modes hold where each word stands.
+//! The blocks of a body, as a control reads them, with the modes in each block.
 
 use crate::control::{AxisWords, Code, Control, Meaning};
 use crate::lang::{Origin, VarId, VarSet};
 use crate::sema::{Line, Settings, Word, WordKind};
 
-/// How the tool moves in a block.
+/// Motion mode of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// No block of this body has said the motion yet.
+    /// No block of this body has set the motion yet.
     Unknown,
     /// G0.
     Rapid,
@@ -15,62 +15,63 @@ pub enum Motion {
     Line,
     /// G2, G3.
     Arc,
-    /// The control moves by itself: [`Control::moves_by_itself`].
+    /// A motion of the control's own: [`Control::moves_by_itself`].
     Cycle,
 }
 
-/// A line with the modes that hold in it: a control acts on all codes of a block at once.
+/// A line with its modes. A control executes all codes of a block together.
 pub struct Block<'a> {
     /// The line that prints the block.
     pub line: &'a Line,
-    /// The words that say where an axis goes, with its number: 0 and 1 across, 2 the depth. Those of a code that only sets
-    /// something, as G4, G10, G52, G68 and G92, and of a macro call, say it of none.
+    /// The axis words with their axis: 0 and 1 across, 2 the depth. Empty if the block only sets data, as with G4, G10, G52, G68
+    /// and G92, or calls a macro.
     pub axis_words: Vec<(&'a Word, usize)>,
-    /// How the block moves.
+    /// Motion of the block.
     pub motion: Motion,
-    /// G91 holds in the block.
+    /// G91 is active in the block.
     pub incremental: bool,
-    /// The block has G28 or G30: its axis words are a point on the way to the reference point.
+    /// The block has G28 or G30: its axis words are an intermediate point.
     pub reference: bool,
     /// The block has G53: its axis words are machine coordinates.
     pub machine: bool,
 }
 
 impl<'a> Block<'a> {
-    /// The axis words of this block name a place of the part, not one of the machine.
+    /// Are the axis words of this block positions of the part, not of the machine?
     pub fn in_part(&self) -> bool {
         !self.reference && !self.machine
     }
 
-    /// Lifts the tool out of the part: to the reference point, in machine coordinates, to a plane above it, or to a
-    /// depth that is typed.
+    /// Does the block retract the tool: to the reference point, in machine coordinates, to a plane above the part, or to a typed
+    /// height?
     pub fn retracts(&self) -> bool {
         self.axis_words.iter().any(|(word, axis)| {
             let up = |value: f64| if self.incremental { value > 0.0 } else { value >= 0.0 };
             let typed = matches!(word.kind, WordKind::Literal(_, _, value) if up(value));
-            // a height that is asked for is one that somebody chose
+            // a height from a prompt or the job was chosen on purpose
             let chosen = word.printed_var().is_some_and(|var| var == VarId::Rplane || var.row().origin == Origin::Job);
             *axis == 2 && (typed || !self.in_part() || chosen)
         })
     }
 }
 
-/// Does a word say which tool? On a lathe `[comp]` is station and offset register.
+/// Does the word print the tool number? On a lathe, `[comp]` contains station and offset register.
 pub fn says_tool(word: &Word) -> bool {
     word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]))
 }
 
-/// Does a word call something that does more than the block says: a macro, a subprogram, a code of the builder?
+/// Does the word call external code: a macro, a subprogram, a code of the machine's builder?
 pub fn calls(control: &Control, word: &Word) -> bool {
     word.code().is_some_and(|code| control.calls(code))
 }
 
-/// Are the axis words of a block a time or a setting of this code: dwell, data, scale, mirror, local zero, rotation?
+/// Are the axis words of a block with this code no positions, but a time or data: dwell, data, scale, mirror, local zero,
+/// rotation?
 fn sets(meaning: Meaning) -> bool {
     meaning == Meaning::Dwell || meaning.axes() == AxisWords::Data
 }
 
-/// The blocks of a body; `axis`: which axis a word moves.
+/// Reads the blocks of a body. `axis`: the axis that a word moves.
 pub fn read<'a>(settings: &Settings, axis: impl Fn(&Word) -> Option<usize>, lines: &'a [Line]) -> Vec<Block<'a>> {
     let control = settings.codes();
     let mut motion = Motion::Unknown;

@@ -1,18 +1,18 @@
-//! How bad each finding counts, where a shop wants it otherwise than the table.
+//! Severities of findings that a shop sets differently from the table.
 
 use crate::diag::{CODES, Code, Diag, Severity};
 
-/// What a rule's findings count as.
+/// Level of a rule's findings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Findings are not shown.
     Off,
-    /// Findings count as this severity.
+    /// Findings have this severity.
     As(Severity),
 }
 
 impl Level {
-    /// `off`, `note`, `warning` or `error`.
+    /// Parses `off`, `note`, `warning` or `error`.
     pub fn parse(name: &str) -> Option<Level> {
         Some(match name {
             "off" => Level::Off,
@@ -24,7 +24,7 @@ impl Level {
     }
 }
 
-/// Levels that differ from the table; later ones win.
+/// Levels that differ from the table. The last level of a code applies.
 #[derive(Clone, Debug, Default)]
 pub struct Levels(Vec<(Code, Level)>);
 
@@ -32,13 +32,14 @@ impl Levels {
     /// Sets the level of a code, as `PF303`, or of the codes of a family, as `PF3`.
     ///
     /// # Errors
-    /// There is no such code, or it is an error, with which nothing can be printed: words that follow the name.
+    /// The code is unknown, or it is an error of the form, which always prevents printing. The text of the error continues a
+    /// sentence that begins with the name.
     pub fn set(&mut self, name: &str, level: Level) -> Result<(), &'static str> {
         let upper = name.to_ascii_uppercase();
         let is_code = |row: &&crate::diag::CodeRow| row.name.starts_with("PF") && upper.len() > 2;
         if let Some(row) = CODES.iter().filter(is_code).find(|row| row.name == upper) {
             if row.severity == Severity::Error {
-                return Err("is an error of the form: it can't be printed until that is fixed");
+                return Err("is an error, and the level of an error can't be changed: fix the form");
             }
             self.0.push((row.code, level));
             return Ok(());
@@ -46,7 +47,7 @@ impl Levels {
         let family = CODES.iter().filter(is_code).filter(|row| upper.len() == 3 && row.name.starts_with(&upper));
         let codes: Vec<Code> = family.filter(|row| row.severity != Severity::Error).map(|row| row.code).collect();
         if codes.is_empty() {
-            return Err("is no code of a form's findings, as PF303, and no family, as PF3");
+            return Err("is neither a code of a finding in forms, as PF303, nor a family, as PF3");
         }
         self.0.extend(codes.into_iter().map(|code| (code, level)));
         Ok(())
@@ -61,7 +62,7 @@ impl Levels {
         self.0.iter().rev().find(|(c, _)| *c == code).map(|(_, level)| *level)
     }
 
-    /// Gives a finding its level; `false`: the level is off.
+    /// Applies the level to a finding. Returns `false` if the level is off.
     pub(super) fn apply(&self, diag: &mut Diag) -> bool {
         match self.level(diag.code) {
             Some(Level::Off) => false,

@@ -1,4 +1,4 @@
-//! Fixes made: which of them go together, and the text after them.
+//! Applies fixes: selects those that can be made together, and edits the text.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -7,7 +7,7 @@ use crate::diag::Diag;
 use crate::sema::Checked;
 use crate::span::Span;
 
-/// Text that stands for that of a file: by the file's name in messages.
+/// Changed text of files, by the file's name in messages.
 pub type Changed = HashMap<String, String>;
 
 /// A form after its fixes.
@@ -15,19 +15,19 @@ pub type Changed = HashMap<String, String>;
 pub struct Mended {
     /// The fixed form.
     pub checked: Checked,
-    /// What is found in the fixed form.
+    /// Findings in the fixed form.
     pub findings: Found,
-    /// The files that fixes changed.
+    /// Files that the fixes changed.
     pub changed: Changed,
-    /// Findings that were fixed. One that came up on the way has no place: nobody has seen that text.
+    /// Findings that were fixed. A finding from a later round has no location, because its text existed only in between.
     pub made: Vec<Diag>,
 }
 
-/// Most rounds: a fix may make place for another one, but never for ever.
+/// Maximum number of rounds: a fix may enable another one, but not without end.
 const MOST_ROUNDS: usize = 50;
 
-/// Makes fixes until none is left; `unsafe_too`: those as well that change what is printed. `read` analyses the form,
-/// with other text for what was changed.
+/// Applies fixes until none is left. `unsafe_too`: also those that change the output. `read` analyses the form with the changed
+/// text.
 pub fn mend(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> Checked) -> Mended {
     let mut changed = Changed::new();
     let mut made: Vec<Diag> = Vec::new();
@@ -52,13 +52,13 @@ pub fn mend(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) ->
     Mended { checked, findings, changed, made }
 }
 
-/// Replacements of text, not overlapping, in the order of their places.
+/// Text replacements that do not overlap, in order.
 pub(crate) type Edits<'a> = Vec<(Span, &'a str)>;
 
-/// The fixes that can be made at once; `unsafe_too`: those as well that change what is printed. Where two touch the same
-/// place the earlier one is made: the other is found again in the text after it.
+/// Selects the fixes that can be made together. `unsafe_too`: also those that change the output. If two fixes touch the same
+/// text, the earlier one is made; the other is found again in the next round.
 fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
-    // start to end, by file; what is taken never overlaps, so the last that begins before is the nearest
+    // start to end, by file; the selected edits never overlap, so the last one that begins before a span is the nearest
     let mut taken: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut chosen = Vec::new();
     for diag in diags {
@@ -76,7 +76,7 @@ fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
     chosen
 }
 
-/// What the fixes of these findings replace in file number `file`.
+/// The edits of these findings in file number `file`.
 fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
     let fixes = diags.iter().filter_map(|diag| diag.fix.as_ref());
     let edits = fixes.flat_map(|fix| &fix.edits).filter(|(span, _)| span.file == file);
@@ -85,7 +85,7 @@ fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
     edits
 }
 
-/// Text after replacements. A line that becomes empty goes with its end.
+/// Applies edits to a text. A line that becomes empty is removed.
 pub(crate) fn edited(text: &str, edits: &Edits) -> String {
     let mut out = String::with_capacity(text.len());
     let mut at = 0;

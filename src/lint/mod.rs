@@ -1,4 +1,4 @@
-//! Rules for forms: each finds one thing that costs a part or a spindle. One rule a file, one row in `rules`.
+//! Rules for forms: each finds one fault that can cost a part or a spindle. Each rule has its own file and a row in `rules`.
 
 mod allow;
 mod blocks;
@@ -23,16 +23,16 @@ use crate::syntax::SequenceNode;
 use places::{Cover, Places};
 use view::View;
 
-/// What was found in a form.
+/// Findings in a form.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// Findings in the order of the files and of the places in them.
+    /// Findings, by file and location.
     pub diags: Vec<Diag>,
-    /// How many findings more there are that a comment of the form allows.
+    /// Number of further findings that comments of the form allow.
     pub suppressed: usize,
 }
 
-/// All findings of a form: those of reading it and those of the rules.
+/// Finds all findings of a form: those of its analysis and those of the rules.
 pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     let view = View::new(checked);
     let mut diags = checked.diags.clone();
@@ -49,24 +49,24 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     Found { diags, suppressed }
 }
 
-/// A form that can print, with what it is warned of.
+/// A form that can print, with its warnings.
 #[derive(Debug)]
 pub struct Ready {
-    /// The program that prints the form.
+    /// The compiled form.
     pub program: Program,
-    /// Warnings and notes of lint about the form, in the order of their places.
+    /// Warnings and notes of lint about the form, by location.
     pub findings: Vec<Diag>,
 }
 
-/// Compiles a form that was analysed. Levels and the comments of the form hold.
+/// Compiles an analysed form. The levels and the form's suppression comments apply.
 ///
 /// # Errors
-/// All errors and warnings, where one of them is an error: of the form itself, or because these levels say so.
+/// All errors and warnings, if at least one is an error: of the form itself, or because of the levels.
 pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
     ready_of(checked, lint(checked, levels).diags)
 }
 
-/// The same with what lint found.
+/// Like [`ready`], with findings from an earlier run of lint.
 ///
 /// # Errors
 /// As [`ready`].
@@ -78,8 +78,8 @@ pub fn ready_of(checked: &Checked, mut diags: Vec<Diag>) -> Result<Ready, Vec<Di
     Ok(Ready { program: compile(&checked.form), findings: diags })
 }
 
-/// Leaves the cause alone where words of a sequence were not understood: what the sequence lacks only follows from
-/// that.
+/// Removes findings that only follow from another one: if words of a sequence were not understood, findings about missing words
+/// of that sequence say nothing new.
 fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
     let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
@@ -87,17 +87,17 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let causes: Places = diags.iter().filter(is_cause).filter_map(place).collect();
     let nodes = checked.trees.iter().flat_map(|tree| tree.sequences()).map(SequenceNode::span);
     let unclear: Cover = nodes.filter(|whole| causes.any_in(*whole)).collect();
-    // what a sequence lacks is said by the families of sequences and of modality
+    // only these families report words that a sequence lacks
     let may_follow = |diag: &Diag| diag.code >= Code::PF401 && !is_cause(&diag);
     diags.retain(|diag| !(may_follow(diag) && place(diag).is_some_and(|at| unclear.holds(at))));
 }
 
-/// Is this an error of the form itself, whatever a rule's findings count as? Nothing is printed until it is fixed.
+/// Is this an error of the form itself, independent of the levels? Nothing is printed until it is fixed.
 fn stops_printing(diag: &Diag) -> bool {
     diag.is_error() && diag.code.row().severity == Severity::Error
 }
 
-/// Sorts findings by file and place; the worst first where they share one.
+/// Sorts findings by file and location; at the same location the most severe comes first.
 pub fn sort(diags: &mut [Diag]) {
     diags.sort_by_key(|d| {
         let span = d.labels.first().map(|l| l.span).unwrap_or_default();

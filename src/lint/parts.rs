@@ -1,10 +1,10 @@
-//! Which forms are parts of others, and so no posts by themselves.
+//! Finds the forms that are parts of others, and therefore no posts by themselves.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Which forms are parts, of forms with the forms that each calls: those that another one calls. A part is looked at
-/// where it is called, by the settings that hold there. Where two call each other the first is none.
+/// Finds the parts among these forms, each given with the forms that it calls: a form that another one calls is a part. Parts are
+/// checked together with the calling form and its settings. If two forms call each other, the first one is no part.
 pub fn parts<K: Eq + Hash>(forms: &[(K, Vec<K>)]) -> Vec<bool> {
     let mut callers: HashMap<&K, Vec<usize>> = HashMap::new();
     for (at, (_, called)) in forms.iter().enumerate() {

@@ -1,15 +1,15 @@
-//! Where findings are and what covers them, asked by the thousand: a form may be huge, and so may its findings.
+//! Fast lookup of locations and ranges: a form may be huge and have thousands of findings.
 
 use crate::span::Span;
 
-/// Spans, to be asked whether one of them covers a place.
+/// Spans, for checking whether one of them covers a location.
 pub struct Cover(Vec<Span>);
 
 impl FromIterator<Span> for Cover {
     fn from_iter<I: IntoIterator<Item = Span>>(spans: I) -> Cover {
         let mut spans: Vec<Span> = spans.into_iter().collect();
         spans.sort_by_key(|span| (span.file, span.start));
-        // each reaches as far as any before it, so that the last that begins before a place decides
+        // extend each span to the furthest end so far, so that the last span that begins before a location decides
         for i in 1..spans.len() {
             if spans[i - 1].file == spans[i].file {
                 spans[i].end = spans[i].end.max(spans[i - 1].end);
@@ -20,14 +20,14 @@ impl FromIterator<Span> for Cover {
 }
 
 impl Cover {
-    /// Does one of the ranges hold where `at` begins?
+    /// Does one of the spans cover the start of `at`?
     pub fn holds(&self, at: Span) -> bool {
         let after = self.0.partition_point(|span| (span.file, span.start) <= (at.file, at.start));
         after.checked_sub(1).is_some_and(|last| self.0[last].file == at.file && at.start <= self.0[last].end)
     }
 }
 
-/// Beginnings of spans, to be asked whether one lies within a span.
+/// Starts of spans, for checking whether one of them is inside a span.
 pub struct Places(Vec<(u32, u32)>);
 
 impl FromIterator<Span> for Places {
@@ -39,7 +39,7 @@ impl FromIterator<Span> for Places {
 }
 
 impl Places {
-    /// Does one of the places lie in `whole`, its end included?
+    /// Is one of the starts inside `whole`, including its end?
     pub fn any_in(&self, whole: Span) -> bool {
         let first = self.0.partition_point(|&place| place < (whole.file, whole.start));
         self.0.get(first).is_some_and(|&(file, start)| file == whole.file && start <= whole.end)

@@ -1,4 +1,4 @@
-//! A form as rules look at it: its bodies in one list, what its letters print, what it is for.
+//! A form, prepared for the rules: a list of its bodies, the output of its letters, and its settings.
 
 use crate::compile::LetterTable;
 use crate::control::{Code, Control, Meaning, Traits};
@@ -10,15 +10,15 @@ use crate::toolpath::CycleKind;
 
 use super::blocks::{self, Block};
 
-/// A form with what many rules ask of it.
+/// A form with data that several rules need.
 pub struct View<'a> {
-    /// Files, trees, and what they mean.
+    /// Files, trees and their meaning.
     pub checked: &'a Checked,
-    /// What the files mean together.
+    /// The meaning of all files together.
     pub form: &'a Form,
     /// Commands of the form.
     pub settings: &'a Settings,
-    /// What letters of the form print, in the form's own units.
+    /// Output of the form's letters, in the form's own units.
     pub letters: LetterTable,
     /// Sequences and Upons in the order of the form.
     pub bodies: Vec<Body<'a>>,
@@ -28,7 +28,7 @@ pub struct View<'a> {
     has_format: [bool; 256],
     /// The variables that bodies print, outside comments.
     printed: VarSet,
-    /// Variables that bodies print, in comments too.
+    /// Variables that bodies print, also in comments.
     told: VarSet,
     /// Letters that words of the form begin with.
     has_words: [bool; 256],
@@ -36,7 +36,7 @@ pub struct View<'a> {
     has_cycles: bool,
 }
 
-/// What a body is for.
+/// Purpose of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A sequence or canned cycle.
@@ -50,17 +50,17 @@ pub enum Purpose {
 pub struct Body<'a> {
     /// Purpose of the body.
     pub purpose: Purpose,
-    /// Place of this body in [`View::bodies`].
+    /// Index of this body in [`View::bodies`].
     index: usize,
     /// The name line of the body.
     pub span: Span,
     /// The lines that print.
     pub lines: &'a [Line],
-    /// Which of them print when, where directives say it.
+    /// Selection of the lines by directives, if there are any.
     pub steps: Option<&'a [Step]>,
-    /// The sequence itself; none for an Upon.
+    /// The sequence itself; `None` for an Upon.
     pub sequence: Option<&'a Sequence>,
-    /// The control whose codes it has.
+    /// The control whose code table applies.
     codes: &'static Control,
 }
 
@@ -96,7 +96,7 @@ impl<'a> View<'a> {
             word.letter().into_iter().for_each(|letter| has_words[usize::from(letter)] = true);
         }
         for body in &bodies {
-            // what a condition asks decides what is printed
+            // variables in conditions count as printed, because they decide the output
             each_formula(body.steps.unwrap_or_default(), &mut |formula, _| {
                 printed = printed.with(formula.vars());
                 told = told.with(formula.vars());
@@ -128,7 +128,7 @@ impl<'a> View<'a> {
         self.bodies.iter().find(|body| body.purpose == Purpose::Sequence(id)).copied()
     }
 
-    /// The bodies of these sequences, as far as the form has them.
+    /// The bodies of these sequences that the form has.
     pub fn these<'s>(&'s self, ids: &'s [SequenceId]) -> impl Iterator<Item = Body<'a>> + 's {
         ids.iter().filter_map(|&id| self.body(id))
     }
@@ -141,7 +141,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The canned cycles that serve one of these, a Custom by the kind in its remark.
+    /// The canned cycles of these kinds; the kind of a Custom is that in its comment.
     pub fn cycles_for<'s>(&'s self, ids: &'s [SequenceId]) -> impl Iterator<Item = Body<'a>> + 's {
         self.hole_cycles().filter(|(sequence, _)| ids.contains(&serves(sequence))).map(|(_, body)| body)
     }
@@ -151,12 +151,12 @@ impl<'a> View<'a> {
         self.settings.machine == Machine::Mill
     }
 
-    /// What the form's control is.
+    /// The traits of the form's control.
     pub fn traits(&self) -> &'static Traits {
         self.settings.control().traits()
     }
 
-    /// What a word says as typed: the meaning of its code on the form's control.
+    /// The meaning of a typed code on the form's control.
     pub fn meaning(&self, word: &Word) -> Option<Meaning> {
         self.settings.codes().meaning(word.code()?)
     }
@@ -166,7 +166,7 @@ impl<'a> View<'a> {
         self.meaning(word).is_some_and(Meaning::is_cycle)
     }
 
-    /// Has the machine no depth: do its own rapids and lines leave it out, and does nothing else say it? A torch, a beam.
+    /// Is the machine flat: its rapids and lines have no depth, and nothing else prints it? This applies to torches and beams.
     pub fn is_flat(&self) -> bool {
         if self.settings.beam.is_some() {
             return true;
@@ -177,12 +177,12 @@ impl<'a> View<'a> {
         self.is_mill() && all && !self.words().any(says)
     }
 
-    /// Does a cycle of the control work one place and is over, as G74 to G76 of a lathe do?
+    /// Does a cycle of the control make one hole and then end, as G74 to G76 of a lathe?
     pub fn works_once(&self, code: Code) -> bool {
         !self.is_mill() && (Code::g(74)..=Code::g(76)).contains(&code)
     }
 
-    /// Do the form's own lengths count millimetres?
+    /// Are the form's own lengths in millimetres?
     pub fn is_metric(&self) -> bool {
         self.settings.units == UnitChoice::Mm
     }
@@ -192,49 +192,49 @@ impl<'a> View<'a> {
         self.printed
     }
 
-    /// Does a body print this variable, be it in a comment?
+    /// Does a body print this variable, also in comments?
     pub fn tells(&self, var: VarId) -> bool {
         self.told.has(var)
     }
 
-    /// Has a body words of this letter?
+    /// Does a body have words with this letter?
     pub fn has_words_of(&self, letter: u8) -> bool {
         self.has_words[usize::from(letter)]
     }
 
-    /// Has a body a cycle of the control?
+    /// Does a body have a cycle of the control?
     pub fn has_cycles(&self) -> bool {
         self.has_cycles
     }
 
-    /// The commands of all files with what they are.
+    /// The commands of all files, with their identifiers.
     pub fn commands(&self) -> impl Iterator<Item = (CommandId, &'a Statement)> + '_ {
         let statements = self.checked.trees.iter().flat_map(|tree| tree.statements());
         statements.filter_map(|statement| Some((CommandId::parse(&statement.name.text)?, statement)))
     }
 
-    /// Where the form gives a command, if it does.
+    /// The statement of a command, if the form has it.
     pub fn command(&self, id: CommandId) -> Option<&'a Statement> {
         self.commands().find(|(own, _)| *own == id).map(|(_, statement)| statement)
     }
 
-    /// The sequence as it is written.
+    /// The tree node of a sequence.
     pub fn node(&self, span: Span) -> Option<&'a SequenceNode> {
         self.checked.trees.iter().flat_map(|tree| tree.sequences()).find(|node| node.name.line.span == span)
     }
 
-    /// Words as they are written, but for those of comments to the end of the block.
+    /// Words as typed, except those of comments that extend to the end of the block.
     pub fn written(&self) -> impl Iterator<Item = &'a syntax::Word> + '_ {
         let bodies = self.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
         bodies.flat_map(|body| self.codes(&body.words))
     }
 
-    /// The words of a line up to a comment that runs to its end.
+    /// The words of a line before a comment that extends to the end of the block.
     pub fn codes<'s>(&self, words: &'s [syntax::Word]) -> &'s [syntax::Word] {
         &words[..before_remark(words, &self.settings.comment)]
     }
 
-    /// The pieces of words as they are written.
+    /// The pieces of words as typed.
     pub fn pieces(&self) -> impl Iterator<Item = &'a Piece> + '_ {
         self.written().flat_map(|word| &word.pieces)
     }
@@ -244,23 +244,23 @@ impl<'a> View<'a> {
         self.bodies.iter().flat_map(|body| body.words())
     }
 
-    /// The blocks of a body with the modes that hold in each.
+    /// The blocks of a body with their modes.
     pub fn blocks(&self, body: Body<'a>) -> &[Block<'a>] {
         &self.blocks[body.index]
     }
 
-    /// The letter that the word has in the program, which `Rename` may change.
+    /// The letter of the word in the program, after `Rename`.
     pub fn printed_letter(&self, word: &Word) -> Option<u8> {
         word.letter().map(|letter| self.letters[letter].printed)
     }
 
-    /// The letter whose format prints the word: a small letter without one takes its capital's.
+    /// The letter whose format applies to the word: a lower-case letter without a format uses that of its capital.
     pub fn format_letter(&self, word: &Word) -> Option<u8> {
         let letter = word.letter()?;
         Some(if self.has_format[usize::from(letter)] { letter } else { letter.to_ascii_uppercase() })
     }
 
-    /// The axis that a word of this letter moves: 0 and 1 across, 2 the depth; `None` for others.
+    /// The axis that a word with this letter moves: 0 and 1 across, 2 the depth; `None` for other letters.
     pub fn axis(&self, letter: u8) -> Option<usize> {
         self.settings.axes.iter().position(|&axis| axis == self.letters[letter].printed)
     }
@@ -273,12 +273,12 @@ impl<'a> View<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// How many lines it prints at most: the branches of a condition do not print together.
+    /// Maximum number of lines that the body prints: only one branch of a condition prints.
     pub fn most_lines(&self) -> usize {
         self.steps.map_or(self.lines.len(), |steps| line_counts(steps).1)
     }
 
-    /// Name of the body in messages.
+    /// Name of the body, for messages.
     pub fn name(&self) -> String {
         match self.purpose {
             Purpose::Sequence(id) => id.name().to_owned(),
@@ -297,7 +297,7 @@ impl<'a> Body<'a> {
         self.lines.iter().position(|line| line.words.iter().any(|own| std::ptr::eq(own, word))).unwrap_or(0)
     }
 
-    /// Does the body print this variable, for the control to read?
+    /// Does the body print this variable outside comments?
     pub fn prints(&self, var: VarId) -> bool {
         self.words().any(|word| word.printed_vars().has(var))
     }
@@ -307,29 +307,29 @@ impl<'a> Body<'a> {
         vars.iter().any(|&var| self.prints(var))
     }
 
-    /// The word that prints a code as typed, `G43`.
+    /// The word with one of these typed codes, as `G43`.
     pub fn code(&self, letter: u8, codes: &[f64]) -> Option<&'a Word> {
         self.words().find(|word| word.is_code(letter, codes))
     }
 
-    /// The word that starts a cycle of the control, if it has one, with the code.
+    /// The word that starts a cycle of the control, if any, with its code.
     pub fn cycle_word(&self) -> Option<(&'a Word, Code)> {
         let starts = |code: &Code| self.codes.meaning(*code).is_some_and(Meaning::is_cycle);
         self.words().find_map(|word| Some((word, word.code().filter(starts)?)))
     }
 
-    /// The first word whose code means this, as typed.
+    /// The first word with a typed code of this meaning.
     pub fn meaning(&self, is: impl Fn(Meaning) -> bool) -> Option<&'a Word> {
         self.words().find(|word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(&is))
     }
 
-    /// Does the control move by itself somewhere in it, as in its cycles?
+    /// Does the control move by itself anywhere in the body, as in a cycle?
     pub fn moves_by_itself(&self) -> bool {
         self.words().any(|word| word.code().is_some_and(|code| self.codes.moves_by_itself(code)))
     }
 
-    /// Does a cycle of the control print one of these when it begins? All lines count up to the end of its block, or all
-    /// where there is none.
+    /// Does a cycle of the control print one of these variables when it starts? All lines up to the end of its block are
+    /// searched, or all lines if it has no cycle code.
     pub fn begins_with(&self, vars: &[VarId]) -> bool {
         let starts = |word: &Word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(Meaning::is_cycle);
         let cycle = self.lines.iter().position(|line| line.words.iter().any(starts));
@@ -338,7 +338,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// What a canned cycle serves: itself, or for a Custom what has the kind that its remark names.
+/// The kind of a canned cycle: its own, or for a Custom the kind in its comment.
 pub fn serves(sequence: &Sequence) -> SequenceId {
     let kind = sequence.custom_kind().and_then(CycleKind::parse);
     kind.and_then(CycleKind::sequence).unwrap_or(sequence.id)

@@ -1,35 +1,35 @@
-//! An axis: its travel, its speed, how it turns.
+//! An axis: its travel, its speed and its rotation.
 
 /// An axis of the machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// How far it goes, in machine coordinates: millimetres or degrees. `None`: the file does not give it.
+    /// Its travel in machine coordinates, in millimetres or degrees. `None`: not in the file.
     pub travel: Option<Travel>,
-    /// Its rapid, in millimetres or degrees a minute.
+    /// Its rapid, in millimetres or degrees per minute.
     pub rapid: Option<f64>,
-    /// Its fastest feed, in millimetres or degrees a minute.
+    /// Its fastest feed, in millimetres or degrees per minute.
     pub feed: Option<f64>,
-    /// Its acceleration, in millimetres or degrees a second squared.
+    /// Its acceleration, in millimetres or degrees per second squared.
     pub acceleration: Option<f64>,
-    /// How it turns, of a rotary axis.
+    /// The kind of a rotary axis.
     pub kind: Option<Kind>,
-    /// The direction about which it turns.
+    /// The direction of its rotation axis.
     pub about: Option<[f64; 3]>,
-    /// Its words count the turn of the table, not that of the tool: they are negated.
+    /// Its words are the angle of the table, not that of the tool: they are negated.
     pub counts_table: bool,
 }
 
-/// How far an axis goes.
+/// The travel of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Travel {
     /// From a position to another.
     Between(f64, f64),
-    /// It turns without end.
+    /// Endless rotation.
     Endless,
 }
 
 impl Axis {
-    /// Least and greatest position, where it has them.
+    /// Least and greatest position, if there are any.
     pub fn limits(&self) -> Option<[f64; 2]> {
         match self.travel? {
             Travel::Between(least, greatest) => Some([least, greatest]),
@@ -38,7 +38,7 @@ impl Axis {
     }
 }
 
-/// What a rotary axis turns.
+/// The part of the machine that a rotary axis turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {

@@ -1,5 +1,5 @@
-//! Machine files: TOML, read into what a machine is. What a file says wrongly is an error with its line and column, and says
-//! what is not checked without it.
+//! Reads machine files (TOML). A wrong value in a file is an error with its line and column; the message also names the check
+//! that is left out without this value.
 
 use std::collections::BTreeMap;
 
@@ -13,13 +13,13 @@ use super::{Corners, LETTERS, Machine, Rotary, offsets};
 use crate::control::{self, Control, Wrong};
 use crate::toolpath::Units;
 
-/// Gives the text of a file that the machine's file names, from its folder; or why it can't.
+/// Returns the text of a file that the machine's file names, relative to its folder, or the reason why it can't be read.
 pub type Beside<'a> = dyn Fn(&str) -> Result<String, String> + 'a;
 
 /// Reads a file's text.
 ///
 /// # Errors
-/// What is wrong, with its line and column.
+/// The error, with its line and column.
 pub fn read(name: &str, text: &str, beside: &Beside<'_>) -> Result<Machine, Wrong> {
     let reader = Reader { name, text };
     let file: File = toml::from_str(text).map_err(|error| {
@@ -55,15 +55,15 @@ pub fn read(name: &str, text: &str, beside: &Beside<'_>) -> Result<Machine, Wron
     if let Some(speed) = &file.spindle.speed {
         let [least, most] = *speed.get_ref();
         if !(least >= 0.0 && least <= most && most.is_finite()) {
-            let help = "write the least speed and the highest, as [30, 8100]; without it speeds are not checked";
-            return Err(reader.wrong(speed.span().start, "speeds count up from 0", help));
+            let help = "write the lowest and the highest speed, as [30, 8100]; without speeds nothing is checked";
+            return Err(reader.wrong(speed.span().start, "speed needs two numbers from 0 in ascending order", help));
         }
         machine.speeds = Some([least, most]);
     }
     let ahead = file.corners.ahead.as_ref();
     if let Some(zero) = ahead.filter(|blocks| *blocks.get_ref() == 0) {
         let help = "write how many blocks the control plans ahead, as 15";
-        return Err(reader.wrong(zero.span().start, "a control plans 1 block ahead, or more", help));
+        return Err(reader.wrong(zero.span().start, "the number of planned blocks must be 1 or more", help));
     }
     machine.corners = Corners {
         deviation: positive(&file.corners.deviation, "the deviation at corners")?.map(|deviation| deviation * scale),
@@ -73,8 +73,12 @@ pub fn read(name: &str, text: &str, beside: &Beside<'_>) -> Result<Machine, Wron
     if let Some(numbers) = &file.memory.numbers {
         let [least, most] = *numbers.get_ref();
         if least > most {
-            let help = "write the least number and the highest, as [1, 9999]; without it numbers are not checked";
-            return Err(reader.wrong(numbers.span().start, "program numbers count up", help));
+            let help = "write the lowest and the highest number, as [1, 9999]; without them nothing is checked";
+            return Err(reader.wrong(
+                numbers.span().start,
+                "numbers needs two program numbers in ascending order",
+                help,
+            ));
         }
         machine.numbers = Some([least, most]);
     }
@@ -120,8 +124,8 @@ impl Reader<'_> {
     fn positive(&self, value: Option<&Spanned<f64>>, what: &str) -> Result<Option<f64>, Wrong> {
         match value {
             Some(value) if !(value.get_ref().is_finite() && *value.get_ref() > 0.0) => {
-                let help = format!("write a number over 0; without it {what} is not checked");
-                Err(self.wrong(value.span().start, format!("{what} is a number over 0"), help))
+                let help = format!("write a number above 0; without it {what} is not checked");
+                Err(self.wrong(value.span().start, format!("{what} must be a number above 0"), help))
             }
             value => Ok(value.map(|value| *value.get_ref())),
         }
@@ -129,7 +133,7 @@ impl Reader<'_> {
 
     fn offset(&self, control: &Control, key: &Spanned<String>) -> Result<usize, Wrong> {
         offsets::number(control, key.get_ref()).ok_or_else(|| {
-            let message = format!("`{}` is no work offset of {}", key.get_ref(), control.name());
+            let message = format!("`{}` is not a work offset of {}", key.get_ref(), control.name());
             let help = format!("write {}, {} and so on", offsets::name(control, 1), offsets::name(control, 10));
             self.wrong(key.span().start, message, help)
         })
@@ -158,7 +162,7 @@ impl Lengths<'_> {
         for (name, text) in said {
             let at = LETTERS.iter().position(|letter| name.get_ref().eq_ignore_ascii_case(&letter.to_string()));
             let Some(at) = at else {
-                let message = format!("`{}` is no axis", name.get_ref());
+                let message = format!("`{}` is not an axis", name.get_ref());
                 return Err(self.reader.wrong(name.span().start, message, "an axis is X, Y, Z, A, B or C"));
             };
             axes[at] = Some(self.axis(at, text)?);
@@ -173,13 +177,13 @@ impl Lengths<'_> {
             Ok(value.map(|value| value * self.factor(at)))
         };
         if let Some(turns) = text.turns.as_ref().filter(|_| at < 3) {
-            return Err(self.reader.wrong(turns.span().start, format!("{letter} does not turn"), "take it out"));
+            return Err(self.reader.wrong(turns.span().start, format!("{letter} is not a rotary axis"), "take it out"));
         }
         if let Some(about) = text.about.as_ref()
             && !(about.get_ref().iter().all(|value| value.is_finite()) && about.get_ref().iter().any(|v| *v != 0.0))
         {
-            let help = "write the direction of the axis, as [0, 0, 1]";
-            return Err(self.reader.wrong(about.span().start, "an axis turns about a direction", help));
+            let help = "write the direction of the rotary axis, as [0, 0, 1]";
+            return Err(self.reader.wrong(about.span().start, "`about` must be a direction", help));
         }
         let said = Axis {
             travel: text.travel.as_ref().map(|travel| self.travel(at, travel)).transpose()?,
@@ -194,7 +198,7 @@ impl Lengths<'_> {
             && rapid < feed
         {
             let message = format!("the rapid of {letter} is slower than its fastest feed");
-            return Err(self.reader.wrong(place.span().start, message, "both count a minute: 25 m/min is 25000"));
+            return Err(self.reader.wrong(place.span().start, message, "both are per minute: 25 m/min is 25000"));
         }
         Ok(said)
     }
@@ -204,7 +208,8 @@ impl Lengths<'_> {
         let wrong = |message: String| {
             let form = if at < 3 { "[-762, 0]" } else { "[-120, 30], or \"endless\"" };
             let help = format!(
-                "write where it begins and ends in machine coordinates, as {form}; without it the travel of {letter} is not checked"
+                "write its limits in machine coordinates, as {form}; without them the travel of {letter} is not \
+                 checked"
             );
             self.reader.wrong(said.span().start, message, help)
         };
@@ -217,10 +222,10 @@ impl Lengths<'_> {
                         Ok(Travel::Between(least * self.factor(at), greatest * self.factor(at)))
                     }
                     [least, greatest] => Err(wrong(format!("the travel of {letter} goes from {least} to {greatest}"))),
-                    _ => Err(wrong(format!("the travel of {letter} is two numbers"))),
+                    _ => Err(wrong(format!("the travel of {letter} must be two numbers"))),
                 }
             }
-            _ => Err(wrong(format!("the travel of {letter} is two numbers"))),
+            _ => Err(wrong(format!("the travel of {letter} must be two numbers"))),
         }
     }
 
@@ -230,7 +235,7 @@ impl Lengths<'_> {
             match name.get_ref().as_str() {
                 "A" | "B" | "C" => rotary.order.extend(name.get_ref().chars()),
                 other => {
-                    let message = format!("`{other}` is no rotary axis");
+                    let message = format!("`{other}` is not a rotary axis");
                     return Err(self.reader.wrong(name.span().start, message, "a rotary axis is A, B or C"));
                 }
             }
@@ -246,15 +251,19 @@ impl Lengths<'_> {
         if values.iter().all(|value| value.is_finite()) {
             return Ok(values);
         }
-        Err(self.reader.wrong(said.span().start, "a position is numbers", "write them as [0, -100, 0]"))
+        Err(self.reader.wrong(
+            said.span().start,
+            "a position must be a list of numbers",
+            "write a position as [0, -100, 0]",
+        ))
     }
 
-    /// Positions of the axes in their order; those that are not there are not known.
+    /// Positions of the axes in their order; missing ones are unknown.
     fn list(&self, said: &Spanned<Vec<f64>>) -> Result<[Option<f64>; 6], Wrong> {
         let values = said.get_ref();
         if values.is_empty() || values.len() > 6 || values.iter().any(|value| !value.is_finite()) {
-            let help = "write X, Y, Z and, where there are, A, B, C: [-400, -210, -350]";
-            return Err(self.reader.wrong(said.span().start, "a position is up to six numbers", help));
+            let help = "write X, Y, Z and any of A, B, C: [-400, -210, -350]";
+            return Err(self.reader.wrong(said.span().start, "a position has at most six numbers", help));
         }
         Ok(std::array::from_fn(|axis| values.get(axis).map(|value| value * self.factor(axis))))
     }
@@ -271,7 +280,7 @@ impl Lengths<'_> {
             if let Some([least, greatest]) = limits.filter(|[least, greatest]| !(*least..=*greatest).contains(value)) {
                 let factor = self.factor(axis);
                 let message = format!(
-                    "{} goes to {}{}, and its travel is {} to {}",
+                    "{} goes to {}{}, but the travel is {} to {}",
                     if point == 0 { "G28" } else { "G30" },
                     LETTERS[axis],
                     value / factor,
@@ -302,23 +311,23 @@ impl Lengths<'_> {
                 ("places", _) => {
                     return Err(wrong(
                         start,
-                        "places is how many tools the magazine holds".into(),
-                        "write places = 20; without it they are not counted",
+                        "places must be the number of tools in the magazine".into(),
+                        "write places = 20; without it the number of tools is not checked",
                     ));
                 }
                 ("change", value) => {
                     machine.change = Some(number(value).filter(|seconds| *seconds >= 0.0).ok_or_else(|| {
-                        wrong(start, "change is the seconds of a tool change".into(), "write change = 4.2")
+                        wrong(start, "change must be the seconds of a tool change".into(), "write change = 4.2")
                     })?);
                 }
                 ("file", Value::String(name)) => {
                     let text =
-                        beside(name).map_err(|why| wrong(start, why, "the path counts from the machine's file"))?;
+                        beside(name).map_err(|why| wrong(start, why, "the path is relative to the machine's file"))?;
                     let read = tool_table::read(&text, self.scale).map_err(|(line, message)| {
                         let message = format!("{name}:{line}: {message}");
-                        wrong(start, message, "tables are tool.tbl of LinuxCNC, CSV, and lists of G10")
+                        wrong(start, message, "a table is a tool.tbl of LinuxCNC, a CSV file, or a list of G10 blocks")
                     })?;
-                    // what the machine's file says of a tool counts
+                    // the values in the machine's file override those of the table
                     for (number, entry) in read.0 {
                         table.0.entry(number).or_insert(entry);
                     }
@@ -331,15 +340,19 @@ impl Lengths<'_> {
                     })?;
                     let sizes = [tool.length, tool.diameter];
                     if sizes.iter().flatten().any(|size| !size.is_finite()) || tool.diameter.is_some_and(|d| d < 0.0) {
-                        return Err(wrong(start, format!("T{number} has no such size"), "write numbers"));
+                        return Err(wrong(
+                            start,
+                            format!("T{number}: this is not a length, a diameter or a name"),
+                            "write numbers",
+                        ));
                     }
                     let [length, diameter] = sizes.map(|size| size.map(|size| size * self.scale));
                     table.0.insert(number, Entry { length, diameter, name: tool.name, ..Entry::default() });
                     listed = true;
                 }
                 (other, _) => {
-                    let message = format!("`{}` is nothing of [tools]", other.escape_default());
-                    let help = "it has places, change, file, and tools by their numbers: [tools.5]";
+                    let message = format!("[tools] has no key `{}`", other.escape_default());
+                    let help = "its keys are places, change and file, and tools by number: [tools.5]";
                     return Err(wrong(key.span().start, message, help));
                 }
             }
@@ -353,14 +366,18 @@ impl Lengths<'_> {
         let corners = said.corners.get_ref();
         let [least, greatest] = [0, 1].map(|at| corners[at].map(|value| value * self.scale));
         if !(0..3).all(|axis| least[axis] < greatest[axis] && greatest[axis].is_finite() && least[axis].is_finite()) {
-            let help = "write its least X, Y, Z, then its greatest: [[-20, -20, -40], [0, 120, 15]]";
-            return Err(self.reader.wrong(said.corners.span().start, "the corners of a box count up", help));
+            let help = "write its smallest X, Y, Z, then its largest: [[-20, -20, -40], [0, 120, 15]]";
+            return Err(self.reader.wrong(
+                said.corners.span().start,
+                "the second corner of a box must be larger than the first",
+                help,
+            ));
         }
         Ok(Fixture { name: said.name.clone(), work, least, greatest })
     }
 }
 
-/// A finite number, with a point or without.
+/// A finite number, with or without a decimal point.
 fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(number) => Some(*number as f64),

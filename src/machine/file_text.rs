@@ -1,4 +1,4 @@
-//! The text of a machine file, as serde reads it.
+//! The structure of a machine file, as serde reads it.
 
 use std::collections::BTreeMap;
 

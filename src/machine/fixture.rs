@@ -1,11 +1,11 @@
-//! Boxes that no rapid may enter: clamps, vices.
+//! Boxes that no rapid may enter, such as clamps and vices.
 
 /// A box in a work offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
-    /// What the shop calls it.
+    /// Its name in the shop.
     pub name: Option<String>,
-    /// The work offset in which it stands, by its number.
+    /// The number of the work offset in which it is located.
     pub work: usize,
     /// Its least X, Y, Z, in millimetres.
     pub least: [f64; 3],
@@ -13,21 +13,21 @@ pub struct Fixture {
     pub greatest: [f64; 3],
 }
 
-/// A tool on its way: a cylinder over its tip.
+/// A tool on a straight path: a cylinder above its tip.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep {
-    /// Where its tip begins.
+    /// Start of the tip.
     pub from: [f64; 3],
-    /// Where it ends.
+    /// End of the tip.
     pub to: [f64; 3],
     /// Its radius.
     pub radius: f64,
-    /// How far it reaches up from the tip; endless where that is unknown: the spindle is above it.
+    /// Its height above the tip; endless if unknown, because the spindle is above it.
     pub length: f64,
 }
 
 impl Fixture {
-    /// Does a tool enter the box on a straight way? Touching is not entering.
+    /// Does a tool enter the box on a straight path? Touching is not entering.
     pub fn is_entered(&self, sweep: &Sweep) -> bool {
         let Some([begin, end]) = self.at_its_height(sweep) else { return false };
         let at = |part: f64| {
@@ -36,7 +36,7 @@ impl Fixture {
         self.distance(at(begin), at(end)) < sweep.radius.max(TOUCH)
     }
 
-    /// The part of the way on which the cylinder is as high as the box: from and to, of 1.
+    /// The part of the path on which the cylinder is at the height of the box: from and to, as fractions of the path.
     fn at_its_height(&self, sweep: &Sweep) -> Option<[f64; 2]> {
         let (mut begin, mut end) = (0.0f64, 1.0f64);
         let rise = sweep.to[2] - sweep.from[2];
@@ -60,7 +60,7 @@ impl Fixture {
         (begin <= end).then_some([begin, end])
     }
 
-    /// How near a straight way in X and Y comes to the box; 0 inside.
+    /// The least distance of a straight path in X and Y from the box; 0 if the path enters the box.
     fn distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let (least, greatest) = (&self.least, &self.greatest);
         if crosses(from, to, [least[0], least[1]], [greatest[0], greatest[1]]) {
@@ -77,10 +77,10 @@ impl Fixture {
     }
 }
 
-/// What counts as touching, in millimetres.
+/// Tolerance for touching, in millimetres.
 const TOUCH: f64 = 1e-6;
 
-/// Is a part of the way inside the box? By the parameters at which it enters and leaves each pair of sides.
+/// Is a part of the path inside the box? Computed from the parameters at which it enters and leaves each pair of sides.
 fn crosses(from: [f64; 2], to: [f64; 2], least: [f64; 2], greatest: [f64; 2]) -> bool {
     let (mut begin, mut end) = (0.0f64, 1.0f64);
     for axis in 0..2 {
@@ -98,7 +98,7 @@ fn crosses(from: [f64; 2], to: [f64; 2], least: [f64; 2], greatest: [f64; 2]) ->
     begin <= end
 }
 
-/// How far a point is from a way.
+/// The distance of a point from a path.
 fn to_way(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     let step = [to[0] - from[0], to[1] - from[1]];
     let length = step[0] * step[0] + step[1] * step[1];
@@ -120,13 +120,13 @@ mod tests {
     fn a_tool_is_a_cylinder_over_its_tip() {
         let over = 1e9;
         assert!(enters([-50.0, 5.0, 0.0], [50.0, 5.0, 0.0], 0.0, over));
-        assert!(!enters([-50.0, 5.0, 5.0], [50.0, 5.0, 5.0], 3.0, over), "on its top");
-        assert!(!enters([-50.0, 15.0, 0.0], [50.0, 15.0, 0.0], 5.0, over), "touches with its side");
+        assert!(!enters([-50.0, 5.0, 5.0], [50.0, 5.0, 5.0], 3.0, over), "on its top face");
+        assert!(!enters([-50.0, 15.0, 0.0], [50.0, 15.0, 0.0], 5.0, over), "touches with the side of the tool");
         assert!(enters([-50.0, 14.9, 0.0], [50.0, 14.9, 0.0], 5.0, over));
         // by a corner: 3, 4, 5
         assert!(!enters([23.0, 14.0, 0.0], [23.0, 14.0, -5.0], 4.99, over));
         assert!(enters([23.0, 14.0, 0.0], [23.0, 14.0, -5.0], 5.01, over));
-        // comes down beside it, and over it only where it is high
+        // comes down beside the box, then over it, first while still high
         assert!(!enters([10.0, 5.0, 20.0], [50.0, 5.0, -20.0], 1.0, over));
         assert!(enters([10.0, 5.0, 20.0], [20.0, 5.0, 0.0], 1.0, over));
         // a short tool far below goes under it

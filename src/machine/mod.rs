@@ -1,6 +1,6 @@
 //! A machine, as its file describes it: travels, offsets, tools, fixtures.
 //!
-//! Lengths are millimetres inside, whatever the file counts in. What a file does not say is not checked.
+//! Lengths are in millimetres internally, in any units of the file. A value that the file does not contain is not checked.
 
 mod axis;
 mod file;
@@ -29,52 +29,52 @@ pub use file::{Beside, read};
 /// A machine.
 #[derive(Clone, Debug, Default)]
 pub struct Machine {
-    /// What the shop calls it.
+    /// Its name in the shop.
     pub name: String,
-    /// Its control, where the file names one.
+    /// Its control, if the file names one.
     pub control: Option<&'static Control>,
-    /// In what messages about it count lengths.
+    /// The units of lengths in messages about it.
     pub units: Units,
-    /// It is a lathe whose X counts diameters, in the file and in messages; inside X is a radius.
+    /// It is a lathe whose X is a diameter in the file and in messages; internally X is a radius.
     pub by_diameter: bool,
-    /// X Y Z A B C, those that the file describes.
+    /// X Y Z A B C; only the axes in the file.
     pub axes: [Option<Axis>; 6],
-    /// How its control goes through corners, for times.
+    /// Its behaviour in corners, for times.
     pub corners: Corners,
-    /// Where the rotary axes turn, in machine coordinates.
+    /// The position of the rotary axes, in machine coordinates.
     pub rotary: Option<Rotary>,
-    /// Where G28 and G30 go, in machine coordinates: millimetres and degrees.
+    /// Targets of G28 and G30, in machine coordinates: millimetres and degrees.
     pub references: [Option<[f64; 6]>; 2],
-    /// Least and greatest speed of the spindle, in revolutions a minute.
+    /// Least and greatest spindle speed, in revolutions per minute.
     pub speeds: Option<[f64; 2]>,
-    /// Seconds from standing to the highest speed.
+    /// Seconds from standstill to the highest speed.
     pub spin_up: Option<f64>,
-    /// How many tools its magazine holds.
+    /// Number of tool places in its magazine.
     pub places: Option<u32>,
     /// Seconds of a tool change, from chip to chip.
     pub change: Option<f64>,
-    /// Its tools, where the file or one that it names lists them.
+    /// Its tools, if the file or a file that it names lists them.
     pub tools: Option<ToolTable>,
-    /// Its work offsets by their numbers, as `offsets::number` counts them: G54 is 1, the first additional one 10.
+    /// Its work offsets by their numbers in `offsets::number`: G54 is 1, the first additional one is 10.
     pub offsets: Option<BTreeMap<usize, [Option<f64>; 6]>>,
     /// The kinds of coolant that it has.
     pub coolant: Option<Vec<Coolant>>,
-    /// How many bytes of a program its control stores.
+    /// Size of the program memory of its control, in bytes.
     pub bytes: Option<u64>,
     /// The least and greatest program number.
     pub numbers: Option<[u32; 2]>,
-    /// What no rapid may enter.
+    /// Boxes that no rapid may enter.
     pub fixtures: Vec<Fixture>,
 }
 
-/// The rotary axes: read and checked, and used where planes are.
+/// The rotary axes: read and checked, and used for planes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rotary {
-    /// Letters of the axes, first the one nearest the machine's frame.
+    /// Letters of the axes, beginning with the axis nearest to the machine's frame.
     pub order: Vec<char>,
-    /// Where they meet, in machine coordinates, millimetres.
+    /// Their intersection, in machine coordinates, in millimetres.
     pub centre: [f64; 3],
-    /// The control keeps the tip of the tool while they turn.
+    /// The control keeps the tool tip in position while they turn.
     pub tip_control: bool,
 }
 
@@ -90,7 +90,7 @@ pub enum Coolant {
 }
 
 impl Coolant {
-    /// Its name, as files write it.
+    /// Its name in files.
     pub fn name(self) -> &'static str {
         match self {
             Coolant::Flood => "flood",
@@ -118,13 +118,13 @@ impl Machine {
         }
     }
 
-    /// The work offset with this number; `None` for one, or for an axis of it, that the file does not give.
+    /// The work offset with this number; `None` for an offset or an axis that the file does not contain.
     pub fn offset(&self, number: usize) -> Option<&[Option<f64>; 6]> {
         self.offsets.as_ref()?.get(&number)
     }
 }
 
-/// A number without needless zeros; `parts`: how many parts of one are shown.
+/// A number without needless zeros; `parts` is the number of parts of one that are shown.
 fn short(value: f64, parts: f64) -> String {
     format!("{}", (value * parts).round() / parts + 0.0)
 }

@@ -5,20 +5,20 @@ use crate::control::{Code, Control, Meaning, WorkOffset};
 /// The names of the usual offsets, in their order.
 const USUAL: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
 
-/// Those of them that have a part after the point, as G59.1, in tenths.
+/// Those with a part after the point, such as G59.1, in tenths.
 const USUAL_PARTS: [u16; 4] = [541, 591, 592, 593];
 
-/// How many additional offsets there may be.
+/// Maximum number of additional offsets.
 const ADDITIONAL: usize = WorkOffset::MOST as usize;
 
-/// The number of an offset by the name that this control gives it: G54 is 1, the first additional one 10; those of controls that
-/// count their offsets are as they count them. `None`: it has no such offset.
+/// The number of an offset by its name on this control: G54 is 1, the first additional one is 10. A control that numbers its
+/// offsets keeps its own numbers. `None`: it has no such offset.
 pub fn number(control: &Control, text: &str) -> Option<usize> {
     let text = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
     (1..=USUAL.len() + ADDITIONAL).find(|number| names(control, *number).contains(&text))
 }
 
-/// The name of an offset, as programs of this control write it.
+/// The name of an offset in programs of this control.
 pub fn name(control: &Control, number: usize) -> String {
     names(control, number).swap_remove(0)
 }
@@ -41,7 +41,7 @@ fn names(control: &Control, number: usize) -> Vec<String> {
             _ => {}
         }
     }
-    // the name that other controls know comes last, where the control has its own
+    // the control's own name comes first, the name on other controls last
     names.sort_by_key(|name| name.starts_with("G54.1 "));
     if names.is_empty() {
         names.push(USUAL.get(number.wrapping_sub(1)).map_or(format!("G54.1 P{additional}"), |name| (*name).to_owned()));
@@ -49,7 +49,7 @@ fn names(control: &Control, number: usize) -> Vec<String> {
     names
 }
 
-/// The letter of a control that counts its offsets: a FADAL's E, an Okuma's H.
+/// The letter of the offset number on a control that numbers its offsets: E on a FADAL, H on an Okuma.
 fn counted(control: &Control) -> Option<u8> {
     let by_code = || {
         [150, 2470].into_iter().find_map(|tenths| match control.row(Code { letter: b'G', tenths })?.runs.work? {

@@ -1,30 +1,30 @@
-//! How fast a machine moves, for the times of programs.
+//! The speeds of a machine, for the times of programs.
 
 use super::{LETTERS, Machine};
 use crate::control::{Control, Rules};
 use crate::times::{AxisRates, Corner, PathMode, Rates};
 
-/// How far a path may leave a corner where the file does not say: Grbl's own `$11`, in millimetres.
+/// How far a path may leave a corner if the file contains no value: Grbl's own `$11`, in millimetres.
 const DEVIATION: f64 = 0.01;
-/// Blocks that Grbl has in its planner: its ring of 16 has one that is free.
+/// Number of blocks in Grbl's planner: one block of its ring of 16 stays free.
 const GRBL_AHEAD: usize = 15;
-/// Blocks of other controls, where the file does not say. We decided that.
+/// Number of blocks on other controls if the file contains none: our own choice.
 const AHEAD: usize = 200;
 
-/// How a control goes through corners.
+/// The behaviour of a control in corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Corners {
     /// How far the path may leave a corner, in millimetres.
     pub deviation: Option<f64>,
-    /// Over how many blocks the control plans.
+    /// Number of blocks that the control plans ahead.
     pub ahead: Option<usize>,
 }
 
 impl Machine {
-    /// How fast it is, with its accelerations.
+    /// Speeds and accelerations.
     ///
     /// # Errors
-    /// What the file does not give of them, in words.
+    /// The missing values, in words.
     pub fn rates(&self) -> Result<Rates, String> {
         let missing = |what: &str, of: fn(&super::Axis) -> Option<f64>| {
             let lacks = |axis: &usize| self.axes[*axis].as_ref().is_some_and(|axis| of(axis).is_none());
@@ -50,7 +50,7 @@ impl Machine {
         let rules = self.control.map(Control::rules);
         let ahead = self.corners.ahead.unwrap_or(if rules == Some(Rules::Grbl) { GRBL_AHEAD } else { AHEAD });
         let corner = match (rules, self.corners.deviation) {
-            // until the program says how exactly
+            // until the program specifies the accuracy
             (Some(Rules::Linuxcnc | Rules::Emc2), tolerance) => Corner::Linuxcnc(PathMode::Blend(tolerance)),
             (_, deviation) => Corner::Deviation(deviation.unwrap_or(DEVIATION)),
         };

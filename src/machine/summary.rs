@@ -1,14 +1,14 @@
-//! What a machine's file says, and what it leaves unchecked.
+//! A text about a machine's file: its values, and the checks that it leaves out.
 
 use std::fmt::Write as _;
 
 use super::{Axis, LETTERS, Machine, Travel};
 
-/// What is known of a machine, for people.
+/// The known values of a machine, for people.
 pub fn summary(machine: &Machine) -> String {
     let mut text = String::new();
     let mut missing: Vec<String> = Vec::new();
-    let control = machine.control.map_or("not said", |control| control.name());
+    let control = machine.control.map_or("not given", |control| control.name());
     _ = writeln!(text, "{}, {}, control {control}", machine.name, machine.units.name());
     for (axis, described) in machine.axes.iter().enumerate() {
         let letter = LETTERS[axis];
@@ -35,7 +35,7 @@ pub fn summary(machine: &Machine) -> String {
                 let at: Vec<String> = (0..3).map(|axis| machine.at(axis, at[axis])).collect();
                 _ = writeln!(text, "  {name} at {}", at.join(", "));
             }
-            None => missing.push(format!("where {name} goes")),
+            None => missing.push(format!("the position of {name}")),
         }
     }
     match machine.speeds {
@@ -44,20 +44,20 @@ pub fn summary(machine: &Machine) -> String {
     }
     match machine.places {
         Some(places) => _ = writeln!(text, "  {places} places for tools"),
-        None => missing.push("how many tools there are places for".into()),
+        None => missing.push("the number of places for tools".into()),
     }
     match &machine.tools {
         Some(table) => {
             let measured = table.0.values().filter(|entry| entry.length.is_some()).count();
             _ = writeln!(text, "  {} tools, {measured} with a length", table.0.len());
         }
-        None => missing.push("the tools: their lengths are not known, the interval is said".into()),
+        None => missing.push("the tool lengths: unknown; the allowed interval is printed".into()),
     }
     match &machine.offsets {
         Some(offsets) => {
             let control = machine.control.unwrap_or_else(crate::control::Control::usual);
             for (number, at) in offsets {
-                let value = |axis: usize| at[axis].map_or("not said".to_owned(), |value| machine.at(axis, value));
+                let value = |axis: usize| at[axis].map_or("not given".to_owned(), |value| machine.at(axis, value));
                 let lathe = [0, 2];
                 let axes = if machine.by_diameter { &lathe[..] } else { &[0, 1, 2] };
                 let values: Vec<String> =
@@ -65,7 +65,7 @@ pub fn summary(machine: &Machine) -> String {
                 _ = writeln!(text, "  {} at {}", super::offsets::name(control, *number), values.join(" "));
             }
         }
-        None => missing.push("the work offsets: the interval is said".into()),
+        None => missing.push("the work offsets: unknown; the allowed interval is printed".into()),
     }
     match &machine.coolant {
         Some(kinds) => {

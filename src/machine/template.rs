@@ -1,4 +1,4 @@
-//! The file that `new --machine` writes.
+//! The machine file that `new --machine` writes.
 
 use crate::control::Control;
 
@@ -7,13 +7,13 @@ pub fn template(control: &Control) -> String {
     let offset = super::offsets::name(control, 1);
     let further = super::offsets::name(control, 10);
     let whole = format!(
-        "# A machine. What this file does not say is not checked: `postform machine check FILE` lists it.
+        "# A machine. Only values in this file are checked: `postform machine check FILE` lists the missing ones.
 # Take the # from a line and write your machine's own value; the values here are examples.
 name = \"my machine\"
 control = \"{name}\"
-units = \"mm\"                        # of all lengths in this file: mm or inch
+units = \"mm\"                        # units of all lengths in this file: mm or inch
 
-# machine coordinates, as the control shows them after it went home
+# machine coordinates, as the control shows them after homing
 [axes.X]
 # travel = [-762.0, 0.0]
 # rapid = 25400                      # a minute
@@ -29,7 +29,7 @@ units = \"mm\"                        # of all lengths in this file: mm or inch
 # about = [1, 0, 0]
 
 [corners]                            # for times
-# deviation = 0.01                   # how far the path may leave a corner; $11 of Grbl
+# deviation = 0.01                   # largest distance of the path from a corner; $11 of Grbl
 # ahead = 200                        # blocks that the control plans ahead; Grbl has 15
 
 [reference]
@@ -49,7 +49,7 @@ units = \"mm\"                        # of all lengths in this file: mm or inch
 # diameter = 10
 # name = \"drill 10\"
 
-# [offsets]                          # where the zero of the part is, in machine coordinates
+# [offsets]                          # zero points of the part, in machine coordinates
 # {offset} = [-400.0, -210.0, -350.0]
 # \"{further}\" = [-600.0, -210.0, -350.0]
 
@@ -70,7 +70,7 @@ units = \"mm\"                        # of all lengths in this file: mm or inch
     if !control.is_lathe() {
         return whole;
     }
-    // X counts diameters, and there is no Y
+    // X is a diameter, and there is no Y
     let whole = whole.replace("[axes.Y]\n# travel = [-406.0, 0.0]\n", "");
     let whole = whole.replace(
         "[axes.X]\n",

@@ -1,4 +1,4 @@
-//! Tables of tools: of LinuxCNC, as CSV, and lists of G10 as Haas and Fanuc print them.
+//! Tool tables: LinuxCNC tables, CSV tables, and lists of G10 as Haas and Fanuc print them.
 
 use std::collections::BTreeMap;
 
@@ -7,33 +7,33 @@ use std::collections::BTreeMap;
 pub struct ToolTable(pub BTreeMap<u32, Entry>);
 
 impl ToolTable {
-    /// The length of a register, which has the number of its tool; taken off where the register is negative.
+    /// The length in a register, which has the number of its tool; negated if the register is negative.
     pub fn length(&self, register: i32) -> Option<f64> {
         let length = self.0.get(&register.unsigned_abs())?.length?;
         Some(if register < 0 { -length } else { length })
     }
 }
 
-/// What a table says of a tool, in millimetres.
+/// The values of a tool in a table, in millimetres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Entry {
-    /// From the gauge line to the tip; what G43 adds.
+    /// From the gauge line to the tip: the value that G43 adds.
     pub length: Option<f64>,
     /// Its diameter.
     pub diameter: Option<f64>,
-    /// What the shop calls it.
+    /// Its name in the shop.
     pub name: Option<String>,
-    /// How far its tip is beside the spindle along X and Y, by LinuxCNC's table.
+    /// Offset of its tip from the spindle along X and Y, in LinuxCNC's table.
     pub aside: [f64; 2],
 }
 
-/// What is wrong with a table: the line from 1, and what.
+/// An error in a table: the line from 1, and the reason.
 pub type Wrong = (usize, String);
 
-/// Reads a table in the format that its text shows; `scale`: millimetres of a unit of the table.
+/// Reads a table in the format that its text shows; `scale` is the number of millimetres in a unit of the table.
 ///
 /// # Errors
-/// The line and what is wrong with it.
+/// The line and the reason.
 pub fn read(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines =
@@ -65,7 +65,7 @@ fn linuxcnc<'t>(lines: impl Iterator<Item = (usize, &'t str)>, scale: f64) -> Re
             let letter = chars.next().map_or(' ', |letter| letter.to_ascii_uppercase());
             let value = chars.as_str();
             let length = || value.parse().ok().filter(|value: &f64| value.is_finite()).map(|value| value * scale);
-            let wrong = || (at, format!("`{word}` is no word of a tool table"));
+            let wrong = || (at, format!("`{word}` can't be in a tool table"));
             match letter {
                 'T' => number = Some(value.parse::<u32>().map_err(|_| wrong())?),
                 'Z' => entry.length = Some(length().ok_or_else(wrong)?),
@@ -90,7 +90,7 @@ fn linuxcnc<'t>(lines: impl Iterator<Item = (usize, &'t str)>, scale: f64) -> Re
     Ok(table)
 }
 
-/// A head that names the columns: `number,length,diameter,name`; a semicolon or a tab may separate.
+/// Reads a table whose head names the columns: `number,length,diameter,name`. The separator may also be a semicolon or a tab.
 fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<ToolTable, Wrong> {
     let mut table = ToolTable::default();
     let Some((at, head)) = lines.next() else { return Ok(table) };
@@ -99,7 +99,7 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
     let head: Vec<String> = cells(head).iter().map(|cell| cell.to_ascii_lowercase()).collect();
     let column = |names: &[&str]| head.iter().position(|cell| names.contains(&cell.as_str()));
     let Some(number) = column(&["number", "tool", "t", "no", "nr"]) else {
-        let message = "no table of tools: its first line names no column `number`; write number,length,diameter,name";
+        let message = "not a tool table: its first line has no column `number`; write number,length,diameter,name";
         return Err((at, message.into()));
     };
     let (length, diameter) = (column(&["length", "z", "h", "height"]), column(&["diameter", "d", "dia"]));
@@ -110,15 +110,15 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
         let value = |column: Option<usize>, what: &str| match cell(column) {
             None => Ok(None),
             Some(text) => {
-                // 12,5 where semicolons separate
+                // decimal commas such as 12,5 in a table with semicolons
                 let text = if between == ',' { text.clone() } else { text.replace(',', ".") };
                 let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-                value.map(|value| Some(value * scale)).ok_or_else(|| (at, format!("`{text}` is no {what}")))
+                value.map(|value| Some(value * scale)).ok_or_else(|| (at, format!("`{text}` is not a {what}")))
             }
         };
-        let Some(text) = cell(Some(number)) else { return Err((at, "a tool without its number".into())) };
+        let Some(text) = cell(Some(number)) else { return Err((at, "a tool without a number".into())) };
         let digits = text.trim_start_matches(['T', 't']);
-        let number = digits.parse::<u32>().map_err(|_| (at, format!("`{text}` is no number of a tool")))?;
+        let number = digits.parse::<u32>().map_err(|_| (at, format!("`{text}` is not a tool number")))?;
         let entry = Entry {
             length: value(length, "length")?,
             diameter: value(diameter, "diameter")?,
@@ -130,13 +130,13 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
     Ok(table)
 }
 
-/// A cell without the quotation marks around it; one alone, as that of inches, stays.
+/// A cell without the quotation marks around it; a single mark, such as an inch mark, stays.
 fn unquoted(cell: &str) -> &str {
     cell.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(cell)
 }
 
-/// `G10 L10 P5 R123.4` lengths, `L12` radii or diameters as the list says nothing of: lengths alone are taken. `L11` and `L13`
-/// are wear, which is added to the length.
+/// Reads the lengths in `G10 L10 P5 R123.4`. `L12` is skipped, because the list does not show whether it is a radius or a
+/// diameter. `L11` and `L13` are wear, which is added to the length.
 fn g10(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
     let mut table = ToolTable::default();
     let mut wear: BTreeMap<u32, f64> = BTreeMap::new();
@@ -154,7 +154,7 @@ fn g10(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
             return Err((at, "G10 of a tool without L, P or R".into()));
         };
         if p.fract() != 0.0 || !(1.0..=9999.0).contains(&p) {
-            return Err((at, format!("P{p} is no number of a tool")));
+            return Err((at, format!("P{p} is not a tool number")));
         }
         let number = p as u32;
         match l as u32 {
@@ -174,7 +174,7 @@ fn g10(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
 fn put(table: &mut ToolTable, number: u32, entry: Entry, at: usize) -> Result<(), Wrong> {
     match table.0.insert(number, entry) {
         None => Ok(()),
-        Some(_) => Err((at, format!("T{number} is there twice"))),
+        Some(_) => Err((at, format!("T{number} is in the table twice"))),
     }
 }
 
@@ -205,7 +205,7 @@ mod tests {
             ("T1 Z1\nT1 Z2\n", 2, "twice"),
             ("number,length\n1,2\n2,nan\n", 3, "`nan`"),
             ("a,b\n1,2\n", 1, "number"),
-            ("number,length\n1,4\"\n", 2, "`4\"` is no length"),
+            ("number,length\n1,4\"\n", 2, "`4\"` is not a length"),
             ("number\n\u{a1}\n", 2, "`\u{a1}`"),
             ("G10 L10 P1\n", 1, "without"),
             ("T1 \u{a1}5\n", 1, "`\u{a1}5`"),

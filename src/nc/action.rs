@@ -1,9 +1,9 @@
-//! What a machine does when it runs a program.
+//! The actions of a machine that runs a program.
 
 use crate::control::{Code, Meaning, Motions, Row};
 use crate::toolpath::{Direction, FeedMode, Plane, Side, StopKind, Units};
 
-/// X Y Z A B C in program coordinates and the program's units; degrees for the angles.
+/// X Y Z A B C in program coordinates: lengths in the program's units, angles in degrees.
 pub type Position = [f64; 6];
 
 /// One action with its block.
@@ -11,9 +11,9 @@ pub type Position = [f64; 6];
 pub struct Item {
     /// Line of the program, from 1.
     pub line: u64,
-    /// A canned cycle makes it.
+    /// Whether a canned cycle makes the action.
     pub by_cycle: bool,
-    /// What the block does.
+    /// The action itself.
     pub action: Action,
 }
 
@@ -24,11 +24,12 @@ pub enum Action {
     Rapid {
         /// End of the move.
         to: Position,
-        /// Axes that stand at a place in machine coordinates, as bits: where that is in the work is known only there.
+        /// Axes whose end is a position in machine coordinates, as bits. Their position in the work is known only at the
+        /// machine.
         machine: u8,
-        /// Those of them that increments have moved since, so that their position is unknown.
+        /// Those of the `machine` axes that have since moved by increments, so that their position is unknown.
         astray: u8,
-        /// Those of them whose place in machine coordinates the program says, by G28 or G53.
+        /// Those of the `machine` axes whose machine position is given in the program, by G28 or G53.
         placed: u8,
     },
     /// A straight feed move.
@@ -37,18 +38,18 @@ pub enum Action {
         to: Position,
         /// The feed, in the feed mode's unit.
         feed: f64,
-        /// Feed follows the spindle, by so much a turn: threads.
+        /// For a thread: the feed per turn of the spindle, which the feed follows.
         lead: Option<f64>,
-        /// Axes whose position only the machine knows, as bits.
+        /// Axes whose position is known only at the machine, as bits.
         machine: u8,
-        /// Those of them that this move takes to a place in machine coordinates (G53 under G1).
+        /// Those of the `machine` axes that this move takes to a machine position (G53 under G1).
         home: u8,
     },
     /// An arc or helix at feed.
     Arc(Turn),
     /// A dwell in seconds.
     Dwell(f64),
-    /// The spindle is switched: direction and speed, in revolutions a minute or the surface speed's unit.
+    /// The spindle is switched: direction, and speed in revolutions per minute or in the unit of the surface speed.
     Spindle(Rotation, f64),
     /// The spindle is stopped at an angle.
     Orient(f64),
@@ -60,75 +61,75 @@ pub enum Action {
     Tool(f64),
     /// Coolant: flood, mist or off.
     Coolant(Cooling),
-    /// Units from here on.
+    /// The units from here on.
     Units(Units),
-    /// What feeds count from here on.
+    /// The feed mode from here on.
     FeedMode(FeedMode),
     /// The plane of arcs, cycles and compensation.
     Plane(Plane),
-    /// Work offset, as 54, 59.1, or 1540 + the number of a Haas.
+    /// Work offset: 54, 59.1, or 1540 + the number for a Haas.
     Work(f64),
-    /// Tool length offset by its register; `None` without.
+    /// Tool length offset by its register; `None`: off.
     Length(Option<f64>),
     /// Cutter compensation: its side and register; `None`: off.
     Compensation(Option<(Side, Option<f64>)>),
-    /// Surface speed instead of revolutions.
+    /// Constant surface speed; `None`: revolutions per minute.
     SurfaceSpeed(Option<f64>),
     /// Highest speed of the spindle.
     SpeedLimit(f64),
     /// The coordinate frame was moved by G10, G52 or G92.
     Frame,
-    /// A hole of a canned cycle; its moves follow.
+    /// A hole of a canned cycle. Its moves follow as actions.
     Hole(Box<Drilling>),
     /// How the next moves cut a thread.
     Threading(Threading),
-    /// A thread in passes; its moves follow.
+    /// A thread in passes. Its moves follow as actions.
     Passes(Box<Passes>),
     /// The cycle is no longer in force.
     CycleOff,
-    /// Text of a comment, by its columns in the line.
+    /// A comment: its first and last column in the line.
     Comment(usize, usize),
-    /// A code that moves nothing and that is not simulated, as M10 or G8, with what it means.
+    /// A code with its meaning that moves nothing and is not simulated, such as M10 or G8.
     LeftOut(Code, Meaning),
-    /// The block has a slash, and is run.
+    /// The block begins with a slash and is run.
     BlockDelete,
 }
 
-/// What a lathe's thread says besides its moves.
+/// Data of a lathe's thread besides its moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Threading {
-    /// Where on its turn the spindle is when the cut begins, in degrees from its mark.
+    /// Angle of the spindle from its mark when the cut begins, in degrees.
     pub start: f64,
-    /// The angle of the flanks, along which the passes go in, in degrees.
+    /// The angle of the flanks in degrees. The infeed of the passes follows the flanks.
     pub flanks: f64,
-    /// How far from the end the tool begins to leave the thread, in leads.
+    /// Distance before the end at which the tool begins to leave the thread, in leads.
     pub pull_out: f64,
 }
 
-/// A thread in passes, as G76 of a lathe. Positions are a radius and Z, in the units in force.
+/// A thread in passes, such as G76 of a lathe. Positions are a radius and Z, in the units in force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passes {
-    /// The crest where the thread begins.
+    /// Start of the thread at its crest.
     pub from: [f64; 2],
-    /// The crest where it ends.
+    /// End of the thread at its crest.
     pub to: [f64; 2],
-    /// The distance of one turn, as the feed mode counts it.
+    /// Distance per turn of the spindle, in the unit of the feed mode.
     pub lead: f64,
-    /// Its height, on the radius; negative for an inner thread.
+    /// Height of the thread, on the radius; negative for an internal thread.
     pub depth: f64,
-    /// The first cut, on the radius.
+    /// Depth of the first cut, on the radius.
     pub first: f64,
-    /// The least cut, on the radius.
+    /// Smallest cut, on the radius.
     pub least: f64,
-    /// What is left for the last cut, on the radius.
+    /// Allowance for the last cut, on the radius.
     pub allowance: f64,
-    /// Passes at the full depth after those that the cuts make.
+    /// Number of passes at full depth after the regular cuts.
     pub last: u32,
-    /// The radius at the start less that at the end.
+    /// The radius at the start minus the radius at the end.
     pub taper: f64,
 }
 
-/// What the spindle does.
+/// Rotation of the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Rotation {
@@ -182,57 +183,56 @@ impl Cooling {
 pub struct Turn {
     /// End of the arc.
     pub to: Position,
-    /// Centre of the arc, X Y Z; the plane's third coordinate is that of the start.
+    /// Centre of the arc, X Y Z. Its coordinate across the plane is that of the start.
     pub center: [f64; 3],
     /// The plane of the arc.
     pub plane: Plane,
-    /// Direction of the arc, seen from the plane's positive third axis.
+    /// Direction of the arc, seen from the positive end of the axis across the plane.
     pub direction: Direction,
-    /// Full turns before the end is reached for good.
+    /// Full turns before the arc stops at its end.
     pub turns: u32,
     /// Feed of the arc, in the feed mode's unit.
     pub feed: f64,
-    /// Axes of its end whose position only the machine knows, as bits.
+    /// Axes of the end whose position is known only at the machine, as bits.
     pub machine: u8,
 }
 
-/// Which heights of a hole the program gives; the others only the machine knows.
+/// Which heights of a hole are given in the program. The others are known only at the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {
-    /// All of them.
+    /// All heights.
     #[default]
     Given,
-    /// All but the level to which it returns.
+    /// All heights except the return level.
     ButClear,
-    /// None: they are increments from a place of the machine.
+    /// None: the heights are increments from a machine position.
     Unknown,
 }
 
 /// The code of a canned cycle, and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// As the program has it.
+    /// The code as in the program.
     pub code: Code,
-    /// What the tool does.
+    /// The motions of the tool.
     pub motions: Motions,
-    /// It dwells at the bottom.
+    /// Whether the tool dwells at the bottom.
     pub dwells: bool,
 }
 
 impl Cycle {
-    /// The cycle of a row that is run; `None`: the row is none.
+    /// The cycle of a row of the code table; `None`: the row is not a cycle.
     pub fn of(row: &Row) -> Option<Cycle> {
         Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells() })
     }
 }
 
-/// A hole of a control's canned cycle: all its words, resolved.
+/// A hole of a canned cycle with all its words resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drilling {
-    /// The cycle that makes it.
+    /// The cycle of the hole.
     pub cycle: Cycle,
-    /// The place over the hole, at the height of the clear level; while the cycle is worked out the height does not
-    /// count.
+    /// The position above the hole, at the clear level. The height is ignored while the cycle is being resolved.
     pub at: Position,
     /// The plane across the hole.
     pub plane: Plane,
@@ -240,18 +240,18 @@ pub struct Drilling {
     pub r: f64,
     /// Height of the bottom, as a position of the depth axis.
     pub bottom: f64,
-    /// Where the tool goes back to.
+    /// Return level of the tool.
     pub clear: f64,
     /// Dwell at the bottom in seconds.
     pub dwell: f64,
-    /// Depth of a peck, a length.
+    /// Length of a peck.
     pub peck: f64,
-    /// Shift of boring cycles in the plane.
+    /// Shift of a boring cycle in the plane.
     pub shift: [f64; 2],
-    /// Where a back bore ends.
+    /// Height at which a back bore ends.
     pub level: f64,
     /// Feed into the hole, in the feed mode's unit.
     pub feed: f64,
-    /// Which of its heights the program gives.
+    /// Which of the heights are given in the program.
     pub heights: Heights,
 }

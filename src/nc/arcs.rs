@@ -10,7 +10,7 @@ use crate::control::Tolerance;
 use crate::diag::Code;
 use crate::toolpath::{Direction, Plane, Units};
 
-/// Axes of a plane: first, second, and the one across; their centre letters.
+/// The axes of a plane as indexes: first, second, and the axis across the plane.
 pub(crate) fn axes_of(plane: Plane) -> [usize; 3] {
     match plane {
         Plane::Xy => [0, 1, 2],
@@ -50,12 +50,15 @@ impl State {
             (None, words) => {
                 for (axis, word) in [first, second].into_iter().zip(words) {
                     if !self.modes.centers_known {
-                        let message =
-                            format!("the file of {} does not say from where I and J count", self.control.name());
+                        let message = format!(
+                            "the control file of {} does not give the origin of I and J (incremental or \
+                                absolute)",
+                            self.control.name()
+                        );
                         return refuse(
                             Code::PN016,
                             message,
-                            "write G91.1 before the first arc, or G90.1 where they are positions",
+                            "write G91.1 before the first arc, or G90.1 if they are absolute",
                         );
                     }
                     if self.modes.centers_absolute {
@@ -72,17 +75,17 @@ impl State {
             }
         }
         if block.get(CENTERS[across]).is_some() {
-            let message = format!("{} does not belong to this plane", char::from(CENTERS[across]));
+            let message = format!("{} is not a centre word of this plane", char::from(CENTERS[across]));
             return refuse(Code::PN009, message, "write the centre in the letters of the plane, or change the plane");
         }
         let turns = match block.get(b'P') {
             None => f64::from(block.turns + 1),
             Some(p) if p.fract() == 0.0 && (1.0..=1e6).contains(&p) && self.control.is_linuxcnc() => p,
             Some(p) => {
-                return refuse(Code::PN018, format!("an arc with P{p}"), "P counts whole turns, of LinuxCNC only");
+                return refuse(Code::PN018, format!("an arc with P{p}"), "only LinuxCNC has P, the number of turns");
             }
         };
-        // less than a turn, unless it ends where it begins
+        // after these turns, the arc sweeps less than a full turn unless it ends where it begins
         let machine = self.place.at_machine;
         let turn = Turn { to, center, plane: self.modes.plane, direction, turns: turns as u32 - 1, feed, machine };
         self.place.position = to;
@@ -101,20 +104,20 @@ impl State {
         let (start, end) = (radius(&from), radius(&to));
         if start == 0.0 || self.arc_tolerance().refuses(start, end) {
             let message = format!("the arc begins at radius {start:.5} and ends at {end:.5}");
-            return refuse(Code::PN009, message, "look at its end, its centre, and G90.1 or G91.1");
+            return refuse(Code::PN009, message, "check the end, the centre, and G90.1 or G91.1");
         }
         Ok(())
     }
 }
 
-/// The centre of an arc by its radius, negative for the longer way.
+/// The centre of an arc from its radius. A negative radius means the longer way round.
 ///
-/// `slack`: so much may it be too short.
+/// `slack`: the amount by which the radius may be too short.
 pub(super) fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, slack: f64) -> Done<[f64; 2]> {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let chord = dx.hypot(dy);
     if chord == 0.0 {
-        return refuse(Code::PN009, "a full circle by R", "write its centre: any circle goes through one point");
+        return refuse(Code::PN009, "a full circle with R", "write its centre: R does not define a full circle");
     }
     let half = chord / 2.0;
     if half > radius.abs() + slack {
@@ -122,7 +125,7 @@ pub(super) fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Di
         return refuse(Code::PN009, message, format!("R must be at least {half:.5}"));
     }
     let height = (radius * radius - half * half).max(0.0).sqrt();
-    // left of the chord for the shorter way round counter-clockwise
+    // the centre is on the left of the chord if the shorter way round is counter-clockwise
     let left = (direction == Direction::Ccw) == (radius > 0.0);
     let side = if left { 1.0 } else { -1.0 };
     Ok([from[0] + dx / 2.0 - side * height * dy / chord, from[1] + dy / 2.0 + side * height * dx / chord])

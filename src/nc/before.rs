@@ -1,4 +1,4 @@
-//! What is said of a program before its first block, and asked of the block that was run last.
+//! Data that a simulator gets before the first block, and questions about the block that was run last.
 
 use super::action::Position;
 use super::codes::Group;
@@ -9,24 +9,25 @@ use super::state::State;
 use crate::control::{Control, Meaning};
 
 impl Simulator<'_> {
-    /// The program counts in these units until it says others; before the first block.
+    /// Sets the units that are in force until the program sets its own. Call this before the first block.
     pub fn begin_in(&mut self, units: crate::toolpath::Units) {
         self.state.begin_in(units);
     }
 
-    /// The machine has these work offsets, by their numbers, and goes to these positions by G28 and G30: machine coordinates in
-    /// millimetres and degrees; before the first block.
+    /// Sets the machine's work offsets by number, and its positions for G28 and G30, in machine coordinates (millimetres
+    /// and degrees). Call this before the first block.
     pub fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         self.state.begin_on(offsets, homes);
     }
 
-    /// So many programs stand before the main one, as subprograms that the control knows; before the first block.
+    /// Sets how many programs come before the main one. They are subprograms of the control. Call this before the first
+    /// block.
     pub fn begin_behind(&mut self, programs: usize) {
         self.passing = if programs == 0 { 0 } else { programs + 1 };
     }
 
-    /// The program is a lathe's, and its control is the lathe of its maker; before the first block. Whether X is a diameter is
-    /// a parameter of such a machine; LinuxCNC says it by G7.
+    /// Runs the program as a lathe program, with the lathe control of the same maker. Call this before the first block. A
+    /// machine parameter decides whether X is a diameter; on LinuxCNC, G7 does.
     pub fn is_of_lathe(&mut self, by_diameter: bool) {
         let units = self.state.units();
         let control = self.state.settings.control.of_lathe();
@@ -35,7 +36,7 @@ impl Simulator<'_> {
         self.parameters = Parameters::new(control);
     }
 
-    /// The program is a wire EDM machine's, and its control is that of its maker; before the first block.
+    /// Runs the program as a wire EDM program, with the wire control of the same maker. Call this before the first block.
     pub fn is_of_wire(&mut self) {
         let units = self.state.units();
         let control = self.state.settings.control.of_wire();
@@ -44,53 +45,53 @@ impl Simulator<'_> {
         self.parameters = Parameters::new(control);
     }
 
-    /// To which reference point the block that was run last goes: 0 is that of G28, 1 that of G30.
+    /// The reference point that the last block moves to: 0 is the point of G28, 1 that of G30.
     pub fn reference_point(&self) -> Option<usize> {
         let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference)?;
         Some(usize::from(row.runs.point == Some(2)))
     }
 
-    /// How far a path may leave its corners, by P of the block that was run last.
+    /// How far the path may deviate from its corners, from P of the last block.
     pub fn path_tolerance(&self) -> Option<f64> {
         self.block.get(b'P').filter(|_| self.block.row(Group::Path).is_some())
     }
 
-    /// Does the block that was run last turn on coolant through the spindle?
+    /// Whether the last block turns on coolant through the spindle.
     pub fn cools_through(&self) -> bool {
         self.block.means(Meaning::Through)
     }
 
-    /// How deep the run is in subprograms and loops.
+    /// The current depth of nested subprograms and loops.
     pub fn depth(&self) -> usize {
         self.frames.len()
     }
 
-    /// Does the block that was run last name a motion?
+    /// Whether the last block contains a motion code.
     pub fn names_motion(&self) -> bool {
         self.block.row(Group::Motion).is_some()
     }
 
-    /// Does the block that was run last name a tool?
+    /// Whether the last block contains a T word.
     pub fn names_tool(&self) -> bool {
         self.block.get(b'T').is_some()
     }
 
-    /// Does it say its units, and what feeds count?
+    /// Whether the last block sets the units, and whether it sets the feed mode.
     pub fn says_modes(&self) -> [bool; 2] {
         [Group::Units, Group::FeedMode].map(|group| self.block.row(group).is_some())
     }
 
-    /// Axes to which the block says positions, as bits.
+    /// Axes for which the last block contains positions, as bits.
     pub fn says_positions(&self) -> u8 {
         self.state.said_positions(&self.block)
     }
 
-    /// Does it add another length to the tool's?
+    /// Whether the last block adds a second length offset to the tool length.
     pub fn adds_length(&self) -> bool {
         self.block.g_meaning(Group::Length) == Some(Meaning::LengthAdd)
     }
 
-    /// Does it move a frame so that the tool is at its values?
+    /// Whether the last block moves a frame so that the tool is at the values of the block.
     pub fn presets(&self) -> bool {
         match self.block.g_meaning(Group::Once) {
             Some(Meaning::Preset) => true,
@@ -99,17 +100,17 @@ impl Simulator<'_> {
         }
     }
 
-    /// Are axis words positions?
+    /// Whether axis words are absolute positions (not increments).
     pub fn is_absolute(&self) -> bool {
         self.state.modes.absolute
     }
 
-    /// The line that is read next, where no subprogram or loop leads elsewhere.
+    /// The number of the next line, unless a subprogram or loop jumps elsewhere.
     pub fn next_line(&self) -> u64 {
         self.at.line + 1
     }
 
-    /// Does it have axis words?
+    /// Whether the last block has axis words.
     pub fn has_axes(&self) -> bool {
         self.block.has_axes()
     }
@@ -119,14 +120,14 @@ impl Simulator<'_> {
         self.state.settings.control
     }
 
-    /// Does the block that was run last say a speed, and neither start nor stop the spindle?
+    /// Whether the last block has an S word and neither starts nor stops the spindle.
     pub fn only_says_speed(&self) -> bool {
         let taps = self.block.row(Group::Motion).is_some_and(|row| row.meaning == Meaning::RigidTap);
         let switches = self.block.m().any(|(_, row)| row.stops_spindle || row.meaning.turns_spindle());
         self.block.get(b'S').is_some() && !switches && !taps
     }
 
-    /// Does the block that was run last set a work offset along X or Y, or turn it?
+    /// Whether the last block sets a work offset along X or Y, or rotates it.
     pub fn sets_offset_across(&self) -> bool {
         let sets = self.block.row(Group::Once).is_some_and(|row| row.meaning == Meaning::SetOffsets);
         sets && b"XYR".iter().any(|letter| self.block.get(*letter).is_some())

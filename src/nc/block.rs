@@ -1,4 +1,4 @@
-//! One block: its words with their values, its codes, and whether they go together.
+//! One block: its words with their values, its codes, and the check that they may be used together.
 
 use super::call::{Call, Pattern};
 use super::codes::{AXES, CHECKED, Group, bit};
@@ -9,7 +9,7 @@ use crate::control::{GROUPS, Meaning, Row};
 use crate::diag::Code;
 use crate::toolpath::Plane;
 
-/// Most G codes and M codes of a block that are kept.
+/// The largest number of M codes that is kept for a block.
 pub(super) const MOST: usize = 16;
 
 /// A block.
@@ -17,52 +17,52 @@ pub(super) const MOST: usize = 16;
 pub struct Block {
     /// Values of the block's words, by letter.
     pub(super) values: [f64; 26],
-    /// Bit i: letter i is there.
+    /// Bit i: the block has a word with letter i.
     pub given: u32,
-    /// Bit i: its value was written as a number without a point.
+    /// Bit i: the value of letter i is a number without a decimal point.
     pub whole: u32,
     /// G codes by group.
     pub(super) g: [Option<&'static Row>; GROUPS],
-    /// A G code is there.
+    /// Whether the block has a G code.
     pub(super) has_g: bool,
-    /// One besides motions and cycles is.
+    /// Whether the block has a G code other than motions and cycles.
     pub(super) has_modes: bool,
-    /// One that uses axis words without being a motion is.
+    /// Whether the block has a G code that is not a motion but uses the axis words.
     pub(super) takes_axes: bool,
-    /// M codes in order: the number, and what the control has of it.
+    /// M codes in order: the number and the control's row for it.
     m: [Option<(u16, &'static Row)>; MOST],
     m_count: usize,
     /// Polar radius `@` and angle `^`.
     pub polar: [Option<f64>; 2],
-    /// `$` is there.
+    /// Whether the block has a `$` word.
     pub(super) spindle: bool,
     /// The block begins with a slash.
     pub deleted: bool,
-    /// The block is a `%`.
+    /// Whether the block is a `%`.
     pub percent: bool,
-    /// The first comment, without its marks.
+    /// Columns of the first comment, without its delimiters.
     pub comment: Option<(usize, usize)>,
-    /// Axes whose words are positions, whatever is in force, as bits.
+    /// Axes whose words are positions in any distance mode, as bits.
     pub(super) absolute: u8,
-    /// Axes whose words are increments, whatever is in force, as bits.
+    /// Axes whose words are increments in any distance mode, as bits.
     pub(super) incremental: u8,
-    /// The tool that comes after the one that the block changes to.
+    /// The tool to be preselected after the tool change of this block.
     pub(super) next_tool: Option<f64>,
-    /// The number of the work offset that a word beside the codes selects.
+    /// The number of the work offset, selected by a word that is not a G code.
     pub(super) work: Option<f64>,
-    /// Full turns of its arc before the end.
+    /// Full turns of the block's arc before its end.
     pub(super) turns: u32,
-    /// A cycle that is called where its motion ends.
+    /// A cycle that is called at the end of the block's motion.
     pub(super) call: Option<Call>,
-    /// Holes of a cycle that the block makes.
+    /// The holes of a cycle that the block makes.
     pub(super) pattern: Option<Box<Pattern>>,
-    /// Flow of the program: subprograms, loops.
+    /// Program flow: subprograms and loops.
     pub flow: Option<Flow>,
     pub(super) settings: Vec<(Target, f64)>,
     pub(super) is_empty: bool,
-    /// A comment may go on to the end of its line.
+    /// Whether a comment may run to the end of its line without a closing bracket.
     pub(super) open_comments: bool,
-    /// The line without what its control drops before it reads it.
+    /// The line without the characters that the control drops before reading it.
     pub text: Vec<u8>,
 }
 
@@ -73,30 +73,30 @@ impl Block {
         (self.given & bit(letter) != 0).then(|| self.values[usize::from(letter - b'A')])
     }
 
-    /// Gives a word that is there another value.
+    /// Changes the value of a word that the block has.
     pub fn set(&mut self, letter: u8, value: f64) {
         self.values[usize::from(letter - b'A')] = value;
     }
 
-    /// Has the block one of these words?
+    /// Whether the block has one of these words.
     #[inline]
     pub fn has(&self, words: u32) -> bool {
         self.given & words != 0
     }
 
-    /// What the control has of the G code of a group.
+    /// The control's row for the G code of a group.
     #[inline]
     pub fn row(&self, group: Group) -> Option<&'static Row> {
         if self.has_g { self.g[group as usize] } else { None }
     }
 
-    /// What the G code of a group means.
+    /// The meaning of the G code of a group.
     #[inline]
     pub fn g_meaning(&self, group: Group) -> Option<Meaning> {
         self.row(group).map(|row| row.meaning)
     }
 
-    /// The plane that the block says.
+    /// The plane that the block selects.
     pub fn plane(&self) -> Option<Plane> {
         Some(match self.g_meaning(Group::Plane)? {
             Meaning::PlaneXz => Plane::Xz,
@@ -105,52 +105,52 @@ impl Block {
         })
     }
 
-    /// Has the block G codes besides motions and cycles?
+    /// Whether the block has G codes other than motions and cycles.
     #[inline]
     pub fn has_modes(&self) -> bool {
         self.has_modes
     }
 
-    /// The M codes: their numbers, and what the control has of them.
+    /// The M codes: their numbers and the control's rows.
     #[inline]
     pub fn m(&self) -> impl Iterator<Item = (u16, &'static Row)> {
         self.m[..self.m_count].iter().flatten().copied()
     }
 
-    /// Has it M codes?
+    /// Whether the block has M codes.
     #[inline]
     pub fn has_m(&self) -> bool {
         self.m_count > 0
     }
 
-    /// Has it an M code of this meaning?
+    /// Whether the block has an M code of this meaning.
     pub fn means(&self, meaning: Meaning) -> bool {
         self.m().any(|(_, row)| row.meaning == meaning)
     }
 
-    /// Is another tool in the spindle after it?
+    /// Whether the block changes the tool in the spindle.
     pub fn changes_tool(&self) -> bool {
         self.m().any(|(_, row)| row.meaning.changes_tool())
     }
 
-    /// Has the block words or polar coordinates of axes?
+    /// Whether the block has axis words or polar coordinates.
     #[inline]
     pub fn has_axes(&self) -> bool {
         self.given & AXES != 0 || self.polar != [None; 2]
     }
 
-    /// Does a code that is no motion take the axis words?
+    /// Whether a code that is not a motion uses the axis words.
     #[inline]
     pub fn axes_are_taken(&self) -> bool {
         self.takes_axes
     }
 
-    /// Has the block nothing but blanks, comments and a number?
+    /// Whether the block has only spaces, comments and a number.
     pub fn is_empty(&self) -> bool {
         self.is_empty
     }
 
-    /// Empties the block, to read the next line.
+    /// Empties the block before the next line is read.
     #[inline]
     pub fn clear(&mut self) {
         self.given = 0;
@@ -171,14 +171,14 @@ impl Block {
         (self.work, self.call, self.pattern, self.next_tool) = (None, None, None, None);
     }
 
-    /// Puts a word in.
+    /// Adds a word.
     pub fn put(&mut self, letter: u8, value: f64) {
         self.is_empty &= letter == b'N';
         self.given |= bit(letter);
         self.values[usize::from(letter - b'A')] = value;
     }
 
-    /// Puts a G code in; is it the first of its group?
+    /// Adds a G code. Returns whether it is the first of its group.
     pub fn put_g(&mut self, row: &'static Row, its_group: Group, takes_axes: bool) -> bool {
         self.is_empty = false;
         self.has_g = true;
@@ -187,7 +187,7 @@ impl Block {
         self.g[its_group as usize].replace(row).is_none()
     }
 
-    /// Puts an M code in; has the block room for it?
+    /// Adds an M code. Returns whether the block had room for it.
     pub fn put_m(&mut self, number: u16, row: &'static Row) -> bool {
         self.is_empty = false;
         let place = self.m.get_mut(self.m_count);
@@ -195,10 +195,11 @@ impl Block {
         place.map(|place| *place = Some((number, row))).is_some()
     }
 
-    /// Are all words used, where this is the code of its motion? `free`: the letters that need no code, as bits.
+    /// Checks that every word is used when `motion` is the code of the motion. `free`: letters that need no code, as
+    /// bits.
     ///
     /// # Errors
-    /// A word that nothing uses.
+    /// A word is not used by any code.
     #[inline]
     pub fn check_words(&self, motion: Option<&Row>, free: u32) -> Done {
         if self.given & CHECKED == 0 && !self.spindle {
@@ -217,10 +218,10 @@ impl Block {
         let unused = self.given & CHECKED & !used;
         if unused != 0 {
             let letter = char::from(b'A' + unused.trailing_zeros() as u8);
-            let message = format!("{letter} is there, and no code that uses it");
+            let message = format!("the block has {letter}, but no code that uses {letter}");
             let help = match letter {
                 'H' => "write G43 with it, or name the control: `--control`, for a job `--job-control`".to_owned(),
-                _ => format!("take the {letter} out, or write its code in this block"),
+                _ => format!("remove the {letter}, or write its code in this block"),
             };
             return refuse(Code::PN005, message, help);
         }
@@ -233,7 +234,7 @@ impl Block {
                     Some(Meaning::Thread | Meaning::RigidTap | Meaning::ThreadCycle | Meaning::ThreadPass)
                 );
         if self.spindle && !spindle {
-            return refuse(Code::PN005, "$ is there, and no code that uses it", "take it out");
+            return refuse(Code::PN005, "the block has $, but no code that uses $", "take it out");
         }
         Ok(())
     }

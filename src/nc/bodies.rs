@@ -1,4 +1,4 @@
-//! What a canned cycle does at its hole, once it stands over it.
+//! The moves of a canned cycle at its hole, once the tool is above the hole.
 
 use super::action::{Action, Drilling, Heights, Position, Rotation};
 use super::arcs::axes_of;
@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
 
 impl Drilling {
-    /// The place over the hole at a height.
+    /// The position above the hole at a height.
     #[inline]
     pub fn over(&self, height: f64) -> Position {
         let mut to = self.at;
@@ -18,7 +18,7 @@ impl Drilling {
         to
     }
 
-    /// Beside the hole at a height.
+    /// The position beside the hole at a height.
     fn beside(&self, height: f64) -> Position {
         let mut to = self.over(height);
         let [first, second, _] = axes_of(self.plane);
@@ -29,12 +29,12 @@ impl Drilling {
 }
 
 impl State {
-    /// The spindle is switched by the cycle.
+    /// The cycle switches the spindle.
     fn turn(&mut self, rotation: Rotation, out: &mut Out<'_>) {
         out.push(Action::Spindle(rotation, self.drive.speed));
     }
 
-    /// How far a peck's rapid stays above the last depth.
+    /// The distance above the last depth at which the rapid of a peck stops.
     pub(super) fn back_off(&self) -> f64 {
         let inch = self.modes.units == Units::Inch;
         self.settings.back_off.unwrap_or(match (self.control.is_linuxcnc(), inch) {
@@ -45,7 +45,7 @@ impl State {
         })
     }
 
-    /// The tool comes to a height of the hole; `clear`: to the level of its return.
+    /// Records that the tool comes to a height of the hole. `clear`: the height is the return level.
     fn comes_to(&mut self, hole: &Drilling, clear: bool) {
         let [_, _, across] = axes_of(hole.plane);
         match hole.heights {
@@ -61,7 +61,7 @@ impl State {
         self.place.rapid_to(hole.over(height), out);
     }
 
-    /// To the level to which the cycle returns.
+    /// Makes a rapid to the return level of the cycle.
     #[inline]
     pub(super) fn rapid_clear(&mut self, hole: &Drilling, out: &mut Out<'_>) {
         self.comes_to(hole, true);
@@ -89,8 +89,8 @@ impl State {
         self.place.rapid_to(hole.beside(hole.clear), out);
     }
 
-    /// Drills, from over the hole at R to over the hole at the clear level. `from`: the hole was begun, and its next peck
-    /// ends there. The answer: the depth at which the next peck ends, where there are actions enough for one call.
+    /// Drills a hole, from R to the clear level above it. `from`: the hole was begun earlier, and its next peck ends at
+    /// this depth. Returns the depth at which the next peck ends if one call has made enough actions.
     pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let emc2 = self.control.rules() == Rules::Emc2;
         match hole.cycle.motions {
@@ -108,7 +108,7 @@ impl State {
                 if hole.cycle.dwells {
                     out.push(Action::Dwell(hole.dwell));
                 }
-                // LinuxCNC feeds out all the way where it dwells, the old manual always
+                // LinuxCNC feeds all the way out only in cycles that dwell; the manual of EMC2 always does
                 if emc2 || hole.cycle.dwells && self.control.is_linuxcnc() {
                     self.feed_clear(hole, out);
                 } else {
@@ -134,7 +134,7 @@ impl State {
                 if self.control.is_linuxcnc() {
                     self.warnings.push((
                         Code::PN034,
-                        "G88 does not retract: the operator does, and the next hole is approached as if so",
+                        "G88 does not retract: the next hole is approached as if the operator had retracted",
                     ));
                     self.comes_to(hole, true);
                     self.place.position = hole.over(hole.clear);
@@ -148,7 +148,7 @@ impl State {
         Ok(None)
     }
 
-    /// G73 breaks the chip, G83 brings it out.
+    /// G73 breaks the chip, G83 retracts to clear the chip.
     fn pecks(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         if hole.peck <= 0.0 {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
@@ -161,7 +161,8 @@ impl State {
         if from.is_none() && hole.peck < back_off {
             self.warnings.push((
                 Code::PN032,
-                "a peck is shorter than the control's back-off: the rapid ends above the last but one",
+                "a peck is shorter than the back-off of the control: its rapid ends above the start of the peck \
+                 before",
             ));
         }
         let mut depth = from.unwrap_or(hole.r - hole.peck);
@@ -184,11 +185,11 @@ impl State {
         Ok(None)
     }
 
-    /// The old manual's pecks: a quarter of a second, up to the clear level, and feed again from there.
+    /// Pecks of EMC2: a dwell of a quarter of a second, a retract to the clear level, and a feed move down again.
     fn pecks_of_emc2(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Option<f64> {
-        // here it is where the last peck ended
+        // depth at which the last peck ended
         let mut depth = from.unwrap_or(hole.r);
-        // what is left of a sum of decimals is no peck
+        // a rest from rounding of decimals is not a peck
         while depth > hole.bottom + 1e-9 {
             if out.is_full() {
                 return Some(depth);
@@ -201,7 +202,7 @@ impl State {
         None
     }
 
-    /// The direction of the spindle, which must turn.
+    /// The direction of the spindle. It is an error if the spindle does not turn.
     fn turning(&self, hole: &Drilling) -> Done<Rotation> {
         if self.drive.spindle == Rotation::Stop {
             return refuse(
@@ -217,8 +218,8 @@ impl State {
         let inwards = if hole.cycle.motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
         let linuxcnc = self.control.is_linuxcnc();
         if linuxcnc && self.turning(hole)? != inwards {
-            let help = "a right-hand tap goes in with M3, a left-hand one with M4";
-            return refuse(Code::PN012, format!("{} with the spindle turning the other way", hole.cycle.code), help);
+            let help = "a right-hand tap needs M3, a left-hand tap M4";
+            return refuse(Code::PN012, format!("{} with the wrong spindle direction", hole.cycle.code), help);
         }
         let outwards = inwards.reversed();
         if from.is_none() && !linuxcnc && self.drive.spindle != inwards {
@@ -251,7 +252,7 @@ impl State {
         Ok(None)
     }
 
-    /// Q of a Fanuc's tap: after each peck it turns back a little to break the chip.
+    /// Q of a tap on a Fanuc: after each peck the tap turns back a little to break the chip.
     fn tap_pecks(
         &mut self,
         hole: &Drilling,
@@ -278,7 +279,7 @@ impl State {
         Ok(None)
     }
 
-    /// Stops at an angle, moves off the wall and comes out.
+    /// Orients the spindle, moves the tool off the wall and retracts.
     fn leave_aside(&mut self, hole: &Drilling, turning: Rotation, out: &mut Out<'_>) {
         self.turn(Rotation::Stop, out);
         out.push(Action::Orient(0.0));
@@ -288,11 +289,11 @@ impl State {
         self.turn(turning, out);
     }
 
-    /// Back boring: through the hole with the tool turned aside, and up from below.
+    /// Back boring: the tool goes through the hole beside its axis, then feeds up from below.
     fn back_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let turning = self.turning(hole)?;
         if !self.control.is_linuxcnc() {
-            // a Fanuc's R is below, and Z above: it stands at the initial level now
+            // on a Fanuc, R is below and Z above, so the height here is still the initial level
             self.turn(Rotation::Stop, out);
             out.push(Action::Orient(0.0));
             self.clear_beside(hole, out);
@@ -316,7 +317,7 @@ impl State {
         Ok(())
     }
 
-    /// G76 of a Fanuc mill.
+    /// Fine boring, G76 of a Fanuc mill.
     fn fine_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) {
         let turning = self.drive.spindle;
         self.feed_over(hole, hole.bottom, out);
@@ -325,15 +326,15 @@ impl State {
     }
 }
 
-/// A control would be busy for days.
+/// Refuses a hole with so many pecks that a control would run for days.
 fn check_pecks(hole: &Drilling) -> Done {
     if (hole.r - hole.bottom) / hole.peck > 1e6 {
-        return refuse(Code::PN018, format!("Q{} makes over a million pecks", hole.peck), "write a larger Q");
+        return refuse(Code::PN018, format!("Q{} makes more than a million pecks", hole.peck), "write a larger Q");
     }
     Ok(())
 }
 
-/// A dwell of no length is none.
+/// Dwells, unless the time is zero.
 fn wait(hole: &Drilling, out: &mut Out<'_>) {
     if hole.dwell > 0.0 {
         out.push(Action::Dwell(hole.dwell));

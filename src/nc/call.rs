@@ -1,4 +1,4 @@
-//! Holes of cycles whose calls give all their levels: what a call is worked out from, and the steps that come of it.
+//! Holes of cycles whose calls contain all their levels: the input of a call, and the resulting steps.
 
 use std::collections::VecDeque;
 use std::fmt::Debug;
@@ -13,71 +13,71 @@ use crate::toolpath::{Plane, Units};
 pub enum Step {
     /// A rapid to a height.
     Rapid(f64),
-    /// A feed to a height: the height, the feed in the feed mode's unit.
+    /// A feed move to a height: the height, and the feed in the unit of the feed mode.
     Feed(f64, f64),
     /// A dwell in seconds.
     Dwell(f64),
-    /// The spindle turns so, at this speed.
+    /// The spindle turns in this direction at this speed.
     Turn(Rotation, f64),
     /// The spindle stops at an angle.
     Orient(f64),
-    /// A rapid by so much in the plane and along its axis.
+    /// A rapid by this distance in the plane and along its axis.
     Aside([f64; 3]),
-    /// A rapid to the upper end of the axis, which only the machine knows.
+    /// A rapid to the upper end of the axis, whose height is known only at the machine.
     Top,
     /// The program stops.
     Stop,
 }
 
-/// A hole with all that is done in it, from over the hole at any height.
+/// A hole with all its steps. The first step may begin at any height above the hole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canned {
-    /// The hole; its place is that of the tool.
+    /// The hole, at the position of the tool.
     pub hole: Drilling,
-    /// What is done, in order.
+    /// The steps in order.
     pub steps: Vec<Step>,
 }
 
-/// What of the control a hole depends on.
+/// The state of the control that a hole depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Stand {
-    /// Where the tool is.
+    /// Position of the tool.
     pub at: Position,
     /// The plane across the hole.
     pub plane: Plane,
     /// The units of the program.
     pub units: Units,
-    /// The feed in force, in the feed mode's unit; 0 where none is known.
+    /// The feed in force, in the unit of the feed mode; 0 if none is known.
     pub feed: f64,
-    /// Feeds count a turn.
+    /// Whether feeds are per turn of the spindle.
     pub per_turn: bool,
     /// The speed in force.
     pub speed: f64,
-    /// How the spindle turns.
+    /// Rotation of the spindle.
     pub turning: Rotation,
-    /// How far a peck's rapid stays above the last depth, where the cycle does not say.
+    /// The distance above the last depth at which the rapid of a peck stops, if the cycle has no such word.
     pub back_off: f64,
-    /// Which way a bore leaves the wall along the first axis, 1 or -1.
+    /// The direction along the first axis in which a bore leaves the wall: 1 or -1.
     pub bore_shift: f64,
 }
 
-/// A cycle as a block calls it, with its words as they are written.
+/// A cycle call of a block, with its words as written.
 pub trait Plan: Debug + Send + Sync {
-    /// Works the hole out; `None`: it does nothing.
+    /// Works out the hole; `None`: the call makes no hole.
     ///
     /// # Errors
-    /// What the cycle refuses, or what no text says for certain.
+    /// The cycle refuses its words, or the documentation leaves the result open.
     fn plan(&self, stand: &Stand) -> Done<Option<Canned>>;
 }
 
 /// A cycle that may be called more than once.
 pub type Call = Arc<dyn Plan>;
 
-/// Holes of one cycle that are still to be made, by their positions in the plane.
+/// The remaining holes of one cycle, by their positions in the plane.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// The cycle.
     pub call: Call,
-    /// Where its holes are.
+    /// Positions of the holes.
     pub at: VecDeque<[f64; 2]>,
 }

@@ -1,4 +1,4 @@
-//! What a control's codes are to the simulator: their groups, the words they use.
+//! A control's codes in the simulator: their groups and the words they use.
 
 use std::borrow::Cow;
 
@@ -15,12 +15,12 @@ pub const fn bit(letter: u8) -> u32 {
     1 << (letter - b'A')
 }
 
-/// Words that some code must use; all others may stand in any block.
+/// Words that are an error unless a code uses them; all others may be in any block.
 pub const CHECKED: u32 = letters("DEHIJKLPQR");
-/// Words of axes.
+/// Axis words.
 pub const AXES: u32 = letters("XYZABCUVW");
 
-/// The group of a row of G codes in a block.
+/// The group in which a row's G code is stored in a block.
 pub fn group(row: &Row, rules: Rules) -> Group {
     use Meaning as M;
     match row.meaning {
@@ -30,7 +30,7 @@ pub fn group(row: &Row, rules: Rules) -> Group {
     }
 }
 
-/// Does a row's code use the axis words without being a motion? X of a Fanuc's dwell is its time.
+/// Whether the code of a row uses the axis words although it is not a motion. X in a Fanuc's dwell is its time.
 pub fn takes_axes(row: &Row, rules: Rules) -> bool {
     match row.meaning {
         Meaning::Reference => true,
@@ -39,19 +39,19 @@ pub fn takes_axes(row: &Row, rules: Rules) -> bool {
     }
 }
 
-/// The row of ten times a G number; `None`: the control has no such code, or it is not run.
+/// The row for a G number, given in tenths; `None`: the control has no such code, or it is not run.
 #[inline]
 pub fn g_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     control.row(Code { letter: b'G', tenths: code }).filter(|row| is_run(row, b'G'))
 }
 
-/// The row of an M number; `None`: the control has no such code, or it is not run.
+/// The row for an M number; `None`: the control has no such code, or it is not run.
 pub fn m_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     let tenths = code.checked_mul(10)?;
     control.row(Code { letter: b'M', tenths }).filter(|row| is_run(row, b'M'))
 }
 
-/// Does the simulator run the row under codes of this letter?
+/// Whether the simulator runs the row under codes of this letter.
 #[inline]
 fn is_run(row: &Row, letter: u8) -> bool {
     row.not_run.is_none() && is_run_by(row.meaning, letter) && row.lacks().is_none()
@@ -66,8 +66,8 @@ pub fn why_not_run(control: &Control, code: Code) -> Option<Cow<'_, str>> {
     let meaning = row.meaning.name();
     let letter = char::from(code.letter);
     Some(match row.lacks().filter(|_| is_run_by(row.meaning, code.letter)) {
-        None => format!("there is no rule for `{meaning}` by {} {letter} code", article(letter)).into(),
-        Some(what) => format!("the file of {} does not say {what}", control.name()).into(),
+        None => format!("`{meaning}` is not supported for {} {letter} code", article(letter)).into(),
+        Some(what) => format!("the control file of {} does not give {what}", control.name()).into(),
     })
 }
 
@@ -75,7 +75,7 @@ fn article(letter: char) -> &'static str {
     if letter == 'M' { "an" } else { "a" }
 }
 
-/// By codes of which letter a meaning is run: it is refused by name in all others.
+/// Whether codes of this letter run a meaning. Codes of all other letters refuse it by name.
 #[inline]
 const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
     use Meaning as M;
@@ -101,15 +101,15 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         | M::Output
         | M::Override => letter == b'M',
         M::Harmless | M::RigidAhead => true,
-        // the reader of their language runs them
+        // the reader of the control's own language runs these
         M::ToLevel | M::ToTop | M::ReturnLevel => false,
-        // what they do is written elsewhere, or known only at the machine
+        // their effect is written elsewhere, or known only at the machine
         M::Macro | M::MacroOn | M::Data | M::Transform | M::Unsaid => false,
         _ => letter == b'G',
     }
 }
 
-/// Groups of M codes: 0 changes nothing that is simulated.
+/// Groups of M codes; group 0 has no effect in the simulator.
 pub fn m_group(row: &Row) -> u8 {
     use crate::control::Group as G;
     match row.meaning {
@@ -129,7 +129,7 @@ pub fn m_group(row: &Row) -> u8 {
 /// The row of a motion code; `None`: no motion is in force.
 pub type Motion = Option<&'static Row>;
 
-/// Is a motion one of these?
+/// Whether a motion has one of these meanings.
 #[inline]
 pub fn is_one_of(motion: Motion, meanings: &[Meaning]) -> bool {
     motion.is_some_and(|row| meanings.contains(&row.meaning))

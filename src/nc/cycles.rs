@@ -1,4 +1,4 @@
-//! Canned cycles of LinuxCNC and EMC2: what their words mean, how they go from hole to hole (nc.md section 2).
+//! Canned cycles of LinuxCNC and EMC2: the meaning of their words, and the moves from hole to hole (nc.md section 2).
 
 use super::action::{Action, Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
@@ -12,13 +12,13 @@ use crate::control::{Meaning, Motions, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-/// LinuxCNC's own mark of a word that is not there.
+/// A word's value, unless it is LinuxCNC's mark for a missing word.
 fn given(word: Option<f64>) -> Option<f64> {
     word.filter(|&value| value != -1.0)
 }
 
 impl State {
-    /// Words of a cycle: those of this block, else kept ones, else an error.
+    /// Resolves the words of a cycle: words of this block first, then kept words; a missing word is an error.
     pub(super) fn linuxcnc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
         self.check_cycle(block)?;
         let same = self.modes.motion.is_some_and(|motion| motion.code == row.code);
@@ -37,7 +37,10 @@ impl State {
         };
         let reused = block.get(b'R').is_none() || self.axis_word(block, across).is_none();
         if same && reused && kept.written.is_some_and(|written| written != mode) {
-            self.warnings.push((Code::PN030, "R or depth written under another mode is used again as the same number"));
+            self.warnings.push((
+                Code::PN030,
+                "an R or depth that was written in another mode is used again with the same number",
+            ));
         }
         if !reused {
             self.holes.series.written = Some(mode);
@@ -50,11 +53,11 @@ impl State {
         let (plane_r, bottom) = if self.modes.absolute { (r, depth) } else { (initial + r, initial + r + depth) };
         if plane_r < bottom {
             let message = format!("the R plane {plane_r} is below the bottom {bottom}");
-            return refuse(Code::PN011, message, "look at R, at the depth, and at G90 or G91");
+            return refuse(Code::PN011, message, "check R, the depth, and G90 or G91");
         }
         self.holes.series.r = Some(r);
         self.holes.series.depth = Some(depth);
-        // straight up first, where it is
+        // if the tool is below R, it first goes straight up
         if initial < plane_r && !unknown {
             let mut to = self.place.position;
             to[across] = plane_r;
@@ -83,7 +86,7 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// Makes the holes of a block, one after the other; stops where there is enough to be read.
+    /// Makes the holes of a block one after the other. Stops early when there are enough actions to be read.
     pub(super) fn make_holes(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         while let Some(mut work) = self.holes.work.take() {
             if work.depth.is_none() {
@@ -115,7 +118,7 @@ impl State {
         }
     }
 
-    /// The words of these axes say where the next hole is: by a position or an increment.
+    /// Moves `at` to the next hole by the words of these axes, which are positions or increments.
     pub(super) fn move_over(&mut self, axes: &[usize], block: &Block, at: &mut [f64; 6]) {
         for &axis in axes {
             if let Some(value) = self.axis_word(block, axis) {
@@ -134,7 +137,7 @@ impl State {
         let [first, second, across] = axes_of(self.modes.plane);
         let (begun, level) = (work.begun, work.level);
         let at = &mut work.hole.at;
-        // an absolute place stays where it was the first time
+        // an absolute polar position is the same for each repeat
         if block.polar != [None; 2] && (begun == 0 || !self.modes.absolute) {
             let held = std::mem::replace(&mut self.place.position, *at);
             let done = self.polar(block, at);
@@ -152,7 +155,8 @@ impl State {
         }
         let across_too = self.place.position[first] != hole.at[first] || self.place.position[second] != hole.at[second];
         if self.place.position[across] < hole.clear && across_too {
-            let message = "the rapid to this hole rises on its way: the hole before returned to R only";
+            let message =
+                "the rapid to this hole moves up and across at once, because the hole before returned only to R";
             self.warnings.push((Code::PN031, message));
         }
         self.rapid_clear(&hole, out);
@@ -162,7 +166,7 @@ impl State {
         Ok(())
     }
 
-    /// Says a hole as its reader sees it, before its moves.
+    /// Pushes the action of a hole, before its moves.
     pub(super) fn announce(&self, hole: &Drilling, out: &mut Out<'_>) {
         out.by_cycle = false;
         let at = hole.over(hole.clear);
@@ -171,13 +175,13 @@ impl State {
 
     fn check_cycle(&self, block: &Block) -> Done {
         if block.has(letters("ABC")) {
-            return refuse(Code::PN005, "A, B or C in a canned cycle", "turn the axis in a block before it");
+            return refuse(Code::PN005, "A, B or C in a canned cycle", "turn the axis in a block before the cycle");
         }
         if self.drive.feed == 0.0 {
-            return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
+            return refuse(Code::PN008, "a canned cycle without a feed", "write F in its block");
         }
         if self.modes.feed_mode == FeedMode::InverseTime {
-            return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
+            return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before the cycle");
         }
         if self.tool.side.is_some() {
             return refuse(
@@ -189,7 +193,7 @@ impl State {
         Ok(())
     }
 
-    /// P, Q and the shift of a block, or those kept; its first block needs them.
+    /// Takes P, Q and the shift from the block, or the kept ones. The first block of a cycle needs them.
     fn words(&mut self, cycle: Cycle, same: bool, block: &Block) -> Done<Drilling> {
         let Cycle { code: name, motions, dwells } = cycle;
         let missing = |letter: char| {
@@ -217,7 +221,7 @@ impl State {
                 return missing('P');
             }
             if word.is_some() && block.g_meaning(super::codes::Group::Once) == Some(Meaning::Dwell) {
-                self.warnings.push((Code::PN033, "P is the dwell of G4 and of the cycle at once"));
+                self.warnings.push((Code::PN033, "P is the dwell of both G4 and the cycle"));
             }
             self.holes.series.dwell = word.or(self.holes.series.dwell);
             hole.dwell = self.holes.series.dwell.unwrap_or(0.0);
@@ -253,21 +257,21 @@ impl State {
     }
 }
 
-/// Not more moves in a block than a machine makes in a day.
+/// Refuses a block with more moves than a machine makes in a day.
 pub(super) fn check_moves(times: u32, hole: &Drilling) -> Done {
     let pecks = if hole.peck > 0.0 { ((hole.r - hole.bottom) / hole.peck).abs() } else { 0.0 };
     if f64::from(times) * (pecks + 4.0) > 1e6 {
-        return refuse(Code::PN018, "a block that makes over a million moves", "look at its repeats and at Q");
+        return refuse(Code::PN018, "a block that makes more than a million moves", "check its repeats and Q");
     }
     Ok(())
 }
 
-/// How often: L, a whole number.
+/// The number of repeats: L, a whole number.
 fn repeats(word: Option<f64>) -> Done<u32> {
     let times = word.unwrap_or(1.0);
     let whole = times.round();
     if (times - whole).abs() > 1e-4 || !(1.0..=1e6).contains(&whole) {
-        return refuse(Code::PN018, format!("L{times} is no number of repeats"), "write L1 or more");
+        return refuse(Code::PN018, format!("L{times} is not a number of repeats"), "write L1 or more");
     }
     Ok(whole as u32)
 }

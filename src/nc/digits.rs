@@ -1,21 +1,21 @@
-//! Digits of an NC program as numbers: with a sign, a point and blanks anywhere between them, as controls read them.
+//! Reads the numbers of an NC program: with a sign and a point. Spaces may be anywhere between, as on controls.
 
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
     /// The value of the number, the nearest double.
     pub value: f64,
-    /// Written with a point.
+    /// Whether it is written with a point.
     pub point: bool,
 }
 
-/// Any blank inside a line.
+/// A space or tab.
 #[inline]
 pub(super) fn is_blank(byte: u8) -> bool {
     byte == b' ' || byte == b'\t'
 }
 
-/// A number with its sign, blanks before it ignored: its end, or `None` if none stands here.
+/// A number with its sign, and its end. Leading spaces are skipped. `None`: there is no number at this location.
 #[inline(always)]
 pub(super) fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
     let at = skip_blanks(line, at);
@@ -31,7 +31,7 @@ pub(super) fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
     Some((number, end))
 }
 
-/// The first byte from here on that is no blank.
+/// The first byte from here on that is not a space.
 #[inline(always)]
 pub(super) fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     while line.get(at).is_some_and(|&b| is_blank(b)) {
@@ -40,10 +40,10 @@ pub(super) fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// Powers of ten, up to the most digits that a double holds of any number.
+/// Powers of ten, up to the number of digits that a double always represents exactly.
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// Digits and at most one point; blanks between them are ignored.
+/// Digits and at most one point. Spaces between them are ignored.
 #[inline(always)]
 pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let text = line.get(start..)?;
@@ -63,7 +63,7 @@ pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     number(mantissa, count, decimals, point, &text[..at]).map(|number| (number, start + at))
 }
 
-/// How many digits stand at the beginning of a text, and the number that they make after those read before.
+/// The number of digits at the beginning of a text, and the value of `before` continued by these digits.
 #[inline(always)]
 fn digits(text: &[u8], before: u64) -> (u64, usize) {
     let (mut mantissa, mut count) = (before, 0);
@@ -78,7 +78,7 @@ fn digits(text: &[u8], before: u64) -> (u64, usize) {
     (mantissa, count)
 }
 
-/// A number that may have blanks between its digits.
+/// A number that may have spaces between its digits.
 #[cold]
 fn in_parts(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let (mut mantissa, mut count, mut decimals, mut point) = (0, 0, 0, false);
@@ -100,7 +100,7 @@ fn in_parts(line: &[u8], start: usize) -> Option<(Number, usize)> {
     number(mantissa, count, decimals, point, &line[start..at]).map(|number| (number, at))
 }
 
-/// The number that so many digits make, of which some are decimals; `None` of no digits.
+/// The value of a number from its digits, some of which are decimals; `None` without digits.
 #[inline(always)]
 fn number(mantissa: u64, count: usize, decimals: usize, point: bool, text: &[u8]) -> Option<Number> {
     let value = match count {
@@ -111,7 +111,7 @@ fn number(mantissa: u64, count: usize, decimals: usize, point: bool, text: &[u8]
     Some(Number { value, point })
 }
 
-/// Numbers too long for a double's digits.
+/// Reads numbers with more digits than a double has.
 #[cold]
 fn slow(text: &[u8]) -> f64 {
     let text: String = text.iter().filter(|b| !is_blank(**b)).map(|&b| char::from(b)).collect();

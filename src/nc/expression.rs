@@ -8,7 +8,7 @@ use crate::diag::Code;
 /// Deepest nesting of brackets.
 const DEEPEST: u32 = 64;
 
-/// The tokens of a line, one ahead, without blanks.
+/// The tokens of a line without spaces. The next token is always read ahead.
 pub struct Reader<'a> {
     line: &'a [u8],
     tokens: Tokens<'a>,
@@ -16,12 +16,12 @@ pub struct Reader<'a> {
     depth: u32,
 }
 
-/// Operators by strength; those of one strength are worked off from the left.
+/// Operators by precedence. Operators of the same precedence are evaluated from left to right.
 const OPERATORS: [&[&str]; 5] =
     [&["AND", "OR", "XOR"], &["EQ", "NE", "GT", "GE", "LT", "LE"], &["+", "-"], &["*", "/", "MOD"], &["**"]];
 
 impl<'a> Reader<'a> {
-    /// Reads on after the tokens that were taken.
+    /// Reads after the tokens that are already taken.
     pub fn new(line: &'a [u8], tokens: Tokens<'a>) -> Reader<'a> {
         let mut reader = Reader { line, tokens, ahead: None, depth: 0 };
         reader.ahead = reader.pull();
@@ -32,7 +32,7 @@ impl<'a> Reader<'a> {
         self.tokens.find(|token| token.kind != Kind::Blank)
     }
 
-    /// The next token, not taken.
+    /// The next token, without taking it.
     pub fn peek(&self) -> Option<Token> {
         self.ahead
     }
@@ -65,14 +65,14 @@ impl<'a> Reader<'a> {
                 let text = String::from_utf8_lossy(self.text(token)).into_owned();
                 Err(Fault::at(Code::PN014, token.start, format!("{what} instead of `{text}`"), help))
             }
-            _ => Err(Fault::at(Code::PN014, self.line.len(), format!("the block ends where {what} belongs"), help)),
+            _ => Err(Fault::at(Code::PN014, self.line.len(), format!("the block ends, but {what} is missing"), help)),
         }
     }
 
     /// A value: a number, a parameter, an expression in brackets, a function; with signs.
     ///
     /// # Errors
-    /// None stands here, or it has no result.
+    /// There is no value, or it has no result.
     pub fn value(&mut self, parameters: &Parameters) -> Done<f64> {
         self.depth += 1;
         if self.depth > DEEPEST {
@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
         self.depth -= 1;
         let value = value?;
         if !value.is_finite() {
-            return refuse(Code::PN014, "the expression has no finite result", "look at its division or function");
+            return refuse(Code::PN014, "the expression has no finite result", "check its division or function");
         }
         Ok(value)
     }
@@ -111,10 +111,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What stands after `#`.
+    /// The target after `#`.
     ///
     /// # Errors
-    /// It is no parameter.
+    /// It is not a parameter.
     pub fn target(&mut self, parameters: &Parameters) -> Done<Target> {
         if let Some(token) = self.ahead.filter(|token| token.kind == Kind::Quoted) {
             self.next();
@@ -124,10 +124,10 @@ impl<'a> Reader<'a> {
         Ok(Target::Number(Parameters::number(self.value(parameters)?)?))
     }
 
-    /// `[..]`.
+    /// An expression in brackets, `[..]`.
     ///
     /// # Errors
-    /// It does not close, or is no expression.
+    /// The bracket does not close, or the content is not an expression.
     pub fn bracketed(&mut self, parameters: &Parameters) -> Done<f64> {
         if !self.takes(b'[') {
             return self.unexpected("`[`");
@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    /// Values joined by operators of this strength and stronger ones.
+    /// Values joined by operators of this precedence or higher.
     fn operation(&mut self, parameters: &Parameters, strength: usize) -> Done<f64> {
         if strength == OPERATORS.len() {
             return self.value(parameters);
@@ -197,7 +197,7 @@ fn apply(operator: &str, left: f64, right: f64) -> Done<f64> {
         "AND" => truth(left != 0.0 && right != 0.0),
         "OR" => truth(left != 0.0 || right != 0.0),
         "XOR" => truth((left != 0.0) != (right != 0.0)),
-        // as LinuxCNC: equal within a ten-thousandth
+        // as in LinuxCNC: values within a ten-thousandth are equal
         "EQ" => truth((left - right).abs() < 1e-4),
         "NE" => truth((left - right).abs() >= 1e-4),
         "GT" => truth(left > right),
@@ -207,11 +207,11 @@ fn apply(operator: &str, left: f64, right: f64) -> Done<f64> {
         "+" => left + right,
         "-" => left - right,
         "*" => left * right,
-        "/" | "MOD" if right == 0.0 => return refuse(Code::PN014, "a division by zero", "look at the divisor"),
+        "/" | "MOD" if right == 0.0 => return refuse(Code::PN014, "a division by zero", "check the divisor"),
         "/" => left / right,
         "MOD" => left.rem_euclid(right.abs()),
         _ if left < 0.0 && right.fract() != 0.0 => {
-            return refuse(Code::PN014, "a negative number to a broken power", "look at the exponent");
+            return refuse(Code::PN014, "a negative number with a fractional exponent", "check the exponent");
         }
         _ => left.powf(right),
     })

@@ -1,4 +1,4 @@
-//! Canned cycles of Fanuc and Haas mills: words are kept until G80, over all cycle codes.
+//! Canned cycles of Fanuc and Haas mills. Their words are kept until G80, also when the cycle code changes.
 
 use super::action::{Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
@@ -13,7 +13,7 @@ use crate::diag::Code;
 use crate::toolpath::{FeedMode, Units};
 
 impl State {
-    /// A cycle code: the series begins at the tool's height unless one is running.
+    /// Puts a cycle in force. A new series of holes begins unless a cycle is already in force.
     pub(super) fn enter_fanuc_cycle(&mut self, row: &'static Row) {
         if self.holes.cycle.is_none() {
             self.holes.series = Series::default();
@@ -21,7 +21,7 @@ impl State {
         self.holes.cycle = Some(row);
     }
 
-    /// A block while a cycle is in force: a hole where it has X, Y, Z or R.
+    /// Runs a block while a cycle is in force: a block with X, Y, Z or R makes a hole.
     pub(super) fn fanuc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(cycle) = Cycle::of(row) else { return Ok(()) };
         let motions = cycle.motions;
@@ -47,7 +47,9 @@ impl State {
         let times = match own(b'K').filter(|_| !motions.shifts()).or(own(b'L')) {
             None => 1,
             Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
-            Some(times) => return refuse(Code::PN018, format!("{times} is no number of repeats"), "write K1 to K9999"),
+            Some(times) => {
+                return refuse(Code::PN018, format!("{times} is not a number of repeats"), "write K1 to K9999");
+            }
         };
         let clear = match motions {
             Motions::Back => series.initial,
@@ -78,7 +80,8 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// Feed and peck of a tap whose pitch has a word of its own. `None`: it has none here, and is a tap like any other.
+    /// Feed and peck of a tap whose pitch has its own word. `None`: the block has no such word, and the tap is an
+    /// ordinary one.
     fn tap_by_pitch(&self, row: &Row) -> Done<Option<(f64, f64)>> {
         let kept = |letter: u8| match letter {
             b'Q' => self.holes.series.peck,
@@ -91,8 +94,8 @@ impl State {
         if pitch.unit != PitchUnit::Turn && units != self.modes.units {
             let (letter, units) =
                 (char::from(pitch.letter), if units == Units::Inch { "inches" } else { "millimetres" });
-            let message = format!("{} takes {letter} in programs in {units} alone", row.code);
-            return refuse(Code::PN018, message, "write the pitch by the word for these units");
+            let message = format!("{} takes {letter} only in programs in {units}", row.code);
+            return refuse(Code::PN018, message, "write the pitch with the word for these units");
         }
         Ok(Some(match pitch.unit {
             PitchUnit::Turn => (value * self.drive.feed, peck),
@@ -101,13 +104,13 @@ impl State {
         }))
     }
 
-    /// The feed of so much a turn, in the unit of the feed mode.
+    /// The feed for this pitch, in the unit of the feed mode.
     fn by_turns(&self, pitch: f64) -> f64 {
         if self.modes.feed_mode == FeedMode::PerRev { pitch } else { pitch * self.drive.speed }
     }
 
-    /// Keeps the words of a block for the holes of the series; `depth` is the letter of the axis across the plane.
-    /// Increments become places at once: the level they count from is that of the series.
+    /// Keeps the words of a block for the holes of the series. `depth` is the letter of the axis across the plane.
+    /// Increments become positions at once, counted from the level of the series.
     fn keep_cycle_words(&mut self, block: &Block, depth: u8) {
         let dwell = block.get(b'P').map(|p| self.seconds(p, block));
         let initial = self.holes.series.initial;
@@ -129,7 +132,7 @@ impl State {
         }
     }
 
-    /// Refuses a cycle that can't run as the control stands, or between these heights.
+    /// Refuses a cycle that can't run in the current state of the control, or between these heights.
     fn check_fanuc_cycle(&self, cycle: Cycle, r: f64, bottom: f64, has_feed: bool) -> Done {
         if self.tool.side.is_some() {
             return refuse(
@@ -145,13 +148,13 @@ impl State {
             return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
         }
         if cycle.motions.shifts() && self.holes.series.peck.is_some_and(|q| q < 0.0) {
-            let help = "Q is a distance: a parameter of the control says which way";
+            let help = "Q is a distance: a parameter of the control sets its direction";
             return refuse(Code::PN018, format!("{} with a negative Q", cycle.code), help);
         }
         let upward = cycle.motions == Motions::Back;
         if (r < bottom) != upward && r != bottom {
             let message = format!("the R plane {r} is {} the bottom {bottom}", if upward { "above" } else { "below" });
-            return refuse(Code::PN011, message, "look at R, at Z, and at G90 or G91");
+            return refuse(Code::PN011, message, "check R, Z, and G90 or G91");
         }
         if upward && !self.modes.to_initial {
             return refuse(
@@ -169,7 +172,7 @@ impl State {
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;
-        // across at the height where the tool is, then down to R
+        // first across at the current height of the tool, then down to R
         let height = self.place.position[across];
         self.place.rapid_to(hole.over(height), out);
         let known = self.place.at_machine & 1 << across == 0;
@@ -178,7 +181,7 @@ impl State {
         }
     }
 
-    /// Off the wall: Q along the first axis, or I and J.
+    /// The shift off the wall: Q along the first axis, or I and J.
     fn bore_shift(&self, motions: Motions) -> [f64; 2] {
         if !motions.shifts() {
             return [0.0; 2];

@@ -1,21 +1,21 @@
-//! What is wrong with a block.
+//! Faults of a block.
 
 use crate::diag::{Code, Diag, Location};
 
-/// Why a block is refused; which block it is, its reader adds.
+/// The reason why a block is refused. The reader adds the line number of the block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// Row in the table of codes.
+    /// Code of the finding.
     pub code: Code,
-    /// What is wrong, one sentence.
+    /// The problem, in one sentence.
     pub message: String,
-    /// What to write instead.
+    /// The correction to write.
     pub help: String,
-    /// The letter or place in the block that it is about: a column from 0.
+    /// Column of the letter or number in the block, from 0.
     pub column: Option<usize>,
 }
 
-/// A result whose error is a fault, boxed because it is rare.
+/// A result whose error is a fault. The fault is boxed because it is rare.
 pub type Done<T = ()> = Result<T, Box<Fault>>;
 
 impl Fault {
@@ -39,7 +39,7 @@ impl Fault {
     }
 }
 
-/// A refusal.
+/// Refuses a block: returns a fault without a column.
 pub fn refuse<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
     Err(Fault::new(code, message, help))
 }

@@ -1,4 +1,4 @@
-//! Blocks that lead through a program: subprograms, branches, loops.
+//! Blocks that control the program flow: subprograms, branches, loops.
 
 use super::expression::Reader;
 use super::fault::{Done, Fault};
@@ -11,15 +11,15 @@ use crate::diag::Code;
 pub struct Flow {
     /// Number or name of the O word.
     pub label: String,
-    /// What the O word does.
+    /// Effect of the O word.
     pub step: Step,
 }
 
-/// What an O word does.
+/// Effect of an O word.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Step {
-    /// A program or subprogram begins here, as a Fanuc has it.
+    /// Begin of a program or subprogram, as on a Fanuc.
     Program,
     Sub,
     EndSub,
@@ -38,7 +38,7 @@ pub enum Step {
     EndRepeat,
 }
 
-/// Words by name.
+/// The words and their steps.
 const NAMES: [(&str, Step); 15] = [
     ("sub", Step::Sub),
     ("endsub", Step::EndSub),
@@ -62,17 +62,17 @@ fn named(word: &[u8]) -> Option<Step> {
 }
 
 impl Flow {
-    /// Reads what stands after the O word.
+    /// Reads the rest of a block after its O word.
     ///
     /// # Errors
-    /// An unknown word, a condition that can't be read.
+    /// The word is unknown, or its condition can't be read.
     pub fn read(label: String, reader: &mut Reader<'_>, parameters: &Parameters) -> Done<Flow> {
         let mut step = Step::Program;
         if let Some(token) = reader.peek().filter(|token| token.kind == Kind::Name) {
             reader.next();
             step = named(reader.text(token)).ok_or_else(|| {
                 let word = String::from_utf8_lossy(reader.text(token)).into_owned();
-                let help = "known are sub, call, if, while, do, repeat and what ends them";
+                let help = "an O word can have sub, call, if, while, do, repeat, or one of their ends";
                 Fault::at(Code::PN015, token.start, format!("`{word}` after an O word"), help)
             })?;
             let truth = |reader: &mut Reader<'_>| -> Done<bool> { Ok(reader.bracketed(parameters)? != 0.0) };
@@ -84,7 +84,7 @@ impl Flow {
                         arguments.push(reader.bracketed(parameters)?);
                     }
                 }
-                // the value of a subprogram
+                // the return value of a subprogram
                 Step::EndSub | Step::Return if reader.peek().is_some_and(|t| t.kind == Kind::Symbol(b'[')) => {
                     reader.bracketed(parameters)?;
                 }
@@ -93,14 +93,14 @@ impl Flow {
         }
         while let Some(token) = reader.next() {
             if !matches!(token.kind, Kind::LineEnd | Kind::Comment | Kind::Remark) {
-                let help = "write it as a block of its own";
+                let help = "write them in a separate block";
                 return Err(Fault::at(Code::PN015, token.start, "words after an O word", help));
             }
         }
         Ok(Flow { label, step })
     }
 
-    /// Label and word of a line, without their values: for lines that are skipped.
+    /// The label and word of a line without their values, for lines that are skipped.
     pub fn head(line: &[u8]) -> Option<(String, Step)> {
         let first = line.iter().find(|b| !b.is_ascii_whitespace())?;
         if !matches!(first, b'o' | b'O' | b':') {

@@ -1,5 +1,5 @@
-//! Languages that are not G code, or that are another control's own: found by the first blocks of a program. Those that a control
-//! of ours reads are read by it; the others are named and refused.
+//! Detection of programs that are not G code or are in a control's own language, by the first blocks of the program. A
+//! language is read if one of the supported controls reads it. The others are named and refused.
 
 use std::io::{self, Read, Seek};
 use std::path::Path;
@@ -9,21 +9,21 @@ use memchr::memmem;
 use super::settings::RunSettings;
 use crate::control::Control;
 
-/// How much of a program is searched.
+/// How many bytes of a program are searched.
 const SEARCHED: usize = 16 << 10;
 
-/// What shows a language; in capital letters.
+/// A text that identifies a language, in capital letters.
 enum Mark {
-    /// The line begins so, blanks and comments counted.
+    /// The line begins with this text, spaces and comments included.
     Line(&'static str),
-    /// The block begins so, without its number, blanks and comments.
+    /// The block begins with this text, without block number, spaces and comments.
     Block(&'static str),
-    /// The block holds it.
+    /// The block contains this text.
     Word(&'static str),
 }
 use Mark::{Block, Line, Word};
 
-/// The languages, each with the control that reads it and its marks, from public programs and manuals of each.
+/// The languages: name, the control that reads it, and its marks. The marks are from public programs and manuals.
 const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
     ("Klartext of a Heidenhain control", Some("heidenhain"), &[Block("BEGINPGM")]),
     (
@@ -39,7 +39,7 @@ const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
             Block("WORKPIECE"),
             Block("DEFREAL"),
             Word("SUPA"),
-            // `I=AC(10)`, whose number looks like a comment
+            // in `I=AC(10)`, the number looks like a comment
             Word("X=AC"),
             Word("Y=AC"),
             Word("Z=AC"),
@@ -72,26 +72,26 @@ const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
     ),
 ];
 
-/// What programs are called that are for one control.
+/// File name extensions that are typical of one control.
 const NAMES: [(&str, &[&str]); 4] =
     [("siemens", &["mpf", "spf"]), ("heidenhain", &["h", "i"]), ("okuma", &["min", "ssb"]), ("mazak", &["eia"])];
 
-/// What stands in programs of lathes alone: codes with their words, without blanks.
+/// Texts that occur in lathe programs only: codes with their words, without spaces.
 const TURNED: [&str; 8] = ["G50S", "G28U", "G28W", "G30U", "G30W", "G71U", "G72W", "G70P"];
 
 /// The language of a program.
 pub struct Foreign {
-    /// What it is, as `Klartext of a Heidenhain control`.
+    /// Name of the language, such as `Klartext of a Heidenhain control`.
     pub is: &'static str,
-    /// The control that reads it; `None`: none does.
+    /// The control that reads the language; `None`: no control here reads it.
     pub control: Option<&'static Control>,
-    /// The line that shows it, from 1.
+    /// The line where the language was recognised, from 1.
     pub line: u64,
-    /// Its text.
+    /// The text of that line.
     pub text: Vec<u8>,
 }
 
-/// Finds the language of a program by its first blocks; `None`: they show none of these.
+/// Detects the language of a program by its first blocks; `None`: they have no mark of these languages.
 pub fn foreign(start: &[u8]) -> Option<Foreign> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
@@ -135,8 +135,8 @@ pub fn foreign(start: &[u8]) -> Option<Foreign> {
     Some(Foreign { is, control, line: line as u64 + 1, text })
 }
 
-/// The line, from 1, that shows that a program is for a lathe: codes of lathes, or a tool with its register (`T0101`) that nothing
-/// but the turret changes.
+/// The line, from 1, that identifies a program as a lathe program. Such a line has codes of lathes, or a tool with its
+/// register (`T0101`) in a program without M6.
 pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let mut block = Vec::new();
@@ -158,20 +158,20 @@ pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
     station.filter(|_| !is_changed)
 }
 
-/// The control of a program with this name: `part.MPF` is for a Siemens control.
+/// The control for programs with this file name: `part.MPF` is for a Siemens control.
 pub fn control_of_name(name: &Path) -> Option<&'static Control> {
     let extension = name.extension()?.to_str()?.to_ascii_lowercase();
     let (control, _) = NAMES.iter().find(|(_, extensions)| extensions.contains(&extension.as_str()))?;
     Control::named(control)
 }
 
-/// The settings for a program whose control is not named: where its first blocks are in a language that one of our controls reads,
-/// they are that one's, else those of its name.
+/// The settings for a program whose control is not given. The control is that of the language of the first blocks, else
+/// that of the file name.
 ///
 /// # Errors
-/// The input fails.
+/// Reading the input fails.
 pub fn settings_for(input: &mut (impl Read + Seek), name: &Path, settings: RunSettings) -> io::Result<RunSettings> {
-    // an input that can't be gone back in is left alone
+    // an input without seek is left unread
     let Some(start) = input.stream_position().ok().filter(|_| settings.assumed) else { return Ok(settings) };
     let mut head = Vec::new();
     input.by_ref().take(SEARCHED as u64).read_to_end(&mut head)?;
@@ -182,7 +182,7 @@ pub fn settings_for(input: &mut (impl Read + Seek), name: &Path, settings: RunSe
     })
 }
 
-/// Appends a line without its block number, blanks and comments, in capital letters.
+/// Appends a line in capital letters, without block number, spaces and comments.
 fn push_block(line: &[u8], blocks: &mut Vec<u8>) {
     let begin = blocks.len();
     let mut inside = false;

@@ -2,35 +2,35 @@
 
 use super::action::Position;
 
-/// What G92, or G52 of LinuxCNC, adds to positions of the program.
+/// The shift that G92, or G52 of LinuxCNC, adds to positions of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shift {
-    /// How far the frame was moved.
+    /// Distance by which the frame was moved.
     pub by: Position,
-    /// Axes along which that is unknown, as bits: G92 named a position that only the machine knew.
+    /// Axes along which the shift is unknown, as bits: G92 was given at a position that was known only at the machine.
     pub unknown: u8,
 }
 
 /// The frames of a machine, in the program's units.
 #[derive(Clone, Debug)]
 pub struct Frames {
-    /// Work offsets by number: 0 shifts all of them, 1 to 9 are G54 to G59.3, 10 and on G54.1 P1 and on.
+    /// Work offsets by number: 0 shifts all others, 1 to 9 are G54 to G59.3, 10 and up are G54.1 P1 and up.
     work: Vec<Position>,
-    /// Axes of each work offset that the program itself has set to a machine position, as bits.
+    /// Axes of each work offset whose machine position the program itself has set, as bits.
     given: Vec<u8>,
     /// Rotation of each work offset about its origin in XY, in degrees.
     rotation: Vec<f64>,
     /// Index of the active work offset.
     pub active: usize,
-    /// G92, or G52 of LinuxCNC.
+    /// The shift of G92, or of G52 of LinuxCNC.
     pub shift: Shift,
-    /// What G92.3 brings back.
+    /// The shift that G92.3 restores.
     pub shift_kept: Shift,
     /// Tool length offset on X, Y, Z.
     pub tool: [f64; 3],
 }
 
-/// Work offsets that there are: none that shifts all, nine, a Haas's 99 more, and one for numbers beyond.
+/// The number of work offsets: the one that shifts all others, nine, 99 more of a Haas, and one for all higher numbers.
 const OFFSETS: usize = 110;
 
 impl Default for Frames {
@@ -48,12 +48,12 @@ impl Default for Frames {
 }
 
 impl Frames {
-    /// Where the offset of a control that counts them is kept; all beyond are one.
+    /// Index of the work offset of a control that numbers its offsets. All higher numbers share one index.
     pub fn counted(number: f64) -> usize {
         if (1.0..(OFFSETS - 1) as f64).contains(&number) { number as usize } else { OFFSETS - 1 }
     }
 
-    /// The machine's height of Z0.
+    /// Machine position of Z0.
     pub fn zero_height(&self) -> f64 {
         self.to_machine(&[0.0; 6])[2]
     }
@@ -63,7 +63,7 @@ impl Frames {
         self.rotation[self.active]
     }
 
-    /// A place of the program in machine coordinates.
+    /// Converts a position of the program to machine coordinates.
     pub fn to_machine(&self, at: &Position) -> Position {
         let mut place = *at;
         for (value, shift) in place.iter_mut().zip(&self.shift.by) {
@@ -79,7 +79,7 @@ impl Frames {
         place
     }
 
-    /// A place in machine coordinates as the program says it.
+    /// Converts a position in machine coordinates to program coordinates.
     pub fn to_program(&self, at: &Position) -> Position {
         let mut place = *at;
         for (value, tool) in place.iter_mut().zip(&self.tool) {
@@ -95,7 +95,7 @@ impl Frames {
         place
     }
 
-    /// The program has set an axis of this work offset to a position of the machine.
+    /// Records that the program has set an axis of this work offset to a machine position.
     pub fn gives(&mut self, number: usize, axis: usize) {
         if let Some(axes) = self.given.get_mut(number) {
             *axes |= 1 << axis;
@@ -107,7 +107,8 @@ impl Frames {
         self.given[self.active]
     }
 
-    /// How far a work offset moves so that a place of the machine is at these values in it, where they are given.
+    /// The distance that a work offset moves so that a machine position has these values in it. Axes without a value do
+    /// not move.
     pub fn to_stand(&self, number: usize, place: &Position, values: &[Option<f64>; 6]) -> Position {
         if number >= self.work.len() {
             return Position::default();
@@ -119,12 +120,12 @@ impl Frames {
         by
     }
 
-    /// The work offset of a number, if there is one.
+    /// The offset and rotation of this number, if the number exists.
     pub fn work(&mut self, number: usize) -> Option<(&mut Position, &mut f64)> {
         Some((self.work.get_mut(number)?, self.rotation.get_mut(number)?))
     }
 
-    /// All lengths in another unit.
+    /// Converts all lengths to another unit.
     pub fn scale(&mut self, factor: f64) {
         let linear = |place: &mut Position| place[..3].iter_mut().for_each(|v| *v *= factor);
         self.work.iter_mut().for_each(linear);
@@ -134,7 +135,7 @@ impl Frames {
     }
 }
 
-/// Turns a place about the origin in XY.
+/// Rotates a position about the origin in XY.
 fn turn(place: &mut Position, degrees: f64) {
     if degrees == 0.0 {
         return;

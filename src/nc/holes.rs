@@ -1,4 +1,4 @@
-//! What a control keeps for canned cycles.
+//! State of a control's canned cycles.
 
 use super::action::Drilling;
 use super::call::Pattern;
@@ -8,28 +8,28 @@ use crate::toolpath::{Plane, Units};
 /// The cycle in force and its holes.
 #[derive(Clone, Debug, Default)]
 pub struct Holes {
-    /// The cycle in force on a Fanuc; elsewhere it is the modal motion.
+    /// The cycle in force on a Fanuc. On other controls the cycle is the modal motion.
     pub cycle: Motion,
-    /// What is kept from one hole to the next.
+    /// Values that are kept from one hole to the next.
     pub series: Series,
-    /// What the block's cycle still has to make.
+    /// Remaining work of the block's cycle.
     pub work: Option<Work>,
-    /// Holes that the block still has to make, each by a call.
+    /// Remaining holes of the block, each made by a call.
     pub pattern: Option<Box<Pattern>>,
 }
 
-/// What a control keeps from one hole to the next.
+/// Values that a control keeps from one hole to the next.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Series {
-    /// A series of cycles is running.
+    /// Whether a series of holes is running.
     pub running: bool,
-    /// Height of the tool at its beginning.
+    /// Height of the tool at the beginning of the series.
     pub initial: f64,
-    /// Only the machine knows the height at its beginning.
+    /// Whether the height at the beginning is known only at the machine.
     pub initial_unknown: bool,
-    /// R counts from there.
+    /// Whether R is an increment from an unknown height.
     pub r_unknown: bool,
-    /// The depth counts from there.
+    /// Whether the depth is an increment from an unknown height.
     pub depth_unknown: bool,
     /// The R plane, as written.
     pub r: Option<f64>,
@@ -37,32 +37,32 @@ pub struct Series {
     pub depth: Option<f64>,
     /// The dwell in seconds.
     pub dwell: Option<f64>,
-    /// The peck.
+    /// Depth of a peck.
     pub peck: Option<f64>,
     /// I, J and K of boring cycles.
     pub shift: [Option<f64>; 3],
-    /// The mode (G91: true), plane and units in which R and depth were written.
+    /// The distance mode (`true`: G91), plane and units in force when R and depth were written.
     pub written: Option<(bool, Plane, Units)>,
 }
 
 impl Series {
-    /// A motion that is no cycle ends it.
+    /// Ends the series: the block has a motion that is not a cycle.
     pub fn end(&mut self) {
         self.running = false;
     }
 }
 
-/// Holes of one block that are still to be made.
+/// The holes of one block that remain to be made.
 #[derive(Clone, Copy, Debug)]
 pub struct Work {
-    /// The hole that is made, or was made last.
+    /// The current or last hole.
     pub hole: Drilling,
-    /// How many are to be made.
+    /// Number of holes to make.
     pub times: u32,
-    /// How many were begun.
+    /// Number of holes begun.
     pub begun: u32,
-    /// Height of the tool before the first.
+    /// Height of the tool before the first hole.
     pub level: f64,
-    /// Where the next peck of the hole ends.
+    /// Depth at which the next peck of the hole ends.
     pub depth: Option<f64>,
 }

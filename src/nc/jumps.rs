@@ -1,4 +1,4 @@
-//! Ways through a program that are not straight on: subprograms, branches, loops.
+//! Jumps in a program: subprograms, branches, loops.
 
 use super::fault::{Done, Fault, refuse};
 use super::flow::{Flow, Step};
@@ -18,14 +18,14 @@ fn no_end() -> Box<Fault> {
 impl Simulator<'_> {
     pub(super) fn push(&mut self, frame: Frame) -> Done {
         if self.frames.len() == DEEPEST {
-            let help = "look for a subprogram that calls itself";
+            let help = "find a subprogram that calls itself";
             return refuse(Code::PN015, format!("subprograms and loops more than {DEEPEST} deep"), help);
         }
         self.frames.push(frame);
         Ok(())
     }
 
-    /// A block with an O word.
+    /// Runs a block with an O word.
     pub(super) fn follow(&mut self, flow: Flow) -> Done<Jump> {
         let Flow { label, step } = flow;
         let inner = self.frames.last().is_some_and(|frame| frame.label() == label);
@@ -42,7 +42,7 @@ impl Simulator<'_> {
                 self.push(Frame::If { label: label.clone() })?;
                 Ok(Jump::Skip(label, Ends::Branch))
             }
-            // a branch has run
+            // a branch of this `if` has run
             Step::ElseIf(_) | Step::Else if inner => {
                 self.frames.pop();
                 Ok(Jump::Skip(label, Ends::If))
@@ -78,7 +78,8 @@ impl Simulator<'_> {
         }
     }
 
-    /// A program or subprogram begins, as a Fanuc has it: one without M99 before would run into it.
+    /// Begin of a program or subprogram, as on a Fanuc. It is an error if the previous subprogram runs into it without
+    /// M99.
     fn program_begins(&mut self, label: String) -> Done<Jump> {
         self.program = self.program.or(label.parse().ok());
         self.labels.insert(label, self.at);
@@ -88,7 +89,7 @@ impl Simulator<'_> {
         }
     }
 
-    /// `o.. call`.
+    /// Runs `o.. call`.
     fn call_with(&mut self, label: String, arguments: &[f64]) -> Done<Jump> {
         let Some(&start) = self.labels.get(&label) else {
             let help = "subprograms in other files are not simulated: define it in this one, before its call";
@@ -99,7 +100,7 @@ impl Simulator<'_> {
         Ok(Jump::To(start))
     }
 
-    /// `o.. while`, at the beginning of a loop or at the end of a `do`.
+    /// Runs `o.. while`, at the beginning of a loop or at the end of a `do`.
     fn loop_while(&mut self, label: String, is_so: bool) -> Done<Jump> {
         if let Some(Frame::Do { label: opened, start }) = self.frames.last()
             && *opened == label
@@ -119,7 +120,7 @@ impl Simulator<'_> {
         Ok(Jump::On)
     }
 
-    /// `o.. repeat`.
+    /// Runs `o.. repeat`.
     fn repeat(&mut self, label: String, times: f64) -> Done<Jump> {
         if !(0.0..=1e9).contains(&times) {
             return refuse(Code::PN015, format!("{times} repeats"), "repeat a number of times from 0 on");
@@ -132,7 +133,7 @@ impl Simulator<'_> {
         Ok(Jump::On)
     }
 
-    /// Leaves a loop, or its rest.
+    /// Leaves a loop for good, or the rest of the current round.
     pub(super) fn out_of_loop(&mut self, label: String, for_good: bool) -> Done<Jump> {
         while let Some(frame) = self.frames.last_mut() {
             if frame.label() != label {
@@ -172,11 +173,11 @@ impl Simulator<'_> {
     }
 
     pub(super) fn stray<T>(&self, label: &str) -> Done<T> {
-        let help = "every part of a loop or branch has the number of its beginning";
-        refuse(Code::PN015, format!("o{label} belongs to nothing that is open here"), help)
+        let help = "give every part of a loop or branch the number of its beginning";
+        refuse(Code::PN015, format!("o{label} does not belong to an open loop or branch"), help)
     }
 
-    /// The end of a subprogram, or M99.
+    /// Returns from a subprogram, at its end or at M99.
     pub(super) fn return_from(&mut self, what: &str) -> Done<Jump> {
         while let Some(frame) = self.frames.last_mut() {
             if let Frame::Call { back, start, times, arguments, .. } = frame {
@@ -191,25 +192,29 @@ impl Simulator<'_> {
                 self.frames.pop();
                 return Ok(Jump::To(back));
             }
-            self.frames.pop(); // loops and branches end with their subprogram
+            self.frames.pop(); // loops and branches end together with their subprogram
         }
         if self.state.settings.control.is_linuxcnc() {
-            return refuse(Code::PN015, format!("{what} ends, and was not called"), "call it, or take the end out");
+            return refuse(
+                Code::PN015,
+                format!("the end of {what}, which was not called"),
+                "call it, or remove the end",
+            );
         }
-        // M99 in a main program begins it again: once is enough
+        // M99 in a main program starts it again; one run is enough
         self.again = true;
         Ok(Jump::End)
     }
 
-    /// Passes over lines until the end of what a label began.
+    /// Skips lines to the end of the part that a label began.
     pub(super) fn skip(&mut self, label: &str, ends: Ends) -> Result<(), RunError> {
         let begin = self.at.line;
         loop {
             if !self.read_line()? {
                 let message = format!("o{label} of line {begin} has no end");
-                return Err(self.refused(Fault::new(Code::PN015, message, "end it with the word that belongs to it")));
+                return Err(self.refused(Fault::new(Code::PN015, message, "write its end word")));
             }
-            // a line that is new is no round of a loop
+            // a line that is read for the first time is not a round of a loop
             if self.at.line <= self.farthest {
                 self.count_jump()?;
             }
@@ -233,7 +238,7 @@ impl Simulator<'_> {
                 }
                 (Ends::Branch, Step::Else) => return Ok(()),
                 (Ends::Branch, Step::ElseIf(_)) => {
-                    // its condition counts now
+                    // the condition of the ELSEIF is evaluated now
                     let read = self.block.read(&self.line, &mut self.parameters, &self.state.settings);
                     if let Err(fault) = read {
                         return Err(self.refused(fault));
@@ -247,13 +252,13 @@ impl Simulator<'_> {
         }
     }
 
-    /// Passes over the programs before the main one: each is a subprogram, called or not, and needs its M99.
+    /// Skips the programs before the main one. Each is a subprogram and needs its M99, whether it is called or not.
     pub(super) fn pass_programs(&mut self) -> Result<(), RunError> {
         let mut left = std::mem::take(&mut self.passing);
         let mut returns = true;
         while left > 0 {
             if !self.read_line()? {
-                return self.go(Spot { byte: 0, line: 0 }); // they have no O words
+                return self.go(Spot { byte: 0, line: 0 }); // the programs have no O words
             }
             if let Some((label, Step::Program)) = Flow::head(&self.line) {
                 if !std::mem::take(&mut returns) {
@@ -267,7 +272,7 @@ impl Simulator<'_> {
         Ok(())
     }
 
-    /// Has the line a code that ends a subprogram?
+    /// Whether the line has a code that ends a subprogram.
     fn has_return(&self) -> bool {
         let control = self.state.settings.control;
         tokens(&self.line).any(|token| match token.kind {
@@ -279,7 +284,7 @@ impl Simulator<'_> {
         })
     }
 
-    /// A subprogram of M98, which may stand after the main program.
+    /// Calls a subprogram of M98. The subprogram may come after the main program.
     pub(super) fn find(&mut self, label: String, times: u32) -> Result<(), RunError> {
         let back = self.at;
         if !self.labels.contains_key(&label) && !self.searched {
@@ -290,7 +295,7 @@ impl Simulator<'_> {
                 }
             }
             self.searched = true;
-            // reading ahead is no way back
+            // reading ahead is not a jump back
             let farthest = self.farthest;
             self.go(back)?;
             self.farthest = farthest;

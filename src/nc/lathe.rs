@@ -1,4 +1,4 @@
-//! Lathes of Fanuc's kind: the turret, and threads by G32, G92 and G76 (system A).
+//! Lathes of the Fanuc kind: the turret, and threads by G32, G92 and G76 (system A).
 
 use super::action::{Action, Passes, Rotation, Threading};
 use super::block::Block;
@@ -10,27 +10,27 @@ use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::Units;
 
-/// Angles of flanks that G76 takes, in degrees.
+/// Flank angles that G76 accepts, in degrees.
 const FLANKS: [f64; 6] = [0.0, 29.0, 30.0, 55.0, 60.0, 80.0];
-/// Most passes of a thread.
+/// The largest number of passes of a thread.
 const MOST: u32 = 10_000;
 
-/// What the first block of G76 says: it stays until another says otherwise.
+/// Data of the first block of G76. It stays in force until another first block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FirstBlock {
-    /// How often the last pass is made.
+    /// How often the last pass is cut.
     last: u32,
-    /// The least cut, on the radius.
+    /// Smallest cut, on the radius.
     least: f64,
-    /// What is left for the last pass, on the radius.
+    /// Allowance for the last pass, on the radius.
     allowance: f64,
-    /// How far from the end the tool leaves the thread, in leads.
+    /// Distance before the end at which the tool leaves the thread, in leads.
     pull_out: f64,
     /// The angle of the flanks in degrees.
     flanks: f64,
 }
 
-/// What a lathe keeps of its threads.
+/// State of threads and passes that a lathe keeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Threads {
     first: Option<FirstBlock>,
@@ -38,20 +38,20 @@ pub struct Threads {
     pass: Option<Pass>,
 }
 
-/// A pass: the blocks after it say what is another.
+/// A pass. The following blocks contain only the words that change.
 #[derive(Clone, Copy, Debug)]
 struct Pass {
-    /// Whether it was made by G90, G92 or G94.
+    /// The code of the pass: G90, G92 or G94.
     made_by: Meaning,
-    /// Where it ends: radius and Z.
+    /// End of the pass: radius and Z.
     end: [f64; 2],
-    /// How much farther out it begins than it ends.
+    /// Radius at the start of the pass minus the radius at its end.
     taper: f64,
 }
 
 impl Threads {
-    /// A code that is no pass ends what passes keep: one of another motion, or one that is in force in its block alone, but for
-    /// a dwell.
+    /// Ends the kept pass at a code that is not a pass: another motion, or a code that is in force for its block only. A
+    /// dwell does not end it.
     pub(super) fn end_passes(&mut self, by: Option<Meaning>) {
         let goes_on =
             matches!(by, None | Some(Meaning::Dwell | Meaning::TurnPass | Meaning::FacePass | Meaning::ThreadPass));
@@ -62,7 +62,7 @@ impl Threads {
 }
 
 impl State {
-    /// T with its offset in the last two digits: the turret turns at once.
+    /// Runs a T word, whose last two digits are the offset. The turret indexes at once.
     pub(super) fn turn_turret(&mut self, word: f64, out: &mut Out<'_>) {
         const STATIONS: f64 = 100.0;
         let offset = word % STATIONS;
@@ -74,28 +74,25 @@ impl State {
         out.push(Action::Length(Some(offset).filter(|offset| *offset != 0.0)));
     }
 
-    /// Least increments as a length.
+    /// Converts a number of least increments to a length.
     pub(super) fn increments(&self, count: f64) -> f64 {
         count * if self.modes.units == Units::Inch { 1e-4 } else { 1e-3 }
     }
 
-    /// The first block of G76: P in pairs of digits, passes, chamfer, angle; Q the least cut; R what is left for the last.
+    /// Reads the first block of G76. P has pairs of digits for passes, chamfer and angle. Q is the smallest cut, R the
+    /// allowance for the last pass.
     pub(super) fn first_block(&mut self, block: &Block) -> Done {
         let Some(packed) = block.get(b'P').filter(|p| (0.0..=999_999.0).contains(p) && p.fract() == 0.0) else {
             return refuse(Code::PN007, "the first block of G76 without P", "write P010060: passes, chamfer, angle");
         };
         let (least, allowance) = (block.get(b'Q').unwrap_or(0.0), block.get(b'R').unwrap_or(0.0));
         if least < 0.0 || allowance < 0.0 {
-            return refuse(
-                Code::PN018,
-                "a negative Q or R in the first block of G76",
-                "both are sizes, without a sign",
-            );
+            return refuse(Code::PN018, "a negative Q or R in the first block of G76", "write Q and R without a sign");
         }
         let flanks = packed % 100.0;
         if !FLANKS.contains(&flanks) {
             let message = format!("G76 with flanks of {flanks} degrees");
-            return refuse(Code::PN018, message, "the last two digits of P are 00, 29, 30, 55, 60 or 80");
+            return refuse(Code::PN018, message, "the last two digits of P must be 00, 29, 30, 55, 60 or 80");
         }
         self.threads.first = Some(FirstBlock {
             last: (packed / 10_000.0) as u32,
@@ -107,7 +104,7 @@ impl State {
         Ok(())
     }
 
-    /// Where a pass goes, from the words of its block and those of the pass before: its end, and its taper.
+    /// The end and the taper of a pass, from the words of its block and of the previous pass.
     pub(super) fn pass_end(&mut self, does: Meaning, block: &Block) -> Done<([f64; 6], f64)> {
         let mut end = self.target(block)?;
         let says = [letters("XU"), letters("ZW")].map(|words| block.has(words));
@@ -117,27 +114,28 @@ impl State {
         let kept = self.threads.pass.filter(|pass| pass.made_by == does);
         for (at, name) in ["X", "Z"].into_iter().enumerate().filter(|(at, _)| !says[*at]) {
             let Some(kept) = kept else {
-                let message = format!("{code} does not say its {name}, and no pass of its own stands before it");
+                let message = format!("{code} has no {name}, and there is no earlier pass of {code}");
                 return refuse(Code::PN007, message, format!("write {name} with it, or {}", ["U", "W"][at]));
             };
             end[2 * at] = kept.end[at];
             self.place.at_machine &= !(1 << (2 * at));
         }
-        // whether the taper of the pass before stays is another thing from control to control where the code is written again
+        // controls differ in whether the taper of the previous pass stays in force if the code is written again
         let before = self.threads.pass.map_or(0.0, |pass| pass.taper);
         if taper.is_none() && before != 0.0 && block.row(Group::Motion).is_some() {
-            let message = format!("{code} again after a tapered pass, and without its taper");
-            return refuse(Code::PN016, message, "write R with it, R0. for none");
+            let message = format!("{code} is written again after a tapered pass, but without its taper");
+            return refuse(Code::PN016, message, "write R in its block; R0. for no taper");
         }
         let taper = taper.unwrap_or(before);
         self.threads.pass = Some(Pass { made_by: does, end: [end[0], end[2]], taper });
         Ok((end, taper))
     }
 
-    /// G32: a cut that follows the spindle. G92: a pass and the way back. G76: all passes.
+    /// Makes the moves of a thread. G32: one cut that follows the spindle. G92: one pass and its retract. G76: all
+    /// passes.
     pub(super) fn lathe_thread(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
-            return refuse(Code::PN012, "a thread, and the spindle stands", "write M3 or M4 before it");
+            return refuse(Code::PN012, "a thread with the spindle stopped", "write M3 or M4 before it");
         }
         if self.drive.feed <= 0.0 {
             return refuse(Code::PN008, "a thread without its lead", "write F with it");
@@ -148,7 +146,7 @@ impl State {
         let lead = Some(self.drive.feed);
         let first = self.threads.first.filter(|_| does == Meaning::ThreadCycle);
         out.push(Action::Threading(Threading {
-            // thousandths of a degree; Q of G76 is a depth
+            // in thousandths of a degree; Q of G76 is a depth
             start: block.get(b'Q').filter(|_| first.is_none()).map_or(0.0, |angle| (angle / 1e3).rem_euclid(360.0)),
             flanks: first.map_or(0.0, |first| first.flanks),
             pull_out: first.map_or(0.0, |first| first.pull_out),
@@ -172,7 +170,7 @@ impl State {
             out.push(Action::Passes(Box::new(passes)));
             ways = list;
         }
-        // the block says the radii and the end; where its passes begin and come back to, the blocks before it said
+        // the block contains the radii and the end; the start of its passes comes from earlier blocks
         let at_end = self.place.at_machine;
         let [radius_is_said, z_is_said] = [0b001, 0b100].map(|axis| unsaid & !axis | at_end & axis);
         out.by_cycle = true;
@@ -193,7 +191,8 @@ impl State {
         Ok(())
     }
 
-    /// The thread of G76, and the radii of the ends of all passes: the n-th goes to the first cut times the square root of n.
+    /// The thread of G76, and the radii at the ends of all passes. The depth of the n-th pass is the first cut times the
+    /// square root of n.
     fn passes(&self, begin: [f64; 6], end: [f64; 6], taper: f64, block: &Block) -> Done<(Passes, Vec<f64>)> {
         let Some(first) = self.threads.first else {
             return refuse(Code::PN007, "G76 without its first block", "write G76 P010060 Q.. R.. before it");
@@ -203,9 +202,13 @@ impl State {
         };
         let (depth, cut) = (self.increments(depth), self.increments(cut));
         if depth <= 0.0 || cut <= 0.0 || block.has(letters("K")) {
-            return refuse(Code::PN018, "P and Q of G76 are above 0", "P is the depth, Q the first cut, on the radius");
+            return refuse(
+                Code::PN018,
+                "P and Q of G76 must be above 0",
+                "P is the depth and Q the first cut, both on the radius",
+            );
         }
-        // from the crest to the end: towards the axis, or away from it
+        // direction from the crest to the full depth: towards the axis, or away from it
         let inward = if begin[0] >= end[0].max(end[0] + taper) { -1.0 } else { 1.0 };
         let crest = end[0] - inward * depth;
         let whole = depth - first.allowance;
@@ -215,7 +218,7 @@ impl State {
         while reached < whole - 1e-9 {
             count += 1;
             if count > MOST {
-                return refuse(Code::PN018, "a thread of over 10000 passes", "write a larger Q");
+                return refuse(Code::PN018, "a thread of more than 10000 passes", "write a larger Q");
             }
             reached = (cut * f64::from(count).sqrt()).max(reached + first.least).min(whole);
             list.push(crest + inward * reached);

@@ -1,7 +1,7 @@
-//! NC programs: scanned as bytes, run by the rules of a control.
+//! NC programs: read as bytes and run by the rules of a control.
 //!
-//! Rules of LinuxCNC were observed from outside (nc.md in the specification); those of Fanuc and Haas are the usual
-//! reading of their manuals.
+//! The rules of LinuxCNC were observed from outside (nc.md in the specification). Those of Fanuc and Haas follow the
+//! usual reading of their manuals.
 
 mod action;
 mod arcs;

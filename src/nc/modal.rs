@@ -1,14 +1,14 @@
-//! What is modal between two blocks, as codes and values: what a machinist reads off the control's screen.
+//! The modal state between two blocks as codes and values, as on the control's screen.
 
 use super::action::Rotation;
 use super::state::State;
 use crate::control::{Code, Meaning};
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
-/// What the control holds between two blocks. Where a field is a number, it is ten times that of the usual code.
+/// Modal state of the control between two blocks. Fields that are numbers are ten times the usual code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modal {
-    /// G0 to G3, and others of their group; a canned cycle is none of them.
+    /// G0 to G3 and others of their group, but no canned cycles.
     pub motion: Option<Code>,
     /// G17 to G19.
     pub plane: u16,
@@ -22,22 +22,22 @@ pub struct Modal {
     pub back: u16,
     /// G40 to G42.
     pub compensation: u16,
-    /// A tool length offset is on.
+    /// Whether a tool length offset is on.
     pub length: bool,
     /// The canned cycle in force.
     pub cycle: Option<Code>,
     /// Register of cutter compensation.
     pub diameter: Option<f64>,
-    /// F, in the unit of the feed mode; 0 where none was said.
+    /// F in the unit of the feed mode; 0 if no F was programmed.
     pub feed: f64,
     /// S.
     pub speed: f64,
-    /// How the spindle turns.
+    /// Rotation of the spindle.
     pub spindle: Rotation,
 }
 
 impl State {
-    /// What is modal after the block that was run last.
+    /// The modal state after the last block.
     pub fn modal(&self) -> Modal {
         Modal {
             motion: self.modes.motion.filter(|row| row.meaning != Meaning::Cycle).map(|row| row.code),

@@ -1,4 +1,4 @@
-//! What a block says before it moves: feed mode, dwell, plane, units, distance, work offset.
+//! Codes that take effect before the motion of a block: feed mode, dwell, plane, units, distance, work offset.
 
 use super::action::Action;
 use super::block::Block;
@@ -19,7 +19,7 @@ impl State {
             Some(Meaning::PerRev) => FeedMode::PerRev,
             _ => FeedMode::PerMinute,
         };
-        // LinuxCNC forgets F at every such word, others where the mode changes
+        // LinuxCNC drops F at each such code, other controls only when the mode changes
         if mode != FeedMode::InverseTime && (self.forgets_feed() || mode != self.modes.feed_mode) {
             self.drive.feed = 0.0;
         }
@@ -33,7 +33,7 @@ impl State {
         matches!(self.control.rules(), Rules::Linuxcnc | Rules::Emc2)
     }
 
-    /// Everything between feed and motion.
+    /// Runs all codes between the feed and the motion.
     pub(super) fn set_up(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         self.compensated(block.means(Meaning::Output), "an output")?;
         self.compensated(block.changes_tool(), "a tool change")?;
@@ -41,17 +41,18 @@ impl State {
         if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
             let x_is_no_time = block.has(bit(b'X')) && block.has(bit(b'P'));
             if !self.control.is_linuxcnc() && (block.has(letters("YZABC")) || x_is_no_time) {
-                let help = "write the dwell in a block of its own: X is its time, too";
+                let help = "write the dwell in a separate block: X is also its time";
                 return refuse(Code::PN004, "G4 and axis words in one block", help);
             }
             let time = block.get(b'X').or(block.get(b'U'));
             let seconds = match (block.get(b'P'), time) {
                 (Some(_), _) if self.control.traits().dwell == DwellUnit::Unknown => {
-                    let message = format!("the file of {} does not say what P of a dwell counts", self.control.name());
+                    let message =
+                        format!("the control file of {} does not give the unit of P of a dwell", self.control.name());
                     return refuse(
                         Code::PN016,
                         message,
-                        "say it in a control file of your own: `[dwell]` and `P = \"s\"` or `\"ms\"`",
+                        "give it in a control file of your own: `[dwell]` and `P = \"s\"` or `\"ms\"`",
                     );
                 }
                 (Some(p), _) => self.seconds(p, block),
@@ -106,8 +107,8 @@ impl State {
         Ok(())
     }
 
-    /// P in seconds: without a point milliseconds, but for a control that counts seconds. A point says seconds on controls of
-    /// Fanuc's kind alone.
+    /// P in seconds. Without a point, P is in milliseconds, except on controls that use seconds. A point means seconds
+    /// only on controls of the Fanuc kind.
     pub(super) fn seconds(&self, p: f64, block: &Block) -> f64 {
         let dwell = self.control.traits().dwell;
         let by_point = !self.control.rules().is_nist();
@@ -115,7 +116,7 @@ impl State {
         if seconds { p } else { p / 1000.0 }
     }
 
-    /// LinuxCNC refuses to change these while cutter compensation is on, as its interpreter was observed.
+    /// Refuses these changes while cutter compensation is on, as was observed on LinuxCNC.
     pub(super) fn compensated(&self, changes: bool, what: &str) -> Done {
         if !changes || self.tool.side.is_none() || !self.control.is_linuxcnc() {
             return Ok(());
@@ -131,7 +132,7 @@ impl State {
             if self.modes.feed_mode != FeedMode::InverseTime {
                 self.drive.feed *= factor;
             }
-            // LinuxCNC takes F before the units of its block, a Fanuc after them
+            // LinuxCNC reads F before the units of its block, a Fanuc after them
             if let Some(feed) = feed {
                 self.drive.feed = feed;
             }
@@ -187,13 +188,13 @@ impl State {
         Ok(())
     }
 
-    /// A work offset of a control that counts them.
+    /// Selects a work offset on a control that numbers its offsets.
     fn counted_work(&mut self, number: f64, out: &mut Out<'_>) {
         self.place.reframe(|frames| frames.active = Frames::counted(number));
         self.work_is(number, out);
     }
 
-    /// A work offset by its code or number.
+    /// Selects a work offset by its code or number.
     fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
         if self.place.work_is(work) && self.settings.places_unknown {
             self.place.becomes_unknown(0b111);

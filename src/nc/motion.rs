@@ -1,4 +1,4 @@
-//! Straight moves: where words lead, G0, G1, G53, G33.
+//! Straight moves: targets of axis words, G0, G1, G53, G33.
 
 use super::action::{Action, Position, Rotation};
 use super::block::Block;
@@ -11,28 +11,28 @@ use crate::diag::Code;
 use crate::toolpath::Plane;
 
 impl State {
-    /// The word of an axis as a length: X in diameters is halved.
+    /// The word of an axis as a length. X is halved if it is a diameter.
     #[inline]
     pub(super) fn axis_word(&self, block: &Block, axis: usize) -> Option<f64> {
         let value = block.get(self.control.axes()[axis])?;
         Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
-    /// Is the word of an axis a position? Else it is an increment.
+    /// Whether the word of an axis is a position and not an increment.
     #[inline]
     fn is_absolute(&self, block: &Block, axis: usize) -> bool {
         let at = 1 << axis;
         block.absolute & at != 0 || self.modes.absolute && block.incremental & at == 0
     }
 
-    /// Axes to which a block says positions, as bits.
+    /// Axes for which a block contains positions, as bits.
     pub(super) fn said_positions(&self, block: &Block) -> u8 {
         let polar = if block.polar == [None; 2] { 0 } else { 0b11 };
         let said = |axis: &usize| self.axis_word(block, *axis).is_some() && self.is_absolute(block, *axis);
         (0..6).filter(said).fold(if self.modes.absolute { polar } else { 0 }, |said, axis| said | 1 << axis)
     }
 
-    /// Where a block's axis words lead, in program coordinates.
+    /// The target of a block's axis words, in program coordinates.
     #[inline]
     pub(super) fn target(&mut self, block: &Block) -> Done<Position> {
         let mut to = self.place.position;
@@ -40,7 +40,7 @@ impl State {
             let Some(value) = self.axis_word(block, axis) else { continue };
             if self.is_absolute(block, axis) {
                 *place = value;
-                // without its length offset, a FADAL's Z is the machine's
+                // without its length offset, Z of a FADAL is in machine coordinates
                 match axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {
                     true => {
                         *place -= self.place.frames.zero_height();
@@ -69,14 +69,14 @@ impl State {
         Ok(to)
     }
 
-    /// A lathe's word of an increment: U along X, as a diameter; W along Z.
+    /// The incremental word of a lathe: U along X, as a diameter; W along Z.
     pub(super) fn increment(&self, block: &Block, axis: usize) -> Option<f64> {
         let letter = [b'U', b'V', b'W'].get(axis).filter(|_| self.control.is_lathe())?;
         let value = block.get(*letter)?;
         Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
-    /// Polar coordinates: `@` radius, `^` angle.
+    /// Applies polar coordinates: `@` radius, `^` angle.
     pub(super) fn polar(&self, block: &Block, to: &mut Position) -> Done {
         if self.modes.plane != Plane::Xy {
             return refuse(Code::PN005, "polar coordinates outside G17", "write G17 first");
@@ -95,7 +95,7 @@ impl State {
                 return refuse(
                     Code::PN018,
                     "polar increments at the origin",
-                    "an angle there means nothing: write G90",
+                    "an angle is not possible at the origin: write G90",
                 );
             }
             (false, [r, a]) => (radius, angle) = (radius + r.unwrap_or(0.0), angle + a.unwrap_or(0.0)),
@@ -106,7 +106,7 @@ impl State {
         Ok(())
     }
 
-    /// A rapid, or a line at feed.
+    /// Makes a rapid or a straight feed move.
     #[inline]
     pub(super) fn straight(&mut self, rapid: bool, block: &Block, out: &mut Out<'_>) -> Done {
         if block.g_meaning(Group::Once) == Some(Meaning::Machine) {
@@ -118,8 +118,8 @@ impl State {
             return Ok(());
         }
         if self.control.is_lathe() && block.has(letters("AC")) && block.has(letters("XZUW")) {
-            let message = "A or C in a straight cut of a lathe, which is an angle, a chamfer or an axis";
-            return refuse(Code::PN016, message, "write the points of the corner; an axis turns in a block of its own");
+            let message = "A or C in a straight cut of a lathe can be an angle, a chamfer or an axis";
+            return refuse(Code::PN016, message, "write the points of the corner; turn an axis in a separate block");
         }
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         if self.control.is_lathe() {
@@ -130,7 +130,7 @@ impl State {
         Ok(())
     }
 
-    /// G38: towards a position; where it touches on the way, only the machine knows.
+    /// G38: moves towards a position. The contact position is known only at the machine.
     pub(super) fn probe_of_linuxcnc(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "a probe under cutter compensation", "end the compensation with G40 first");
@@ -140,14 +140,14 @@ impl State {
         let moved: u8 =
             (0..3).filter(|&axis| from[axis] != to[axis] || self.is_unknown(axis)).map(|axis| 1 << axis).sum();
         if moved & self.named(block) == 0 {
-            return refuse(Code::PN006, "a probe that goes nowhere", "write where it goes, as Z-20");
+            return refuse(Code::PN006, "a probe without a position", "write a position, as Z-20");
         }
         self.place.feed_home(to, moved & self.named(block), feed, out);
         self.place.becomes_unknown(moved & self.named(block));
         Ok(())
     }
 
-    /// The linear axes that a block names, as bits.
+    /// The linear axes that a block contains, as bits.
     fn named(&self, block: &Block) -> u8 {
         (0..3).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum()
     }
@@ -155,7 +155,7 @@ impl State {
     /// G53: the words are machine coordinates.
     fn in_machine(&mut self, rapid: bool, block: &Block, out: &mut Out<'_>) -> Done {
         if !self.modes.absolute && self.control.rules() != Rules::Grbl {
-            return refuse(Code::PN018, "G53 under G91", "write G90 with it: increments have no place to begin");
+            return refuse(Code::PN018, "G53 under G91", "write G90 in the block: an increment would have no start");
         }
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G53 under cutter compensation", "end the compensation with G40 first");
@@ -169,13 +169,13 @@ impl State {
             }
         }
         let mut to = self.place.frames.to_program(&place);
-        // in a turned frame, X of the machine moves both axes of the program
+        // in a rotated frame, X of the machine moves both axes of the program
         let turned = if self.place.frames.angle() == 0.0 { 0 } else { 0b11 };
         for axis in (0..6).filter(|axis| (named | turned) & 1 << axis == 0) {
             to[axis] = self.place.position[axis];
         }
         self.place.goes_home(named);
-        // a Fanuc goes there at rapid, whatever is in force
+        // a Fanuc makes this move at rapid, whatever motion is in force
         if rapid || !self.control.is_linuxcnc() {
             self.place.rapid_to(to, out);
         } else {
@@ -185,7 +185,7 @@ impl State {
         Ok(())
     }
 
-    /// G33.1: a tap that follows the spindle in, turns it back and follows it out to where it began.
+    /// G33.1: a tap that follows the spindle in, reverses the spindle, and follows it out to the start.
     pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let (begin, turning, unknown) = (self.place.position, self.drive.spindle, self.place.at_machine);
         if turning == Rotation::Stop {
@@ -199,10 +199,10 @@ impl State {
         Ok(())
     }
 
-    /// G33: a move that follows the spindle; a tap turns no axis.
+    /// G33: a move that follows the spindle. A tap moves no rotary axis.
     pub(super) fn synchronised(&mut self, taps: bool, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(lead) = block.get(b'K') else {
-            return refuse(Code::PN007, "G33 without K", "write K with the distance of one turn");
+            return refuse(Code::PN007, "G33 without K", "write K with the distance per revolution");
         };
         let mut to = self.target(block)?;
         if taps {

@@ -1,4 +1,4 @@
-//! Codes that hold for their block: offsets set (G10), frames shifted (G52, G92), the way home (G28, G30).
+//! Codes that are in force for their block only: G10 sets offsets, G52 and G92 shift frames, G28 and G30 go home.
 
 use super::action::Action;
 use super::block::Block;
@@ -11,10 +11,10 @@ use crate::control::{self, Meaning, Rules};
 use crate::diag::Code;
 
 impl State {
-    /// Codes that hold for their block: G10, G28, G30, G52, G92.
+    /// Runs codes that are in force for their block only: G10, G28, G30, G52, G92.
     pub(super) fn once(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(row) = block.row(Group::Once) else { return Ok(()) };
-        // 0 is that of G28, 1 that of G30
+        // index 0 is the point of G28, index 1 that of G30
         let point = usize::from(row.runs.point == Some(2));
         match row.meaning {
             Meaning::SetOffsets => self.set_data(row.code, block, out),
@@ -37,7 +37,7 @@ impl State {
     fn set_data(&mut self, code: control::Code, block: &Block, out: &mut Out<'_>) -> Done {
         let l = block.get(b'L').unwrap_or(-1.0);
         if !self.control.is_linuxcnc() && l != 2.0 && l != 20.0 {
-            // tool registers; no position depends on them here
+            // tool registers: no position here depends on them
             out.push(Action::LeftOut(code, Meaning::SetOffsets));
             return Ok(());
         }
@@ -50,12 +50,12 @@ impl State {
             return refuse(Code::PN007, "G10 without the number of its offset", "write P1 for G54");
         };
         if l != 2.0 && l != 20.0 {
-            return refuse(Code::PN016, format!("G10 L{l} is not simulated"), "offsets are set by G10 L2 and L20");
+            return refuse(Code::PN016, format!("G10 L{l} is not simulated"), "set offsets with G10 L2 or L20");
         }
         let active = self.place.frames.active;
         let number = match (p as usize, self.control.is_linuxcnc()) {
             (0, true) => active,
-            // an additional offset of a Haas or Fanuc
+            // an additional work offset of a Haas or Fanuc
             (p, false) if l == 20.0 => p + 9,
             (p, _) => p,
         };
@@ -63,7 +63,7 @@ impl State {
         let place = self.place.frames.to_machine(&self.place.position);
         let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
         let (absolute, control) = (self.modes.absolute, self.control);
-        // so that the tool stands at the value, counted in that offset
+        // G10 L20 of LinuxCNC: the tool position gets this value in that offset
         let stands = l == 20.0 && control.is_linuxcnc();
         let to_stand = stands.then(|| self.place.frames.to_stand(number, &place, &words));
         let Some((work, rotation)) = self.place.frames.work(number) else {
@@ -71,7 +71,7 @@ impl State {
         };
         let before = [*work, [*rotation; 6]];
         match to_stand {
-            // a turned offset moves along both axes
+            // in a rotated frame, the offset moves along both axes
             Some(by) => work.iter_mut().zip(by).for_each(|(work, by)| *work += by),
             None => {
                 for (work, value) in work.iter_mut().zip(words).filter_map(|(work, value)| Some((work, value?))) {
@@ -102,7 +102,7 @@ impl State {
             _ => {
                 self.compensated(true, "a moved frame")?;
                 if !block.has_axes() {
-                    return refuse(Code::PN006, "the code needs axis words and has none", "write the axes it shifts");
+                    return refuse(Code::PN006, "the code needs axis words and has none", "write the axes to shift");
                 }
                 for axis in 0..6 {
                     let Some(value) = self.axis_word(block, axis) else { continue };
@@ -112,14 +112,14 @@ impl State {
                     if does == Meaning::Frame {
                         shift.by[axis] = value;
                         if is_linuxcnc {
-                            shift.unknown &= !(1 << axis); // a Fanuc adds it to G92
+                            shift.unknown &= !(1 << axis); // a Fanuc adds G52 to G92
                         }
                         continue;
                     }
                     shift.by[axis] += at - value;
                     if unknown {
                         shift.unknown |= 1 << axis;
-                        self.place.given(axis); // in the new frame it is known
+                        self.place.given(axis); // in the new frame, the position is known
                         lost = true;
                     }
                 }
@@ -135,7 +135,7 @@ impl State {
         Ok(())
     }
 
-    /// Goes by way of a place to a reference point.
+    /// Moves through an intermediate position to a reference point.
     fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
@@ -155,7 +155,7 @@ impl State {
         for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {
             to[axis] = home[axis];
         }
-        // an axis at angle zero is at its reference point
+        // a rotary axis is at its reference point when its angle is zero
         self.place.goes_home(axes & 0b111);
         self.place.rapid_to(to, out);
         Ok(())

@@ -1,12 +1,12 @@
-//! Where actions go, and where a program goes after a block.
+//! The output of actions, and the continuation of the program after a block.
 
 use super::action::{Action, Item};
 use super::profiled::Profiled;
 
-/// Actions after which the rest of a block waits for the next call.
+/// The number of actions of one call. The rest of a longer block waits for the next call.
 const AT_ONCE: usize = 4096;
 
-/// Where a program goes after a block.
+/// How a program continues after a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
     /// The program goes on with the next block.
@@ -15,39 +15,39 @@ pub enum Next {
     End,
     /// The program calls a subprogram, this many times.
     Call(f64, u32),
-    /// Back from a subprogram.
+    /// The program returns from a subprogram.
     Return,
-    /// The block is not done: `State::run_on`.
+    /// The block is not finished: continue with `State::run_on`.
     Rest,
-    /// A cycle follows a profile of the program.
+    /// A cycle that follows a profile of the program.
     Profile(Profiled),
 }
 
-/// The actions of a block.
+/// The output for the actions of a block.
 pub struct Out<'a> {
-    /// All actions so far, of other blocks, too.
+    /// All actions so far, including those of earlier blocks.
     pub items: &'a mut Vec<Item>,
-    /// How many actions there were before the block.
+    /// Number of actions before the block.
     start: usize,
     /// Line of the block.
     pub line: u64,
-    /// A canned cycle makes what follows.
+    /// Whether the next actions are made by a canned cycle.
     pub by_cycle: bool,
 }
 
 impl<'a> Out<'a> {
-    /// Actions of a line, put after those that are there.
+    /// An output for a line. Its actions are appended to `items`.
     pub fn new(items: &'a mut Vec<Item>, line: u64) -> Out<'a> {
         Out { start: items.len(), items, line, by_cycle: false }
     }
 
-    /// Is there enough to be read?
+    /// Whether there are enough actions to be read.
     #[inline]
     pub fn is_full(&self) -> bool {
         self.items.len() - self.start >= AT_ONCE
     }
 
-    /// Takes the actions of the block back.
+    /// Removes the actions of the block.
     pub fn take_back(&mut self) {
         self.items.truncate(self.start);
     }

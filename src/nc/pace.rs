@@ -1,29 +1,29 @@
-//! Feeds and speeds as they are in force.
+//! Feeds and speeds in force.
 
 use super::action::{Action, Rotation};
 use crate::toolpath::FeedMode;
 
-/// What feeds and speeds count from.
+/// The modes and speeds that feeds depend on.
 #[derive(Clone, Debug)]
 pub struct Pace {
     mode: FeedMode,
-    /// S, in revolutions a minute, or the surface speed's unit.
+    /// S, in revolutions per minute, or in the unit of the surface speed.
     speed: f64,
-    /// S is a surface speed.
+    /// Whether S is a surface speed.
     surface: bool,
-    /// Revolutions a minute that the machine has.
+    /// Highest speed of the machine, in revolutions per minute.
     fastest: f64,
-    /// Revolutions a minute that the program allows.
+    /// Highest speed that the program allows, in revolutions per minute.
     limit: f64,
 }
 
 impl Pace {
-    /// Nothing is said yet; `fastest`: the speed that the spindle does not exceed, infinite where that is not known.
+    /// The state before any code. `fastest`: the highest speed of the spindle, infinite if unknown.
     pub fn new(fastest: f64) -> Pace {
         Pace { mode: FeedMode::PerMinute, speed: 0.0, surface: false, fastest, limit: f64::INFINITY }
     }
 
-    /// Takes what an action says of it.
+    /// Updates the state by an action.
     pub fn takes(&mut self, action: &Action) {
         match action {
             Action::FeedMode(mode) => self.mode = *mode,
@@ -39,13 +39,14 @@ impl Pace {
         }
     }
 
-    /// Is the feed one for each move, a share of it in a minute?
+    /// Whether the feed is inverse time: moves per minute.
     pub fn is_inverse(&self) -> bool {
         self.mode == FeedMode::InverseTime
     }
 
-    /// The feed along a path of this length in millimetres a minute, or degrees where the length is one. `scale`: millimetres
-    /// of a unit of the feed; `radius`: where a lathe cuts, in millimetres; `lead`: it follows the spindle, by so much a turn.
+    /// The feed along a path of this length, in millimetres per minute, or in degrees per minute if the length is in
+    /// degrees. `scale`: millimetres per unit of the feed. `radius`: radius of a lathe cut, in millimetres. `lead`: feed
+    /// per turn, if the move follows the spindle.
     pub fn per_minute(&self, feed: f64, lead: Option<f64>, length: f64, scale: f64, radius: f64) -> f64 {
         match (lead, self.mode) {
             (Some(lead), _) => lead * scale * self.turns(scale, radius),
@@ -55,7 +56,7 @@ impl Pace {
         }
     }
 
-    /// Revolutions a minute of the spindle; a surface speed is metres or feet a minute.
+    /// Speed of the spindle in revolutions per minute. A surface speed is in metres or feet per minute.
     fn turns(&self, scale: f64, radius: f64) -> f64 {
         if !self.surface {
             return self.speed;
@@ -64,7 +65,7 @@ impl Pace {
         (self.speed * metres / (std::f64::consts::TAU * radius)).min(self.limit).min(self.fastest)
     }
 
-    /// The speed of a spindle that is switched, in revolutions a minute; 0 where it depends on where the tool cuts.
+    /// The speed of a switched spindle, in revolutions per minute; 0 if it depends on the radius of the cut.
     pub fn switched(&self, rotation: Rotation, speed: f64) -> f64 {
         if rotation == Rotation::Stop || self.surface { 0.0 } else { speed }
     }

@@ -15,25 +15,25 @@ pub struct Parameters {
     control: &'static Control,
     numbered: Vec<Option<f64>>,
     global: HashMap<String, f64>,
-    /// Named parameters of the main program and of each subprogram that runs.
+    /// Named parameters, one map for the main program and for each running subprogram.
     local: Vec<HashMap<String, f64>>,
-    /// Values of `#1` to `#30` that come back when a subprogram ends.
+    /// Values of `#1` to `#30` that are restored when a subprogram ends.
     kept: Vec<[Option<f64>; 30]>,
-    /// Where the tool is, for `#5420` and on.
+    /// Position of the tool, for `#5420` and following.
     pub position: [f64; 6],
 }
 
-/// What a setting sets.
+/// The target of an assignment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
-    /// `#1=`.
+    /// An assignment by number: `#1=`.
     Number(usize),
-    /// `#<name>=`.
+    /// An assignment by name: `#<name>=`.
     Name(String),
 }
 
 impl Parameters {
-    /// Parameters of which none has a value yet.
+    /// Parameters at the beginning of a program. None has a value yet.
     pub fn new(control: &'static Control) -> Parameters {
         Parameters {
             control,
@@ -48,7 +48,7 @@ impl Parameters {
     /// The number of a parameter from a value.
     ///
     /// # Errors
-    /// It is none.
+    /// The value is not the number of a parameter.
     pub fn number(value: f64) -> Done<usize> {
         let number = value.round();
         if (value - number).abs() > 1e-4 || !(1.0..=HIGHEST as f64).contains(&number) {
@@ -60,23 +60,23 @@ impl Parameters {
     /// The value of a parameter by number.
     ///
     /// # Errors
-    /// A Fanuc parameter that nothing has set: only the control knows its value.
+    /// A Fanuc parameter that the program has not set: its value is known only at the control.
     pub fn get(&self, number: usize) -> Done<f64> {
         if self.control.is_linuxcnc() && (5420..5426).contains(&number) {
             return Ok(self.position[number - 5420]);
         }
         match self.numbered.get(number).copied().flatten() {
             Some(value) => Ok(value),
-            // the interpreter keeps system values from run to run: only those that it always has are known
+            // the interpreter keeps system values between runs, so only the program's own parameters are known
             None if self.control.is_linuxcnc() && number < 5000 => Ok(0.0),
-            // where the tool is, alarms, offsets: they are not the program's to set
+            // tool position, alarms, offsets: a program does not set these
             None if number >= 1000 => {
-                let help = "write the number that it would have, or run the program without this block";
-                refuse(Code::PN016, format!("#{number} is a variable of the control, known at the machine alone"), help)
+                let help = "write its value as a number, or run the program without this block";
+                refuse(Code::PN016, format!("#{number} is a variable of the control, known only at the machine"), help)
             }
             None => {
                 let help = format!("set it in the program before this block: #{number}=0");
-                refuse(Code::PN016, format!("nothing in the program sets #{number}"), help)
+                refuse(Code::PN016, format!("#{number} is not set in the program"), help)
             }
         }
     }
@@ -84,21 +84,21 @@ impl Parameters {
     /// The value of a parameter by name.
     ///
     /// # Errors
-    /// Nothing has set it.
+    /// The parameter has no value.
     pub fn named(&self, name: &str) -> Done<f64> {
         let found =
             if name.starts_with('_') { self.global.get(name) } else { self.local.last().and_then(|l| l.get(name)) };
         match found {
             Some(value) => Ok(*value),
             None if name.starts_with("_hal[") || name.starts_with("_ini[") => {
-                let help = "write the number that it would have, or run the program without this block";
+                let help = "write its value as a number, or run the program without this block";
                 refuse(Code::PN016, format!("#<{name}> is a value of the machine"), help)
             }
             None => {
                 let help = format!("set it before this block: #<{name}>=0");
-                // LinuxCNC has some of its own, and refuses any other
+                // LinuxCNC has named parameters of its own, and refuses any other
                 let code = if name.starts_with('_') { Code::PN016 } else { Code::PN014 };
-                refuse(code, format!("nothing in the program sets #<{name}>"), help)
+                refuse(code, format!("#<{name}> is not set in the program"), help)
             }
         }
     }
@@ -106,14 +106,14 @@ impl Parameters {
     /// Sets a parameter.
     ///
     /// # Errors
-    /// It is one of LinuxCNC's own, which are not simulated.
+    /// The parameter belongs to the control, and is not simulated.
     pub fn set(&mut self, target: Target, value: f64) -> Done {
         if !self.control.is_linuxcnc() && matches!(target, Target::Number(34..=99 | 200..=499 | 1000..)) {
             let help = "variables of a program are #1 to #33, #100 to #199 and #500 to #999";
             return refuse(Code::PN016, "a variable of the control itself is not simulated", help);
         }
         if self.control.is_linuxcnc() && matches!(target, Target::Number(5000..)) {
-            let help = "set offsets by G10, G52 and G92; #1 to #4999 are the program's";
+            let help = "set offsets with G10, G52 or G92; a program can set #1 to #4999";
             return refuse(Code::PN016, "a parameter of the control itself is not simulated", help);
         }
         match target {
@@ -128,7 +128,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// A subprogram begins: `#1` to `#30` are its arguments.
+    /// Begins a subprogram: `#1` to `#30` become its arguments.
     pub fn enter(&mut self, arguments: &[f64]) {
         let mut kept = [None; 30];
         for (i, old) in kept.iter_mut().enumerate() {
@@ -139,7 +139,7 @@ impl Parameters {
         self.local.push(HashMap::new());
     }
 
-    /// A subprogram ends: the caller's local parameters come back.
+    /// Ends a subprogram: restores the local parameters of the caller.
     pub fn leave(&mut self) {
         if let Some(kept) = self.kept.pop() {
             self.numbered[1..=30].copy_from_slice(&kept);

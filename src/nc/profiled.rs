@@ -1,63 +1,63 @@
-//! What turning cycles say: data of their blocks.
+//! Data of the blocks of turning cycles.
 
-/// What the first blocks of the cycles said: it stays until another says otherwise.
+/// Data of the first blocks of the cycles. It stays in force until another first block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FirstBlocks {
-    /// Depth of a pass of G71, and how far it goes back.
+    /// Depth of a pass of G71, and its retract.
     pub turn: [Option<f64>; 2],
-    /// The same of G72.
+    /// Depth of a pass of G72, and its retract.
     pub face: [Option<f64>; 2],
-    /// How far the first pass of G73 lies outside along X and Z, and how many passes there are.
+    /// Distance of the first pass of G73 from the profile along X and Z, and the number of passes.
     pub pattern: [Option<f64>; 3],
-    /// How far G74 and G75 go back after a peck.
+    /// Retract of G74 and G75 after a peck.
     pub back: Option<f64>,
-    /// A chamfer or rounded corner that the next block leaves.
+    /// A chamfer or rounded corner that the next block must leave.
     pub corner: Option<Corner>,
 }
 
-/// A chamfer or a rounded corner that was cut, and what the next block has to do.
+/// A chamfer or rounded corner that was cut, and the required direction of the next block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     /// The axis along which the next block moves.
     pub axis: usize,
-    /// From the corner to where the chamfer ends along it, with its sign.
+    /// Distance from the corner to the end of the chamfer along that axis, with its sign.
     pub by: f64,
 }
 
 /// A cycle that follows a profile of the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profiled {
-    /// Numbers of the profile's first block and its last.
+    /// The number of the profile's first block.
     pub first: f64,
-    /// The last.
+    /// The number of its last block.
     pub last: f64,
-    /// How it is made.
+    /// How the profile is cut.
     pub how: How,
 }
 
-/// How a profile is made.
+/// How a profile is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum How {
-    /// Its blocks are run.
+    /// The blocks of the profile are run once.
     Finish,
-    /// In passes along an axis.
+    /// Passes along an axis.
     Passes {
-        /// Along X, not along Z.
+        /// Whether the passes are along X instead of Z.
         across: bool,
         /// Depth of a pass.
         depth: f64,
-        /// How far each pass goes back.
+        /// Retract after each pass.
         back: f64,
-        /// What is left for the finish: radius and Z.
+        /// Allowance for the finish: radius and Z.
         left: [f64; 2],
     },
-    /// As a whole, so many times.
+    /// The whole profile, several times.
     Pattern {
-        /// How far the first one lies outside: radius and Z.
+        /// Distance of the first pass from the profile: radius and Z.
         outside: [f64; 2],
-        /// How often.
+        /// Number of passes.
         count: u32,
-        /// What is left for the finish: radius and Z.
+        /// Allowance for the finish: radius and Z.
         left: [f64; 2],
     },
 }

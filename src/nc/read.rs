@@ -1,4 +1,4 @@
-//! A line read as a block: words, values, comments, and whether its codes go together.
+//! Reads a line as a block: words, values and comments. Checks that its codes may be used together.
 
 use super::block::Block;
 use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
@@ -15,7 +15,7 @@ impl Block {
     /// Reads a line.
     ///
     /// # Errors
-    /// What the control can't read, or refuses before it does anything.
+    /// The control can't read the line, or refuses it before running it.
     pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &RunSettings) -> Done {
         let control = settings.control;
         self.clear();
@@ -34,7 +34,7 @@ impl Block {
                         Code::PN015,
                         token.start,
                         "words before an O word",
-                        "write it in a block of its own",
+                        "write it in a separate block",
                     ));
                 }
                 Kind::Word(b'O' | b':', number) => {
@@ -68,7 +68,7 @@ impl Block {
         self.check(control)
     }
 
-    /// The rest of a line that has expressions.
+    /// Reads the rest of a line that has expressions.
     #[cold]
     fn read_values(
         &mut self,
@@ -101,7 +101,7 @@ impl Block {
                 Kind::Symbol(b'#') => {
                     let target = reader.target(parameters)?;
                     if !reader.takes(b'=') {
-                        let help = "a parameter at the beginning of a word is set: #1=2";
+                        let help = "to set a parameter, write #1=2";
                         return Err(Fault::at(Code::PN014, token.start, "a parameter without `=`", help));
                     }
                     let value = reader.value(parameters)?;
@@ -122,12 +122,12 @@ impl Block {
         Ok(())
     }
 
-    /// Marks what is no word.
+    /// Records a token that is not a word.
     fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: &'static Control) -> Done {
         match kind {
             Kind::Comment => {
                 if control.is_linuxcnc() && line[start + 1..end].contains(&b'(') {
-                    return Err(Fault::at(Code::PN001, start, "a comment in a comment", "take the inner `(` out"));
+                    return Err(Fault::at(Code::PN001, start, "a comment in a comment", "remove the inner `(`"));
                 }
                 self.comment.get_or_insert((start + 1, end - 1));
             }
@@ -197,7 +197,7 @@ impl Block {
                 Ok(())
             }
             _ => {
-                let message = format!("`{}` is no word of this control", char::from(letter));
+                let message = format!("`{}` is not a word of this control", char::from(letter));
                 Err(Fault::at(Code::PN001, column, message, "take it out"))
             }
         }
@@ -214,7 +214,7 @@ impl Block {
         self.takes_axes |= takes_axes(row, rules);
         self.has_modes |= !matches!(its_group, Group::Motion | Group::Cycle);
         let group = its_group as usize;
-        // beside another motion, LinuxCNC takes no notice of G80
+        // LinuxCNC ignores G80 in a block with another motion
         if control.is_linuxcnc() && its_group == Group::Motion {
             match self.g[group].map(|before| before.meaning) {
                 Some(_) if row.meaning == Meaning::CycleEnd => return Ok(()),
@@ -222,7 +222,7 @@ impl Block {
                 _ => {}
             }
         }
-        // modal codes that change nothing here may come in numbers
+        // several modal codes of group `Other`, which change nothing here, may be in one block
         if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
             let message =
                 format!("{} and {} are of one group", before.code, control::Code { letter: b'G', tenths: code });
@@ -236,22 +236,22 @@ impl Block {
         let code = value.round();
         let refuse = |message: String, help: &'static str| Err(Fault::at(Code::PN003, column, message, help));
         if (value - code).abs() > 1e-4 || !(0.0..=999.0).contains(&code) {
-            return refuse(format!("there is no code M{value}"), "M codes are M0 to M999");
+            return refuse(format!("there is no code M{value}"), "use M0 to M999");
         }
         let Some(row) = m_code(control, code as u16) else {
             let name = control::Code::m(code as u16);
             return match why_not_run(control, name) {
                 Some(why) => not_run(name, &why, column),
-                None => refuse(format!("{name} is unknown"), "it is unknown to this control: take it out"),
+                None => refuse(format!("{name} is unknown"), "the control does not have it: remove it"),
             };
         };
         if !self.put_m(code as u16, row) {
-            return refuse(format!("M{code} is one more M code than a block may have here"), "write two blocks");
+            return refuse(format!("M{code} is one M code too many in the block"), "write two blocks");
         }
         Ok(())
     }
 
-    /// Checks that codes and words of the block go together.
+    /// Checks that the codes and words of the block may be used together.
     fn check(&self, control: &'static Control) -> Done {
         if self.has_m() {
             self.check_m(control)?;
@@ -270,11 +270,11 @@ impl Block {
         Ok(())
     }
 
-    /// A code that has its meaning beside some values of its word alone is not run beside others.
+    /// Refuses a code whose meaning is known only for some values of its word, if the word has another value.
     fn check_values(&self) -> Done {
         for row in self.g.iter().flatten().filter(|row| !row.only.is_empty()) {
             if !row.only.iter().any(|&(letter, value)| self.get(letter) == Some(value)) {
-                let message = format!("{} with these words is not run", row.code);
+                let message = format!("{} with these words is not supported", row.code);
                 return refuse(Code::PN016, message, "run the program without it");
             }
         }
@@ -285,7 +285,7 @@ impl Block {
         let mut seen = 0u16;
         for (at, (code, row)) in self.m().enumerate() {
             if at > 0 && control.traits().one_m {
-                let message = format!("M{code} is the second M code of the block, and {} takes one", control.name());
+                let message = format!("M{code} is the second M code of the block, but {} takes one", control.name());
                 return refuse(Code::PN004, message, "write them in two blocks");
             }
             let group = m_group(row);
@@ -301,27 +301,28 @@ impl Block {
 }
 
 fn twice<T>(letter: u8, column: usize) -> Done<T> {
-    let message = format!("{} stands twice in the block", char::from(letter));
+    let message = format!("{} is twice in the block", char::from(letter));
     Err(Fault::at(Code::PN002, column, message, "keep one of them"))
 }
 
-/// Statements of Fanuc macros that are not run.
+/// Statements of Fanuc macros. They are not run.
 const STATEMENTS: [&str; 13] =
     ["IF", "THEN", "GOTO", "WHILE", "DO", "END", "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN", "ACTVN", "SETSVN"];
 
-/// A name that is no word of the control.
+/// A fault for a name that is not a word of the control.
 #[cold]
 fn unknown_name(text: &str, after_comment: bool, column: usize, control: &'static Control) -> Box<Fault> {
     if STATEMENTS.contains(&text.to_ascii_uppercase().as_str()) {
-        let help = "run the program without it: what it does depends on the control";
+        let help = "run the program without it: its effect depends on the control";
         return Fault::at(Code::PN016, column, format!("the statement `{text}` is not simulated"), help);
     }
     let help = if after_comment {
-        "a comment ends at its first `)`: take the inner brackets out"
+        "a comment ends at its first `)`: remove the inner brackets"
     } else {
-        "look for a misprint, or name the control by `--control`: some read whole words (siemens, heidenhain, okuma)"
+        "check the spelling, or name the control with `--control`: some controls read whole words (siemens, \
+         heidenhain, okuma)"
     };
-    Fault::at(Code::PN016, column, format!("`{text}` is no word of {}", control.name()), help)
+    Fault::at(Code::PN016, column, format!("`{text}` is not a word of {}", control.name()), help)
 }
 
 #[cold]
@@ -330,20 +331,20 @@ fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) ->
     match why_not_run(control, name) {
         Some(why) => not_run(name, &why, column),
         None => {
-            let message = format!("G{value} is no code of this control ({})", control.name());
-            Err(Fault::at(Code::PN003, column, message, "look for a misprint, or choose another `--control`"))
+            let message = format!("G{value} is not a code of this control ({})", control.name());
+            Err(Fault::at(Code::PN003, column, message, "check the code, or choose another `--control`"))
         }
     }
 }
 
-/// A code whose meaning is known, and which is not run.
+/// Refuses a code whose meaning is known but which is not run.
 #[cold]
 fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
-    Err(Fault::at(Code::PN016, column, format!("{code} is not run: {why}"), "run the program without it"))
+    Err(Fault::at(Code::PN016, column, format!("{code} is not supported: {why}"), "run the program without it"))
 }
 
 #[cold]
 fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
     let text = String::from_utf8_lossy(&line[start..end.max(start + 1).min(line.len())]).into_owned();
-    Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "take it out, or put it into a comment"))
+    Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "remove it, or put it into a comment"))
 }

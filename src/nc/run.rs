@@ -1,4 +1,4 @@
-//! A block's actions in the order in which a control does them.
+//! Runs the codes of a block in the order of the control.
 
 use super::action::{Action, Item};
 use super::block::Block;
@@ -11,12 +11,12 @@ use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::{Direction, FeedMode, Units};
 
-/// Words that are lengths or angles.
+/// Words whose values are lengths or angles.
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
 
 impl State {
-    /// The words that need no code in their block. Where the control is not named, H beside a work offset does: on another
-    /// control `G56 H1` is a length.
+    /// The words that need no code in their block. H beside a work offset needs one if the control is not given, because
+    /// `G56 H1` is a length on some controls.
     fn free_words(&self, block: &Block) -> u32 {
         let free = self.control.traits().everywhere.bits();
         if self.settings.assumed && block.row(Group::Work).is_some() { free & !bit(b'H') } else { free }
@@ -25,7 +25,7 @@ impl State {
     /// Runs a block.
     ///
     /// # Errors
-    /// What the control refuses.
+    /// The control refuses the block.
     pub fn run(&mut self, block: &mut Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
         if self.control.rules() == Rules::Grbl {
             return self.grbl_block(block, &mut Out::new(items, line));
@@ -88,10 +88,10 @@ impl State {
         self.finish(block, &mut out)
     }
 
-    /// The rest of a block, which is as it was.
+    /// Runs the rest of a block. The block must be unchanged.
     ///
     /// # Errors
-    /// What the control refuses.
+    /// The control refuses the block.
     pub fn run_on(&mut self, block: &Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
         let mut out = Out::new(items, line);
         self.make_holes(block, &mut out)?;
@@ -99,7 +99,7 @@ impl State {
         self.finish(block, &mut out)
     }
 
-    /// M codes come when everything else is done.
+    /// Runs the M codes that come after everything else in the block.
     #[inline]
     fn finish(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         if self.holes.work.is_some() || self.holes.pattern.is_some() {
@@ -108,16 +108,17 @@ impl State {
         if block.has_m() { self.after(block, out) } else { Ok(Next::On) }
     }
 
-    /// Lengths without a point.
+    /// Converts lengths without a point.
     fn unpointed(&self, block: &mut Block) -> Done {
         let said = block.g_meaning(Group::Units).map(|meaning| meaning == Meaning::Inch);
         let inch = said.unwrap_or(self.modes.units == Units::Inch);
         if block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
-            return Ok(()); // their words are no lengths
+            return Ok(()); // words of these codes are not lengths
         }
-        // K is then how often, and no length
+        // K is then a number of repeats, not a length
         let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
-        // P and Q of a turning cycle name blocks, or count increments, Q of a thread an angle; R of a pattern says how often
+        // not lengths: P and Q of a turning cycle (block numbers or increments), Q of a thread (an angle), R of a pattern
+        // (passes)
         let motion = block.row(Group::Motion).or(self.modes.motion).map(|row| row.meaning);
         let (more, less) = match (block.g_meaning(Group::Once), motion) {
             (Some(Meaning::RoughPattern), _) => (0, letters("QR")),
@@ -141,7 +142,7 @@ impl State {
                     let message =
                         format!("{name}{value} has no point, and its meaning depends on a setting of the control");
                     let help =
-                        format!("write {name}{value}. for whole units, or say `--no-point whole` or `increments`");
+                        format!("write {name}{value}. for whole units, or give `--no-point whole` or `increments`");
                     return refuse(Code::PN017, message, help);
                 }
             }
@@ -149,7 +150,7 @@ impl State {
         Ok(())
     }
 
-    /// The canned cycle of a Fanuc that a block begins, or that is in force in it.
+    /// The canned cycle of a Fanuc that begins in a block or is in force.
     fn cycle_of(&self, block: &Block) -> Motion {
         match block.row(Group::Cycle) {
             Some(row) => Some(row).filter(|row| row.meaning != Meaning::CycleEnd),
@@ -157,7 +158,7 @@ impl State {
         }
     }
 
-    /// The code by which a block moves, if it does; where no other is in force, that of its cycle.
+    /// The code of a block's motion, if it has one. If no motion is in force, this is the code of its cycle.
     fn motion_of(&self, block: &Block) -> Done<Motion> {
         let word = block.row(Group::Motion);
         let moves = block.has_axes() && !block.axes_are_taken();
@@ -165,7 +166,7 @@ impl State {
             if block.axes_are_taken() || self.control.is_linuxcnc() {
                 return Ok(None);
             }
-            // on a Fanuc a cycle runs for an R alone too, and a whole circle for its centre alone
+            // on a Fanuc, R alone runs a cycle, and I, J or K alone runs a full circle
             let has_cycle = block.row(Group::Cycle).is_some() || self.holes.cycle.is_some();
             let circle = !has_cycle && is_one_of(self.modes.motion, &ARCS) && block.has(letters("IJK"));
             let runs = circle || has_cycle && block.has(bit(b'R'));
@@ -182,19 +183,19 @@ impl State {
                 _ => false,
             };
             if needs_axes && !block.has_axes() {
-                return refuse(Code::PN006, "the code needs axis words and has none", "write where, as X and Y");
+                return refuse(Code::PN006, "the code needs axis words and has none", "write the position, as X and Y");
             }
             return Ok(Some(row));
         }
         if !self.control.is_linuxcnc() {
             return match self.modes.motion.or(self.cycle_of(block)) {
-                None => no_motion("no G0 or G1 says how to go there"),
+                None => no_motion("no motion code is active: G0 or G1 is missing"),
                 motion => Ok(motion),
             };
         }
         match word {
             Some(_) if moves => no_motion("axis words with G80"),
-            None if self.modes.motion.is_none() => no_motion("no motion code is in force"),
+            None if self.modes.motion.is_none() => no_motion("no motion code is active"),
             None => Ok(self.modes.motion),
             end => Ok(end),
         }
@@ -215,7 +216,7 @@ impl State {
             _ => {
                 return refuse(
                     Code::PN016,
-                    format!("{} is no motion of {}", row.code, self.control.name()),
+                    format!("{} is not a motion of {}", row.code, self.control.name()),
                     "run the program without it",
                 );
             }
@@ -228,7 +229,7 @@ impl State {
         if let Some(row) = block.row(Group::Cycle) {
             let begins = row.meaning != Meaning::CycleEnd;
             if block.row(Group::Motion).is_some() && begins {
-                let help = "write G0 or G1 in a block of its own";
+                let help = "write G0 or G1 in a separate block";
                 return refuse(Code::PN004, "a motion code and a cycle in one block", help);
             }
             if begins {
@@ -241,8 +242,8 @@ impl State {
             self.leave_cycle(row, out);
         }
         if block.axes_are_taken() {
-            // G0 G28 X0: the word is of G28, and G0 is for the blocks after it
-            let help = "write the cycle in a block of its own";
+            // G0 G28 X0: the word belongs to G28, and G0 is in force for the blocks after it
+            let help = "write the cycle in a separate block";
             return if begins_cycle(block) {
                 refuse(Code::PN004, "two codes that both use the axis words", help)
             } else {
@@ -271,20 +272,20 @@ impl State {
             Meaning::TurnPass | Meaning::FacePass if lathe => self.turning_pass(row.meaning, block, out),
             _ => refuse(
                 Code::PN016,
-                format!("{} is no motion of {}", row.code, self.control.name()),
+                format!("{} is not a motion of {}", row.code, self.control.name()),
                 "run the program without it",
             ),
         }
     }
 
-    /// A motion that is no cycle: the series is over.
+    /// Ends the series of holes: the motion is not a cycle.
     fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
         self.end_cycle(out);
         self.threads.end_passes(Some(row.meaning));
         self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
     }
 
-    /// The cycle in force is over; the motion in force stays.
+    /// Ends the cycle in force. The modal motion remains.
     fn end_cycle(&mut self, out: &mut Out<'_>) {
         if self.cycle_in_force().is_some() {
             out.push(Action::CycleOff);
@@ -294,7 +295,7 @@ impl State {
     }
 }
 
-/// Does the block begin a canned cycle of a Fanuc?
+/// Whether the block begins a canned cycle of a Fanuc.
 fn begins_cycle(block: &Block) -> bool {
     block.g_meaning(Group::Cycle).is_some_and(|meaning| meaning != Meaning::CycleEnd)
 }

@@ -1,31 +1,31 @@
-//! Bytes of an NC program as tokens that tile each line: nothing is dropped, nothing is guessed.
+//! Splits lines of an NC program into tokens. Each byte belongs to a token, and none is guessed.
 //!
-//! Blanks inside numbers, missing blanks between words, lower case and both comment styles are read as controls read
-//! them. The scanner knows no code; what no control could read is [`Kind::Unread`].
+//! Spaces inside numbers, missing spaces between words, lower case and both comment styles are read as on controls. The
+//! scanner does not know codes. A byte that no control can read is [`Kind::Unread`].
 
 use super::digits::{Number, is_blank, signed, skip_blanks, unsigned};
 
 /// One token of a line: bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
-    /// What the token is.
+    /// Kind of the token.
     pub kind: Kind,
     /// First byte in the line.
     pub start: usize,
-    /// One past the last byte.
+    /// The byte after the last one.
     pub end: usize,
 }
 
-/// Kinds of tokens. Letters are upper case.
+/// Kinds of tokens. Letters are in upper case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Blanks and tabs.
+    /// Spaces and tabs.
     Blank,
     /// CR, LF or both.
     LineEnd,
-    /// A letter with its number, sign and blanks included: a word.
+    /// A word: a letter with its number, including sign and spaces.
     Word(u8, Number),
-    /// A letter whose value is an expression or a parameter, which follow.
+    /// A letter whose value is an expression or parameter in the next tokens.
     Letter(u8),
     /// A number in an expression, without sign.
     Number(Number),
@@ -35,30 +35,30 @@ pub enum Kind {
     Quoted,
     /// One of `# [ ] = + - * , ` and `/` in an expression; also `**`.
     Symbol(u8),
-    /// `(...)`, closed.
+    /// `(...)` with its closing bracket.
     Comment,
-    /// `(...` without its end.
+    /// `(...` without its closing bracket.
     OpenComment,
     /// `;` and the rest of the line.
     Remark,
-    /// `/` before a block, with a digit where it has one.
+    /// `/` before a block, with its digit if it has one.
     Delete,
-    /// `%` and what stands after it.
+    /// `%` and the text after it.
     Percent,
-    /// A byte that belongs to nothing.
+    /// A byte that is part of no token.
     Unread,
 }
 
-/// The tokens of one line, which may end with its line end.
+/// The tokens of one line. The line may include its line end.
 #[derive(Clone, Debug)]
 pub struct Tokens<'a> {
     line: &'a [u8],
     at: usize,
-    /// Open square brackets.
+    /// Number of open square brackets.
     depth: u32,
-    /// A value is due: after `#`, `=` and operators.
+    /// Whether a value must follow: after `#`, `=` and operators.
     value: bool,
-    /// Only blanks and a block delete were read so far.
+    /// Whether only spaces and a block delete were read so far.
     fresh: bool,
 }
 
@@ -68,7 +68,7 @@ pub fn tokens(line: &[u8]) -> Tokens<'_> {
     Tokens { line, at: 0, depth: 0, value: false, fresh: true }
 }
 
-/// The tokens of a line from a word on.
+/// The tokens of a line after a word.
 pub(super) fn tokens_from(line: &[u8], at: usize) -> Tokens<'_> {
     Tokens { line, at, depth: 0, value: false, fresh: false }
 }
@@ -101,8 +101,8 @@ impl Iterator for Tokens<'_> {
 }
 
 impl Tokens<'_> {
-    /// The next token where it is a letter with its number, as most are, and not the O of a program: the letter, the number and
-    /// the first byte.
+    /// The next token, if it is a letter with its number and not the O of a program: the letter, the number and the first
+    /// byte. Most tokens are of this kind.
     #[inline(always)]
     pub(super) fn word(&mut self) -> Option<(u8, Number, usize)> {
         let start = self.at;
@@ -115,7 +115,7 @@ impl Tokens<'_> {
         Some((letter, number, start))
     }
 
-    /// A word, a letter before an expression, or a name.
+    /// Reads a word, a letter before an expression, or a name.
     #[inline(always)]
     fn letter(&mut self, letter: u8) -> Kind {
         let next = self.at + 1;
@@ -171,7 +171,7 @@ impl Tokens<'_> {
                 self.value = true;
                 (Kind::Symbol(byte), 1)
             }
-            // polar coordinates, the spindle, and the other mark of a program number
+            // polar coordinates, the spindle, and the alternative mark of a program number
             b'@' | b'^' | b'$' | b':' => match signed(self.line, self.at + 1) {
                 Some((number, end)) => (Kind::Word(byte, number), end - self.at),
                 None => (Kind::Letter(byte), 1),
@@ -182,13 +182,13 @@ impl Tokens<'_> {
         kind
     }
 
-    /// Passes over blanks.
+    /// Skips spaces.
     #[inline]
     pub(super) fn skip_blanks(&mut self) {
         self.at = skip_blanks(self.line, self.at);
     }
 
-    /// Bytes after the next one that are still on this line.
+    /// Number of bytes after the next one on this line.
     fn to_line_end(&self) -> usize {
         let rest = &self.line[self.at + 1..];
         rest.iter().position(|&b| b == b'\r' || b == b'\n').unwrap_or(rest.len())

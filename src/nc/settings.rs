@@ -1,49 +1,49 @@
-//! How a program is run.
+//! Settings for running a program.
 
 use crate::control::Control;
 use crate::toolpath::Units;
 
-/// What is run and how.
+/// Settings for running a program.
 #[derive(Clone, Copy, Debug)]
 pub struct RunSettings {
-    /// The control by whose rules a program is run.
+    /// The control whose rules are used.
     pub control: &'static Control,
     /// Units before the first G20 or G21.
     pub units: Units,
-    /// Blocks with a slash are left out.
+    /// Whether blocks with a slash are skipped.
     pub block_delete: bool,
-    /// How far G73 goes back, and how far above the last depth G83 ends its rapid, in the program's units; by default
-    /// what the control does.
+    /// The retract of G73, and the distance above the last depth where the rapid of G83 ends, in the program's units. By
+    /// default, the control's values.
     pub back_off: Option<f64>,
-    /// What a Fanuc makes of a length without a point.
+    /// How a Fanuc reads a length without a point.
     pub unpointed: Unpointed,
-    /// At the beginning, and in height after a tool change, the tool is at a place that only the machine knows; else it
-    /// is at zero.
+    /// Whether the position of the tool is known only at the machine, at the beginning and in height after a tool change.
+    /// Otherwise the position is zero.
     pub places_unknown: bool,
-    /// I, J and K are places from the beginning, as after G90.1.
+    /// Whether I, J and K are positions at the beginning, as after G90.1.
     pub centers_absolute: bool,
-    /// The control is not named: the program shows no other than this one.
+    /// Whether the control is assumed: it is not given, and the program does not indicate another one.
     pub assumed: bool,
-    /// Which way G76 and G87 of a Fanuc move off the wall along the first axis: a parameter of the machine, 1 or -1.
+    /// Direction in which G76 and G87 of a Fanuc leave the wall along the first axis: a machine parameter, 1 or -1.
     pub bore_shift: f64,
-    /// The control is a lathe's, and X counts diameters, or not; `None`: as its file says.
+    /// For a lathe: whether X is a diameter; `None`: as in the control's file.
     pub by_diameter: Option<bool>,
 }
 
-/// What a length without a point means on a Fanuc: a setting of the machine.
+/// How a Fanuc reads a length without a point. This is a setting of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Unpointed {
-    /// A length without a point is an error: nothing is known of it.
+    /// A length without a point is an error, because the setting is unknown.
     #[default]
     Refused,
-    /// Whole inches or millimetres.
+    /// The value is in whole inches or millimetres.
     Whole,
-    /// Least increments: 0.0001 inch, 0.001 mm or degrees.
+    /// The value is in least increments: 0.0001 inch, 0.001 mm or degrees.
     Increments,
 }
 
 impl RunSettings {
-    /// The settings of a control as it is switched on.
+    /// The settings of a control at power-up.
     pub fn new(control: &'static Control) -> RunSettings {
         RunSettings {
             control,

@@ -1,4 +1,4 @@
-//! Runs a program block by block: reads lines, follows subprograms and loops, and hands on what the machine does.
+//! Runs a program block by block: reads lines, follows subprograms and loops, and returns the actions of the machine.
 
 use std::collections::HashMap;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
@@ -19,12 +19,12 @@ use super::way::{Frame, Jump, Spot};
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
 
-/// Longest line in bytes of any control.
+/// The longest line of any control, in bytes.
 const LONGEST: usize = 1 << 16;
-/// Rounds of loops, calls, and blocks passed over again, before a program counts as endless.
+/// Largest number of loop rounds, calls and repeated blocks. A program with more is refused as endless.
 const MOST_JUMPS: u64 = 1_000_000;
 
-/// Actions of subprograms, loops and long blocks after which a program counts as endless.
+/// Largest number of actions from subprograms, loops and long blocks. A program with more is refused as endless.
 const MOST_REPEATED: u64 = 20_000_000;
 
 /// Why a program was not run to its end.
@@ -32,7 +32,7 @@ const MOST_REPEATED: u64 = 20_000_000;
 pub enum RunError {
     /// The program could not be read.
     Io(io::Error),
-    /// The control refuses a block.
+    /// The control refuses a block. The number is the line.
     Refused(Box<Diag>, u64),
 }
 
@@ -42,7 +42,7 @@ impl From<io::Error> for RunError {
     }
 }
 
-/// A program as it is read: from its beginning on, and gone back in where it jumps.
+/// The input of a program. It is read from the beginning. Jumps seek in it.
 pub(super) trait Input: Read + Seek {}
 
 impl<T: Read + Seek> Input for T {}
@@ -53,12 +53,13 @@ impl std::fmt::Debug for dyn Input + '_ {
     }
 }
 
-/// How much of a program is read at a time, in bytes.
+/// The number of bytes that are read at a time.
 const BUFFER: usize = 128 << 10;
 
-/// Runs a program. One compiled simulator serves all inputs: it has a buffer of its own, which is all that is asked for each line.
+/// Runs a program. The input is a trait object, so that the simulator is compiled once for all inputs. The simulator has
+/// its own buffer.
 ///
-/// Memory does not grow with the program: a line is read at a time, and jumps seek in the input.
+/// Memory does not grow with the program: one line is read at a time, and jumps seek in the input.
 #[derive(Debug)]
 pub struct Simulator<'a> {
     pub(super) input: BufReader<Box<dyn Input + 'a>>,
@@ -66,44 +67,44 @@ pub struct Simulator<'a> {
     pub(super) parameters: Parameters,
     pub(super) block: Block,
     pub(super) line: Vec<u8>,
-    /// The place after the line.
+    /// Position in the input after the line.
     pub(super) at: Spot,
-    /// The line that was run last.
+    /// Number of the line that was run last.
     ran: u64,
     pub(super) frames: Vec<Frame>,
-    /// Subprograms by their O number or name, with the byte after their first line.
+    /// Positions of subprograms after their first line, by O number or name.
     pub(super) labels: HashMap<String, Spot>,
-    /// All labels of the rest are known.
+    /// Whether the rest of the input was searched for labels.
     pub(super) searched: bool,
-    /// Profiles that a cycle has followed, for the finish.
+    /// Profiles that a cycle has followed. They are kept for the finish.
     pub(super) profiles: Vec<profile::Found>,
     /// The first O number.
     pub(super) program: Option<f64>,
     percent: bool,
     over: bool,
-    /// The program ended with M99, which begins it again.
+    /// Whether the program ended with M99, which starts it again.
     pub(super) again: bool,
     jumps: u64,
-    /// The last line from which the way led elsewhere: those up to it may be read again.
+    /// The last line before a jump. Lines up to it may be read again.
     pub(super) farthest: u64,
     /// Actions inside subprograms, loops and long blocks.
     repeated: u64,
-    /// The block has more to do.
+    /// Whether the current block has more actions.
     unfinished: bool,
     pub(super) blocks: u64,
-    /// One of them had words.
+    /// Whether one of the blocks had words.
     words: bool,
-    /// What a Siemens keeps.
+    /// State of a Siemens program.
     pub(super) siemens: Box<Siemens>,
-    /// What a Heidenhain keeps.
+    /// State of a Klartext program.
     pub(super) klartext: Box<Klartext>,
-    /// What an Okuma keeps.
+    /// State of an Okuma program.
     pub(super) osp: Box<Osp>,
-    /// Nothing more can be run: the input is over.
+    /// Whether the input is at its end, so that nothing more can be run.
     ended: bool,
-    /// The first block was read, or is read now.
+    /// Whether the first block was read or is being read.
     begun: bool,
-    /// O words to pass over before the first block.
+    /// O words to skip before the first block.
     pub(super) passing: usize,
 }
 
@@ -155,60 +156,60 @@ impl<'a> Simulator<'a> {
         &self.line
     }
 
-    /// The text of the line that was run last, to be taken before the next step; `None`: the line has more to do.
+    /// The text of the line that was run last. Take it before the next step. `None`: the line has more actions.
     #[inline]
     pub fn text_to_keep(&mut self) -> Option<&mut Vec<u8>> {
         if self.unfinished { None } else { Some(&mut self.line) }
     }
 
-    /// The line that was run last.
+    /// Number of the line that was run last.
     pub fn line(&self) -> u64 {
         self.ran
     }
 
-    /// Did the program end with M99, which begins it again?
+    /// Whether the program ended with M99, which starts it again.
     pub fn begins_again(&self) -> bool {
         self.again
     }
 
-    /// The program's number, where it has one.
+    /// The program's number, if it has one.
     pub fn program(&self) -> Option<f64> {
         self.program
     }
 
-    /// The first comment of the line that was run last, without its marks.
+    /// The first comment of the line that was run last, without its delimiters.
     pub fn comment(&self) -> Option<&[u8]> {
         self.block.comment.and_then(|(start, end)| self.line.get(start..end))
     }
 
-    /// Back to the beginning, with everything as switched on.
+    /// Restarts at the beginning, in the power-up state.
     ///
     /// # Errors
-    /// The input can't be gone back in.
+    /// The input can't seek.
     pub fn again(self) -> io::Result<Simulator<'a>> {
         let settings = self.state.settings;
         self.again_with(settings)
     }
 
-    /// Back to the beginning, with other settings.
+    /// Restarts at the beginning with other settings.
     ///
     /// # Errors
-    /// The input can't be gone back in.
+    /// The input can't seek.
     pub fn again_with(mut self, settings: RunSettings) -> io::Result<Simulator<'a>> {
         self.input.seek(SeekFrom::Start(0))?;
         Ok(Simulator::of(self.input, settings))
     }
 
-    /// Blocks run so far.
+    /// Number of blocks run so far.
     pub fn blocks(&self) -> u64 {
         self.blocks
     }
 
-    /// Runs the next line and appends what the machine does; `false` when the program is over. What a line does may come in
-    /// parts, some thousand actions each.
+    /// Runs the next line and appends its actions. Returns `false` when the program is over. A long line returns its
+    /// actions in parts of some thousand.
     ///
     /// # Errors
-    /// The input fails, or the control refuses the block. What the block did before is in `items`.
+    /// The input fails, or the control refuses the block. Actions before the refusal are in `items`.
     #[inline]
     pub fn step(&mut self, items: &mut Vec<Item>) -> Result<bool, RunError> {
         if self.over {
@@ -236,7 +237,7 @@ impl<'a> Simulator<'a> {
             Err(fault) => Err(self.refused(fault)),
         };
         if let Err(error) = jump {
-            // whatever was looked for, the block after this one is the next
+            // after a failed search, the next block is the one after this block
             self.input.seek(SeekFrom::Start(behind.byte))?;
             self.at = behind;
             return Err(error);
@@ -244,7 +245,7 @@ impl<'a> Simulator<'a> {
         Ok(true)
     }
 
-    /// Passes over the block that was refused, as an operator would; `false`: nothing comes after it.
+    /// Skips the refused block, as an operator would. Returns `false` if nothing comes after it.
     pub fn pass_over(&mut self) -> bool {
         if self.ended {
             return false;
@@ -255,7 +256,7 @@ impl<'a> Simulator<'a> {
         true
     }
 
-    /// Looks at the language of the program, and passes over what comes before it.
+    /// Checks the language of the program, and skips the programs before the main one.
     #[cold]
     fn begin(&mut self) -> Result<(), RunError> {
         self.begun = true;
@@ -266,7 +267,7 @@ impl<'a> Simulator<'a> {
         Ok(())
     }
 
-    /// Refuses a program whose first blocks show a language that is not read.
+    /// Refuses a program whose first blocks are in a language that is not read.
     fn check_language(&mut self) -> Result<(), RunError> {
         let head = loop {
             match self.input.fill_buf() {
@@ -287,7 +288,7 @@ impl<'a> Simulator<'a> {
             let help = "name its control: `--control fanuc-lathe` or `haas-lathe`, for a job `--job-control`";
             return Err(self.refused(Fault::new(
                 Code::PN016,
-                "the program is for a lathe, of which kind is not said",
+                "the program is for a lathe, but no lathe control is named",
                 help,
             )));
         }
@@ -296,18 +297,18 @@ impl<'a> Simulator<'a> {
         (self.at.line, self.line, self.ended) = (found.line, found.text, true);
         let (message, help) = match found.control {
             Some(own) => (
-                format!("the program is {}, and {} reads another", found.is, control.name()),
+                format!("the program is {}, but {} reads another language", found.is, control.name()),
                 format!("name its control: `--control {0}`, for a job `--job-control {0}`", own.name()),
             ),
             None => (
-                format!("the program is {}, which postform does not read", found.is),
-                "let the CAM system write it for one of the controls of `--control`".to_owned(),
+                format!("the program is {}: postform can't read it", found.is),
+                "let the CAM system write the program for one of the controls of `--control`".to_owned(),
             ),
         };
         Err(self.refused(Fault::new(Code::PN016, message, help)))
     }
 
-    /// Warnings since the last call, as findings.
+    /// Returns the warnings since the last call, as findings.
     pub fn take_warnings(&mut self) -> Vec<Diag> {
         let list = self.state.take_warnings();
         let (line, text) = (self.at.line, self.text());
@@ -317,12 +318,12 @@ impl<'a> Simulator<'a> {
     #[expect(clippy::boxed_local, reason = "faults come in boxes")]
     pub(super) fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
-        // a loop is refused at its beginning, which is after the line before
+        // a loop is refused before its first line is read, when `at` is still the previous line
         let line = self.at.line.max(u64::from(self.blocks > 0));
         RunError::Refused(Box::new(fault.diag(line, self.text())), line)
     }
 
-    /// The lines of the next block.
+    /// Reads the lines of the next block.
     #[inline]
     fn read_lines(&mut self) -> Result<bool, RunError> {
         match self.state.settings.control.rules() {
@@ -331,7 +332,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// The next line into `self.line`; `false` at the end of the input.
+    /// Reads the next line into `self.line`. Returns `false` at the end of the input.
     #[inline]
     pub(super) fn read_line(&mut self) -> Result<bool, RunError> {
         self.line.clear();
@@ -358,7 +359,7 @@ impl<'a> Simulator<'a> {
             return Ok(false);
         }
         if self.at.byte == 0 && self.line.starts_with(b"\xef\xbb\xbf") {
-            // the mark that some editors put before UTF-8: blanks keep columns and bytes right
+            // a byte order mark of UTF-8: spaces keep the columns and bytes correct
             self.line[..3].fill(b' ');
         }
         self.at.byte += self.line.len() as u64;
@@ -366,7 +367,7 @@ impl<'a> Simulator<'a> {
         Ok(true)
     }
 
-    /// Lets the control act for the line, or for the rest of it, and says where the program goes.
+    /// Runs the line, or the rest of it. Returns where the program continues.
     #[inline]
     fn line_step(&mut self, items: &mut Vec<Item>) -> Done<Jump> {
         let before = items.len();
@@ -379,7 +380,7 @@ impl<'a> Simulator<'a> {
             self.state.run(&mut self.block, self.at.line, items)?
         };
         self.unfinished = next == Next::Rest;
-        // a block alone may make as many as a loop
+        // one block alone may make as many actions as a loop
         if self.unfinished || !self.frames.is_empty() {
             self.repeated += (items.len() - before) as u64;
             if next == Next::On
@@ -388,8 +389,8 @@ impl<'a> Simulator<'a> {
                 return Ok(Jump::To(back));
             }
             if self.repeated > MOST_REPEATED {
-                let message = format!("over {MOST_REPEATED} actions by repeats, loops and pecks");
-                return refuse(Code::PN015, message, "look at Q, at K or L, and at loops inside each other");
+                let message = format!("more than {MOST_REPEATED} actions by repeats, loops and pecks");
+                return refuse(Code::PN015, message, "check Q, K or L, and nested loops");
             }
         }
         match next {
@@ -402,7 +403,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
     #[inline]
     fn read_block(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         let control = self.state.settings.control;
@@ -411,7 +412,7 @@ impl<'a> Simulator<'a> {
             return refuse(
                 Code::PN016,
                 message,
-                "read the program itself: no program of this control is run or proven",
+                "check the program yourself: programs of this control are neither run nor proven",
             );
         }
         let traits = control.traits();
@@ -419,7 +420,7 @@ impl<'a> Simulator<'a> {
         let longest = traits.longest_line.filter(|_| counts).unwrap_or(LONGEST);
         if self.line.len() > longest && self.line.trim_ascii_end().len() > longest {
             self.line.truncate(80);
-            return refuse(Code::PN001, format!("a line of over {longest} bytes"), "break it into several blocks");
+            return refuse(Code::PN001, format!("a line of more than {longest} bytes"), "break it into several blocks");
         }
         self.parameters.position = *self.state.position();
         match control.rules() {
@@ -431,13 +432,13 @@ impl<'a> Simulator<'a> {
         }
         if self.block.is_empty() && self.block.comment.is_none() {
             if self.block.percent {
-                // what stands before the first `%` is no program, if it is comments alone
+                // comments before the first `%` are not part of the program
                 let ends = self.percent || self.words;
                 self.percent = true;
                 if ends && control.rules() == Rules::Fanuc {
                     self.ended = true;
-                    let help = "end it with M30 or M2: a Fanuc stops there with an alarm, and its spindle turns on";
-                    return refuse(Code::PN010, "the program is over at `%`, and no M30 or M2 ended it", help);
+                    let help = "end it with M30 or M2: a Fanuc stops at `%` with an alarm and a turning spindle";
+                    return refuse(Code::PN010, "the program ends at `%` without M30 or M2", help);
                 }
                 return Ok(Some(if ends { Jump::End } else { Jump::On }));
             }
@@ -457,30 +458,30 @@ impl<'a> Simulator<'a> {
         Ok(None)
     }
 
-    /// The input is over before the program.
+    /// Handles the end of the input before the end of the program.
     fn at_end(&mut self) -> Done<bool> {
         (self.over, self.ended) = (true, true);
         if self.state.settings.control.rules() == Rules::Grbl {
-            // it takes block by block, and knows no program
+            // Grbl reads block by block and has no end of a program
             if self.state.drive.spindle != Rotation::Stop {
-                let message = "the program is over, and the spindle turns on: is its end cut off?";
+                let message = "the program ends while the spindle turns: check that the file is complete";
                 self.state.warnings.push((Code::PN037, message));
             }
             return Ok(false);
         }
         let help = "a program ends with M2, M30 or %";
-        refuse(Code::PN010, "the program is cut off: its end is missing", help)
+        refuse(Code::PN010, "the program is incomplete: its end is missing", help)
     }
 
     pub(super) fn go(&mut self, spot: Spot) -> Result<(), RunError> {
         self.farthest = self.farthest.max(self.at.line);
         if self.jumps == 0 {
-            // an input that can't be gone back in refuses each jump, also one that the buffer could serve
+            // fail at the first jump if the input can't seek, even if the buffer would be enough
             self.input.get_mut().stream_position()?;
         }
         let offset = i128::from(spot.byte) - i128::from(self.at.byte);
         match i64::try_from(offset) {
-            // stays inside the buffer where it can
+            // stay inside the buffer if possible
             Ok(offset) => self.input.seek_relative(offset)?,
             Err(_) => _ = self.input.seek(SeekFrom::Start(spot.byte))?,
         }
@@ -491,8 +492,8 @@ impl<'a> Simulator<'a> {
     pub(super) fn count_jump(&mut self) -> Result<(), RunError> {
         self.jumps += 1;
         if self.jumps > MOST_JUMPS {
-            let help = "look at the condition of its loop";
-            return Err(self.refused(Fault::new(Code::PN015, "the program does not come to an end", help)));
+            let help = "check the condition of its loop";
+            return Err(self.refused(Fault::new(Code::PN015, "the program does not end", help)));
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! What is in force between two blocks, for whoever puts it in force again.
+//! The state in force between two blocks, for putting it in force again.
 
 use super::action::{Position, Rotation};
 use super::frames::Shift;
@@ -6,51 +6,51 @@ use super::state::State;
 use crate::control::Meaning;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// What is in force between two blocks.
+/// The state in force between two blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
-    /// In program coordinates and the units in force.
+    /// Position in program coordinates and the units in force.
     pub position: Position,
-    /// Axes whose position only the machine knows, as bits.
+    /// Axes whose position is known only at the machine, as bits.
     pub unknown: u8,
-    /// Those of them that stand at a place of the machine that the program said.
+    /// Those of the `unknown` axes whose machine position is given in the program.
     pub said: u8,
     /// The units in force.
     pub units: Units,
     /// The plane of arcs.
     pub plane: Plane,
-    /// Axis words are positions.
+    /// Whether axis words are positions.
     pub absolute: bool,
-    /// What feeds count.
+    /// The feed mode.
     pub feed_mode: FeedMode,
-    /// The feed in the unit of its mode; 0 where none is known.
+    /// The feed in the unit of its mode; 0 if none is known.
     pub feed: f64,
-    /// Cycles return to the initial level.
+    /// Whether cycles return to the initial level.
     pub to_initial: bool,
-    /// What the spindle does.
+    /// Rotation of the spindle.
     pub rotation: Rotation,
-    /// Its speed.
+    /// Speed of the spindle.
     pub speed: f64,
-    /// What T said last.
+    /// The tool of the last T word.
     pub named_tool: Option<f64>,
     /// The tool in the spindle.
     pub tool: Option<f64>,
-    /// Cutter compensation is on.
+    /// Whether cutter compensation is on.
     pub compensated: bool,
-    /// The motion in force is a rapid.
+    /// Whether the motion in force is a rapid.
     pub is_rapid: bool,
-    /// It is a straight cut.
+    /// Whether the motion in force is a straight cut.
     pub is_line: bool,
-    /// A canned cycle is in force.
+    /// Whether a canned cycle is in force.
     pub has_cycle: bool,
     /// The number of the work offset.
     pub work: usize,
-    /// A frame is moved by G52 or G92, or turned.
+    /// Whether a frame is moved by G52 or G92, or rotated.
     pub is_shifted: bool,
 }
 
 impl State {
-    /// What is in force.
+    /// The state in force.
     pub fn standing(&self) -> Standing {
         Standing {
             position: self.place.position,

@@ -13,7 +13,7 @@ use crate::control::{Centres, Control, Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
-/// A control between two blocks.
+/// The state of a control between two blocks.
 #[derive(Clone, Debug)]
 pub struct State {
     pub(super) settings: RunSettings,
@@ -23,11 +23,11 @@ pub struct State {
     pub(super) drive: Drive,
     pub(super) tool: Tool,
     pub(super) holes: Holes,
-    /// Threads of a lathe: what is kept from block to block.
+    /// State of threads that a lathe keeps from block to block.
     pub(super) threads: Threads,
-    /// Turning cycles of a lathe: what is kept from block to block.
+    /// State of turning cycles that a lathe keeps from block to block.
     pub(super) turning: FirstBlocks,
-    /// Warnings of the block: what a machinist should know though the control does it.
+    /// Warnings of the block: the control accepts it, but a machinist should know about it.
     pub(super) warnings: Vec<(Code, &'static str)>,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Modes {
     pub absolute: bool,
     /// G90.1: I, J and K are positions.
     pub centers_absolute: bool,
-    /// It is known from where I, J and K count: by the control's file, or by the program.
+    /// Whether the mode of I, J and K is known, from the control's file or from the program.
     pub centers_known: bool,
     pub feed_mode: FeedMode,
     /// G98: cycles return to the initial level.
@@ -54,7 +54,7 @@ pub(super) struct Modes {
 /// Feed and spindle.
 #[derive(Clone, Debug)]
 pub(super) struct Drive {
-    /// Feed in the unit of the feed mode; 0 where none is known.
+    /// Feed in the unit of the feed mode; 0 if none is known.
     pub feed: f64,
     pub spindle: Rotation,
     pub speed: f64,
@@ -63,15 +63,15 @@ pub(super) struct Drive {
 /// The tool and its offsets.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tool {
-    /// What T said last.
+    /// The tool of the last T word.
     pub number: Option<f64>,
-    /// The tool in the spindle: what M6 loaded.
+    /// The tool in the spindle, loaded by M6.
     pub loaded: Option<f64>,
-    /// A tool length offset is on.
+    /// Whether a tool length offset is on.
     pub length_on: bool,
-    /// Side of the path on which the tool is; `None`: cutter compensation is off.
+    /// Side of the path where the tool is; `None`: cutter compensation is off.
     pub side: Option<Side>,
-    /// D, which a Fanuc keeps.
+    /// The last D, which a Fanuc keeps.
     pub diameter_register: Option<f64>,
 }
 
@@ -88,12 +88,12 @@ impl Drive {
         if self.feed > 0.0 {
             return Ok(self.feed);
         }
-        refuse(Code::PN008, "a feed move without a feed", "write F with it")
+        refuse(Code::PN008, "a feed move without a feed", "write F in its block")
     }
 }
 
 impl State {
-    /// The state of a control as switched on.
+    /// The state of a control at power-up.
     pub fn new(settings: RunSettings) -> State {
         let control = settings.control;
         State {
@@ -129,38 +129,38 @@ impl State {
         }
     }
 
-    /// Units before the first G20 or G21.
+    /// Sets the units before the first G20 or G21.
     pub(super) fn begin_in(&mut self, units: Units) {
         self.modes.units = units;
     }
 
-    /// Where the tool is.
+    /// Position of the tool.
     pub fn position(&self) -> &Position {
         &self.place.position
     }
 
-    /// What G92, or G52, adds to places of the program.
+    /// The shift that G92 or G52 adds to positions of the program.
     pub fn shift(&self) -> &Position {
         &self.place.frames.shift.by
     }
 
-    /// Axes that stand at a place in machine coordinates, as bits.
+    /// Axes whose position is in machine coordinates, as bits.
     #[inline]
     pub fn at_machine(&self) -> u8 {
         self.place.at_machine
     }
 
-    /// Axes that stand at a place in machine coordinates which the program said, as bits.
+    /// Axes whose machine position is given in the program, as bits.
     pub fn at_said_machine(&self) -> u8 {
         self.place.placed
     }
 
-    /// Is the position of an axis known to the machine alone, in a run that begins so?
+    /// Whether the position of an axis is known only at the machine, if the settings treat such positions as unknown.
     pub(super) fn is_unknown(&self, axis: usize) -> bool {
         self.settings.places_unknown && self.place.at_machine & 1 << axis != 0
     }
 
-    /// A block was refused and is passed over: what it had begun is given up.
+    /// Drops what a refused block had begun. The block is skipped.
     pub(super) fn gives_up_block(&mut self) {
         (self.holes.work, self.holes.pattern) = (None, None);
         if self.settings.places_unknown {
@@ -168,23 +168,23 @@ impl State {
         }
     }
 
-    /// Axes whose frame G92 moved from a place that only the machine knew, as bits.
+    /// Axes whose frame G92 moved from a position that was known only at the machine, as bits.
     pub fn frame_unknown(&self) -> u8 {
         self.place.frames.shift.unknown
     }
 
-    /// How far G92 or G52 moves the frame, in the units in force.
+    /// The shift of the frame by G92 or G52, in the units in force.
     pub fn frame_shift(&self) -> &Position {
         &self.place.frames.shift.by
     }
 
-    /// A place of the program in machine coordinates, in the units in force.
+    /// Converts a position of the program to machine coordinates, in the units in force.
     pub fn in_machine_coordinates(&self, at: &Position) -> Position {
         self.place.frames.to_machine(at)
     }
 
-    /// The number of the work offset in force: G54 is 1, the first additional one 10; those of controls that count them are as they
-    /// count them.
+    /// The number of the work offset in force: G54 is 1, the first additional one is 10. Controls that number their
+    /// offsets keep their own numbers.
     pub fn work_number(&self) -> usize {
         self.place.frames.active
     }
@@ -194,7 +194,7 @@ impl State {
         self.place.frames.given()
     }
 
-    /// Puts the machine's own offsets and reference points in force, in millimetres and degrees; before the first block.
+    /// Sets the machine's own offsets and reference points, in millimetres and degrees. Call this before the first block.
     pub(super) fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         let factor = 1.0 / self.modes.units.in_mm();
         for (number, at) in offsets {
@@ -207,7 +207,7 @@ impl State {
         self.place.position = self.place.frames.to_program(&machine);
     }
 
-    /// A position in machine coordinates as the program says it, in the units in force.
+    /// Converts a position in machine coordinates to program coordinates, in the units in force.
     pub fn in_program_coordinates(&self, at: &Position) -> Position {
         self.place.frames.to_program(at)
     }
@@ -225,13 +225,13 @@ impl State {
         }
     }
 
-    /// Warnings since the last call.
+    /// Returns the warnings since the last call.
     pub fn take_warnings(&mut self) -> Vec<(Code, &'static str)> {
         std::mem::take(&mut self.warnings)
     }
 }
 
-/// A position whose lengths count otherwise.
+/// A position with its lengths multiplied by a factor.
 fn scaled(at: &Position, factor: f64) -> Position {
     std::array::from_fn(|axis| if axis < 3 { at[axis] * factor } else { at[axis] })
 }

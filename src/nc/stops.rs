@@ -1,4 +1,4 @@
-//! What comes when all else of a block is done: stops, the end, subprograms.
+//! Codes that are run last in a block: stops, the end, subprograms.
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
@@ -11,7 +11,7 @@ use crate::diag::Code;
 use crate::toolpath::StopKind;
 
 impl State {
-    /// Stops and subprograms come last.
+    /// Runs stops and subprogram calls, which come last.
     pub(super) fn after(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         let mut next = Next::On;
         for (code, row) in block.m() {
@@ -36,7 +36,7 @@ impl State {
         Ok(next)
     }
 
-    /// M98 P1000 L3, or P31000 as older controls have it.
+    /// M98 P1000 L3, or P31000 as on older controls.
     fn call(&self, code: u16, block: &Block) -> Done<Next> {
         let Some(p) = block.get(b'P').filter(|p| p.fract() == 0.0 && *p >= 1.0) else {
             let message = format!("M{code} without the number of its subprogram");
@@ -44,7 +44,7 @@ impl State {
         };
         let times = block.get(b'L').unwrap_or(1.0);
         if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
-            return refuse(Code::PN018, format!("L{times} is no number of calls"), "write L1 to L9999");
+            return refuse(Code::PN018, format!("L{times} is not a number of calls"), "write L1 to L9999");
         }
         if p > 9999.0 && block.get(b'L').is_none() && !self.control.is_linuxcnc() {
             return Ok(Next::Call(p % 10_000.0, (p / 10_000.0) as u32));

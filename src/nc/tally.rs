@@ -1,37 +1,37 @@
-//! What is in a program: blocks, moves, holes, extents, distances, time.
+//! Statistics of a program: blocks, moves, holes, extents, distances, time.
 
 use super::action::{Action, Item, Position, Turn};
 use super::arcs::axes_of;
 use super::pace::Pace;
 use crate::toolpath::{Direction, Units};
 
-/// Counts what a program does.
+/// Collects statistics of the actions of a program.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    /// Rapids, straight feed moves, arcs.
+    /// Number of rapids, straight feed moves and arcs.
     pub moves: [u64; 3],
-    /// Holes of canned cycles.
+    /// Number of holes of canned cycles.
     pub holes: u64,
-    /// How often a tool is changed.
+    /// Number of tool changes.
     pub tools: u64,
     /// Lengths of rapids and of feed moves.
     pub distances: [f64; 2],
-    /// Least and greatest X, Y, Z of the feed moves, where the tool is between two of them.
+    /// Least and greatest X, Y, Z of the feed moves, including the positions between their ends.
     pub extents: Option<[(f64, f64); 3]>,
     /// Minutes of feed moves, as programmed.
     pub cutting: f64,
     /// Time of dwells, in minutes.
     pub dwelling: f64,
-    /// Feed moves whose time is unknown: their feed follows a spindle without speed.
+    /// Number of feed moves whose time is unknown, because their feed follows a spindle without speed.
     pub timeless: u64,
-    /// Units of the lengths: those at the program's end.
+    /// Units of the lengths: those in force at the end.
     pub units: Units,
     at: Position,
     pace: Pace,
 }
 
 impl Tally {
-    /// A tally of nothing yet.
+    /// An empty tally.
     pub fn new(units: Units) -> Tally {
         Tally {
             moves: [0; 3],
@@ -54,7 +54,7 @@ impl Tally {
         match &item.action {
             Action::Rapid { to, machine, .. } => {
                 self.moves[0] += 1;
-                // how far a place in machine coordinates is, only the machine knows
+                // the distance to a machine position is known only at the machine
                 if *machine == 0 {
                     self.distances[0] += distance(&self.at, to);
                 }
@@ -99,11 +99,11 @@ impl Tally {
         self.cutting + self.dwelling + self.distances[0] / rapid_rate(self.units)
     }
 
-    /// `radius`: where a lathe cuts.
+    /// Adds a feed move. `radius`: radius of a lathe cut.
     fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>, radius: f64) {
         self.distances[1] += length;
         let minutes = match lead {
-            // that of a rotary move too, which has no length
+            // this also covers rotary moves, whose length is 0
             None if self.pace.is_inverse() => 1.0 / feed,
             _ => {
                 let (scale, length) = (self.units.in_mm(), length * self.units.in_mm());
@@ -120,7 +120,7 @@ impl Tally {
         }
     }
 
-    /// The quadrant points that an arc passes.
+    /// Adds the quadrant points that an arc passes.
     fn round(&mut self, turn: &Turn) {
         let [first, second, _] = axes_of(turn.plane);
         let radius = (self.at[first] - turn.center[first]).hypot(self.at[second] - turn.center[second]);
@@ -140,12 +140,12 @@ impl Tally {
     }
 }
 
-/// Rapid rate of time estimates, in units a minute: 10 m, or 400 inch.
+/// Rapid rate for time estimates, in units per minute: 10 m, or 400 inch.
 pub fn rapid_rate(units: Units) -> f64 {
     if units == Units::Inch { 400.0 } else { 10_000.0 }
 }
 
-/// Minutes as `1:02:03`, or `2:03` in less than an hour.
+/// Minutes as `1:02:03`, or `2:03` if less than an hour.
 pub fn clock(minutes: f64) -> String {
     let seconds = (minutes * 60.0).round() as u64;
     let (hours, rest) = (seconds / 3600, seconds % 3600);
@@ -160,7 +160,7 @@ fn distance(from: &Position, to: &Position) -> f64 {
     (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Angle that an arc turns, in radians; a whole turn where it ends as it begins.
+/// The angle of an arc in radians. It is a full turn if the arc ends where it begins.
 pub(crate) fn sweep(from: &[f64], turn: &Turn) -> f64 {
     let [first, second, _] = axes_of(turn.plane);
     let angle = |at: &[f64]| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);

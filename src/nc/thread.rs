@@ -8,7 +8,7 @@ use super::out::Out;
 use super::state::State;
 use crate::diag::Code;
 
-/// Most passes of a thread.
+/// The largest number of passes of a thread.
 const MOST: f64 = 10_000.0;
 
 struct Thread {
@@ -43,7 +43,7 @@ impl State {
         let (pitch, i, j, k) = (need(b'P')?, need(b'I')? * scale, need(b'J')? * scale, need(b'K')? * scale);
         let degression = block.get(b'R').unwrap_or(1.0).max(1.0);
         let checks = [
-            (i == 0.0, "I is 0: it says how far the crest is from the drive line"),
+            (i == 0.0, "I is 0, but it must be the distance of the crest from the drive line"),
             (j <= 0.0, "J, the first cut, must be greater than 0"),
             (k <= j, "K, the full depth, must be greater than J"),
             (block.has(letters("ABC")), "rotary axes do not move in G76"),
@@ -53,7 +53,7 @@ impl State {
             return refuse(Code::PN018, *message, "G76 P(pitch) Z(end) I(crest) J(first cut) K(depth)");
         }
         let target = self.target(block)?;
-        // without a length there is no taper
+        // without a taper length there is no taper
         let ends = block.get(b'L').filter(|_| block.get(b'E').is_some_and(|e| e != 0.0)).unwrap_or(0.0);
         let mut tan = block.get(b'Q').unwrap_or(0.0).to_radians().tan();
         if target[2] > self.place.position[2] {
@@ -82,7 +82,7 @@ impl State {
             self.pass(&thread, depth, out);
             pass += 1.0;
             if pass > MOST {
-                return refuse(Code::PN018, "a thread of over 10000 passes", "write a larger J");
+                return refuse(Code::PN018, "a thread of more than 10000 passes", "write a larger J");
             }
         }
         let springs = block.get(b'H').unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! What a block says of the spindle and the tool: speed, tool, coolant, compensation, length.
+//! Codes of a block for spindle and tool: speed, tool, coolant, compensation, length.
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
@@ -10,7 +10,7 @@ use crate::control::{Code, Meaning, ToolLength, Turns};
 use crate::diag;
 use crate::toolpath::Side;
 
-/// How the spindle turns after an M code of this meaning.
+/// The rotation of the spindle after an M code of this meaning.
 pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
     match meaning {
         Meaning::SpindleCw | Meaning::SpindleCwCoolant => Some(Rotation::Cw),
@@ -20,7 +20,7 @@ pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
     }
 }
 
-/// What an M code of this meaning does to the coolant; through the spindle it is on, as a flood is.
+/// The coolant state after an M code of this meaning. Coolant through the spindle is on as a flood is.
 pub(crate) fn cooling(meaning: Meaning) -> Option<Cooling> {
     match meaning {
         Meaning::Mist => Some(Cooling::Mist),
@@ -40,7 +40,7 @@ impl State {
                 return refuse(
                     diag::Code::PN018,
                     "a negative S",
-                    "write the speed without the minus, the direction as M3 or M4",
+                    "write the speed without the minus, and the direction as M3 or M4",
                 );
             }
             match block.g_meaning(Group::Once) {
@@ -55,7 +55,11 @@ impl State {
         }
         if let Some(tool) = block.get(b'T') {
             if tool < 0.0 || tool.fract() != 0.0 {
-                return refuse(diag::Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
+                return refuse(
+                    diag::Code::PN018,
+                    format!("T{tool} is not a tool number"),
+                    "tool numbers are whole numbers",
+                );
             }
             self.tool.number = Some(tool);
             if self.control.is_lathe() {
@@ -80,7 +84,7 @@ impl State {
             let rotation = rotation(row.meaning);
             if let Some(rotation) = rotation {
                 turned = true;
-                // a Fanuc stops spindle and coolant when the block's motion is done
+                // on a Fanuc, a stop of spindle and coolant takes effect after the block's motion
                 if rotation != Rotation::Stop || self.control.is_linuxcnc() {
                     self.turn_spindle(rotation, out);
                 }
@@ -93,7 +97,7 @@ impl State {
                         let message = format!("M19 to an angle of {angle}");
                         return refuse(diag::Code::PN018, message, "write an angle from 0 to 360");
                     }
-                    self.drive.spindle = Rotation::Stop; // it stands at its angle
+                    self.drive.spindle = Rotation::Stop; // the spindle stops at its angle
                     out.push(Action::Orient(angle));
                 }
                 Meaning::ToolChange | Meaning::ToolNumber | Meaning::Call | Meaning::Return | Meaning::End => {}
@@ -126,20 +130,24 @@ impl State {
         out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
     }
 
-    /// The second T of a block: the tool that comes after the one that the block brings in.
+    /// Handles the second T of a block: the next tool, after the one that the block loads.
     fn preselect(&mut self, tool: f64, block: &Block) -> Done {
         if !block.changes_tool() {
-            let help = "a second T names the next tool beside M6: write M6, or keep one of them";
-            return refuse(diag::Code::PN002, "T stands twice in a block without a tool change", help);
+            let help = "a second T is allowed only with M6, for the next tool: write M6, or keep one T";
+            return refuse(diag::Code::PN002, "T is twice in a block without a tool change", help);
         }
         if tool < 0.0 || tool.fract() != 0.0 {
-            return refuse(diag::Code::PN018, format!("T{tool} is no tool"), "tools are whole numbers");
+            return refuse(
+                diag::Code::PN018,
+                format!("T{tool} is not a tool number"),
+                "tool numbers are whole numbers",
+            );
         }
         self.tool.number = Some(tool);
         Ok(())
     }
 
-    /// M6: the spindle stands afterwards.
+    /// M6: the spindle is stopped afterwards.
     pub(super) fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
         let Some(tool) = self.tool.number else {
             return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before it");
@@ -155,12 +163,12 @@ impl State {
 
     pub(super) fn compensation(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         if !self.control.is_linuxcnc() {
-            // D of a Haas lathe's cycle is a depth
+            // D in a cycle of a Haas lathe is a depth
             let of_cycle = block.row(Group::Once).is_some_and(|row| row.words.has(b'D'));
             self.tool.diameter_register = block.get(b'D').filter(|_| !of_cycle).or(self.tool.diameter_register);
         }
         let Some(row) = block.row(Group::Compensation) else {
-            // another register while it is on
+            // another register while compensation is on
             if let (Some(side), Some(_), false) = (self.tool.side, block.get(b'D'), self.control.is_linuxcnc()) {
                 out.push(Action::Compensation(Some((side, self.tool.diameter_register))));
             }
@@ -172,13 +180,13 @@ impl State {
             return Ok(());
         }
         if self.tool.side.is_some() && self.control.is_linuxcnc() {
-            return refuse(diag::Code::PN013, "cutter compensation is on already", "end it with G40 first");
+            return refuse(diag::Code::PN013, "cutter compensation is already on", "end it with G40 first");
         }
         if !self.control.is_linuxcnc() && is_one_of(motion, &ARCS) {
             return refuse(diag::Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
         }
         let side = if row.meaning == Meaning::SideLeft { Side::Left } else { Side::Right };
-        // LinuxCNC takes the tool's own diameter where no register is named
+        // LinuxCNC uses the tool's own diameter if there is no D
         let register = match row.runs.by_diameter {
             true => None,
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
@@ -200,12 +208,12 @@ impl State {
     pub(super) fn length(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let row = match block.row(Group::Length) {
             Some(row) => row,
-            // a Fanuc changes the offset in force by H alone, a FADAL turns it on
+            // on a Fanuc, H alone changes the offset in force; on a FADAL, H alone turns it on
             None => {
                 let by_register = matches!(self.control.traits().tool_length, ToolLength::Register | ToolLength::Tool);
                 let counts = self.tool.length_on || by_register;
                 if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
-                    // register 0 holds no length
+                    // register 0 has no length
                     self.tool.length_on = register != 0.0 || !by_register;
                     out.push(Action::Length(Some(register).filter(|register| *register != 0.0)));
                 }
@@ -228,7 +236,7 @@ impl State {
                 out.push(Action::Length(Some(0.0)));
             }
             _ => {
-                // without H some controls take the length of the tool in the spindle, whatever T has chosen since
+                // without H, some controls use the length of the tool in the spindle, even after another T
                 let register = block.get(b'H').or(self.tool.loaded);
                 if block.get(b'H').is_none() && self.control.traits().tool_length != ToolLength::Code {
                     let help = "write H with the tool's register: G43 H1";
@@ -243,9 +251,9 @@ impl State {
                     );
                 }
                 if !adds {
-                    self.place.frames.tool = [0.0; 3]; // what G43.1 set is gone
+                    self.place.frames.tool = [0.0; 3]; // the offset of G43.1 ends
                 }
-                // no table of tools tells its length: it counts as zero; G44 takes it off instead
+                // the length is not in any tool table, so it counts as zero; G44 subtracts it
                 let register = register.unwrap_or(0.0);
                 out.push(Action::Length(Some(if row.meaning == Meaning::LengthMinus { -register } else { register })));
             }

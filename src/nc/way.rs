@@ -1,34 +1,34 @@
-//! Where a program goes: places in its text, what it is inside of, and what it looks for.
+//! Positions, frames and jumps of a program's text.
 
 use super::action::Position;
 use super::profiled::Profiled;
 
-/// A place in the program to go to: byte and lines before it.
+/// A position in the program's text: its byte, and the number of lines before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spot {
     pub byte: u64,
     pub line: u64,
 }
 
-/// What runs inside the main program.
+/// A part that runs inside the main program.
 #[derive(Debug)]
 pub(super) enum Frame {
-    /// A subprogram: where it was called, and how often it still runs.
+    /// A subprogram: the position of its call, its start, and the number of runs left.
     Call { label: String, back: Spot, start: Spot, times: u32, arguments: bool },
-    /// A `while`, with the place of its line.
+    /// A `while`, with the position of its line.
     While { label: String, start: Spot },
-    /// A `do`, with the place of its line.
+    /// A `do`, with the position of its line.
     Do { label: String, start: Spot },
-    /// A `repeat`, from the line after it.
+    /// A `repeat`, with the position after its line.
     Repeat { label: String, start: Spot, left: u32 },
-    /// The profile of a cycle: where its block ends, where the profile ends, and from where the cycle began.
+    /// The profile of a cycle: the end of the cycle's block, the end of the profile, and the start position of the cycle.
     Profile { back: Spot, end: Spot, start: Position },
-    /// An `if` one of whose branches runs.
+    /// An `if` with one of its branches running.
     If { label: String },
 }
 
 impl Frame {
-    /// The label by which it was begun.
+    /// The label of the part.
     pub fn label(&self) -> &str {
         match self {
             Frame::Call { label, .. }
@@ -41,7 +41,7 @@ impl Frame {
     }
 }
 
-/// What ends a part that is passed over.
+/// The end of a part that is skipped.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Ends {
     Sub,
@@ -50,30 +50,30 @@ pub(super) enum Ends {
     Repeat,
     If,
     Branch,
-    /// The condition of a `do`, which is run.
+    /// The condition of a `do`. The condition is run.
     Test,
 }
 
-/// Where to go from a line.
+/// Where the program continues after a line.
 pub(super) enum Jump {
     On,
     End,
     To(Spot),
     Find(String, u32),
     Skip(String, Ends),
-    /// To the profile of a cycle.
+    /// Continue at the profile of a cycle.
     Profile(Profiled),
-    /// To what must be looked for first.
+    /// Continue at a target that must be searched first.
     Search(Search),
 }
 
-/// What the way through a program of another language needs to look for.
+/// A search target of a program in another language.
 #[derive(Debug)]
 pub(super) enum Search {
-    /// A label: forwards, backwards, or either.
+    /// A label: `true` forwards, `false` backwards, `None` either.
     Label(String, Option<bool>),
-    /// The end of what this line opens; `true`: it is entered.
+    /// The end of the part that this line opens; `true`: the part is entered.
     Part(bool),
-    /// A subprogram with its arguments, so many times.
+    /// A subprogram with its arguments and the number of calls.
     Call(String, Vec<Option<f64>>, u32),
 }

@@ -1,4 +1,4 @@
-//! Records as events.
+//! Converts records to events.
 
 use super::drilling::{Drilling, Open};
 use super::records::Record;
@@ -13,10 +13,10 @@ pub(super) type Done<T = ()> = Result<T, ReadError>;
 
 /// How far a matrix may be from the identity.
 const STRAIGHT: f64 = 1e-6;
-/// Most facts that are kept.
+/// Maximum number of facts that are kept.
 const MOST_FACTS: usize = 20;
 
-/// Takes records in their order.
+/// Converts the records one after the other.
 pub struct Convert<'r, 's> {
     hold: Hold<'s>,
     report: &'r mut Remarks,
@@ -50,7 +50,7 @@ impl<'r, 's> Convert<'r, 's> {
         }
     }
 
-    /// Was the last record of a file there?
+    /// Has the last record of the file been read?
     pub fn is_over(&self) -> bool {
         self.over
     }
@@ -107,7 +107,7 @@ impl<'r, 's> Convert<'r, 's> {
             }
             1011 | 1012 => {
                 let what = if record.code == 1011 { "reals" } else { "integers" };
-                self.fact(format!("values for Mastercam's post, not read: {what} {}", record.text.trim()));
+                self.fact(format!("values for Mastercam's post, ignored: {what} {}", record.text.trim()));
                 Ok(())
             }
             1013 => {
@@ -129,10 +129,10 @@ impl<'r, 's> Convert<'r, 's> {
                 Ok(())
             }
             1025 if record.text.split_whitespace().any(|word| word.parse() != Ok(0.0)) => {
-                let help = "take the canned text out of the operation: what it prints is up to Mastercam's post";
+                let help = "remove the canned text from the operation: its output depends on Mastercam's post";
                 Err(wrong(Code::PI003, "canned text (1025)", help, record.line))
             }
-            // the construction plane, the stock, no canned text, data of tools and operations
+            // ignored: the construction plane, the stock, an empty canned text, data of tools and operations
             1016 | 1017 | 1020 | 1025 | 10_000.. => Ok(()),
             other => {
                 let what = match other {
@@ -140,8 +140,8 @@ impl<'r, 's> Convert<'r, 's> {
                     200 | 201 => ": a thread of a lathe",
                     _ => "",
                 };
-                let help = "let Mastercam write the operation in another way, or send us the file";
-                Err(wrong(Code::PI003, format!("record {other}{what} is not read"), help, record.line))
+                let help = "post the operation from Mastercam in another form, or send us the file";
+                Err(wrong(Code::PI003, format!("record {other}{what} is not supported"), help, record.line))
             }
         }
     }
@@ -157,7 +157,7 @@ impl<'r, 's> Convert<'r, 's> {
         }
     }
 
-    /// There must have been a tool change.
+    /// Checks that there has been a tool change.
     pub(super) fn begun(&self, record: &Record) -> Done {
         match self.started {
             true => Ok(()),
@@ -196,7 +196,7 @@ impl<'r, 's> Convert<'r, 's> {
         self.place.item = 0;
         self.ahead.comment = None;
         self.coolant = change.coolant;
-        // where the tool is after its change is unknown; after 1000 it stays
+        // the position after a tool change is unknown; after record 1000 it stays
         if record.code != 1000 {
             self.position = None;
         }
@@ -245,8 +245,8 @@ impl<'r, 's> Convert<'r, 's> {
         self.begun(record)?;
         self.end_cycle()?;
         let text = record.text.trim();
-        let message = format!("`{text}` is printed as it is typed in Mastercam");
-        let help = "look whether this control means the same by it";
+        let message = format!("`{text}` is printed unchanged, as typed in Mastercam");
+        let help = "check the meaning of this text on your control";
         self.report.warnings.push(Diag::new(Code::PI005, message).help(help).place(self.place));
         self.push(Event::Text(text))
     }
@@ -261,7 +261,8 @@ impl<'r, 's> Convert<'r, 's> {
             return Ok(());
         }
         let which = if record.code == 1014 { "tool plane" } else { "work coordinate system" };
-        let help = "use the Top plane and the world's work coordinate system: which frame the points count in is not known for another one";
+        let help = "use the Top plane and the world's work coordinate system: for others the frame of the points is \
+            unknown";
         Err(wrong(Code::PI003, format!("a {which} that is turned or moved"), help, record.line))
     }
 
@@ -270,7 +271,7 @@ impl<'r, 's> Convert<'r, 's> {
         self.end_cycle()?;
         let values = record.values(1)?;
         if values[0] < 0.0 || values.get(1).is_some_and(|speed| *speed != 0.0) {
-            let help = "a dwell has its seconds; write the speed into an operation of its own";
+            let help = "a dwell has only seconds; write the speed into a separate operation";
             return Err(wrong(Code::PI003, "a dwell that changes the spindle", help, record.line));
         }
         self.push(Event::Dwell(values[0]))
@@ -279,7 +280,12 @@ impl<'r, 's> Convert<'r, 's> {
     fn hole(&mut self, record: &Record) -> Done {
         self.begun(record)?;
         if self.side.is_some() {
-            return Err(wrong(Code::PI003, "a hole under compensation", "end it before", record.line));
+            return Err(wrong(
+                Code::PI003,
+                "a hole under compensation",
+                "end compensation before the hole",
+                record.line,
+            ));
         }
         let hole = match &self.cycle {
             None if record.code == 100 => {

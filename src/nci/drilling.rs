@@ -1,28 +1,28 @@
-//! Canned cycles: 81 begins one with its first hole, 100 is a further hole.
+//! Canned cycles: record 81 begins a cycle with its first hole, record 100 is a further hole.
 
 use super::records::Record;
 use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
 
-/// How far a hole may be from its upper point across the tool.
+/// How far a hole may be from its upper point, measured across the tool.
 const STRAIGHT: f64 = 1e-6;
 
 /// A hole with its cycle. Heights are absolute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drilling {
     kind: CycleKind,
-    /// Where it is, in X and Y.
+    /// Position in X and Y.
     pub at: [f64; 2],
     bottom: f64,
-    /// Height before and after it.
+    /// Height before and after the hole.
     pub initial: f64,
     /// Height at which the feed begins.
     r: f64,
     /// Top of the stock.
     top: f64,
     dwell: f64,
-    /// The feed; 0 or less: the feed before.
+    /// The feed; 0 or less: the previous feed stays.
     pub feed: f64,
     first_peck: f64,
     peck: f64,
@@ -30,11 +30,11 @@ pub struct Drilling {
     pub flag: Option<f64>,
 }
 
-/// The cycle that is open, by its last hole.
+/// The open cycle, by its last hole.
 pub struct Open(pub Drilling);
 
 impl Open {
-    /// A further hole (100).
+    /// Reads a further hole (100).
     ///
     /// # Errors
     /// A value is missing or makes no sense.
@@ -55,7 +55,7 @@ impl Open {
         own.checked(upper, record)
     }
 
-    /// Is a hole of the same cycle? Its depth may differ.
+    /// Does a hole belong to the same cycle? Its depth may differ.
     pub fn takes(&self, hole: &Drilling) -> bool {
         let without = |hole: &Drilling| Drilling { at: [0.0; 2], bottom: 0.0, flag: None, ..*hole };
         let feed = if hole.feed > 0.0 { hole.feed } else { self.0.feed };
@@ -64,10 +64,10 @@ impl Open {
 }
 
 impl Drilling {
-    /// A first hole (81).
+    /// Reads a first hole (81).
     ///
     /// # Errors
-    /// A value is missing, makes no sense, or is of a cycle that is not read.
+    /// A value is missing, makes no sense, or belongs to a cycle that is not supported.
     pub fn read(record: &Record) -> Result<Drilling, Box<Diag>> {
         let values = record.values(17)?;
         let kind = match values[0] {
@@ -79,7 +79,8 @@ impl Drilling {
             4.0 => CycleKind::Ream,
             5.0 => CycleKind::Bore,
             other => {
-                let help = "0 to 5 are drill, peck, chip break, tap, ream and bore; let Mastercam write long code";
+                let help = "only 0 to 5 (drill, peck, chip break, tap, ream, bore) are supported; let Mastercam \
+                    write long code";
                 return Err(wrong(Code::PI003, format!("a cycle of type {other}"), help, record.line));
             }
         };
@@ -104,24 +105,24 @@ impl Drilling {
         drilling.checked(upper, record)
     }
 
-    /// The heights are in their order.
+    /// Checks that the heights are in their order.
     fn checked(self, upper: [f64; 3], record: &Record) -> Result<Drilling, Box<Diag>> {
         let is_right = self.bottom < self.top && self.top <= self.r && self.r <= self.initial;
         if !is_right || (upper[2] - self.initial).abs() > STRAIGHT {
             let message = format!(
-                "a hole from {} over {} and {} down to {}, which are no heights one below the other",
+                "the heights of a hole are not in descending order: {}, {}, {}, {}",
                 self.initial, self.r, self.top, self.bottom
             );
-            let help = "initial height, R plane, top of the stock, bottom";
+            let help = "the order is initial height, R plane, top of the stock, bottom";
             return Err(wrong(Code::PI001, message, help, record.line));
         }
         Ok(self)
     }
 
-    /// The cycle that begins with this hole; `feed` is the feed before it.
+    /// The cycle that begins with this hole; `feed` is the feed in force before it.
     ///
     /// # Errors
-    /// It has no feed, or no peck.
+    /// The feed or the peck is missing.
     pub fn spec(&self, feed: Option<f64>, record: &Record) -> Result<CycleSpec, Box<Diag>> {
         let mut spec = CycleSpec::new(self.kind);
         let Some(feed) = Some(self.feed).filter(|feed| *feed > 0.0).or(feed) else {

@@ -1,8 +1,9 @@
 //! Mastercam NCI files as toolpaths.
 //!
-//! An NCI file is pairs of lines: the number of a record, then its values. Positions are absolute, in the units of the part, which no
-//! record names. What the numbers mean is taken from the sources of NCCS PostWorks (`ncilod.f`, `ncimot.f`), and was compared with
-//! programs that Mastercam's own posts printed (docs/sources/mastercam.md). What is disputed or unknown is refused.
+//! An NCI file is pairs of lines: the number of a record, then its values. Positions are absolute, in the units of the part; no
+//! record contains the units. The meanings of the numbers are taken from the sources of NCCS PostWorks (`ncilod.f`,
+//! `ncimot.f`). They were compared with programs that Mastercam's own posts printed (docs/sources/mastercam.md). Disputed or
+//! unknown records are refused.
 
 mod convert;
 mod drilling;
@@ -18,7 +19,7 @@ use crate::toolpath::{ReadError, Sink, Units};
 use convert::Convert;
 use records::Records;
 
-/// What a file does not contain.
+/// Information that the file lacks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     /// The units of the file.
@@ -28,7 +29,8 @@ pub struct Options {
 /// Reads a file and pushes its events.
 ///
 /// # Errors
-/// The input fails or is no NCI file; its units are not given; a record is cut off, or contains what no job can have.
+/// The input fails or is no NCI file, its units are missing, a record is cut off, or a record contains something that no job
+/// can contain.
 pub fn read_nci(
     input: impl Read,
     options: &Options,
@@ -42,7 +44,7 @@ pub fn read_nci(
             return Err(wrong(
                 Code::PI001,
                 "a record after the end of the file (1003)",
-                "cut the file off there",
+                "remove the lines after record 1003",
                 record.line,
             ));
         }

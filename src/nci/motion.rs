@@ -7,16 +7,16 @@ use super::wrong;
 use crate::diag::Code;
 use crate::toolpath::{Arc, Axes, Direction, Event, Infeed, Plane, Side};
 
-/// The feed of a rapid.
+/// The feed value of a rapid.
 const RAPID: f64 = -2.0;
-/// The feed of a move that keeps the feed before it.
+/// The feed value of a move that keeps the previous feed.
 const UNCHANGED: f64 = -1.0;
 /// How far a tool axis may be from Z.
 const UPRIGHT: f64 = 1e-6;
-/// By how much of its radius the end of an arc may miss the circle; files have six decimals, often of single precision.
+/// How far the end of an arc may be off the circle, as a fraction of the radius; files have six decimals, often of single precision.
 const ROUND: f64 = 1e-3;
 
-/// How a move goes.
+/// The kind of a move: feed or rapid.
 #[derive(Clone, Copy)]
 enum Pace {
     Rapid,
@@ -33,7 +33,7 @@ impl Pace {
 }
 
 impl Convert<'_, '_> {
-    /// How a move goes, by its value.
+    /// The kind of a move, by its feed value.
     fn pace(&mut self, value: f64, record: &Record) -> Done<Pace> {
         if value == RAPID {
             return Ok(Pace::Rapid);
@@ -41,7 +41,8 @@ impl Convert<'_, '_> {
         if value > 0.0 {
             self.feed = Some(value);
         } else if value != UNCHANGED {
-            let help = "above 0 it is a feed a minute, -1 the feed before, -2 a rapid: is it a lathe's file?";
+            let help = "a number above 0 is a feed per minute, -1 the feed before, -2 a rapid: check that the file \
+                is not for a lathe";
             return Err(wrong(Code::PI003, format!("a feed of {value}"), help, record.line));
         }
         match self.feed {
@@ -52,7 +53,7 @@ impl Convert<'_, '_> {
         }
     }
 
-    /// What a move does with compensation. `None`: nothing.
+    /// The change of compensation in a move. `None`: no change.
     fn turns(&mut self, value: f64, record: &Record) -> Done<Option<Option<Side>>> {
         let to = match value {
             0.0 => return Ok(None),
@@ -60,7 +61,7 @@ impl Convert<'_, '_> {
             41.0 => Some(Side::Left),
             42.0 => Some(Side::Right),
             value if value >= 1000.0 => {
-                let help = "take the canned text out of the operation: what it prints is up to Mastercam's post";
+                let help = "remove the canned text from the operation: its output depends on Mastercam's post";
                 let message = format!("canned text {} at a move", (value / 1000.0).trunc());
                 return Err(wrong(Code::PI003, message, help, record.line));
             }
@@ -146,7 +147,7 @@ impl Convert<'_, '_> {
             0.0 => Plane::Xy,
             1.0 => Plane::Yz,
             2.0 => {
-                let help = "let the operation write lines there: which way such an arc turns is not certain";
+                let help = "let the operation write lines here: the direction of such an arc is not certain";
                 return Err(wrong(Code::PI003, "an arc in the XZ plane", help, record.line));
             }
             value => {
@@ -174,19 +175,19 @@ impl Convert<'_, '_> {
         let radius = |point: &[f64; 3]| (point[first] - values[4]).hypot(point[second] - values[5]);
         let (begin, end) = (radius(&from), radius(&to));
         if (begin - end).abs() > ROUND * begin.max(end) || begin == 0.0 {
-            let message = format!("an arc that begins {begin:.4} from its centre and ends {end:.4} from it");
+            let message = format!("the start of an arc is {begin:.4} from its centre, its end {end:.4}");
             return Err(wrong(
                 Code::PI001,
                 message,
-                "is it the file of another version of Mastercam? send it to us",
+                "the file may be from another version of Mastercam: please send it to us",
                 record.line,
             ));
         }
         let closes = to[first] == from[first] && to[second] == from[second];
         let is_full = values.get(9).is_some_and(|full| *full != 0.0);
         if closes != is_full && (closes || values.len() > 9) {
-            let help = "a full circle ends where it begins, and its tenth value says so";
-            return Err(wrong(Code::PI001, "an arc that may be a full circle or none", help, record.line));
+            let help = "a full circle must end where it begins, and its tenth value must not be 0";
+            return Err(wrong(Code::PI001, "an arc that is not clearly a full circle", help, record.line));
         }
         let direction = if record.code == 2 { Direction::Cw } else { Direction::Ccw };
         let arc = Arc { to: Axes::new(&to), center: Some(center), radius: None, direction, plane, turns: 0 };

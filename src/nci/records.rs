@@ -1,4 +1,4 @@
-//! Records of an NCI file: a line with a number, and a line with values, which may be empty.
+//! Records of an NCI file: one line with a number, then one line with values, which may be empty.
 
 use std::io::{BufRead as _, BufReader, Read};
 
@@ -20,15 +20,15 @@ pub struct Record {
 }
 
 impl Record {
-    /// Its values, at least so many of them.
+    /// Its values; there must be at least `least` of them.
     ///
     /// # Errors
-    /// One is no number, or there are too few.
+    /// A value is not a number, or there are too few.
     pub fn values(&self, least: usize) -> Result<Vec<f64>, Box<Diag>> {
         self.numbers(self.text.split_whitespace(), least)
     }
 
-    /// The first values; words after them may be anything.
+    /// The first values; any words may follow them.
     ///
     /// # Errors
     /// As [`Record::values`].
@@ -41,8 +41,8 @@ impl Record {
             words.map(|word| word.parse().ok().filter(|value: &f64| value.is_finite())).collect();
         let message = match values {
             Some(values) if values.len() >= least => return Ok(values),
-            Some(values) => format!("record {} has {} values, and needs {least}", self.code, values.len()),
-            None => format!("record {} has a value that is no number", self.code),
+            Some(values) => format!("record {} has {} values, but needs {least}", self.code, values.len()),
+            None => format!("record {} has a value that is not a number", self.code),
         };
         Err(wrong(Code::PI001, message, "let Mastercam write the file again", self.line + 1))
     }
@@ -67,7 +67,7 @@ impl<R: Read> Records<R> {
     /// The next record; `None` at the end.
     ///
     /// # Errors
-    /// The input fails, or is cut off inside a record; a line is no number of a record.
+    /// The input fails or ends inside a record, or the first line of a record is not a number.
     pub fn next(&mut self) -> Result<Option<Record>, ReadError> {
         let Some(number) = self.next_line()? else { return Ok(None) };
         let line = self.line;
@@ -83,7 +83,7 @@ impl<R: Read> Records<R> {
         }
         let Ok(code) = number.trim().parse() else {
             let shown: String = number.trim().chars().take(40).collect();
-            let message = format!("`{shown}` is no number of a record");
+            let message = format!("`{shown}` is not a record number");
             let help = if line == 1 { "an NCI file begins with 1050" } else { "let Mastercam write the file again" };
             return Err(wrong(Code::PI001, message, help, line));
         };
@@ -91,7 +91,7 @@ impl<R: Read> Records<R> {
             return Err(wrong(
                 Code::PI001,
                 "the file does not begin with record 1050",
-                "is it an NCI file in text form?",
+                "check that it is an NCI file in text form",
                 line,
             ));
         }
@@ -101,7 +101,7 @@ impl<R: Read> Records<R> {
         }
     }
 
-    /// The next line without its end. What is not UTF-8 is read as Latin-1.
+    /// The next line without its line end. Bytes that are not UTF-8 are read as Latin-1.
     fn next_line(&mut self) -> Result<Option<String>, ReadError> {
         let mut bytes = Vec::new();
         if (&mut self.input).take(LONGEST).read_until(b'\n', &mut bytes)? == 0 {
@@ -109,7 +109,12 @@ impl<R: Read> Records<R> {
         }
         self.line += 1;
         if bytes.len() as u64 == LONGEST {
-            return Err(wrong(Code::PI001, "a line of over 1 MB", "is it an NCI file in text form?", self.line));
+            return Err(wrong(
+                Code::PI001,
+                "a line of more than 1 MB",
+                "check that it is an NCI file in text form",
+                self.line,
+            ));
         }
         while bytes.last().is_some_and(|byte| matches!(byte, b'\n' | b'\r')) {
             bytes.pop();

@@ -1,4 +1,4 @@
-//! Tools and operations: what comes before a tool change, and the tool change itself.
+//! Tools and operations: the records before a tool change, and the tool change itself.
 
 use super::records::Record;
 use super::wrong;
@@ -6,12 +6,12 @@ use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
 use crate::toolpath::{FeedMode, Spindle, SpindleTurn, Tool, ToolChange};
 
-/// What records before a tool change say of it.
+/// Values of the tool from the records before a tool change.
 #[derive(Clone, Debug, Default)]
 pub struct Ahead {
     /// The diameter of the tool.
     pub diameter: Option<f64>,
-    /// The radius of its corner.
+    /// Its corner radius.
     pub corner: Option<f64>,
     /// Its name.
     pub name: Option<String>,
@@ -22,7 +22,7 @@ pub struct Ahead {
 /// The coolant by its number.
 ///
 /// # Errors
-/// The number is none that is known.
+/// The number is unknown.
 pub fn coolant(number: f64, line: u64) -> Result<Coolant, Box<Diag>> {
     match number {
         0.0 => Ok(Coolant::OFF),
@@ -47,7 +47,7 @@ pub fn change(record: &Record, values: &[f64], ahead: &Ahead) -> Result<ToolChan
             return Ok(value);
         }
         let message = format!("the {what} of a tool change is {value}");
-        Err(wrong(Code::PI001, message, "it is a whole number from 0 on", record.line + 1))
+        Err(wrong(Code::PI001, message, "write a whole number, 0 or more", record.line + 1))
     };
     let number = whole(4, "tool")?;
     if number == 0.0 {

@@ -2,12 +2,12 @@
 
 use super::quantise::MAX_DECIMALS;
 
-/// What stands before the digits.
+/// The sign before the digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Blank: a negative value is an error.
+    /// Space: a negative value is an error.
     Unsigned,
-    /// `-`: a minus where the value is negative.
+    /// `-`: a minus for negative values only.
     Minus,
     /// `+`: always a sign.
     Always,
@@ -16,9 +16,9 @@ pub enum Sign {
 /// Digits on one side of the point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Digits {
-    /// How many.
+    /// Number of digits.
     pub count: u8,
-    /// Exactly so many, else up to so many.
+    /// Exactly this number of digits; otherwise up to this number.
     pub fixed: bool,
 }
 
@@ -29,11 +29,11 @@ pub enum Point {
     Always,
     /// `~`: printed before a fraction only.
     BeforeFraction,
-    /// Left out: the control puts it where the decimals say.
+    /// Left out: the control places it by the number of decimals.
     Implied,
 }
 
-/// How the numbers of one letter look (language.md section 2).
+/// The number format of one letter (language.md section 2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LetterFormat {
     /// Sign rule.
@@ -46,11 +46,11 @@ pub struct LetterFormat {
     pub dec: Digits,
 }
 
-/// Why a format can't be used, in words that follow "the format ...".
+/// The reason why a format can't be used, in words that follow "the format ...".
 pub type BadFormat = &'static str;
 
 impl LetterFormat {
-    /// Reads `->3.>4`, `>6`, `34`, `2`; one blank may precede.
+    /// Reads `->3.>4`, `>6`, `34`, `2`; one space may precede.
     pub fn parse(text: &str) -> Result<LetterFormat, BadFormat> {
         let mut rest = text.strip_prefix(' ').unwrap_or(text).as_bytes();
         let sign = match rest.first() {
@@ -76,7 +76,7 @@ impl LetterFormat {
             None => return Err("has a point but no number of decimals"),
         };
         if !rest.is_empty() {
-            return Err("goes on after the decimals");
+            return Err("has characters after the decimals");
         }
         if dec.count > MAX_DECIMALS {
             return Err("has more than 9 decimals");
@@ -85,12 +85,12 @@ impl LetterFormat {
             return Err("has no digits");
         }
         if point == Point::Implied && dec.count > 0 && !dec.fixed {
-            return Err("drops trailing zeros without a point, so that the control can't know where the point is");
+            return Err("drops trailing zeros without a point, so the position of the point is lost");
         }
         Ok(LetterFormat { sign, int, point, dec })
     }
 
-    /// A format written in this source; wrong text is caught by the tests of the tables that use it.
+    /// A format in this source code; the tests of the tables that use it detect wrong text.
     pub(crate) fn built_in(text: &str) -> LetterFormat {
         Self::parse(text).unwrap_or(LetterFormat {
             sign: Sign::Minus,
@@ -100,13 +100,13 @@ impl LetterFormat {
         })
     }
 
-    /// Does it put an implied decimal point?
+    /// Does the format have an implied decimal point?
     pub fn is_implied(&self) -> bool {
         self.point == Point::Implied && self.dec.count > 0
     }
 }
 
-/// One `>n` or `n` from the front.
+/// Reads one `>n` or `n` from the front.
 fn digits(rest: &mut &[u8]) -> Result<Option<Digits>, BadFormat> {
     let fixed = rest.first() != Some(&b'>');
     let text = if fixed { *rest } else { &rest[1..] };
@@ -164,7 +164,7 @@ mod tests {
             ("", "no number of digits"),
             ("->", "`>` without"),
             ("->3.", "no number of decimals"),
-            ("->3.>4x", "goes on"),
+            ("->3.>4x", "has characters after"),
             ("->3>4", "drops trailing zeros"),
             ("0", "no digits"),
             ("  3", "no number of digits"),

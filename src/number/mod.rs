@@ -1,7 +1,7 @@
 //! Numbers as a machine control reads them.
 //!
-//! A value is quantised once to whole units of the last decimal of its letter, half away from zero of the
-//! shortest decimal that denotes the value; it is compared and printed from there.
+//! A value is quantised once to whole units of the last decimal of its letter. Rounding is half away from zero of the shortest
+//! decimal that denotes the value. The quantised value is then compared and printed.
 
 mod format;
 mod quantise;

@@ -1,4 +1,4 @@
-//! From a double to whole units of the last decimal.
+//! Conversion of a double to whole units of the last decimal.
 
 /// The most decimals a letter format can have.
 pub const MAX_DECIMALS: u8 = 9;
@@ -17,13 +17,13 @@ pub const POWERS: [i64; 19] = {
 /// The powers of ten as doubles, for decimals.
 const SCALES: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// The largest magnitude that stands exactly in a double.
+/// The largest magnitude up to which every integer is exact in a double.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// `value` in units of 10^-`decimals`, rounded half away from zero of the shortest decimal that denotes it.
 ///
-/// `1.00005` at four places is 10001 although the double is below the tie. Not finite or too large for 18
-/// digits: `None`.
+/// `1.00005` at four places is 10001 although the double is below the tie. `None` if the value is not finite or has more than
+/// 18 digits.
 ///
 /// ```
 /// use postform::internals::number::quantise;
@@ -34,11 +34,11 @@ const EXACT: f64 = 9_007_199_254_740_992.0;
 #[inline]
 pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
     let scaled = value.abs() * SCALES[decimals as usize];
-    // a cast cuts off, saturates and makes 0 of NaN; unlike `floor` it is one instruction everywhere
+    // a cast truncates, saturates and converts NaN to 0; unlike `floor` it is one instruction on every processor
     let floor = scaled as i64;
     let rest = scaled - floor as f64;
-    // `value` is within half a unit in the last place of its shortest decimal, and the product rounds once more:
-    // closer to a tie than that, only the decimal itself can tell. The comparison also sends NaN and huge ones there.
+    // `value` is within half a unit in the last place of its shortest decimal, and the product rounds once more.
+    // Closer to a tie than that, only the decimal itself decides. The comparison also sends NaN and huge values to `by_digits`.
     if (rest - 0.5).abs() > scaled * (4.0 * f64::EPSILON) && scaled < EXACT {
         let units = floor + i64::from(rest > 0.5);
         return Some(if value < 0.0 { -units } else { units });
@@ -73,7 +73,7 @@ fn by_digits(value: f64, decimals: u8) -> Option<i64> {
 /// The shortest decimal of a finite double that is not negative, as digits (at most 17) and an exponent of ten.
 fn shortest(value: f64) -> (i64, i32) {
     let mut text = Text { bytes: [0; 32], len: 0 };
-    // std prints the shortest digits that read back as the same double; a fixed buffer keeps the path free of allocation
+    // std prints the shortest digits that read back as the same double; a fixed buffer avoids allocation
     if std::fmt::Write::write_fmt(&mut text, format_args!("{value:e}")).is_err() {
         return (0, 0);
     }

@@ -1,14 +1,14 @@
-//! Digits from units.
+//! Writes the digits of a number.
 
 use super::format::{LetterFormat, Point, Sign};
 use super::quantise::POWERS;
 
-/// Why a quantised value has no digits in a format.
+/// The reason why a quantised value can't be printed in a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unprintable {
-    /// More digits before the point than the format has.
+    /// It has more digits before the point than the format.
     Overflow,
-    /// Negative, and the format has no sign.
+    /// It is negative, and the format has no sign.
     Negative,
 }
 
@@ -29,7 +29,7 @@ pub fn write_number(
     if units < 0 && format.sign == Sign::Unsigned {
         return Err(Unprintable::Negative);
     }
-    // from the last digit to the sign, then out in one piece
+    // from the last digit to the sign, then copied as one piece
     let mut text = Backwards { bytes: [b'0'; ROOM + SHORT], at: ROOM };
     let mut end = ROOM;
     if format.is_implied() {
@@ -64,7 +64,7 @@ pub fn write_number(
     }
     let (start, length) = (out.len(), end - text.at);
     match text.bytes[text.at..].first_chunk::<SHORT>() {
-        // a copy of fixed length is two instructions; what is too much is cut off again
+        // a copy of fixed length is two instructions; the excess is cut off afterwards
         Some(short) if length <= SHORT => {
             out.extend_from_slice(short);
             out.truncate(start + length);
@@ -76,10 +76,10 @@ pub fn write_number(
 
 /// Room for the longest number: sign, 18 digits, point, a leading zero.
 const ROOM: usize = 24;
-/// Almost every number is shorter.
+/// Almost every number is shorter than this.
 const SHORT: usize = 16;
 
-/// Whole part and fraction. Division by a constant is a multiplication, so the usual decimals have one each.
+/// Whole part and fraction. Division by a constant compiles to a multiplication, so each usual number of decimals has its own branch.
 #[inline]
 fn split(magnitude: u64, decimals: u8) -> (u64, u64) {
     if let (Ok(small), 1..=6) = (u32::try_from(magnitude), decimals) {
@@ -110,7 +110,7 @@ impl Backwards {
         self.bytes[self.at] = byte;
     }
 
-    /// Exactly so many digits of a fraction.
+    /// Writes a fraction with exactly this many digits.
     #[inline(always)]
     fn fraction(&mut self, fraction: u64, decimals: u8) {
         let Ok(mut rest) = u32::try_from(fraction) else { return self.digits(fraction, decimals) };
@@ -125,7 +125,7 @@ impl Backwards {
         }
     }
 
-    /// At least `width` digits.
+    /// Writes at least `width` digits.
     #[inline]
     fn digits(&mut self, mut value: u64, width: u8) {
         let mut left = width;
@@ -154,7 +154,7 @@ impl Backwards {
     }
 }
 
-/// The digits 00 to 99: two at a time halves the divisions.
+/// The digits 00 to 99: writing two digits at a time halves the number of divisions.
 const PAIRS: [u8; 200] = {
     let mut pairs = [0; 200];
     let mut i = 0;

@@ -1,4 +1,4 @@
-//! Jobs that are read twice, because the form says what lies ahead in them.
+//! Jobs that are read twice, because the form needs values from the rest of the job.
 
 use std::sync::Arc;
 
@@ -13,18 +13,18 @@ use crate::sema::{PropertyKind, PropertyValue};
 use crate::survey::{Survey, Surveyor};
 
 impl Post {
-    /// Does the form say what only the end of a job tells: tools, operations or extents, as `@for tool` and `[hmin]`? Then a job
-    /// is read twice; one that comes as a stream is held in memory. What the properties of the options keep from being printed
-    /// does not count.
+    /// Does the form need values that are known only at the end of a job: tools, operations or extents, as `@for tool` and
+    /// `[hmin]`? Then a job is read twice, and one from a stream is held in memory. Parts of the form that the properties in the
+    /// options disable are not considered.
     ///
     /// # Errors
-    /// The form has no such property, or it takes no such value.
+    /// The form has no such property, or the property does not accept the value.
     #[doc(hidden)]
     pub fn reads_ahead(&self, options: &Options) -> Result<bool, Error> {
         Ok(self.asks(options)?.all)
     }
 
-    /// Is a job read twice, be it for the next tool, which some jobs say in their head?
+    /// Is a job read twice, even if only for the next tool? Some jobs list their tools in the head.
     ///
     /// # Errors
     /// As [`Post::reads_ahead`].
@@ -34,7 +34,7 @@ impl Post {
         Ok(all || tools)
     }
 
-    /// A property and a value with which a job is read once, as `header=no`, if there is one.
+    /// A property and a value with which a job is read only once, as `header=no`; `None` if there is none.
     #[doc(hidden)]
     pub fn reads_once_with(&self) -> Option<String> {
         let settings = &self.0.program.settings;
@@ -54,11 +54,11 @@ impl Post {
         Ok(self.0.program.asks_ahead(&options.fixed_properties(&self.0.program.settings)?))
     }
 
-    /// What lies ahead in a job, if the form says any of it.
+    /// Reads the job ahead, if the form needs values from its rest.
     pub(super) fn survey(&self, job: &mut Job<'_>, options: &Options) -> Result<Option<Arc<Survey>>, Error> {
         let Asks { all, tools } = self.asks(options)?;
         if options.one_pass && all {
-            let message = "the form says what lies ahead in the job, and the job is to be read once";
+            let message = "the form prints values from later in the job, but the job can be read only once";
             return Err(Error::usage(message));
         }
         if options.one_pass || !all && !tools {
@@ -69,7 +69,7 @@ impl Post {
         read.map(|()| Some(Arc::new(survey)))
     }
 
-    /// As much as can be said of a job that may not be whole.
+    /// Reads as much as possible of a job that may be incomplete.
     pub(super) fn surveyed(
         &self,
         job: &mut Job<'_>,

@@ -1,4 +1,4 @@
-//! A job printed with what each line of the form came to: for editors.
+//! Prints a job and records the output of each line of the form, for editors.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -15,36 +15,36 @@ use crate::span::Span;
 use crate::toolpath::{Event, Flow, Place, Sink};
 use crate::verify::Verdict;
 
-/// A program, with what each line of the form came to.
+/// A program with the output of each line of the form.
 #[derive(Debug)]
 pub struct Followed {
     /// The program as far as it was printed, with its source map.
     pub program: Program,
     /// The lines of the form that printed, in the order of the program.
     pub seen: Vec<Seen>,
-    /// Why the program ends before its job does, where it does.
+    /// The error that stopped the program before the end of the job, if any.
     pub stopped: Option<Error>,
 }
 
-/// A line of the form at the block that it printed first.
+/// A line of the form with its first block.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// The line of the form.
     pub form: Span,
     /// The line of the program, from 1.
     pub line: u64,
-    /// What its words came to, in their order.
+    /// Output of its words, in order.
     pub words: Vec<TraceWord>,
-    /// What the variables held, in the program's units; variables without a value are left out.
+    /// Values of the variables, in the program's units. Variables without a value are left out.
     pub values: Vec<(VarId, f64)>,
 }
 
 impl Post {
-    /// Prints a job and keeps what each line of the form came to. What stops the program on its way does not lose what was
-    /// printed until then: that is what somebody wants to see who writes a form.
+    /// Prints a job and records the output of each line of the form. If an error stops the program, the output before it is kept,
+    /// because the author of a form needs it.
     ///
     /// # Errors
-    /// An option makes no sense.
+    /// An option is invalid.
     pub(crate) fn follow(&self, mut job: Job<'_>, options: &Options) -> Result<Followed, Error> {
         let mut asked = render::Options { trace: true, words: true, ..options.for_renderer(&self.0.program.settings)? };
         if self.may_read_twice(options)? {
@@ -76,12 +76,12 @@ struct Follower<'p> {
     text: Vec<u8>,
     trace: Vec<TraceLine>,
     seen: Vec<Seen>,
-    /// Where in `seen` a line of the form is.
+    /// Index in `seen` of each line of the form.
     known: HashMap<Span, usize>,
 }
 
 impl Follower<'_> {
-    /// Takes what was printed since the last time.
+    /// Records what was printed since the last call.
     fn look(&mut self) {
         if self.renderer.text().is_empty() {
             return;
@@ -94,7 +94,7 @@ impl Follower<'_> {
             let own = |word: &TraceWord| word.line == line.line && within(word.form, form);
             let (mut own, rest): (Vec<_>, Vec<_>) = words.into_iter().partition(own);
             words = rest;
-            // a run of the line that printed nothing has left its words before those of this block
+            // a run of the line without output left its words before those of this block
             own.reverse();
             own.sort_by_key(|word| word.form.start);
             own.dedup_by_key(|word| word.form);

@@ -1,4 +1,4 @@
-//! A program that is far longer than its job: a slip in a step or a count, unless somebody says that it is meant.
+//! Check for programs that are far longer than their job. The cause is usually a wrong step or count; the caller may allow it.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -6,24 +6,24 @@ use std::rc::Rc;
 use crate::diag::{Code, Diag};
 use crate::toolpath::Place;
 
-/// A program up to this size is nothing to ask about.
+/// Programs up to this size in bytes are always accepted.
 const LARGE: u64 = 100_000_000;
-/// How many times as long as its job a large program may be.
+/// Maximum size of a larger program, as a multiple of the job's size.
 const TIMES: u64 = 1000;
 
-/// Compares what is printed with what was read.
+/// Compares the size of the program with that of the job.
 pub struct Growth {
-    /// Bytes of the job that were read; `None`: any length is meant, or the job has no size.
+    /// Bytes of the job read so far; `None`: any length is accepted, or the job has no size.
     pub read: Option<Rc<Cell<u64>>>,
-    /// Bytes that were printed.
+    /// Bytes printed so far.
     pub printed: u64,
 }
 
 impl Growth {
-    /// Counts bytes that are printed, up to this place of the job.
+    /// Counts printed bytes. `place` is the current location in the job.
     ///
     /// # Errors
-    /// It is too much for this job.
+    /// The program is too long for this job.
     pub fn print(&mut self, bytes: usize, place: Place) -> Result<(), Box<Diag>> {
         self.printed += bytes as u64;
         let Some(read) = self.read.as_ref().map(|read| read.get()) else { return Ok(()) };
@@ -31,8 +31,8 @@ impl Growth {
             return Ok(());
         }
         let (program, job) = (self.printed / 1_000_000, read.div_ceil(1000));
-        let message = format!("{program} MB of program from {job} KB of job, and more to come");
-        let help = "look at steps, pecks and counts here; `--huge` prints it all the same";
+        let message = format!("more than {program} MB of program from {job} KB of job");
+        let help = "check steps, pecks and counts here; `--huge` prints the program anyway";
         Err(Box::new(Diag::new(Code::PR028, message).help(help).place(place)))
     }
 }
@@ -49,10 +49,7 @@ mod tests {
         };
         assert!(printed(Some(10), 99_999_999).is_ok());
         let diag = printed(Some(10), 100_000_000).unwrap_err();
-        assert_eq!(
-            (diag.code, diag.message.as_str()),
-            (Code::PR028, "100 MB of program from 1 KB of job, and more to come")
-        );
+        assert_eq!((diag.code, diag.message.as_str()), (Code::PR028, "more than 100 MB of program from 1 KB of job"));
         assert!(printed(None, 100_000_000).is_ok());
         assert!(printed(Some(200_000), 199_999_999).is_ok());
         assert!(printed(Some(200_000), 200_000_000).is_err());

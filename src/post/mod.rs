@@ -1,4 +1,4 @@
-//! The front door: a form that prints, a job that is printed, a program that is proven.
+//! The main API: a compiled form, the printed job, and the verified program.
 
 mod ahead;
 mod follow;
@@ -31,22 +31,22 @@ use crate::lint::{Levels, ready};
 use crate::sema::{Limits, Property, analyse};
 use crate::source::Source;
 
-/// Where the forms come from that a form includes with `Call`.
+/// Source of the forms that a form includes with `Call`.
 pub trait Files {
-    /// A form by the name that `Call` gives it, relative to the form that calls.
+    /// Returns a form by the name in `Call`, relative to the form that calls.
     ///
     /// # Errors
-    /// Why there is none, in words that follow its name: `can't be found`.
+    /// The form can't be read. The text of the error continues a sentence that begins with its name: `can't be found`.
     fn read(&self, name: &str) -> Result<Source, String>;
 }
 
-/// No other forms: a `Call` is an error.
+/// A source without forms: every `Call` is an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFiles;
 
 impl Files for NoFiles {
     fn read(&self, _: &str) -> Result<Source, String> {
-        Err("can't be found: no other form was given".into())
+        Err("can't be found: only one form was given".into())
     }
 }
 
@@ -56,19 +56,19 @@ impl<F: Fn(&str) -> Result<Source, String>> Files for F {
     }
 }
 
-/// A question of a form.
+/// A prompt of a form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prompt<'a> {
     /// The variable that the answer sets.
     pub variable: &'static str,
-    /// The question.
+    /// Text of the prompt.
     pub text: &'a str,
-    /// What holds without an answer.
+    /// Value without an answer.
     pub default: Option<f64>,
 }
 
-/// A form that prints programs: checked, compiled, immutable. A clone shares it, also with other threads.
+/// A form that prints programs: checked, compiled and immutable. Clones share it, also between threads.
 #[derive(Clone, Debug)]
 pub struct Post(Arc<Compiled>);
 
@@ -79,18 +79,18 @@ struct Compiled {
 }
 
 impl Post {
-    /// Checks and compiles a form by the usual limits and levels.
+    /// Checks and compiles a form with the default limits and levels.
     ///
     /// # Errors
-    /// The form has errors: a form with errors makes no post. The error's findings are the errors and warnings.
+    /// The form has errors. The findings of the error are the errors and warnings of the form.
     pub fn compile(form: Source, files: &dyn Files) -> Result<Post, Error> {
         Post::compile_with(form, files, Limits::default(), &Levels::default())
     }
 
-    /// Checks and compiles a form by a shop's own limits and levels.
+    /// Checks and compiles a form with a shop's own limits and levels.
     ///
     /// # Errors
-    /// The form has errors, or findings that these levels count as errors.
+    /// The form has errors, or findings that are errors at these levels.
     pub fn compile_with(form: Source, files: &dyn Files, limits: Limits, levels: &Levels) -> Result<Post, Error> {
         let checked = analyse(form, limits, &mut |name| files.read(name));
         let found = ready(&checked, levels);
@@ -100,48 +100,48 @@ impl Post {
         }
     }
 
-    /// A form that was checked and compiled, with its warnings and notes.
+    /// A post from a compiled form, with its warnings and notes.
     pub(crate) fn of(program: compile::Program, diags: Vec<Diag>, files: &[Source]) -> Post {
         let program = program.identified(files);
         let findings = Findings { diags, files: files.to_vec(), suppressed: 0 };
         Post(Arc::new(Compiled { program, findings }))
     }
 
-    /// The control that the form names.
+    /// The control named in the form.
     pub fn control(&self) -> Option<&'static Control> {
         self.0.program.settings.control
     }
 
-    /// The file of the machine that the form names, from the form's folder.
+    /// The machine's file named in the form, relative to the form's folder.
     pub fn machine_file(&self) -> Option<&str> {
         self.0.program.settings.machine_file.as_deref()
     }
 
-    /// Questions of the form before it prints: the answers are [`Options::set`].
+    /// Prompts of the form. The answers are set in [`Options::set`].
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();
         prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
     }
 
-    /// Properties of the form: the answers are [`Options::properties`].
+    /// Properties of the form. Their values are set in [`Options::properties`].
     pub fn properties(&self) -> &[Property] {
         let all = &self.0.program.settings.properties;
-        // fields of tools come first, and are the job's
+        // fields of tools come first; the job sets them
         &all[all.iter().take_while(|property| property.of_tool().is_some()).count()..]
     }
 
-    /// Does the form say the day or the time of printing? Then [`Options::clock`] gives them.
+    /// Does the form print the date or time of printing? If so, set [`Options::clock`].
     pub fn says_time(&self) -> bool {
         let texts = self.0.program.texts_printed;
         texts.has(TextId::Date) || texts.has(TextId::Time)
     }
 
-    /// The form's warnings and notes, with its text. A form with errors makes no post.
+    /// The form's warnings and notes, with its text. There are no errors, because a form with errors makes no post.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }
 
-    /// Files of the form: the form itself, then those that it calls. Spans are places in them.
+    /// Files of the form: the form itself, then those that it calls. Spans refer to them.
     pub fn files(&self) -> &[Source] {
         &self.0.findings.files
     }

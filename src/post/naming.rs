@@ -1,4 +1,4 @@
-//! The name of a program's file, before the program is printed.
+//! The file name of a program, known before the program is printed.
 
 use super::Post;
 use super::options::Options;
@@ -7,7 +7,7 @@ use crate::job::Job;
 use crate::render::file_name_of;
 use crate::toolpath::{Event, Flow, Place, Sink, Start, Stop};
 
-/// The head of a job, after which it is read no further.
+/// Takes the head of a job. Reading stops after it.
 #[derive(Default)]
 struct Head(Option<Start>);
 
@@ -21,10 +21,10 @@ impl Sink for Head {
 }
 
 impl Post {
-    /// The name that form and job give the file of the program, and the program's number. The job is read until its head is known.
+    /// The file name of the program from form and job, and the program's number. The job is read only up to the end of its head.
     ///
     /// # Errors
-    /// The job ends, or is wrong, before.
+    /// The job ends before its head is complete, or contains an error there.
     #[doc(hidden)]
     pub fn file_name(&self, mut job: Job<'_>, options: &Options) -> Result<(String, Option<f64>), Error> {
         let mut head = Head::default();

@@ -1,4 +1,4 @@
-//! What a caller may choose.
+//! Options that a caller may set.
 
 use crate::control::Control;
 use crate::error::Error;
@@ -9,45 +9,47 @@ use crate::sema::{Property, PropertyValue, Settings};
 use crate::times::Rates;
 use crate::toolpath::Units;
 
-/// How a job is printed. All of it may stay as it is.
+/// Options for printing a job. All have defaults.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Options {
-    /// The program's number; else the job's.
+    /// Number of the program; default: the job's.
     pub program: Option<u32>,
-    /// Units of the program; else those of the job.
+    /// Units of the program; default: those of the job.
     pub units: Option<Units>,
-    /// Where canned cycles come from: the form's sequences, or single moves.
+    /// How canned cycles are printed: by the form's sequences, or as single moves.
     pub cycles: Cycles,
-    /// Values of variables and answers to the form's questions, by the variable's name (`val1`); they go before the job's.
+    /// Values of variables and answers to prompts, by the variable's name (`val1`). They override the job's.
     pub set: Vec<(String, f64)>,
-    /// Values of the form's properties by their names, as somebody types them; they go before all else.
+    /// Values of the form's properties by name, as typed by a user. They override all others.
     pub properties: Vec<(String, String)>,
-    /// The same, of a shop for all its forms: they go before the forms' defaults only. Names that a form has not are left out.
+    /// Values of properties that a shop sets for all its forms. They override only the forms' defaults. Names that a form lacks
+    /// are ignored.
     pub shop_properties: Vec<(String, String)>,
-    /// How deep a countersink of a diameter and an angle is: by the formula that GENER's manual prints, which is right at 90
-    /// degrees only; else by geometry.
+    /// Compute the depth of a countersink from diameter and angle by the formula printed in GENER's manual, which is correct only
+    /// at 90 degrees; default: by geometry.
     pub sink_as_printed: bool,
-    /// A program of over 100 MB may be over 1,000 times as long as its job.
+    /// Accept a program of over 100 MB that is over 1,000 times as long as its job.
     pub huge: bool,
-    /// Day and time of printing, for forms that say them: see [`Post::says_time`](super::Post::says_time).
+    /// Date and time of printing, for forms that print them: see [`Post::says_time`](super::Post::says_time).
     pub clock: Option<Clock>,
-    /// What the job's file is called, for forms that say it.
+    /// Name of the job's file, for forms that print it.
     pub job_file: Option<String>,
-    /// The job is read once only, though the form might say what lies ahead in it: a form that must is an error, and
-    /// `[nexttool]` has a value where the job says its `tool_order`.
+    /// Read the job only once. A form that needs values from the rest of the job is then an error, and `[nexttool]` has a value
+    /// only if the job gives its `tool_order`.
     pub one_pass: bool,
-    /// Keep for each line of the program which form line and which item of the job printed it.
+    /// Record which form line and which item of the job printed each line of the program.
     pub trace: bool,
-    /// How fast the machine's axes are: then `[cuttime]` counts their accelerations. For the command line, which reads machines.
+    /// Speeds and accelerations of the machine's axes; with them, `[cuttime]` includes accelerations. For the command line, which
+    /// reads machine files.
     #[doc(hidden)]
     pub rates: Option<Rates>,
-    /// How [`Post::render`](super::Post::render) proves the program; `None`: it does not.
+    /// How [`Post::render`](super::Post::render) verifies the program; `None`: it does not.
     pub proof: Option<Proof>,
 }
 
 impl Default for Options {
-    /// As the form and the job say, and proven.
+    /// All values from the form and the job, and the program verified.
     fn default() -> Options {
         Options {
             program: None,
@@ -69,29 +71,29 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Sets a variable, or answers a question, by the variable's name: `val1` or `[val1]`.
+    /// Sets a variable or answers a prompt, by the variable's name: `val1` or `[val1]`.
     ///
     /// # Errors
-    /// There is no such variable, or it comes from the toolpath.
+    /// There is no such variable, or its value comes from the toolpath.
     pub fn set_value(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let var = variable(name).map_err(Error::usage)?;
         self.set.push((var.row().name.to_owned(), value));
         Ok(())
     }
 
-    /// The properties that nothing changes any more, by their rows.
+    /// The properties whose values are final, by row.
     pub(super) fn fixed_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
         properties(&self.properties, settings, true)
     }
 
-    /// The properties that somebody else than the job gives, by their rows; the last of a row counts.
+    /// The properties that are not set by the job, by row. The last value of a row applies.
     pub(super) fn given_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
         let mut given = properties(&self.shop_properties, settings, false)?;
         given.extend(self.fixed_properties(settings)?);
         Ok(given)
     }
 
-    /// The options as the renderer takes them.
+    /// Converts the options for the renderer.
     pub(super) fn for_renderer(&self, settings: &Settings) -> Result<render::Options, Error> {
         let set = self.set.iter().map(|(name, value)| Ok((variable(name).map_err(Error::usage)?, *value)));
         Ok(render::Options {
@@ -111,7 +113,7 @@ impl Options {
     }
 }
 
-/// Values of properties, by their rows. A name that is none is an error only where it must be one.
+/// Values of properties, by row. An unknown name is an error only if `must` is true.
 fn properties(given: &[(String, String)], settings: &Settings, must: bool) -> Result<Vec<(u16, PropertyValue)>, Error> {
     let mut values = Vec::new();
     for (name, value) in given {
@@ -128,13 +130,13 @@ fn properties(given: &[(String, String)], settings: &Settings, must: bool) -> Re
     Ok(values)
 }
 
-/// A variable that can be set, by its name, with or without brackets.
+/// A variable that can be set, from its name with or without brackets.
 fn variable(name: &str) -> Result<VarId, String> {
     let name = name.trim().trim_matches(['[', ']']);
     let Some(var) = VarId::parse(name) else {
         let names = VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name);
-        let hint = did_you_mean(name, names).unwrap_or_else(|| "val1 to val10 are free".into());
-        return Err(format!("`{name}` is no variable; {hint}"));
+        let hint = did_you_mean(name, names).unwrap_or_else(|| "use val1 to val10".into());
+        return Err(format!("`{name}` is not a variable; {hint}"));
     };
     match var.row().origin {
         Origin::Computed => Err(format!("[{name}] comes from the toolpath and can't be set")),
@@ -142,22 +144,23 @@ fn variable(name: &str) -> Result<VarId, String> {
     }
 }
 
-/// How a program is run to be proven. All of it may stay as it is.
+/// Options for verifying a program. All have defaults.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Proof {
-    /// The control by whose rules the program is run; `None`: the form's `Control`, else Fanuc.
+    /// The control whose rules apply; `None`: the form's `Control`, else Fanuc.
     pub control: Option<&'static Control>,
-    /// Blocks with a slash are left out.
+    /// Leave out blocks with a slash.
     pub block_delete: bool,
-    /// How far G73 backs off, and how near the last depth G83 goes back, in the program's units; else as the control does.
+    /// The retract distance of G73, and the distance of G83 above the last depth, in the program's units; default: those of the
+    /// control.
     pub back_off: Option<f64>,
-    /// What a length without a point means on a Fanuc.
+    /// Meaning of a length without a point on a Fanuc.
     pub unpointed: Unpointed,
-    /// How near places must be, in the job's units; else 0.0001 inch or 0.002 mm.
+    /// Tolerance for positions, in the job's units; default: 0.0001 inch or 0.002 mm.
     pub tolerance: Option<f64>,
-    /// What a program counts in before its first code of units, where no form printed it; `None`: it must say so.
+    /// Units of a program before its first unit code, if no form printed it; `None`: the program must contain one.
     pub units: Option<Units>,
-    /// A program that is not proven is not printed, either.
+    /// Fail with an error if the program is not proven.
     pub required: bool,
 }

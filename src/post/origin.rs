@@ -1,4 +1,4 @@
-//! Which form line and which item of the job printed a block.
+//! The form line and the item of the job that printed a block.
 
 use super::Post;
 use super::options::Options;
@@ -9,11 +9,11 @@ use crate::render::{Renderer, TraceLine};
 use crate::toolpath::{Event, Flow, Place, Sink, Stop};
 
 impl Post {
-    /// Where lines of a program come from, found by printing it once more: `lines` count from 1, and `None` is a line
-    /// that the program has not. The job is read as far as it is needed.
+    /// Finds the origins of program lines by printing the program again. `lines` count from 1; `None` means that the program has
+    /// no such line. The job is read only as far as needed.
     ///
     /// # Errors
-    /// The job can't be read, or an option makes no sense.
+    /// The job can't be read, or an option is invalid.
     #[doc(hidden)]
     pub fn origins(&self, mut job: Job<'_>, options: &Options, lines: &[u64]) -> Result<Vec<Option<TraceLine>>, Error> {
         let options = Options { trace: true, ..options.clone() };
@@ -22,7 +22,7 @@ impl Post {
         let renderer = Renderer::new(&self.0.program, for_renderer);
         let found = vec![None; lines.len()];
         let mut finder = Finder { renderer, lines, missing: lines.len(), found };
-        // an event that can't be printed ends it: what is known until then is what was asked for
+        // an event that can't be printed ends the search; the origins found so far are returned
         let _ = taken(Some(&self.0.program.settings), &mut finder, |sink| job.read(sink));
         finder.look();
         Ok(finder.found)

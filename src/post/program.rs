@@ -1,10 +1,10 @@
-//! What is printed.
+//! Printed programs.
 
 use crate::diag::Diag;
 use crate::render::TraceLine;
 use crate::verify::Verdict;
 
-/// A program, whole.
+/// A complete program.
 #[derive(Clone, Debug)]
 pub struct Program {
     pub(super) text: String,
@@ -19,12 +19,12 @@ impl Program {
         &self.text
     }
 
-    /// The text of the program, to keep.
+    /// Converts the program into its text.
     pub fn into_text(self) -> String {
         self.text
     }
 
-    /// Does it do what its job asks for? Never [`Verdict::Different`]: such a program is an error.
+    /// The verdict on the program. It is never [`Verdict::Different`]: such a program is an error.
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
     }
@@ -34,20 +34,20 @@ impl Program {
         &self.rendered.notes
     }
 
-    /// The same, and what the verdict is about: what differs, or is not proven.
+    /// The notes, and the findings of the verdict: differences, or parts that are not proven.
     #[doc(hidden)]
     pub fn findings(&self) -> Vec<Diag> {
         [self.rendered.notes.clone(), self.verdict.diags("the program")].concat()
     }
 
-    /// The name that form and job give its file.
+    /// The file name from form and job.
     #[doc(hidden)]
     pub fn file_name(&self) -> &str {
         &self.rendered.file_name
     }
 
-    /// Which form line and which item of the job printed each line; empty unless [`Options::trace`](super::Options::trace)
-    /// asked for it.
+    /// The form line and the item of the job that printed each line. Empty unless [`Options::trace`](super::Options::trace) is
+    /// set.
     pub fn trace(&self) -> &[TraceLine] {
         &self.trace
     }
@@ -59,7 +59,7 @@ impl AsRef<str> for Program {
     }
 }
 
-/// What is said of a program that was written elsewhere.
+/// Result of printing a program to an output.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Rendered {
@@ -67,18 +67,18 @@ pub struct Rendered {
     pub notes: Vec<Diag>,
     /// Lines of the program.
     pub lines: u64,
-    /// What the file of the program is called, by the form's ProgramName and Extension.
+    /// The file name, from the form's ProgramName and Extension.
     pub file_name: String,
 }
 
-/// Some lines of a program, as they come.
+/// A part of a program: some of its lines.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Part<'a> {
     /// The text of these blocks.
     pub text: &'a [u8],
-    /// Where each came from, if that was asked for.
+    /// Origin of each line, if requested.
     pub trace: &'a [TraceLine],
-    /// Lines of the program so far.
+    /// Number of program lines so far.
     pub lines: u64,
 }

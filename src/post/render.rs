@@ -1,4 +1,4 @@
-//! Jobs printed.
+//! Printing of jobs.
 
 use std::io::{self, Write};
 
@@ -14,18 +14,18 @@ use crate::render::Renderer;
 use crate::toolpath::{Event, Flow, Place, Sink, Stop, flow};
 use crate::verify::{Batch, Kept, Verdict};
 
-/// How much text waits before it is passed on.
+/// Size of the text in bytes after which it is passed on.
 const CHUNK: usize = 64 * 1024;
-/// How many events wait before they are passed on: with their text they stay in the cache of a processor.
+/// Number of events after which they are passed on. Together with their text they stay in the processor's cache.
 const EVENTS: usize = 1024;
 
 impl Post {
-    /// Prints a job: the whole program, or nothing. It is proven, unless the options say otherwise: then it is run by the rules
-    /// of its control, and compared with the job, which is read a second time. A job that comes as a stream is held in memory.
+    /// Prints a job: the whole program, or nothing. Unless the options disable it, the program is verified: it is run by the
+    /// rules of its control and compared with the job, which is read a second time. A job from a stream is held in memory.
     ///
     /// # Errors
-    /// The job can't be read or is wrong, or asks for what the form can't print. The program does something else than the job
-    /// asks for, by the rules of the control that the form names: [`ErrorKind::Proof`].
+    /// The job can't be read, contains an error, or requests what the form can't print. By the rules of the control named in the
+    /// form, the program differs from the job: [`ErrorKind::Proof`].
     pub fn render(&self, job: Job<'_>, options: &Options) -> Result<Program, Error> {
         let program = self.tried(job, options)?;
         match &options.proof {
@@ -34,10 +34,10 @@ impl Post {
         }
     }
 
-    /// The same, with programs that do something else than the job asks for: the verdict says so.
+    /// Like [`Post::render`], but a program that differs from its job is returned too, with its verdict.
     ///
     /// # Errors
-    /// As [`Post::render`], but for [`ErrorKind::Proof`].
+    /// As [`Post::render`], except [`ErrorKind::Proof`].
     #[doc(hidden)]
     pub fn tried(&self, mut job: Job<'_>, options: &Options) -> Result<Program, Error> {
         let (mut text, mut trace) = (Vec::new(), Vec::new());
@@ -57,18 +57,19 @@ impl Post {
         Ok(Program { text, rendered, trace, verdict })
     }
 
-    /// Prints a job as it is read, in memory that does not grow with it. It is not proven.
+    /// Prints a job while it is read. Memory use does not grow with the job. The program is not verified.
     ///
     /// # Errors
-    /// As [`Post::render`], or the output fails. What was written is then a part of a program: throw it away.
+    /// As [`Post::render`], or the output fails. The output is then incomplete and must be discarded.
     pub fn render_to(&self, job: Job<'_>, options: &Options, out: &mut impl Write) -> Result<Rendered, Error> {
         self.render_parts(job, options, &mut |part| out.write_all(part.text))
     }
 
-    /// Prints a job as it is read, with its source map. `take` gets the parts in their order, some 64 KB each. It is not proven.
+    /// Prints a job while it is read, with its source map. `take` receives the parts in order, about 64 KB each. The program is
+    /// not verified.
     ///
     /// # Errors
-    /// As [`Post::render`], or `take` fails. What it got is then a part of a program: throw it away.
+    /// As [`Post::render`], or `take` fails. The parts are then incomplete and must be discarded.
     #[doc(hidden)]
     pub fn render_parts(
         &self,
@@ -79,8 +80,9 @@ impl Post {
         self.print(job, options, take, None)
     }
 
-    /// The same with what a proof needs: `prove` gets events and text in their order, for [`Post::prove`] on another thread, and
-    /// gives a batch to be filled next, empty or one that is used up, until it wants no more.
+    /// Like [`Post::render_parts`], with the data for a verification. `prove` receives events and text in order, for
+    /// [`Post::prove`] on another thread. It returns a batch to be filled next, empty or already used, or `None` if it needs no
+    /// more data.
     ///
     /// # Errors
     /// As [`Post::render_parts`].
@@ -138,24 +140,24 @@ impl Post {
 }
 
 fn fault(what: &str) -> Box<Diag> {
-    Box::new(Diag::new(Code::PX001, what).help("this is a fault of postform: please report it"))
+    Box::new(Diag::new(Code::PX001, what).help("this is an error in postform: please report it"))
 }
 
-/// A sink between reader and output: prints, and passes text on as it comes.
+/// A sink between reader and output: prints events and passes the text on.
 struct Printer<'p, 't, 's> {
     renderer: Renderer<'p>,
     growth: Growth,
     take: &'t mut dyn FnMut(Part<'_>) -> io::Result<()>,
-    /// Who takes the parts wants the source map.
+    /// The receiver of the parts needs the source map.
     traced: bool,
-    /// What is passed on: text and source map, and for a proof the events that they came from.
+    /// Data to pass on: text and source map, and for a verification the events.
     batch: Batch,
     prove: Option<&'s mut dyn FnMut(Batch) -> Option<Batch>>,
     failure: Option<io::Error>,
 }
 
 impl Printer<'_, '_, '_> {
-    /// Passes on what waits.
+    /// Passes the waiting data on.
     fn drain(&mut self) {
         let lines = self.renderer.lines();
         self.swap();
@@ -170,12 +172,12 @@ impl Printer<'_, '_, '_> {
             }
             self.batch = next.unwrap_or_default();
         }
-        // the next part is printed into the same memory
+        // the next part reuses the same memory
         self.batch.clear();
         self.swap();
     }
 
-    /// Changes what the renderer printed for what is in the batch.
+    /// Swaps the renderer's output with that in the batch.
     fn swap(&mut self) {
         std::mem::swap(self.renderer.text(), &mut self.batch.text);
         if let Some(trace) = self.renderer.trace() {
@@ -183,7 +185,7 @@ impl Printer<'_, '_, '_> {
         }
     }
 
-    /// Is there enough to be passed on?
+    /// Is there enough data to pass on?
     #[inline]
     fn is_full(&mut self) -> bool {
         self.renderer.text().len() >= CHUNK || self.batch.events.len() >= EVENTS

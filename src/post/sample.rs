@@ -1,4 +1,4 @@
-//! What fixes change in a program: a form's program of a job before and after them.
+//! Effect of fixes on a program: the program of a job before and after them.
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use crate::job::Job;
 use crate::lang::{Machine, UnitChoice};
 use crate::sema::{Checked, Settings};
 
-/// A whole part for each type of machine, in units that the form prints: what most sequences print is in it.
+/// A complete part for each type of machine, in units that the form accepts. It uses most sequences.
 pub fn sample_job(settings: &Settings) -> &'static str {
     let (text, inch) = match settings.machine {
         Machine::Mill => (include_str!("../../samples/bracket/job.json"), true),
@@ -24,15 +24,15 @@ pub fn sample_job(settings: &Settings) -> &'static str {
     if wanted == inch {
         return text;
     }
-    // the same numbers: a smaller part, or a larger one
+    // the numbers stay the same, so the part is smaller or larger
     static OTHERS: [OnceLock<String>; 3] = [const { OnceLock::new() }; 3];
     let units = [r#""units": "mm""#, r#""units": "inch""#];
     OTHERS[settings.machine as usize]
         .get_or_init(|| text.replacen(units[usize::from(inch)], units[usize::from(!inch)], 1))
 }
 
-/// What a form prints for a job, the built-in one where none is given; the inner `Err`: why it prints nothing. Blocks have no
-/// numbers, so that one block more is not another number in all that follow.
+/// The program of a form for a job, or for the built-in job if none is given. The inner `Err` is the reason why nothing is
+/// printed. Blocks have no numbers, so that an additional block does not change all later ones.
 ///
 /// # Errors
 /// The job can't be read.
@@ -44,7 +44,7 @@ pub fn sample_program(checked: &Checked, job: Option<Job<'_>>) -> Result<Result<
     form.settings.numbers.letter = None;
     let sample = sample_job(&form.settings);
     let post = Post::of(compile(&form), Vec::new(), &checked.files);
-    // questions are answered, so that something is printed
+    // prompts get answers so that a program is printed
     let mut options = Options { program: Some(1), proof: None, ..Options::default() };
     options.set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
     match post.render(job.unwrap_or_else(|| Job::json(sample)), &options) {

@@ -9,10 +9,10 @@ use crate::job::Job;
 use crate::setup::{SetupSheet, Stops, of_job};
 
 impl Post {
-    /// What a sheet says of a job that this form prints: the caller adds the program's verdict, pictures and hashes.
+    /// The content of a setup sheet for a job that this form prints. The caller adds the program's verdict, pictures and hashes.
     ///
     /// # Errors
-    /// The job can't be read twice, or is wrong.
+    /// The job can't be read twice, or contains an error.
     #[doc(hidden)]
     pub fn setup(&self, mut job: Job<'_>, options: &Options) -> Result<SetupSheet, Error> {
         job.hold()?;
@@ -20,7 +20,7 @@ impl Post {
         read?;
         let mut stops = Stops::default();
         taken(Some(&self.0.program.settings), &mut stops, |sink| job.read(sink))?;
-        // a fixture's number, or the code itself
+        // the number of a fixture, or the code itself
         let name = |work: f64| if work < 50.0 { format!("{work}") } else { format!("G{work}") };
         let mut sheet = of_job(&survey, stops, self.turns(), &name);
         let settings = &self.0.program.settings;

@@ -2,19 +2,19 @@
 
 /// A form of `postforms/`.
 pub struct Shipped {
-    /// The name of its file, without the ending.
+    /// Name of its file, without the extension.
     pub name: &'static str,
-    /// The machine that it is for.
+    /// Machine of the form.
     pub about: &'static str,
-    /// Other names by which it is asked for.
+    /// Other accepted names.
     pub also: &'static [&'static str],
-    /// Its text.
+    /// Text of the form.
     pub text: &'static str,
 }
 
 macro_rules! shipped {
     ($($name:literal $about:literal $($also:literal)*;)*) => {
-        /// All of them, in the order of the reference.
+        /// All shipped forms, in the order of the reference.
         pub const FORMS: &[Shipped] = &[$(Shipped {
             name: $name,
             about: $about,

@@ -1,4 +1,4 @@
-//! Programs proven: run as the control would, and compared with their job.
+//! Verification of programs: a program is run as by the control and compared with its job.
 
 use std::io::{Cursor, Read, Seek};
 use std::path::Path;
@@ -16,33 +16,33 @@ use crate::preflight::JobTool;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Batch, Comparer, Counts, Expectation, Finding, Outcome, Verdict, prove_beside};
 
-/// How a proof came out.
+/// Result of a verification.
 #[derive(Clone, Debug)]
 #[must_use = "a program may be proven to be wrong"]
 #[non_exhaustive]
 pub struct Proven {
-    /// Does the program make the job's motions?
+    /// Verdict on the motions.
     pub verdict: Verdict,
-    /// How much was compared.
+    /// Extent of the comparison.
     pub counts: Counts,
-    /// Warnings of running the program; their places are lines of it.
+    /// Warnings from running the program; their locations are lines of the program.
     pub warnings: Vec<Diag>,
 }
 
 impl Post {
-    /// Does a program make the motions of its job? It is run by the rules of the form's `Control`.
+    /// Verifies that a program makes the motions of its job. The program is run by the rules of the form's `Control`.
     ///
     /// # Errors
-    /// The job can't be read, or is wrong. What is wrong with the program is in the verdict.
+    /// The job can't be read or contains an error. Faults of the program are in the verdict.
     pub fn verify(&self, job: Job<'_>, program: impl AsRef<[u8]>) -> Result<Verdict, Error> {
         let proven = self.verify_with(job, Cursor::new(program.as_ref()), &Options::default(), &Proof::default())?;
         Ok(proven.verdict)
     }
 
-    /// Does a program make the motions of its job? `options` are those that it was printed with.
+    /// Verifies that a program makes the motions of its job. `options` are those with which it was printed.
     ///
     /// # Errors
-    /// The job or the program can't be read, or the job is wrong. What is wrong with the program is in the verdict.
+    /// The job or the program can't be read, or the job contains an error. Faults of the program are in the verdict.
     pub fn verify_with(
         &self,
         job: Job<'_>,
@@ -53,13 +53,13 @@ impl Post {
         prove(Some(&self.0.program), job, program, options, proof)
     }
 
-    /// How the control of this form runs a program that it printed, which counts in these units until it says others.
+    /// Settings for running a program that this form printed. `units` apply until the program selects others.
     #[doc(hidden)]
     pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
         proof.settings(Some(&self.0.program), units)
     }
 
-    /// Is it a lathe's form? Then: does X of its programs count diameters?
+    /// For a form of a lathe: does X of its programs count diameters? `None` for other forms.
     #[doc(hidden)]
     pub fn turns(&self) -> Option<bool> {
         let settings = &self.0.program.settings;
@@ -77,10 +77,10 @@ impl Post {
         Ok(tools.tools)
     }
 
-    /// Says which lines of the form and which items of the job made the blocks of findings of the machine.
+    /// Adds the form lines and job items to machine findings, from the blocks that caused them.
     ///
     /// # Errors
-    /// The job can't be read again, or an option makes no sense.
+    /// The job can't be read again, or an option is invalid.
     #[doc(hidden)]
     pub fn locate(&self, findings: &mut [Finding], job: Job<'_>, options: &Options) -> Result<(), Error> {
         let lines: Vec<u64> = findings.iter().map(|finding| finding.line).collect();
@@ -95,13 +95,13 @@ impl Post {
         Ok(())
     }
 
-    /// Does the program that [`Post::render_beside`] prints make the motions of its job? `batches` may be the end of a channel on
-    /// another thread: it is asked for no more than is compared next, and not at all once the verdict is known. Each is dropped
-    /// when it is compared; what stands for a batch may give it back then, to be filled again. Whether the job can be
-    /// printed to its end is for the other side to say.
+    /// Verifies that the program from [`Post::render_beside`] makes the motions of its job. `batches` may be the end of a channel
+    /// on another thread. Only the next batch to compare is requested, and none after the verdict is known. Each batch is dropped
+    /// after its comparison; a type that wraps a batch may return it then to be filled again. Whether the job can be printed to
+    /// its end is checked by the other side.
     ///
     /// # Errors
-    /// None that is known: what was printed can be read.
+    /// None is expected, because a printed program can be read.
     #[doc(hidden)]
     pub fn prove<B: AsRef<Batch>>(
         &self,
@@ -119,7 +119,7 @@ impl Post {
         })
     }
 
-    /// The verdict on a program that was just printed.
+    /// The verdict on a program that was printed just before.
     pub(super) fn proven(
         &self,
         mut job: Job<'_>,
@@ -131,7 +131,7 @@ impl Post {
         Ok(self.located(proven, job, options)?.verdict)
     }
 
-    /// Why a program with this verdict must not run. `None`: it may.
+    /// The error for a verdict with which a program must not run; `None` if it may run.
     pub(super) fn refused(&self, verdict: &Verdict, proof: &Proof) -> Option<Error> {
         let diags = match verdict {
             Verdict::Different(_) => verdict.diags("the program"),
@@ -143,11 +143,11 @@ impl Post {
         Some(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
     }
 
-    /// The same with the form lines of its findings, by printing the job once more if there are any. `options` are those that the
-    /// program was printed with.
+    /// Adds form lines to the findings of a verification. If there are any findings, the job is printed again. `options` are
+    /// those with which the program was printed.
     ///
     /// # Errors
-    /// The job can't be read again, or an option makes no sense.
+    /// The job can't be read again, or an option is invalid.
     #[doc(hidden)]
     pub fn located(&self, mut proven: Proven, job: Job<'_>, options: &Options) -> Result<Proven, Error> {
         let findings = match &mut proven.verdict {
@@ -160,9 +160,9 @@ impl Post {
     }
 }
 
-/// Takes the tools of a job.
+/// A sink that collects the tools of a job.
 struct Tools {
-    /// Millimetres of the job's unit.
+    /// Length of the job's unit in millimetres.
     scale: f64,
     tools: Vec<JobTool>,
 }
@@ -175,8 +175,9 @@ impl Sink for Tools {
                 if let Some(tool) = &change.tool
                     && self.tools.iter().all(|known| f64::from(known.number) != tool.number)
                 {
-                    let diameter = tool.diameter.map(|diameter| diameter * self.scale);
-                    self.tools.push(JobTool { number: tool.number as u32, diameter });
+                    let [diameter, corner_radius] =
+                        [tool.diameter, tool.corner_radius].map(|length| length.map(|length| length * self.scale));
+                    self.tools.push(JobTool { number: tool.number as u32, diameter, corner_radius });
                 }
             }
             _ => {}
@@ -186,16 +187,16 @@ impl Sink for Tools {
 }
 
 impl Proof {
-    /// Does a program make the motions of its job? No form is known: nothing is filled in for the job.
+    /// Verifies that a program makes the motions of its job. Without a form, no defaults are added to the job.
     ///
     /// # Errors
-    /// The job or the program can't be read, or the job is wrong. What is wrong with the program is in the verdict.
+    /// The job or the program can't be read, or the job contains an error. Faults of the program are in the verdict.
     pub fn verify(&self, job: Job<'_>, program: impl Read + Seek) -> Result<Proven, Error> {
         let options = Options { units: self.units, ..Options::default() };
         prove(None, job, program, &options, self)
     }
 
-    /// How the control runs a program that this form printed.
+    /// Settings of the control for a program that this form printed.
     fn settings(&self, form: Option<&compile::Program>, units: Units) -> RunSettings {
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
@@ -219,13 +220,13 @@ impl Proof {
     }
 }
 
-/// What a program is run by and compared with.
+/// Settings and expectations of a verification.
 struct Plan {
     settings: RunSettings,
     expectation: Expectation,
-    /// Before the program says its units they are the job's.
+    /// Until the program selects its units, those of the job apply.
     of_job: bool,
-    /// Nobody names the control.
+    /// Neither the caller nor the form names the control.
     assumed: bool,
 }
 
@@ -241,7 +242,7 @@ impl Plan {
             expectation: form.map_or_else(
                 || Expectation::of_control(settings.control),
                 |form| {
-                    // a wrong value is refused where the program is printed
+                    // an invalid value is an error where the program is printed
                     let given = options.given_properties(&form.settings).unwrap_or_default();
                     Expectation::of_form(&form.settings, options.sink_as_printed).typed(form).given(&given)
                 },
@@ -263,7 +264,7 @@ fn prove(
     let settings =
         settings_for(&mut program, Path::new(""), settings).map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let Plan { settings, mut expectation, of_job, assumed } = Plan::of(form, options, proof, settings);
-    // a program that is the job says its own registers, where it has any
+    // if the job is an NC program, it selects its own length registers, if it has any
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
     expectation.units_due &= form.is_some() || options.units.is_none();
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
@@ -275,12 +276,12 @@ fn prove(
     let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };
     match read {
         Err(error) if !decided => Err(job.names(error).after(warnings, &[])),
-        // the comparison stopped the reader: the rest of the job was not looked at
+        // the comparison stopped the reader: the rest of the job is not checked
         _ => Ok(Proven { verdict, counts, warnings }),
     }
 }
 
-/// Before the first event, the program counts in the job's units unless it was printed in others.
+/// A sink that sets the program's units before the first event: those of the job, unless the program was printed in others.
 struct Started<'a> {
     comparer: Comparer<'a>,
     of_job: bool,

@@ -1,4 +1,4 @@
-//! Does a program fit into its machine? It is run once more, with the machine's own offsets.
+//! Checks whether a program fits into its machine. The program is run again, with the machine's own offsets.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -15,38 +15,40 @@ use crate::times::Curve;
 use crate::toolpath::Direction;
 use crate::verify::Finding;
 
-/// What was found, and how the program lies in the machine.
+/// The findings, and the fit of the program in the machine.
 #[derive(Debug)]
 pub struct Fitted {
-    /// What is wrong, in the order of the program.
+    /// The findings, in the order of the program.
     pub findings: Vec<Finding>,
-    /// The extents, and what would do where offsets or lengths are not known.
+    /// The extents, and the allowed values of unknown offsets or lengths.
     pub fit: Fit,
-    /// How long it takes, or what of the machine's accelerations is not known.
+    /// Its time, or the missing accelerations of the machine.
     pub times: Result<Times, String>,
-    /// A block was refused: nothing is known of what comes after it. The line, and why.
+    /// The line of a refused block, and the reason. Everything after that block is unknown.
     pub refused: Option<(u64, String)>,
 }
 
 impl Fitted {
-    /// Was the program run to its end, and nothing found?
+    /// Was the program run to its end without findings?
     pub fn fits(&self) -> bool {
         self.findings.is_empty() && self.refused.is_none()
     }
 
-    /// Must the program not run on this machine?
+    /// Are there errors, so that the program must not run on this machine?
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|finding| finding.code.row().severity == Severity::Error)
     }
 }
 
-/// A tool as the job has it.
+/// A tool of the job.
 #[derive(Clone, Debug)]
 pub struct JobTool {
     /// Its number.
     pub number: u32,
     /// Its diameter in millimetres.
     pub diameter: Option<f64>,
+    /// The radius of its corner in millimetres.
+    pub corner_radius: Option<f64>,
 }
 
 /// Runs a program on a machine.
@@ -87,7 +89,7 @@ pub fn preflight(
     Ok(check.finish(refused))
 }
 
-/// What is known while a program runs.
+/// The state of the check while a program runs.
 struct Check<'m> {
     machine: &'m Machine,
     control: &'static Control,
@@ -98,12 +100,12 @@ struct Check<'m> {
     tools: Vec<u32>,
     pace: Pace,
     clock: Result<Clock, String>,
-    /// Findings by what they are about: each is one.
+    /// Findings by their subject: one finding for each.
     found: BTreeMap<(Code, String), Finding>,
-    /// A reference point that the file does not say was gone to.
+    /// The program moved to a reference point that is missing in the machine's file.
     no_reference: [bool; 2],
     was_compensated: bool,
-    /// Axes at a place of the machine that the program said, after the last block.
+    /// Axes at a machine position that the program contains, after the last block.
     said: u8,
 }
 
@@ -132,10 +134,10 @@ impl<'m> Check<'m> {
         let last = items.iter().rposition(is_move);
         let reference = run.reference_point().filter(|point| self.machine.references[*point].is_none());
         for (at, item) in items.iter().enumerate() {
-            // what a block says of the machine's places holds for its last move
+            // the machine positions in a block are those of its last move
             let is_last = last == Some(at);
             let said = if is_last { self.said } else { before & self.said };
-            // where a reference point lies that the file does not say is not known
+            // the position of a reference point that is missing in the file is unknown
             let hidden = match reference {
                 Some(point) if is_last => {
                     self.no_reference[point] = true;
@@ -204,7 +206,7 @@ impl<'m> Check<'m> {
                 self.cools(*kind, run, line);
                 self.clocks(|clock, _| clock.stop());
             }
-            Action::SpeedLimit(limit) => self.turns(*limit, "the highest speed", line),
+            Action::SpeedLimit(limit) => self.turns(*limit, "the speed limit", line),
             Action::Spindle(rotation, speed) => {
                 let speed = self.pace.switched(*rotation, *speed);
                 self.turns(speed, "the spindle's speed", line);
@@ -232,13 +234,13 @@ impl<'m> Check<'m> {
                     .unwrap_or_else(|| format!("a fixture in {}", offsets::name(self.control, fixture.work)));
                 let tool = self.tool.map_or("the tool".to_owned(), |tool| format!("T{tool}"));
                 let message = format!("{tool} goes through {name} at rapid");
-                let help = "lift the tool over it, or go around it";
+                let help = "retract the tool above it, or move around it";
                 self.found(Code::PM002, &format!("{name} {line}"), message, help, (line, block));
             }
         }
     }
 
-    /// Where the tip is in a work offset, in millimetres: where both are known, or where it counts from that offset anyway.
+    /// Position of the tip in a work offset, in millimetres. `None` unless the position is known or relative to that same offset.
     fn in_fixture(&self, at: &[At; 6], work: usize) -> Option<[f64; 3]> {
         let mut tip = [0.0; 3];
         for (axis, value) in tip.iter_mut().enumerate() {
@@ -257,7 +259,7 @@ impl<'m> Check<'m> {
         Some(tip)
     }
 
-    /// How far the tip is below the gauge line, which machine coordinates count.
+    /// Distance from the gauge line to the tip; machine coordinates are those of the gauge line.
     fn spindle_to_tip(&self, axis: usize) -> Option<f64> {
         if axis != 2 {
             return Some(0.0);
@@ -265,21 +267,21 @@ impl<'m> Check<'m> {
         self.machine.tools.as_ref()?.0.get(&self.tool?)?.length
     }
 
-    /// The length that is in a position of an axis.
+    /// The length that a position of an axis includes.
     fn added(&self, axis: usize, register: Option<i32>) -> f64 {
         let length = |register: i32| self.machine.tools.as_ref()?.length(register);
         register.filter(|_| axis == 2).and_then(length).unwrap_or(0.0)
     }
 
-    /// Gives the clock what it is to count, with where the axes are now.
+    /// Calls the clock with the current positions of the axes.
     fn clocks(&mut self, count: impl FnOnce(&mut Clock, &[At; 6])) {
         if let Ok(clock) = &mut self.clock {
             count(clock, &self.places.at);
         }
     }
 
-    /// Checks a straight cut's feed, which follows the spindle where it has a lead; the feed in millimetres a minute, or degrees
-    /// where only rotary axes move.
+    /// Checks the feed of a straight cut, which depends on the spindle speed if it has a lead. Returns the feed in millimetres
+    /// per minute, or degrees if only rotary axes move.
     fn straight_feed(
         &mut self,
         from: &Position,
@@ -304,8 +306,8 @@ impl<'m> Check<'m> {
         feed
     }
 
-    /// The arc for the clock, and its feed in millimetres a minute. Somewhere on an arc an axis has the whole feed, unless the
-    /// arc is short: then it has at most that.
+    /// The arc for the clock, and its feed in millimetres per minute. At some point of an arc an axis has the whole feed; on a
+    /// short arc it may have less.
     fn arc_feed(&mut self, from: &Position, turn: &Turn, run: &Simulator<'_>, line: (u64, &[u8])) -> (Curve, f64) {
         let scale = run.state().units().in_mm();
         let [first, second, _] = axes_of(turn.plane);
@@ -326,8 +328,8 @@ impl<'m> Check<'m> {
         let Some(most) = self.machine.axes[axis].as_ref().and_then(|axis| axis.feed) else { return };
         if feed > most * (1.0 + 1e-9) {
             let (shown, most, unit) = (self.machine.shown(feed), self.machine.shown(most), self.machine.units.name());
-            let message = format!("{} is to feed {shown} {unit}/min, and its fastest is {most}", LETTERS[axis]);
-            let help = "the control feeds slower, or stops with an alarm: write a feed that it has";
+            let message = format!("{} would feed at {shown} {unit}/min, but its maximum is {most}", LETTERS[axis]);
+            let help = "the control feeds slower, or stops with an alarm: write a feed up to the maximum";
             self.found(Code::PM010, &format!("feed {axis}"), message, help, line);
         }
     }
@@ -335,8 +337,8 @@ impl<'m> Check<'m> {
     fn turns(&mut self, speed: f64, what: &str, line: (u64, &[u8])) {
         let Some([least, most]) = self.machine.speeds else { return };
         if speed > 0.0 && !(least..=most).contains(&speed) {
-            let message = format!("{what} is S{speed}, and the machine has {least} to {most}");
-            let help = "the control takes its own limit, or stops with an alarm: write a speed that it has";
+            let message = format!("{what} is S{speed}, but the range of the machine is {least} to {most}");
+            let help = "the control uses its own limit, or stops with an alarm: write a speed in the range";
             self.found(Code::PM010, &format!("speed {speed}"), message, help, line);
         }
     }
@@ -362,7 +364,7 @@ impl<'m> Check<'m> {
                     {
                         let (own, job) = (self.machine.shown(own), self.machine.shown(job));
                         let message =
-                            format!("T{number} has a diameter of {own} in the machine's table, and {job} in the job");
+                            format!("the diameter of T{number} is {own} in the machine's table, but {job} in the job");
                         let help = "load the tool of the job, or change the table";
                         self.found(Code::PM011, &format!("T{number}"), message, help, line);
                     }
@@ -372,7 +374,7 @@ impl<'m> Check<'m> {
         if let Some(places) = self.machine.places
             && self.tools.len() as u32 > places
         {
-            let message = format!("the program uses more tools than the magazine holds: {places}");
+            let message = format!("the program uses more tools than the magazine has places: {places}");
             self.found(Code::PM012, "", message, "split the program, or load tools by hand", line);
         }
     }
@@ -385,12 +387,12 @@ impl<'m> Check<'m> {
             return;
         };
         let number = register.unsigned_abs();
-        // of a tool that the table does not have, that was said
+        // a tool that is missing in the table already has a finding
         let is_said = self.tool == Some(number) && !table.0.contains_key(&number);
         let known = table.0.get(&number).is_some_and(|entry| entry.length.is_some());
         if !known && !is_said && !self.control.is_lathe() {
             let message = format!("the machine's table has no length H{number}");
-            let help = "measure the tool, and add its length to the table";
+            let help = "measure the tool and add its length to the table";
             self.found(Code::PM015, &format!("H{number}"), message, help, line);
         }
     }
@@ -400,8 +402,8 @@ impl<'m> Check<'m> {
         let number = run.state().work_number();
         if !offsets.contains_key(&number) && run.state().offset_given() == 0 {
             let name = offsets::name(self.control, number);
-            let message = format!("the machine's file does not say where {name} is");
-            let help = "add it under [offsets], or read what would do from the interval";
+            let message = format!("the machine's file does not contain {name}");
+            let help = "add it under [offsets], or use the interval that is printed";
             self.found(Code::PM015, &name, message, help, line);
         }
     }
@@ -415,20 +417,20 @@ impl<'m> Check<'m> {
             Cooling::Flood => (Coolant::Flood, "flood coolant"),
         };
         if !kinds.contains(&kind) {
-            let message = format!("the program wants {name}, and the machine has none");
+            let message = format!("the program turns on {name}, but the machine does not have it");
             self.found(Code::PM013, name, message, "print another kind of coolant", line);
         }
     }
 
     fn memory(&mut self, bytes: u64, program: Option<f64>) {
         if let Some(most) = self.machine.bytes.filter(|most| bytes > *most) {
-            let message = format!("the program has {bytes} bytes, and the control stores {most}");
-            self.found(Code::PM014, "bytes", message, "send it from outside as it runs, or split it", (0, b""));
+            let message = format!("the program has {bytes} bytes, but the control stores only {most}");
+            self.found(Code::PM014, "bytes", message, "drip-feed it from outside, or split it", (0, b""));
         }
         if let (Some([least, most]), Some(number)) = (self.machine.numbers, program)
             && !(f64::from(least)..=f64::from(most)).contains(&number)
         {
-            let message = format!("the program's number is {number}, and the control takes {least} to {most}");
+            let message = format!("the program number is {number}, but the control takes only {least} to {most}");
             self.found(Code::PM014, "number", message, "give it another number: `--program`", (0, b""));
         }
     }
@@ -455,26 +457,26 @@ impl<'m> Check<'m> {
         findings.sort_by_key(|finding| finding.line);
         for (point, name) in ["G28", "G30"].into_iter().enumerate() {
             if self.no_reference[point] {
-                fit.not_checked.push(format!("where {name} goes: [reference] does not give it"));
+                fit.not_checked.push(format!("the position of {name}: it is not in [reference]"));
             }
         }
         let unframed: String =
             (0..3).filter(|axis| self.places.unframed & 1 << axis != 0).map(|axis| LETTERS[axis]).collect();
         if !unframed.is_empty() {
             fit.not_checked.push(format!(
-                "{unframed} after G92 or G10 named a position that only the machine knows: after G53, or before the first position under a length"
+                "{unframed} after G92 or G10 at an unknown machine position: after G53, or before the first position \
+                 with a tool length"
             ));
         }
         if self.places.astray {
-            fit.not_checked
-                .push("increments from a position that only the machine knows, as after a tool change".into());
+            fit.not_checked.push("increments from an unknown machine position, as after a tool change".into());
         }
         if self.was_compensated {
             fit.not_checked
-                .push("cutter compensation: the programmed path is checked, not that of the tool's centre".into());
+                .push("cutter compensation: the programmed path is checked, not the path of the tool's centre".into());
         }
         if let Some((line, why)) = &refused {
-            fit.not_checked.push(format!("anything from line {line} on: {why}"));
+            fit.not_checked.push(format!("everything from line {line} on: {why}"));
         }
         let times = self.clock.map(Clock::finish);
         let has_travel = |axis: &usize| self.machine.axes[*axis].as_ref().is_some_and(|axis| axis.travel.is_some());
@@ -482,7 +484,7 @@ impl<'m> Check<'m> {
         let without: Vec<String> =
             axes.iter().filter(|axis| !has_travel(axis)).map(|axis| LETTERS[*axis].to_string()).collect();
         if !without.is_empty() {
-            fit.not_checked.push(format!("the travel of {}: the file does not give it", without.join(", ")));
+            fit.not_checked.push(format!("the travel of {}: it is not in the file", without.join(", ")));
         }
         if let Err(lacks) = &times {
             fit.not_checked.push(format!("times with accelerations: the file does not give {lacks}"));

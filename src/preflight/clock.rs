@@ -1,4 +1,4 @@
-//! How long a program takes on its machine, with the accelerations of its axes.
+//! The time of a program on its machine, with the accelerations of its axes.
 
 use super::place::{At, Base};
 use crate::control::Code;
@@ -6,7 +6,7 @@ use crate::machine::Machine;
 use crate::nc::Rotation;
 use crate::times::{Curve, PathMode, Planner, Way};
 
-/// How long a program takes, in seconds. Stops are not counted: the operator ends them.
+/// The time of a program, in seconds. Stops are not counted, because the operator ends them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Times {
     /// Cuts.
@@ -15,25 +15,25 @@ pub struct Times {
     pub rapid: f64,
     /// Dwells.
     pub dwells: f64,
-    /// Tool changes, from chip to chip as the machine's file gives them; what the spindle needs after one is in that.
+    /// Tool changes, from chip to chip as in the machine's file; this includes the next spindle start.
     pub changes: f64,
-    /// The spindle on its way to another speed; a control does not wait until it stands.
+    /// Spindle speed changes; a control does not wait while the spindle stops.
     pub spindle: f64,
-    /// Moves from or to a position that is not known: their way along the axes of which it is unknown is not counted.
+    /// Number of moves from or to an unknown position: their travel along the unknown axes is not counted.
     pub unplaced: u64,
-    /// Cuts without a time: their feed follows a spindle without speed.
+    /// Number of cuts without a time: their feed depends on a spindle without a speed.
     pub timeless: u64,
     /// Each tool's own time, in the order of first use; `None` before the first change.
     pub tools: Vec<(Option<u32>, f64)>,
 }
 
 impl Times {
-    /// All of it, in seconds.
+    /// The total, in seconds.
     pub fn whole(&self) -> f64 {
         self.cutting + self.rapid + self.dwells + self.changes + self.spindle
     }
 
-    /// What takes how long, with what is not counted; each part after the whole.
+    /// The total and its parts in a sentence, with everything that is not counted.
     pub fn sentence(&self) -> String {
         let time = |seconds: f64| crate::nc::clock(seconds / 60.0);
         let mut text = format!(
@@ -46,7 +46,7 @@ impl Times {
             time(self.spindle)
         );
         let unplaced = (self.unplaced, "from or to an unknown position");
-        let timeless = (self.timeless, "that follow a spindle without speed");
+        let timeless = (self.timeless, "with a feed per revolution, but without a spindle speed");
         for (count, what) in [unplaced, timeless].into_iter().filter(|(count, _)| *count > 0) {
             let moves = if count == 1 { "move" } else { "moves" };
             text += &format!("; not counted in full: {count} {moves} {what}");
@@ -54,7 +54,7 @@ impl Times {
         text
     }
 
-    /// The same for programs: seconds.
+    /// The same times as JSON for other programs, in seconds.
     pub fn json(&self) -> serde_json::Value {
         let tools: Vec<_> =
             self.tools.iter().map(|(tool, seconds)| serde_json::json!({ "tool": tool, "seconds": seconds })).collect();
@@ -71,22 +71,22 @@ impl Times {
 pub(super) struct Clock {
     planner: Planner,
     times: Times,
-    /// How long all took before the tool in use.
+    /// The total time before the tool in use.
     before: f64,
     tool: Option<u32>,
     /// Seconds of a tool change.
     change: f64,
-    /// Seconds for each revolution a minute.
+    /// Seconds per revolution per minute.
     spin_up: f64,
-    /// Revolutions a minute; negative where it turns the other way.
+    /// Revolutions per minute; negative in the other direction.
     turning: f64,
-    /// The tool change has the spindle's next start in it.
+    /// The time of the tool change includes the next spindle start.
     is_fresh: bool,
 }
 
 impl Clock {
     /// # Errors
-    /// What the machine's file does not give, in words.
+    /// The missing values of the machine's file, in words.
     pub fn of(machine: &Machine) -> Result<Clock, String> {
         let fastest = machine.speeds.map_or(f64::INFINITY, |[_, fastest]| fastest);
         Ok(Clock {
@@ -107,7 +107,7 @@ impl Clock {
         self.planner.rapid(&way);
     }
 
-    /// A straight cut at so many millimetres a minute, or degrees where only rotary axes move.
+    /// A straight cut at a feed in millimetres per minute, or degrees if only rotary axes move.
     pub fn cut(&mut self, before: &[At; 6], after: &[At; 6], feed: f64) {
         let way = self.way(before, after);
         if feed.is_finite() && feed > 0.0 {
@@ -117,7 +117,7 @@ impl Clock {
         }
     }
 
-    /// An arc at so many millimetres a minute; what moves beside its plane is in the positions.
+    /// An arc at a feed in millimetres per minute; motion outside its plane is in the positions.
     pub fn arc(&mut self, mut curve: Curve, before: &[At; 6], after: &[At; 6], feed: f64) {
         curve.rise = self.way(before, after);
         curve.plane.iter().for_each(|&axis| curve.rise[axis] = 0.0);
@@ -134,12 +134,12 @@ impl Clock {
         self.times.dwells += seconds;
     }
 
-    /// The axes stop: for a stop of the program, a coolant, an exact stop.
+    /// The axes stop: for a program stop, a coolant command or an exact stop.
     pub fn stop(&mut self) {
         self.planner.stop();
     }
 
-    /// G61, G61.1 or G64 with its P in millimetres: how exactly the path is followed.
+    /// G61, G61.1 or G64 with its P in millimetres: the accuracy of the path.
     pub fn follows(&mut self, code: Code, tolerance: Option<f64>) {
         let mode = match code.tenths {
             610 => PathMode::Exact,
@@ -150,7 +150,7 @@ impl Clock {
         self.planner.path_mode(mode);
     }
 
-    /// The spindle turns at so many revolutions a minute.
+    /// The spindle turns at a speed in revolutions per minute.
     pub fn spindle(&mut self, rotation: Rotation, speed: f64) {
         self.planner.stop();
         let turning = match rotation {
@@ -190,7 +190,7 @@ impl Clock {
         }
     }
 
-    /// How far each axis goes, as far as that is known.
+    /// The travel of each axis, if it is known.
     fn way(&mut self, before: &[At; 6], after: &[At; 6]) -> Way {
         let mut is_whole = true;
         let way = std::array::from_fn(|axis| {

@@ -1,6 +1,6 @@
-//! How far a program goes along an axis.
+//! The range of a program along an axis.
 
-/// Least and greatest position, with the lines that go there.
+/// Least and greatest position, with the lines that move to them.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     pub least: (f64, u64),

@@ -1,4 +1,4 @@
-//! What would fit: for each axis, offset and length that the machine's file does not say, between which values it may lie.
+//! The values with which a program fits: a range for each axis, offset and length that is missing in the machine's file.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
 use crate::verify::Finding;
 
-/// What a row is about: the sum of what is not known.
+/// The unknown value of a row, which may be a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Unknown {
     Offset(usize),
@@ -18,24 +18,24 @@ enum Unknown {
     Sum(usize, i32),
 }
 
-/// An offset or a length that is not known, and what would do.
+/// An unknown offset or length, and its allowed range.
 #[derive(Clone, Debug)]
 struct Row {
     axis: usize,
     unknown: Unknown,
-    /// Between which values it may lie; the first is greater where none would do.
+    /// Its least and greatest allowed value; if the first is greater, no value is allowed.
     between: [f64; 2],
-    /// Lines of the farthest positions that bound it.
+    /// Lines of the extreme positions that bound it.
     lines: [u64; 2],
 }
 
-/// How a program lies in its machine.
+/// The fit of a program in its machine.
 #[derive(Clone, Debug)]
 pub struct Fit {
     name: String,
     rows: Vec<Row>,
     extents: Vec<(usize, Needs, Option<u32>, Extent)>,
-    /// What was not checked, a sentence each.
+    /// The checks that were left out, one sentence each.
     pub not_checked: Vec<String>,
 }
 
@@ -70,7 +70,7 @@ impl Fit {
         Fit { name: machine.name.clone(), rows: rows.into_values().collect(), extents, not_checked: Vec::new() }
     }
 
-    /// Where nothing would do.
+    /// Findings for rows without an allowed value.
     pub(super) fn findings(&self, machine: &Machine, control: &Control) -> Vec<Finding> {
         let impossible = self.rows.iter().filter(|row| row.between[0] > row.between[1] + 1e-4);
         impossible
@@ -79,7 +79,8 @@ impl Fit {
                 Finding {
                     code: Code::PM001,
                     message: format!(
-                        "no {} would do: line {} needs it at least at {}, line {} at most at {}: the travel of {} is {over} short",
+                        "no value of {} is possible: line {} needs at least {}, line {} at most {}: the travel of {} \
+                         is {over} too short",
                         self.what(row, control),
                         row.lines[0],
                         machine.at(row.axis, row.between[0]),
@@ -87,7 +88,7 @@ impl Fit {
                         machine.at(row.axis, row.between[1]),
                         LETTERS[row.axis],
                     ),
-                    help: "the program is longer than the travel: turn the part, or take another machine",
+                    help: "the program is longer than the travel: turn the part, or use another machine",
                     place: None,
                     line: row.lines[1],
                     block: String::new(),
@@ -98,7 +99,7 @@ impl Fit {
             .collect()
     }
 
-    /// What would do, a sentence each: `this program fits if G54 Z lies between -318.2 and -121`.
+    /// The allowed ranges, one sentence each: `this program fits if G54 Z lies between -318.2 and -121`.
     pub fn sentences(&self, machine: &Machine, control: &Control) -> Vec<String> {
         let possible = self.rows.iter().filter(|row| row.between[0] <= row.between[1]);
         possible
@@ -153,7 +154,7 @@ impl Fit {
         text
     }
 
-    /// The table as JSON: lengths in the units of the machine's file, `null` where nothing bounds them.
+    /// The table as JSON: lengths in the units of the machine's file, `null` for a side without a limit.
     pub fn json(&self, machine: &Machine, control: &Control) -> serde_json::Value {
         let value = |axis: usize, value: f64| machine.at(axis, value).parse::<f64>().ok();
         let limits = |axis: usize| {

@@ -1,7 +1,8 @@
-//! Does a program fit into its machine: travels, fixtures, feeds, tools, offsets, memory.
+//! Checks whether a program fits into its machine: travels, fixtures, feeds, tools, offsets, memory.
 //!
-//! A machine position is the program position plus the work offset, the shift of G52 or G92, and the tool length while that is
-//! on; in machine coordinates nothing is added. What depends on an offset or a length that is not known is kept as an interval.
+//! A machine position is the program position plus the work offset, the shift of G52 or G92, and the tool length if one is
+//! active. In machine coordinates nothing is added. A position that depends on an unknown offset or length is kept as an
+//! interval.
 
 mod check;
 mod clock;

@@ -1,35 +1,35 @@
-//! Where the machine stands: program positions with the offsets, lengths and frames that are known.
+//! Machine positions: program positions with the known offsets, lengths and frames.
 
 use crate::machine::Machine;
 use crate::nc::{Position, Simulator, Turn, axes_of, sweep};
 use crate::toolpath::Direction;
 
-/// On what a machine position depends besides the program.
+/// The values besides the program on which a machine position depends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Base {
-    /// Nothing is known of it: the axis was not moved yet, or its frame was moved from an unknown position.
+    /// The position is unknown: the axis was not moved yet, or its frame was moved from an unknown position.
     Unknown,
-    /// On nothing: the program says it in machine coordinates.
+    /// No other value: the program contains the position in machine coordinates.
     Machine,
-    /// On a work offset and a tool length.
+    /// A work offset and a tool length.
     Work(Needs),
 }
 
-/// The offset and the length that a position needs.
+/// The offset and the length on which a position depends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Needs {
     /// Number of the work offset.
     pub work: usize,
-    /// The offset is not known: the position counts from it.
+    /// The offset is unknown: the position is relative to it.
     pub offset_unknown: bool,
-    /// The tool's length register, where its length is on; negative where it is subtracted.
+    /// The tool's length register, if a length is active; negative if it is subtracted.
     pub register: Option<i32>,
-    /// The length is not known: it is missing in the position.
+    /// The length is unknown: the position does not include it.
     pub length_unknown: bool,
 }
 
 impl Needs {
-    /// Is the position not known in machine coordinates?
+    /// Is the position unknown in machine coordinates?
     pub fn is_open(self) -> bool {
         self.offset_unknown || self.length_unknown
     }
@@ -38,7 +38,7 @@ impl Needs {
 /// An axis.
 #[derive(Clone, Copy, Debug)]
 pub struct At {
-    /// In machine coordinates, as far as its base is known: millimetres or degrees.
+    /// Position in machine coordinates, as far as its base is known: millimetres or degrees.
     pub value: f64,
     pub base: Base,
 }
@@ -47,40 +47,40 @@ pub struct At {
 #[derive(Clone, Debug)]
 pub struct Places<'m> {
     machine: &'m Machine,
-    /// Where each axis stands.
+    /// Position of each axis.
     pub at: [At; 6],
-    /// In machine coordinates with the frames that the simulator knows, those unknown being zero: millimetres.
+    /// Machine coordinates in the simulator's frames, in millimetres; unknown frames are zero.
     known: Position,
-    /// The length register that is on; negative where it is subtracted.
+    /// The active length register; negative if it is subtracted.
     pub register: Option<i32>,
     /// Lengths of a lathe's tools lie along X and Z.
     is_lathe: bool,
-    /// Lengths are added to one another: which is on is not followed.
+    /// Lengths are added to one another: the active one is not tracked.
     pub adds: bool,
-    /// A tool was changed since the program said a height.
+    /// A tool was changed, and no Z position was programmed since.
     changed: bool,
-    /// Axes whose position the program has not said since another length is on, as bits.
+    /// Axes without a programmed position since the length last changed, as bits.
     lengthened: u8,
-    /// Axes whose frame was moved then: what positions in it mean is not known here.
+    /// Axes whose frame was moved in that state: positions in this frame are unknown here.
     lost: u8,
-    /// Axes that positions in such a frame were said to.
+    /// Axes that were programmed to positions in such a frame.
     pub unframed: u8,
-    /// An axis moved on from a position that is not known.
+    /// An axis moved on from an unknown position.
     pub astray: bool,
 }
 
-/// What a block says of a move; axes as bits.
+/// The words of a block that moves; axes as bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Going {
-    /// Axes that stand at a place of the machine.
+    /// Axes that are at a machine position.
     pub in_machine: u8,
-    /// Axes whose place of the machine the program says.
+    /// Axes whose machine position the program contains.
     pub said: u8,
-    /// Axes that go to a place that the machine's file does not give.
+    /// Axes that move to a machine position that the machine's file does not contain.
     pub hidden: u8,
-    /// Axes to which the block says positions.
+    /// Axes with a position in the block.
     pub says: u8,
-    /// Where it moves an axis, it says positions: a cycle whose words are.
+    /// Every axis that moves counts as programmed: the block is a cycle whose words contain the positions.
     pub all_said: bool,
 }
 
@@ -133,23 +133,23 @@ impl<'m> Places<'m> {
         self.known = known;
     }
 
-    /// A length is turned on or off: until the program says a position again, its coordinates are not those of the simulator.
+    /// Turns a length on or off. Until the next programmed position, the coordinates differ from those of the simulator.
     pub fn takes_length(&mut self, register: Option<f64>) {
         self.register = register.map(|register| register as i32);
         self.lengthened = 0b111;
     }
 
-    /// A frame is moved so that the tool is at a value in it.
+    /// A frame is moved so that the tool has a given position in it.
     pub fn reframed(&mut self) {
         self.lost |= self.lengthened;
     }
 
-    /// A tool is changed: how high it stands then only the machine knows, until the program says it.
+    /// Changes a tool. The Z position is then unknown until the program contains one.
     pub fn changes_tool(&mut self) {
         self.changed = !self.is_lathe;
     }
 
-    /// Least and greatest position of each axis on an arc, which has begun where the tool stood; after [`Places::goes`].
+    /// Least and greatest position of each axis on an arc that begins at the current position; to be called after [`Places::goes`].
     pub fn extremes(&self, from: &Position, turn: &Turn, run: &Simulator<'_>) -> [[f64; 2]; 3] {
         let end: [f64; 3] = std::array::from_fn(|axis| self.at[axis].value);
         let machine = |at: &Position| {
@@ -179,7 +179,7 @@ impl<'m> Places<'m> {
             std::array::from_fn::<f64, 3, _>(|axis| at[axis] - centre[axis])
         };
         let (middle, u, v) = (machine(&centre), along(first), along(second));
-        // a helix: how far each axis goes besides for a radian
+        // a helix: the additional travel of each axis per radian
         let rise: [f64; 3] = {
             let mut raised = centre;
             raised[across] = turn.to[across];
@@ -196,13 +196,13 @@ impl<'m> Places<'m> {
             if size <= rise[axis].abs() {
                 continue;
             }
-            // where the sum of circle and rise stands still
+            // the angles at which circle plus rise has an extreme
             let peak = v[axis].atan2(u[axis]);
             let aside = (rise[axis] / size).asin();
             for angle in [peak + aside, peak + std::f64::consts::PI - aside] {
                 let first = (sign * (angle - begin)).rem_euclid(std::f64::consts::TAU);
                 let turns = ((swept - first) / std::f64::consts::TAU).floor();
-                // the first time and the last: those between lie between
+                // only the first and the last turn matter: the values of all others lie between these two
                 for ahead in [first, std::f64::consts::TAU.mul_add(turns, first)] {
                     if turns >= 0.0 && ahead < swept {
                         let at = begin + sign * ahead;
@@ -216,7 +216,7 @@ impl<'m> Places<'m> {
         ranges
     }
 
-    /// Where the tool stands, in the program's coordinates and units.
+    /// The current position, in the program's coordinates and units.
     pub fn program(&self, run: &Simulator<'_>) -> Position {
         let factor = 1.0 / run.state().units().in_mm();
         run.state().in_program_coordinates(&std::array::from_fn(|axis| {
@@ -232,7 +232,7 @@ impl<'m> Places<'m> {
         let work = run.state().work_number();
         let of_file = self.machine.offset(work).and_then(|offset| offset[axis]).is_some();
         let given = run.state().offset_given() & 1 << axis != 0;
-        // what rotary axes have no offset for counts from the machine's zero
+        // rotary axes without an offset count from machine zero
         let offset_unknown = axis < 3 && !of_file && !given;
         let takes = if self.is_lathe { axis == 0 || axis == 2 } else { axis == 2 };
         if self.adds && takes {
@@ -246,12 +246,13 @@ impl<'m> Places<'m> {
         At { value: value + length.unwrap_or(0.0), base: Base::Work(needs) }
     }
 
-    /// How far a tool is beside the spindle, as LinuxCNC's table has it.
+    /// Offset of a tool from the spindle, from LinuxCNC's table.
     fn aside(&self, register: i32) -> Option<[f64; 2]> {
         Some(self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.0.get(&u32::try_from(register).ok()?)?.aside)
     }
 
-    /// The length of a register, with its sign; of a mill alone: where a lathe's tool cuts, the machine's file does not say.
+    /// The length in a register, with its sign. Mills only: for a lathe, the machine's file does not contain the position of
+    /// the cutting edge.
     fn length(&self, register: i32) -> Option<f64> {
         self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.length(register)
     }

@@ -1,4 +1,4 @@
-//! PM001: axes beyond their travel. What depends on an offset or a length that is not known is kept as extents.
+//! PM001: axes beyond their travel. Positions that depend on an unknown offset or length are kept as extents.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,17 @@ use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
 use crate::verify::Finding;
 
-/// How far beyond its travel an axis may come, in millimetres: less than a control shows.
+/// How far an axis may be beyond its travel, in millimetres: less than the resolution of a control's display.
 const OVER: f64 = 1e-4;
 
-/// What is known of the travels while a program runs.
+/// The travels that a running program has used so far.
 #[derive(Debug)]
 pub struct Travels<'m> {
     machine: &'m Machine,
     limits: [Option<[f64; 2]>; 6],
-    /// How far each axis goes, by the offset and the length that it needs, and the tool in the spindle.
+    /// The range of each axis, by the offset and the length on which it depends, and by the tool in the spindle.
     pub extents: BTreeMap<(usize, Needs, Option<u32>), Extent>,
-    /// Axes beyond their travel: by axis, which end, what the position needs, and the tool.
+    /// Axes beyond their travel: by axis, end of the travel, base of the position, and tool.
     beyond: BTreeMap<(usize, bool, Base, Option<u32>), Beyond>,
 }
 
@@ -30,7 +30,7 @@ struct Beyond {
     worst: f64,
     line: u64,
     block: String,
-    /// The first line that goes beyond, and how many moves do.
+    /// The first line beyond the limit, and the number of moves beyond it.
     first: u64,
     times: u64,
 }
@@ -41,7 +41,7 @@ impl<'m> Travels<'m> {
         Travels { machine, limits, extents: BTreeMap::new(), beyond: BTreeMap::new() }
     }
 
-    /// A move to where the axes stand now; `ranges`: how far X, Y and Z go on it, of an arc.
+    /// A move to the current positions; `ranges`: the extent of an arc in X, Y and Z.
     pub fn moved(
         &mut self,
         places: &Places<'_>,
@@ -88,7 +88,7 @@ impl<'m> Travels<'m> {
         }
     }
 
-    /// What was found, in the order of the program.
+    /// The findings, in the order of the program.
     pub fn findings(&self, control: &Control) -> Vec<Finding> {
         let mut findings: Vec<Finding> =
             self.beyond.iter().map(|(key, beyond)| self.finding(*key, beyond, control)).collect();
@@ -110,7 +110,7 @@ impl<'m> Travels<'m> {
         let who = tool.map_or("the program".to_owned(), |tool| format!("T{tool}"));
         let unit = if axis < 3 { self.machine.units.name() } else { "degrees" };
         let mut message = format!(
-            "{who} needs {letter}{} in machine coordinates, and the travel ends at {letter}{}: {} {unit} short",
+            "{who} needs {letter}{} in machine coordinates, but the travel ends at {letter}{}: {} {unit} too short",
             shown(beyond.worst),
             shown(limit),
             shown(over)
@@ -120,18 +120,18 @@ impl<'m> Travels<'m> {
             let offset = format!("{} {letter} {} {lower}", offsets::name(control, needs.work), shown(over));
             match needs.register {
                 Some(register) if axis == 2 && register > 0 => {
-                    message += &format!("; a tool {} {longer}, or {offset}, would do", shown(over));
+                    message += &format!("; it fits with a tool {} {longer}, or with {offset}", shown(over));
                 }
-                _ => message += &format!("; {offset} would do"),
+                _ => message += &format!("; it fits with {offset}"),
             }
         }
         if beyond.first != beyond.line {
-            message += &format!("; beyond it from line {} on", beyond.first);
+            message += &format!("; beyond the travel from line {} on", beyond.first);
         }
         Finding {
             code: Code::PM001,
             message,
-            help: "change the offset or the tool, set the part elsewhere, or take another machine",
+            help: "change the offset or the tool, move the part, or use another machine",
             place: None,
             line: beyond.line,
             block: beyond.block.clone(),

@@ -1,4 +1,4 @@
-//! What lies ahead in the job: values of the whole program, and of each tool, operation or work offset that a list goes through.
+//! Values that depend on the rest of the job: for the whole program, and for each tool, operation or work offset of a list.
 
 use super::defaults::cycle_defaults;
 use super::shape::Shape;
@@ -11,38 +11,39 @@ use crate::survey::{Survey, Terms, Totals};
 use crate::times::Rates;
 use crate::toolpath::{SpindleTurn, Tool, Units};
 
-/// One of those that a list goes through: a row of the survey.
+/// An item of a list: a row of the survey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item {
     pub each: Each,
     pub row: usize,
 }
 
-/// Variables of how far the program reaches: least and greatest of each axis, of the cuts and of all moves.
+/// Variables of the program's extents: minimum and maximum of each axis, first for cuts only, then for all moves.
 const REACH: [[(VarId, VarId); 3]; 2] = [
     [(VarId::Hmin, VarId::Hmax), (VarId::Vmin, VarId::Vmax), (VarId::Dmin, VarId::Dmax)],
     [(VarId::Rhmin, VarId::Rhmax), (VarId::Rvmin, VarId::Rvmax), (VarId::Rdmin, VarId::Rdmax)],
 ];
 
-/// Is it a variable of how far the program reaches?
+/// Is this a variable of the program's extents?
 pub fn is_reach(var: VarId) -> bool {
     REACH.iter().flatten().any(|(least, most)| var == *least || var == *most)
 }
 
-/// What a survey must know of a form. `only_order`: only which tools come, nothing of what they do.
+/// The settings of a form that a survey needs. `only_order`: the survey records only the order of the tools, nothing else about
+/// them.
 pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool, rates: Option<Rates>) -> Terms {
     let settings = &program.settings;
     let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, units, sink_as_printed));
     Terms { defaults, work: default_work(settings), first_work: settings.work, only_order, rates }
 }
 
-/// The work offset of a job that names none. A form that counts its offsets from 1 counts the default code so too.
+/// The work offset of a job that names none. If the form counts its offsets from 1, the default code is converted to that count.
 pub fn default_work(settings: &Settings) -> f64 {
     let default = settings.work_default;
     if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) }
 }
 
-/// The values of the whole program.
+/// Sets the variables that describe the whole program.
 pub fn of_program(shape: &Shape, want: &mut Want) {
     let Some(survey) = &shape.options.survey else { return };
     if want.tool_order.is_none() {
@@ -52,7 +53,7 @@ pub fn of_program(shape: &Shape, want: &mut Want) {
     totals(&survey.whole, shape, want);
 }
 
-/// The rows that a list goes through; inside another list those that belong to its item.
+/// The rows of a list. A list inside another list has only the rows that belong to the outer item.
 pub fn items(each: Each, outer: Option<Item>, survey: &Survey) -> Vec<Item> {
     let rows = match (each, outer) {
         (Each::Operation, Some(Item { each: Each::Tool, row })) => survey.tools[row].operations.clone(),
@@ -74,7 +75,7 @@ pub fn sums(item: Option<Item>, survey: &Survey) -> &Totals {
     }
 }
 
-/// What the job wants while the lines of a list print for this item.
+/// The values of the job that apply while the lines of a list print for this item.
 pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want {
     let mut want = want.clone();
     want.item = Some(item);
@@ -99,7 +100,7 @@ pub fn of_item(item: Item, survey: &Survey, shape: &Shape, want: &Want) -> Want 
     want
 }
 
-/// What an operation says, and its tool.
+/// Sets the values of an operation and of its tool.
 fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     let operation = &survey.operations[row];
     let settings = &shape.program.settings;
@@ -121,7 +122,7 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));
 }
 
-/// Which of so many tools it is, and which ones stand before and after it; after the last the first.
+/// Sets whether the tool is the first or the last one, and its neighbours. After the last tool comes the first one again.
 fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>, want: &mut Want) {
     want.set(VarId::Isfirsttool, f64::from(u8::from(at == 0)));
     want.set(VarId::Islasttool, f64::from(u8::from(at + 1 == count)));
@@ -129,7 +130,7 @@ fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>
     want.put(VarId::Lasttool, at.checked_sub(1).and_then(number));
 }
 
-/// What a tool says of itself.
+/// Sets the variables of a tool.
 pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
     let settings = &shape.program.settings;
     want.set(VarId::Tool, tool.number);
@@ -139,12 +140,12 @@ pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
     want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
     want.put(VarId::Turret, tool.turret);
     if settings.machine == Machine::Lathe {
-        // the tool change says what is wrong with it
+        // if the T word has no valid value, the tool change reports it
         want.put(VarId::Comp, turret_word(tool, shape).ok());
     }
 }
 
-/// Sums, and how far cuts and moves reach, where that is one frame.
+/// Sets sums and extents. Extents have values only if all positions are in one frame.
 fn totals(sums: &Totals, shape: &Shape, want: &mut Want) {
     const SECONDS: f64 = 60.0;
     want.set(VarId::Opcount, sums.operations as f64);

@@ -1,20 +1,20 @@
-//! Text in the letters that controls have: those of ASCII.
+//! Conversion of text to ASCII, the only characters that controls have.
 
 use std::borrow::Cow;
 
 use any_ascii::any_ascii_char;
 
-/// Letters and signs that mean something else to a machinist than by their shape alone.
+/// Characters whose meaning for a machinist differs from the nearest ASCII shape.
 #[rustfmt::skip]
 const OWN: &[(char, &str)] = &[
     ('Ø', "D"), ('ø', "d"), ('⌀', "D"), ('Ä', "Ae"), ('Ö', "Oe"), ('Ü', "Ue"), ('ä', "ae"), ('ö', "oe"), ('ü', "ue"), ('ẞ', "SS"), ('°', " deg"),
     ('±', "+-"), ('×', "x"), ('µ', "u"), ('μ', "u"), ('∅', "D"),
 ];
 
-/// What stands for a character that has no letters.
+/// Replacement for a character without an ASCII spelling.
 const NONE: &str = "_";
 
-/// A text without any letter that a control can't print: accents go, other alphabets are spelt, and nothing vanishes.
+/// Converts a text to ASCII: accents are removed, letters of other alphabets are spelt out, and no visible character is lost.
 pub fn plain(text: &str) -> Cow<'_, str> {
     if text.is_ascii() {
         return Cow::Borrowed(text);
@@ -31,7 +31,7 @@ pub fn plain(text: &str) -> Cow<'_, str> {
     Cow::Owned(spelt)
 }
 
-/// An accent that follows its letter, and what is never seen.
+/// Combining accents and invisible characters.
 fn is_mark(c: char) -> bool {
     matches!(c, '\u{300}'..='\u{36f}' | '\u{200b}'..='\u{200f}' | '\u{feff}' | '\u{ad}' | '\u{fe00}'..='\u{fe0f}')
 }

@@ -1,4 +1,4 @@
-//! Which way through a sequence is taken now: its conditions are asked before any of it prints.
+//! Selects the branches of a sequence. All its conditions are evaluated before the sequence prints anything.
 
 use super::ahead;
 use super::form_sets::Kept;
@@ -14,13 +14,13 @@ use crate::sema::{Formula, Value, Without};
 use crate::span::Span;
 
 impl Shape<'_> {
-    /// The way through a sequence that is taken now, if the form has the sequence.
+    /// The sequence with its branches selected for the current values; `None` if the form has no such sequence.
     #[inline]
     pub fn routine(&self, id: SequenceId, want: &Want, said: &Said) -> Option<&Routine> {
         self.program.routine(id).map(|routine| self.way(routine, want, said))
     }
 
-    /// The way through a routine that is taken now.
+    /// The routine with its branches selected for the current values.
     #[inline]
     pub fn way<'s>(&'s self, routine: &'s Routine, want: &Want, said: &Said) -> &'s Routine {
         if routine.flow.is_none() { routine } else { self.chosen(routine, want, said) }
@@ -39,13 +39,13 @@ impl Shape<'_> {
     }
 }
 
-/// Asks the conditions of a sequence in their order; `set` is what its directives have set before.
+/// Evaluates the conditions of a sequence in order. `set` holds the values from `@set` directives before them.
 fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
     for node in nodes {
         match node {
             Node::Set(target, index) => {
                 let now = Now { shape, want, said, letter: b' ', block: None, set };
-                // printing it says what is wrong
+                // an error in the value is reported when the directive is executed
                 let value = shape.program.formulas[*index as usize].value(&now).ok().map(Value::into_owned);
                 if let Some(value) = value {
                     set.set(*target, value);
@@ -68,7 +68,8 @@ fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, wa
     }
 }
 
-/// What the lines of a list set counts after it. Its own conditions are asked for each item, when it prints.
+/// Applies the values that `@set` assigns inside a list to what comes after it. The list's own conditions are evaluated for each
+/// item when it prints.
 fn set_by_list(list: &List, set: &mut Kept, shape: &Shape, want: &Want, said: &Said) {
     let Some(flow) = list.routine.flow.as_ref().filter(|flow| sets(&flow.nodes, shape)) else { return };
     let Some(survey) = &shape.options.survey else { return };
@@ -77,7 +78,7 @@ fn set_by_list(list: &List, set: &mut Kept, shape: &Shape, want: &Want, said: &S
     }
 }
 
-/// Is a value set somewhere in it?
+/// Does any node contain a `@set`?
 fn sets(nodes: &[Node], shape: &Shape) -> bool {
     nodes.iter().any(|node| match node {
         Node::Set(..) => true,
@@ -90,7 +91,7 @@ fn sets(nodes: &[Node], shape: &Shape) -> bool {
 }
 
 fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
-    let wrong = |diag: Diag| now.shape.ways.fault.set(Box::new(diag.at(span, "asked here")));
+    let wrong = |diag: Diag| now.shape.ways.fault.set(Box::new(diag.at(span, "tested here")));
     if asks_unknown_order(condition, now) {
         _ = wrong(no_order());
         return false;
@@ -105,7 +106,8 @@ fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
     }
 }
 
-/// Does a condition ask which tools come, and is that unknown yet? Properties alone may decide it too.
+/// Does a condition depend on the order of tools while that order is unknown? If properties alone decide the condition, it does
+/// not.
 fn asks_unknown_order(condition: &Formula, now: &Now) -> bool {
     now.want.tool_order.is_none()
         && now.want.tool_changes > 0

@@ -1,20 +1,20 @@
-//! The codes of each kind of coolant, as the form says them.
+//! The codes of each kind of coolant, as the form defines them.
 
 use super::fault::{Done, fault};
 use crate::diag::Code;
 use crate::lang::Coolant;
 use crate::sema::Settings;
 
-/// The codes of one kind: what turns it on, and what ends it alone where the form says that.
+/// The codes of one kind: its "on" code and, if the form has one, the code that turns off only this kind.
 #[derive(Clone, Copy, Debug)]
 pub struct Codes {
-    /// Turns it on.
+    /// Code that turns the kind on.
     pub on: f64,
-    /// Ends it, and nothing else.
+    /// Code that turns off only this kind.
     pub own_off: Option<f64>,
 }
 
-/// The codes of one kind; `None`: the form has none.
+/// The codes of one kind; `None` if the form has none.
 pub fn codes(kind: Coolant, settings: &Settings) -> Option<Codes> {
     let [on, _, mist] = settings.coolant;
     match (settings.coolant_kinds.iter().find(|own| own.kind == kind), kind) {
@@ -28,7 +28,7 @@ pub fn codes(kind: Coolant, settings: &Settings) -> Option<Codes> {
 /// The codes of one kind.
 ///
 /// # Errors
-/// The form has none: PR054.
+/// PR054 if the form has none.
 pub fn codes_of(kind: Coolant, settings: &Settings) -> Done<Codes> {
     match codes(kind, settings) {
         Some(codes) => Ok(codes),
@@ -36,8 +36,8 @@ pub fn codes_of(kind: Coolant, settings: &Settings) -> Done<Codes> {
             Code::PR054,
             format!("the form has no coolant `{}`", kind.name()),
             format!(
-                "add `CoolantKind {} M88 M89` with the machine's codes (postforms/haas.pf has two kinds), or take flood \
-                 coolant",
+                "add `CoolantKind {} M88 M89` with the machine's codes (postforms/haas.pf has two kinds), or use \
+                 flood coolant",
                 kind.name()
             ),
         ),

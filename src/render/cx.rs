@@ -1,44 +1,44 @@
-//! What everything that prints goes through: the form, what the job asks for, what the control holds, and the text.
+//! The shared state of rendering: the form, the values of the job, the state of the control, and the output.
 
 use super::printer::Printer;
 use super::said::Said;
 use super::shape::Shape;
 use super::want::Want;
 
-/// The state of a renderer, lent to what serves an event: it may give variables the values of the next block.
+/// The state of a renderer, borrowed by the functions that handle an event. They may set values for the next block.
 pub struct Cx<'a> {
     /// The form for this job.
     pub shape: &'a Shape<'a>,
-    /// What the job asks for now.
+    /// Values that the job requests now.
     pub want: &'a mut Want,
-    /// What the control holds by what was printed.
+    /// State of the control, as known from the printed blocks.
     pub said: &'a mut Said,
-    /// The text, block by block.
+    /// Output, block by block.
     pub out: &'a mut Printer,
 }
 
 impl Cx<'_> {
-    /// The same for words and blocks.
+    /// The same state, borrowed for printing words and blocks.
     #[inline]
     pub fn writer(&mut self) -> Writer<'_> {
         Writer { shape: self.shape, want: self.want, said: self.said, out: self.out }
     }
 }
 
-/// The state of a renderer, lent to what prints words and blocks: what the job asks for stays as it is.
+/// The state of a renderer, borrowed by the functions that print words and blocks. They do not change the job's values.
 pub struct Writer<'a> {
     /// The form for this job.
     pub shape: &'a Shape<'a>,
-    /// What the job asks for now.
+    /// Values that the job requests now.
     pub want: &'a Want,
-    /// What the control holds by what was printed.
+    /// State of the control, as known from the printed blocks.
     pub said: &'a mut Said,
-    /// The text, block by block.
+    /// Output, block by block.
     pub out: &'a mut Printer,
 }
 
 impl Writer<'_> {
-    /// The same for a while.
+    /// Reborrows the writer for a shorter time.
     #[inline]
     pub fn lend(&mut self) -> Writer<'_> {
         Writer { shape: self.shape, want: self.want, said: self.said, out: self.out }

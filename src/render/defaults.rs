@@ -1,4 +1,4 @@
-//! What a form gives to cycles that name nothing, and the factors between units.
+//! Default values of cycles, and factors between units.
 
 use crate::cycle::Defaults;
 use crate::lang::UnitChoice;
@@ -8,7 +8,7 @@ use crate::toolpath::Units;
 /// Millimetres in an inch.
 const MM: f64 = 25.4;
 
-/// Defaults before the job has said its units.
+/// Defaults before the units of the job are known.
 pub fn no_defaults() -> Defaults {
     Defaults {
         clear: 0.0,
@@ -28,11 +28,11 @@ pub fn no_defaults() -> Defaults {
     }
 }
 
-/// What a form gives where a cycle of a job in these units names nothing, in the units `into`.
+/// Default values of the form for a cycle, converted from units of the job or the form to the units `into`.
 pub fn cycle_defaults(settings: &Settings, job: Units, into: Units, sink_as_printed: bool) -> Defaults {
     let scale = factor(form_units(settings).unwrap_or(Units::Inch), into);
     let length = |value: f64| value * scale;
-    // what a form for both units says is inches; what it leaves out is what a form for the job's units has
+    // lengths of a form for both units are inches; for values that it lacks, the defaults of a form in the job's units apply
     let of_job = if job == Units::Mm { UnitChoice::Mm } else { UnitChoice::Inch };
     let usual = Settings::new(settings.machine, of_job);
     let usual_scale = factor(job, into);
@@ -57,7 +57,7 @@ pub fn cycle_defaults(settings: &Settings, job: Units, into: Units, sink_as_prin
     }
 }
 
-/// The one unit that a form is for; `None`: a form for both.
+/// The unit of the form; `None` if it is for both.
 pub fn form_units(settings: &Settings) -> Option<Units> {
     match settings.units {
         UnitChoice::Inch => Some(Units::Inch),
@@ -66,7 +66,7 @@ pub fn form_units(settings: &Settings) -> Option<Units> {
     }
 }
 
-/// What a length in one unit is multiplied with in the other.
+/// The factor that converts a length from one unit to the other.
 pub fn factor(from: Units, to: Units) -> f64 {
     match (from, to) {
         (Units::Inch, Units::Mm) => MM,

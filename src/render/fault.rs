@@ -1,4 +1,4 @@
-//! Errors while rendering: what, which word of the form, what to do. The event's place is added at the end.
+//! Errors of rendering: message, word of the form, and help. The location of the event is added at the end.
 
 use crate::diag::{Code, Diag};
 use crate::span::Span;
@@ -6,13 +6,13 @@ use crate::span::Span;
 /// What a step of rendering returns.
 pub type Done<T = ()> = Result<T, Box<Diag>>;
 
-/// A fault without a place in the form.
+/// An error without a location in the form.
 #[cold]
 pub fn fault<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
     Err(Box::new(Diag::new(code, message).help(help)))
 }
 
-/// A fault at a word of the form.
+/// An error at a word of the form.
 #[cold]
 pub fn fault_at<T>(code: Code, message: impl Into<String>, help: impl Into<String>, form: Option<Span>) -> Done<T> {
     let mut diag = Diag::new(code, message).help(help);

@@ -1,4 +1,4 @@
-//! What the file of a program is called.
+//! The file name of a program.
 
 use super::Options;
 use super::ascii::plain;
@@ -10,11 +10,11 @@ use crate::number::write_number;
 use crate::sema::{NamePart, is_of_file_names};
 use crate::toolpath::Start;
 
-/// How long a name may be: what every file system takes.
+/// Maximum length of a name; every file system accepts it.
 const LONGEST: usize = 100;
 
-/// The name that a form gives the file of a program, with its extension: as the job's file where the form says nothing, or the
-/// job has nothing of what it says.
+/// The file name of a program, with its extension. If the form defines no name, or the job has none of its values, the name of
+/// the job's file is used.
 pub fn file_name(shape: &Shape, want: &Want) -> String {
     let settings = &shape.program.settings;
     let mut name = String::new();
@@ -26,7 +26,7 @@ pub fn file_name(shape: &Shape, want: &Want) -> String {
             NamePart::Number => number(&mut name, shape, want),
         }
     }
-    // what is typed alone says nothing of the program
+    // typed text alone does not identify the program
     let said = settings.program_name.0.iter().any(|part| match part {
         NamePart::Typed(_) => false,
         NamePart::Text(id) => !want.texts.get(*id).is_empty() || *id == TextId::Jobfile,
@@ -40,10 +40,10 @@ pub fn file_name(shape: &Shape, want: &Want) -> String {
     format!("{mark}{name}.{}", settings.extension.0)
 }
 
-/// The name of the file of a program that is not printed yet, whose job begins so.
+/// The file name of a program that is not printed yet, from the head of its job.
 pub fn file_name_of(program: &Program, options: Options, start: &Start) -> String {
     let mut shape = Shape::new(program, options);
-    // where the units are wrong nothing is printed, under no name
+    // with wrong units nothing is printed, so the name does not matter
     _ = shape.choose_units(start.units);
     let mut want = Want::new(&shape);
     want.put(VarId::Program, shape.options.program.map(f64::from).or(start.program));
@@ -51,20 +51,20 @@ pub fn file_name_of(program: &Program, options: Options, start: &Start) -> Strin
     file_name(&shape, &want)
 }
 
-/// Is it a name that Windows keeps for a device, whatever comes after a point?
+/// Is this a device name that Windows reserves, with any extension?
 fn is_device(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().to_ascii_uppercase();
     let port = |begin: &str| stem.strip_prefix(begin).is_some_and(|n| n.len() == 1 && n.as_bytes()[0].is_ascii_digit());
     ["CON", "PRN", "AUX", "NUL"].contains(&stem.as_str()) || port("COM") || port("LPT")
 }
 
-/// The job's file without its extension.
+/// The name of the job's file, without its extension.
 fn job_file<'r>(shape: &'r Shape) -> &'r str {
     let file = shape.options.job_file.as_deref().unwrap_or_default();
     file.rsplit_once('.').map_or(file, |(stem, _)| stem)
 }
 
-/// The program's number as the letter O prints it.
+/// Appends the program's number, in the format of the letter O.
 fn number(name: &mut String, shape: &Shape, want: &Want) {
     let Some(number) = want.get(VarId::Program) else { return };
     let mut digits = Vec::new();

@@ -1,8 +1,8 @@
-//! What the form itself has set.
+//! Values that the form sets with `@set`.
 
 use crate::sema::{Target, Value};
 
-/// What the form itself has set: it holds from there to the end of the program.
+/// Values that the form sets with `@set`. They apply to the end of the program.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
     numbers: Vec<(Target, f64)>,
@@ -10,7 +10,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// The number, if the form has set it; yes is 1.
+    /// The number, if the form set one; yes is 1.
     #[inline]
     pub fn of(&self, target: Target) -> Option<f64> {
         if self.numbers.is_empty() {
@@ -19,12 +19,12 @@ impl Kept {
         self.numbers.iter().find(|(own, _)| *own == target).map(|(_, value)| *value)
     }
 
-    /// The text, if the form has set it.
+    /// The text, if the form set one.
     pub fn text_of(&self, target: Target) -> Option<&str> {
         self.texts.iter().find(|(own, _)| *own == target).map(|(_, text)| text.as_str())
     }
 
-    /// The form sets it.
+    /// Stores a value.
     pub fn set(&mut self, target: Target, value: Value) {
         match value {
             Value::Number(number) => put(&mut self.numbers, target, number),

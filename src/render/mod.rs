@@ -1,5 +1,5 @@
-//! From toolpath events to NC blocks (render.md): what a form is (`shape`), what the job asks for (`want`), what the
-//! control holds (`said`), what is printed (`printer`), and the functions that make one of the other.
+//! Converts toolpath events to NC blocks (render.md). The parts are the form (`shape`), the values that the job requests
+//! (`want`), the known state of the control (`said`), the output (`printer`), and the functions that connect them.
 
 mod ahead;
 mod ascii;
@@ -63,7 +63,7 @@ pub use file_name::file_name_of;
 pub use options::{Clock, Cycles, Options};
 pub use printer::{TraceLine, TraceWord};
 
-/// Prints the blocks of one program. Push the events of a job, and take the text as it comes.
+/// Prints the blocks of one program. The caller pushes the events of a job and takes the text as it comes.
 pub struct Renderer<'p> {
     shape: Shape<'p>,
     want: Want,
@@ -71,23 +71,23 @@ pub struct Renderer<'p> {
     out: Printer,
     /// The open cycle.
     drill: Drilling,
-    /// The parts of the path that are open, the last one begun at the end.
+    /// The open parts of the path; the last element began last.
     sections: Vec<Section>,
     subs: Subprograms,
-    /// Where the stream of events stands.
+    /// State of the event stream, for the check of its order.
     order: Order,
-    /// Parts of an arc; kept so that an arc allocates nothing.
+    /// Parts of an arc; reused so that an arc needs no allocation.
     parts: Vec<f64>,
 }
 
 impl<'p> Renderer<'p> {
-    /// A renderer of this form.
+    /// Creates a renderer for this form.
     pub fn new(program: &'p Program, options: Options) -> Self {
         let shape = Shape::new(program, options);
         let want = Want::new(&shape);
         let mut said = Said::new(program.upons.len());
         for var in [VarId::Work, VarId::Cool, VarId::Speedtype, VarId::Feedtype] {
-            said.conditions.put(var, want.get(var)); // a control begins with what the form takes for granted
+            said.conditions.put(var, want.get(var)); // a control starts in the states that the form assumes
         }
         Renderer {
             out: Printer::new(&program.settings, shape.letters, shape.options.trace, shape.options.words),
@@ -102,27 +102,27 @@ impl<'p> Renderer<'p> {
         }
     }
 
-    /// The text printed so far and not yet taken: take it with `drain` or `clear` when it suits.
+    /// The text that was printed and not yet taken. The caller takes it with `drain` or `clear`.
     pub fn text(&mut self) -> &mut Vec<u8> {
         &mut subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).text
     }
 
-    /// The source map of lines not yet taken.
+    /// The source map of the lines that were not yet taken.
     pub fn trace(&mut self) -> Option<&mut Vec<TraceLine>> {
         subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).trace.as_mut()
     }
 
-    /// What the words of the form came to, of lines not yet taken.
+    /// The output of each word of the form, for lines that were not yet taken.
     pub fn words(&mut self) -> Option<&mut Vec<TraceWord>> {
         subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).words.as_mut()
     }
 
-    /// What a variable holds now, if anything: in the program's units.
+    /// The current value of a variable in the program's units; `None` if it has none.
     pub fn value(&self, var: VarId) -> Option<f64> {
         self.want.get(var)
     }
 
-    /// Warnings and notes so far: each kind of remark once.
+    /// Warnings and notes so far; each kind appears once.
     pub fn notes(&self) -> &[Diag] {
         self.out.notes()
     }
@@ -132,18 +132,17 @@ impl<'p> Renderer<'p> {
         self.out.lines()
     }
 
-    /// What the file of the program is called, as form and job say it.
+    /// The file name of the program, as defined by form and job.
     pub fn file_name(&self) -> String {
         file_name::file_name(&self.shape, &self.want)
     }
 
-    /// Was the end of the job printed?
+    /// Has the end of the job been printed?
     pub(crate) fn is_over(&self) -> bool {
         self.order == Order::End
     }
 
-    /// Which function serves an event. An open cycle ends before everything that is neither one of its holes nor a word
-    /// about what follows.
+    /// Dispatches an event. An open cycle ends before every event except its own holes and events that only prepare what follows.
     fn take(&mut self, event: Event<'_>) -> Done {
         let goes_on = matches!(event, Event::Hole(_) | Event::Feed(_) | Event::Tilt(_) | Event::SubStart(_));
         let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;
@@ -157,7 +156,7 @@ impl<'p> Renderer<'p> {
         if want.cutting || matches!(event, Event::Hole(_)) {
             stopped_spindle::warn_of_standing(shape, want, out);
         }
-        // the units and the tool make another form of it
+        // these two events change the shape of the form: its units, and the turret of the tool
         let event = match event {
             Event::Start(start) => return start::start(start, shape, want, said, out, subs),
             Event::ToolChange(change) => return tools::tool_change(change, shape, want, said, out, subs, sections),

@@ -1,4 +1,4 @@
-//! Coolants that are on at once: `[cool]` prints the first of a list, the others are said beside it.
+//! Several coolants at once: `[cool]` prints the first kind of a list, the others print in blocks of their own.
 
 use super::coolant::{codes, codes_of};
 use super::cx::Writer;
@@ -7,7 +7,7 @@ use super::said::Beside;
 use super::words::value_code;
 use crate::lang::{Coolant, VarId};
 
-/// Ends what is on beside the first, but for the kinds that the job keeps.
+/// Turns off the further kinds of coolant, except those in `keeps`.
 pub fn end_beside(keeps: Coolant, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let settings = &shape.program.settings;
@@ -17,7 +17,7 @@ pub fn end_beside(keeps: Coolant, writer: &mut Writer<'_>) -> Done {
         writer.out.end_block();
         writer.said.beside.end(kind);
         if own.is_none() {
-            // nothing is on after it
+            // this code turned off all coolant
             writer.said.beside = Beside::OFF;
             writer.said.conditions.put(VarId::Cool, Some(settings.coolant[1]));
         }
@@ -25,7 +25,7 @@ pub fn end_beside(keeps: Coolant, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Turns on what the job wants beside the first.
+/// Turns on the further kinds of coolant that the job requests.
 pub fn begin_beside(writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     writer.said.beside.end(writer.want.coolant.first());

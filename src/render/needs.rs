@@ -1,32 +1,32 @@
-//! What the form's control does not have: an error of the job, where the program would need it.
+//! Checks that the form's control has what the job needs. If it lacks a code or an axis, the job is an error.
 
 use super::fault::{Done, fault};
 use super::shape::Shape;
 use crate::control::Meaning;
 use crate::diag::Code;
 
-/// Codes that a control may lack: what a job needs them for, and what to do without.
+/// Codes that a control may lack: their purpose in a job, and what to do without them.
 const NEEDED: [(Meaning, &str, &str); 5] = [
     (
         Meaning::SideLeft,
         "cutter compensation",
-        "write the path of the tool's centre into the job, and no infeed or outfeed",
+        "write the path of the tool's centre into the job, without infeed or outfeed",
     ),
     (
         Meaning::Orient,
         "a stop of the spindle at an angle",
-        "leave `orient` and `offset` out: the tool comes out along the wall",
+        "leave `orient` and `offset` out: then the tool retracts along the wall",
     ),
-    (Meaning::PerRev, "a feed per revolution", "say the feed per minute: the feed per revolution times the speed"),
-    (Meaning::InverseTime, "an inverse time feed", "say the feed per minute"),
-    (Meaning::SurfaceSpeed, "a constant surface speed", "say the speed in revolutions per minute"),
+    (Meaning::PerRev, "a feed per revolution", "give the feed per minute: the feed per revolution times the speed"),
+    (Meaning::InverseTime, "an inverse time feed", "give the feed per minute"),
+    (Meaning::SurfaceSpeed, "a constant surface speed", "give the speed in revolutions per minute"),
 ];
 
 impl Shape<'_> {
-    /// The job needs a code of this meaning.
+    /// Checks a code of this meaning that the job needs.
     ///
     /// # Errors
-    /// The control has none.
+    /// The control has no such code.
     pub fn needs(&self, meaning: Meaning) -> Done {
         let control = self.program.settings.control();
         let needed = NEEDED.iter().find(|(needed, ..)| *needed == meaning);
@@ -36,7 +36,7 @@ impl Shape<'_> {
         }
     }
 
-    /// The job moves the axis of this letter.
+    /// Checks the axis of this letter that the job moves.
     ///
     /// # Errors
     /// The control has no such axis.
@@ -46,7 +46,7 @@ impl Shape<'_> {
             return Ok(());
         }
         let message = format!("{} has no axis {}", control.title(), char::from(letter));
-        fault(Code::PR008, message, "take a form of a control that has it, or leave the axis out of the job")
+        fault(Code::PR008, message, "use a form for a control with this axis, or leave the axis out of the job")
     }
 }
 

@@ -1,4 +1,4 @@
-//! Variables that have no value where they are printed, and calculations that have none.
+//! Errors for variables without a value, and for calculations that fail.
 
 use super::fault::{Done, fault};
 use super::vars::MOVED;
@@ -12,33 +12,33 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
     let help = match var {
         VarId::Nexttool => "list the tools ahead under `tool_order`, or render without `--stream`".to_owned(),
         VarId::Cuttime => {
-            "there is a cut whose time is unknown, as at a constant surface speed; ask before it: `@if [cuttime]`"
-                .to_owned()
+            "the time of a cut is unknown, as at a constant surface speed; test it first: `@if [cuttime]`".to_owned()
         }
-        _ if AHEAD.has(var) => "the job has no cut that tells it; ask before it, as `@if [hmin]`".to_owned(),
+        _ if AHEAD.has(var) => "the job has no cut for this value; test it first, as `@if [hmin]`".to_owned(),
         VarId::Dcomp => {
             "give the operation a tool with a `diameter_offset`; a wire without a tool takes \"set\": {\"dcomp\": 1}"
                 .to_owned()
         }
-        VarId::Program => "give the job a `program`, or say it with `--program NUMBER`".to_owned(),
+        VarId::Program => "give the job a `program`, or use `--program NUMBER`".to_owned(),
         VarId::H | VarId::V | VarId::D => "begin the operation with a rapid that gives all coordinates".to_owned(),
         _ if MOVED.contains(&var) => {
-            "the position of the tool is unknown here: print its position in the sequence that moved it, or changed the offset"
+            "the position of the tool is unknown here: print it in the sequence that moved the tool or changed the \
+             offset"
                 .to_owned()
         }
         _ if var.row().origin == Origin::Job => {
             format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
         }
-        _ => format!("it stands for: {}; let the job say it, or take the word out of the form", var.row().meaning),
+        _ => format!("its meaning: {}; give it in the job, or remove the word from the form", var.row().meaning),
     };
     fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
 }
 
-/// The error of a condition that asks for the tools ahead in a job that is read once and does not list them.
+/// Error: a condition depends on the tools ahead, but the job is read only once and does not list them.
 #[cold]
 pub fn no_order() -> Diag {
-    Diag::new(Code::PR052, "the tools that come next are not known")
-        .help("list them under `tool_order` in the job's head, or render without `--stream`")
+    Diag::new(Code::PR052, "the next tools are unknown")
+        .help("list them under `tool_order` at the beginning of the job, or render without `--stream`")
 }
 
 /// The error of a division by zero.
@@ -46,5 +46,5 @@ pub fn no_order() -> Diag {
 pub fn division_by_zero(divisor: Span) -> Diag {
     Diag::new(Code::PR051, "a division by zero")
         .at(divisor, "this is 0 here")
-        .help("ask before it, as `@if [pitch] > 0`")
+        .help("test it first, as `@if [pitch] > 0`")
 }

@@ -1,11 +1,11 @@
-//! Values in units of a letter's last decimal, and what is said where one does not fit its format.
+//! Conversion of values to units of a letter's last decimal, and errors for values that do not fit the format.
 
 use super::fault::{Done, fault};
 use crate::compile::{Letter, LetterKind};
 use crate::diag::Code;
 use crate::number::{LetterFormat, POWERS, Unprintable, quantise};
 
-/// A value in units of its letter's last decimal, its sign reversed where the form says so.
+/// Converts a value to units of its letter's last decimal; reverses the sign if the form does so.
 #[inline(always)]
 pub fn quantised(info: &Letter, value: f64) -> Done<i64> {
     let value = if info.reversed { -value } else { value };
@@ -20,7 +20,7 @@ pub fn quantised(info: &Letter, value: f64) -> Done<i64> {
     }
 }
 
-/// A value in units of a format's last decimal; `what` it is, for messages.
+/// Converts a value to units of a format's last decimal. `what` names the value in messages.
 pub fn units_of(value: f64, format: &LetterFormat, what: &str) -> Done<i64> {
     match quantise(value, format.dec.count) {
         Some(units) => Ok(units),
@@ -28,12 +28,12 @@ pub fn units_of(value: f64, format: &LetterFormat, what: &str) -> Done<i64> {
     }
 }
 
-/// Units of a letter as a number, for messages and geometry.
+/// Converts units of a letter to a number, for messages and geometry.
 pub fn as_number(units: i64, decimals: u8) -> f64 {
     units as f64 / POWERS[usize::from(decimals)] as f64
 }
 
-/// A code must not be rounded: G59.1 as G59 is another work offset.
+/// Checks that a code is not rounded: G59.1 printed as G59 is another work offset.
 #[cold]
 fn check_code(info: &Letter, value: f64, units: i64) -> Done {
     if (as_number(units, info.format.dec.count) - value).abs() < 1e-9 {
@@ -49,34 +49,34 @@ fn no_number<T>(what: &str, value: f64, format: &LetterFormat) -> Done<T> {
     if value.is_finite() {
         return unprintable(Unprintable::Overflow, what, value, format);
     }
-    fault(Code::PR004, format!("{what} would be {value}, which is no number"), "look at the job's numbers here")
+    fault(Code::PR004, format!("{what} would be {value}, which is not a number"), "check the job's numbers here")
 }
 
-/// The error of a value that its format can't say.
+/// Error: a value does not fit its format.
 #[cold]
 pub fn unprintable<T>(why: Unprintable, what: &str, value: f64, format: &LetterFormat) -> Done<T> {
     match why {
         Unprintable::Overflow => fault(
             Code::PR002,
-            format!("{what} is {value}, its format `{}` has {} digits before the point", format, format.int.count),
-            "give the letter more digits, or look at the number in the job",
+            format!("{what} is {value}, but its format `{}` has {} digits before the point", format, format.int.count),
+            "give the letter more digits, or check the number in the job",
         ),
         Unprintable::Negative => {
             let format = format.to_string();
             let format = format.trim_start();
             fault(
                 Code::PR003,
-                format!("{what} is {value}, its format `{format}` has no sign"),
-                format!("write `-` before the digits to let it be negative, as `-{format}`"),
+                format!("{what} is {value}, but its format `{format}` has no sign"),
+                format!("write `-` before the digits to allow negative values, as `-{format}`"),
             )
         }
     }
 }
 
-/// How much of itself a feed may lose in its digits without a word.
+/// Relative rounding error of a feed that is accepted without a note.
 pub const ROUNDED: f64 = 0.01;
 
-/// Does a value lose more than this part of itself as it is printed?
+/// Does the relative rounding error of a printed value exceed `part`?
 pub fn loses(value: f64, printed: f64, part: f64) -> bool {
     (printed.abs() - value.abs()).abs() > value.abs() * part
 }

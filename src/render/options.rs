@@ -1,4 +1,4 @@
-//! What a caller may choose.
+//! Options that a caller may set.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::sema::PropertyValue;
 use crate::survey::Survey;
 use crate::toolpath::Units;
 
-/// Where canned cycles come from.
+/// How canned cycles are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Cycles {
     /// The form's sequences; moves where it has none.
@@ -17,18 +17,18 @@ pub enum Cycles {
     Emulated,
 }
 
-/// Day and time of printing: nothing of the library looks at a clock.
+/// Date and time of printing. The caller provides them, because the library never reads a clock.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Clock {
     /// `[date]`, as 2026-03-31.
     pub date: String,
-    /// `[time]`, as 14:05; empty where only the day is said.
+    /// `[time]`, as 14:05; empty if only the date is known.
     pub time: String,
 }
 
 impl Clock {
-    /// Reads a day, as `2026-03-31`, or a day and a time, as `2026-03-31T14:05`; a blank in place of the T and seconds are read,
-    /// too. `None`: it is neither, or there is no such day or time.
+    /// Parses a date, as `2026-03-31`, or a date with a time, as `2026-03-31T14:05`. A space instead of the T and trailing
+    /// seconds are also accepted. `None`: the text is neither, or the date or time does not exist.
     pub fn parse(text: &str) -> Option<Clock> {
         let (date, time) = match text.split_once(['T', ' ']) {
             Some((date, time)) => (date, Some(time)),
@@ -56,7 +56,7 @@ impl Clock {
     }
 }
 
-/// Numbers of so many digits each.
+/// Parses numbers with the given counts of digits.
 fn numbers(text: &str, between: char, digits: &[usize]) -> Option<Vec<u32>> {
     let parts: Vec<&str> = text.split(between).collect();
     let fits =
@@ -67,31 +67,31 @@ fn numbers(text: &str, between: char, digits: &[usize]) -> Option<Vec<u32>> {
     parts.iter().map(|part| part.parse().ok()).collect()
 }
 
-/// What a caller may choose.
+/// Options that a caller may set.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Where cycles come from.
+    /// How canned cycles are printed.
     pub cycles: Cycles,
-    /// Units of the program; else those of the job.
+    /// Units of the program; default: the units of the job.
     pub units: Option<Units>,
-    /// The program's number; else that of the job.
+    /// Number of the program; default: the number in the job.
     pub program: Option<u32>,
-    /// Answers to prompts and values of variables; they go before the job's.
+    /// Answers to prompts and values of variables. They override the job's.
     pub set: Vec<(VarId, f64)>,
-    /// Properties of the form that go before all else, by their rows.
+    /// Values of properties that override all others, by row.
     pub properties: Vec<(u16, PropertyValue)>,
-    /// Properties that go before the form's defaults.
+    /// Values of properties that override only the form's defaults, by row.
     pub shop: Vec<(u16, PropertyValue)>,
-    /// Countersink depths by the formula that GENER's manual prints, which is right at 90 degrees only.
+    /// Compute countersink depths by the formula printed in GENER's manual, which is correct only at 90 degrees.
     pub sink_as_printed: bool,
-    /// Day and time of printing, as the program says them.
+    /// Date and time of printing, for texts of the program.
     pub clock: Option<Clock>,
-    /// The job's file, as the program says it.
+    /// Name of the job's file, for texts of the program.
     pub job_file: Option<String>,
-    /// What lies ahead in the job, for forms that print any of it.
+    /// Results of the first reading of the job, for forms that use them.
     pub survey: Option<Arc<Survey>>,
     /// Keep a source map.
     pub trace: bool,
-    /// Keep what each word of the form came to.
+    /// Record the output of each word of the form.
     pub words: bool,
 }

@@ -1,4 +1,4 @@
-//! What is printed before a sequence of moves that does not print it: the plane, the motion, the feed.
+//! Codes before a sequence of moves that lacks them: plane, motion and feed.
 
 use super::cx::Writer;
 use super::fault::{Done, fault_at};
@@ -13,7 +13,7 @@ use crate::lang::{Machine, VarId};
 use crate::sema;
 use crate::toolpath::Axes;
 
-/// The plane's code as a block of its own, before what prints none and needs it.
+/// Prints the plane's code in a separate block if the sequence needs it and does not print it.
 pub fn plane_block(plane: Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     if writer.said.is_in_plane(plane) || prints_code(routine, |code| shape.is_plane(code), shape) {
@@ -22,7 +22,7 @@ pub fn plane_block(plane: Code, routine: &Routine, writer: &mut Writer<'_>) -> D
     enter_plane(plane, writer)
 }
 
-/// The plane's code as a block of its own, where the control is in another; only mills have planes.
+/// Prints the plane's code in a separate block if the control is in another plane. Only mills have planes.
 pub fn enter_plane(plane: Code, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     if !writer.said.is_in_plane(plane) && shape.program.settings.machine == Machine::Mill {
@@ -32,8 +32,8 @@ pub fn enter_plane(plane: Code, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// The motion code, before a sequence of moves that prints none where the control is in another motion: a cut would
-/// be a rapid. Whether it was printed.
+/// Prints the motion code before a sequence of moves without one, if the control is in another motion: otherwise a cut would be a
+/// rapid. Returns whether it was printed.
 fn motion_before(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done<bool> {
     let shape = writer.shape;
     let lacks = !writer.said.motion_in_force(code) && shape.program.speaks_g && !prints_motion(routine, shape);
@@ -43,14 +43,14 @@ fn motion_before(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) 
     Ok(lacks)
 }
 
-/// The motion code as a block of its own, before a sequence of rapids that prints none.
+/// Prints the motion code in a separate block, before a sequence of rapids without one.
 pub fn motion_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
     motion_before(code, routine, writer)?;
     writer.out.end_block();
     Ok(())
 }
 
-/// The motion before a sequence that goes to a place and says none: a cut's is a cut, every other way a rapid.
+/// Prints the motion code before a sequence that moves without one: the feed code for cuts, the rapid code for everything else.
 pub fn way_before(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let program = shape.program;
@@ -67,16 +67,16 @@ pub fn way_before(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Motion code and feed as a block of their own, before a sequence that lacks one of them; arcs say their code.
+/// Prints motion code and feed in a separate block, before a sequence that lacks one of them. Arc sequences print their own code.
 pub fn feed_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let begun = code.code == shape.program.settings.feed.code && motion_before(code, routine, writer)?;
     let says_feed = routine.vars.has(VarId::Frate);
     if !says_feed && writer.want.inverse_time() {
-        let message = "in inverse time each move says its feed, and the sequence does not print [frate]";
+        let message = "in inverse time each move needs its feed, but the sequence does not print [frate]";
         return fault_at(diag::Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
     }
-    // a Grbl refuses G1 before any feed
+    // a Grbl refuses G1 if no feed was set before
     if !says_feed || begun && !writer.want.inverse_time() {
         feed_word(writer)?;
     }
@@ -84,7 +84,7 @@ pub fn feed_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>)
     Ok(())
 }
 
-/// A motion sequence must print every axis that moves: a word that the form leaves out is a move that is lost.
+/// Checks that a motion sequence prints every axis that moves; otherwise the move would be lost.
 pub fn check_prints(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> Done {
     let moves = |axis: usize| target.get(axis).is_some() && target.get(axis) != said.stand.position.get(axis);
     let lost = (0..shape.linear).find(|&axis| moves(axis) && !prints_axis(routine, axis, shape));
@@ -94,6 +94,6 @@ pub fn check_prints(routine: &Routine, target: &Axes, shape: &Shape, said: &Said
         (None, Some(axis)) => format!("{}[rotangle]", char::from(shape.axes[axis])),
         (None, None) => return Ok(()),
     };
-    let message = format!("this move changes {word}, which the sequence does not print");
+    let message = format!("this move changes {word}, but the sequence does not print it");
     fault_at(diag::Code::PR017, message, format!("add the word of {word} to the sequence"), Some(routine.span))
 }

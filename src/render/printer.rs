@@ -1,4 +1,4 @@
-//! The printer: words joined to blocks, numbered, ended, with the source map and the remarks that go with them.
+//! The printer: joins words to blocks, numbers and ends them, and keeps the source map and the notes.
 
 use std::ops::Range;
 
@@ -11,10 +11,10 @@ use crate::sema::{LineEnd, Replacement, SequenceNumbers, Settings};
 use crate::span::Span;
 use crate::toolpath::Place;
 
-/// Longest block of a control that takes long ones; they read from 80 characters to a few hundred.
+/// Block length limit for controls that accept long blocks; others accept between 80 and a few hundred characters.
 pub const LONGEST: usize = 4096;
 
-/// Where an output line came from.
+/// Origin of an output line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TraceLine {
     /// Line of the program, from 1.
@@ -25,29 +25,29 @@ pub struct TraceLine {
     pub place: Place,
 }
 
-/// What a word of the form came to in one block.
+/// Output of a word of the form in one block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceWord {
     /// Line of the program, from 1.
     pub line: u64,
     /// The word of the form.
     pub form: Span,
-    /// As printed; empty where it was left out, because the control holds it already.
+    /// As printed; empty if the word was left out because the control already had its value.
     pub text: String,
 }
 
 /// A block that is longer than its control reads.
 #[derive(Clone, Copy, Debug)]
 struct TooLong {
-    /// Length of the block, as far as it was made.
+    /// Length of the block, as far as it was printed.
     length: usize,
-    /// The longest that the control reads.
+    /// Maximum block length of the control.
     most: usize,
     /// The `Replace` that made it too long.
     replaced: Option<Span>,
 }
 
-/// How blocks look, taken from the settings once.
+/// Layout of blocks, computed once from the settings.
 #[derive(Debug)]
 struct Layout {
     blanks: bool,
@@ -66,13 +66,13 @@ struct Layout {
 }
 
 impl Layout {
-    /// The layout of a form, with the number format that these letters give.
+    /// The layout of a form. `letters` gives the format of block numbers.
     fn new(settings: &Settings, letters: &LetterTable) -> Layout {
         let own = settings.numbers.letter.filter(|&letter| letter != SequenceNumbers::BARE);
         let format = letters[own.unwrap_or(b'N')].format;
         let width = format.int.count;
         let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
-        // what a sender cuts is no reason to print nothing
+        // if the sender only truncates long blocks, they are no reason for an error
         let control = settings.control().traits();
         Layout {
             blanks: settings.blanks,
@@ -92,11 +92,11 @@ impl Layout {
     }
 }
 
-/// The program as far as it is printed, and the block being made.
+/// The program as printed so far, and the block that is being printed.
 #[derive(Debug)]
 pub struct Printer {
     layout: Layout,
-    /// The item of the job that is printed.
+    /// Current item of the job.
     pub place: Place,
     page: Page,
     /// Where the open block begins in the text.
@@ -105,27 +105,27 @@ pub struct Printer {
     numbered: bool,
     next_number: i64,
     first_done: bool,
-    /// Parts of the open block that `Replace` leaves alone.
+    /// Parts of the open block that `Replace` must not change.
     kept: Vec<Range<usize>>,
     too_long: Option<TooLong>,
     notes: Vec<Diag>,
 }
 
-/// Text with its source map: the program's, or what stands aside until the program has its place for it.
+/// Text with its source map: the program itself, or text that is stored until the program reaches its position.
 #[derive(Debug, Default)]
 pub struct Page {
-    /// Finished blocks, and the open one; the caller takes them.
+    /// Finished blocks and the open one. The caller takes them.
     pub text: Vec<u8>,
     /// Blocks printed so far.
     pub lines: u64,
-    /// The source map, when asked for.
+    /// The source map, if requested.
     pub trace: Option<Vec<TraceLine>>,
-    /// The words of the form, when asked for.
+    /// Output of the form's words, if requested.
     pub words: Option<Vec<TraceWord>>,
 }
 
 impl Printer {
-    /// Empty; the first block number is the form's.
+    /// An empty printer. The first block number is that of the form.
     pub fn new(settings: &Settings, letters: &LetterTable, trace: bool, words: bool) -> Printer {
         let layout = Layout::new(settings, letters);
         Printer {
@@ -148,17 +148,17 @@ impl Printer {
         }
     }
 
-    /// The job has said its units: letters have other formats.
+    /// Sets the letters once the job's units are known, because their formats depend on the units.
     pub fn set_letters(&mut self, settings: &Settings, letters: &LetterTable) {
         self.layout = Layout::new(settings, letters);
     }
 
-    /// The page that is being printed.
+    /// The current page.
     pub fn page(&mut self) -> &mut Page {
         &mut self.page
     }
 
-    /// Changes places with another page.
+    /// Swaps the current page with another one.
     pub fn turn_to(&mut self, page: &mut Page) {
         if self.page.trace.is_some() {
             page.trace.get_or_insert_default();
@@ -169,7 +169,7 @@ impl Printer {
         std::mem::swap(&mut self.page, page);
     }
 
-    /// Appends what stood aside.
+    /// Appends a stored page.
     pub fn append(&mut self, aside: Page) {
         let before = self.page.lines;
         self.page.text.extend_from_slice(&aside.text);
@@ -183,13 +183,13 @@ impl Printer {
         }
     }
 
-    /// The end of the text so far, where the words are asked for: what [`Printer::trace_word`] counts from.
+    /// The end of the text so far, if words are recorded: the start for [`Printer::trace_word`].
     #[inline]
     pub fn mark(&self) -> Option<usize> {
         self.page.words.as_ref().map(|_| self.page.text.len())
     }
 
-    /// A word of the form is done: what stands after the mark came of it.
+    /// Records a word of the form: its output is the text after the mark.
     #[cold]
     pub fn trace_word(&mut self, from: usize, form: Span) {
         let text = String::from_utf8_lossy(self.page.text.get(from..).unwrap_or(b""));
@@ -202,12 +202,12 @@ impl Printer {
         self.page.lines
     }
 
-    /// A remark on the item that is printed: each kind once.
+    /// Adds a note on the current item; each kind once.
     pub fn note(&mut self, code: Code, message: String, help: &str) {
         self.note_at(code, message, help, None);
     }
 
-    /// A remark on the item that is printed and a line of the form.
+    /// Adds a note on the current item and a line of the form.
     pub fn note_at(&mut self, code: Code, message: String, help: &str, form: Option<Span>) {
         if !self.notes.iter().any(|n| n.code == code && n.message == message) && self.notes.len() < 100 {
             let mut diag = Diag::new(code, message).help(help);
@@ -219,18 +219,18 @@ impl Printer {
         }
     }
 
-    /// The remarks so far.
+    /// The notes so far.
     pub fn notes(&self) -> &[Diag] {
         &self.notes
     }
 
-    /// Was every block so far short enough for the control?
+    /// Checks that every block so far is short enough for the control.
     #[inline]
     pub fn blocks_fit(&self) -> Done {
         self.too_long.map_or(Ok(()), too_long)
     }
 
-    /// A value in units of its letter's last decimal. One that does not fit takes its block back.
+    /// Prints a value in units of its letter's last decimal. If it does not fit, the open block is discarded.
     #[inline]
     pub fn letter(&mut self, info: &Letter, units: i64, glued: bool) -> Done {
         let leading = self.layout.leading_zeros;
@@ -238,7 +238,7 @@ impl Printer {
         if !info.dummy {
             out.push(info.printed);
         }
-        // N wraps to its start at its width, all other letters refuse
+        // N wraps to its start when it exceeds its width; all other letters are errors
         match write_number(out, units, &info.format, leading) {
             Ok(()) => Ok(()),
             Err(why) => {
@@ -249,7 +249,7 @@ impl Printer {
         }
     }
 
-    /// A value without a letter.
+    /// Prints a value without a letter.
     pub fn bare(&mut self, value: f64, format: &LetterFormat, glued: bool) -> Done {
         let units = units_of(value, format, "the value")?;
         let leading = self.layout.leading_zeros;
@@ -259,18 +259,18 @@ impl Printer {
         }
     }
 
-    /// Text as a word.
+    /// Prints a text as a word.
     pub fn text(&mut self, text: &str, glued: bool) {
         self.word(glued).extend_from_slice(text.as_bytes());
     }
 
-    /// Ends a block that the form has no line for.
+    /// Ends a generated block, which has no line in the form.
     #[inline]
     pub fn end_block(&mut self) {
         self.finish(true, None);
     }
 
-    /// The open block, to append a word to. A blank or column comes first, unless the word sticks to the one before.
+    /// The open block, for appending a word. A space or column comes first unless the word is `glued` to the previous one.
     #[inline]
     pub fn word(&mut self, glued: bool) -> &mut Vec<u8> {
         if !glued || self.words == 0 {
@@ -298,7 +298,7 @@ impl Printer {
         }
     }
 
-    /// Takes the open block back: a word of it could not be printed.
+    /// Discards the open block, because one of its words could not be printed.
     pub fn clear_block(&mut self) {
         if self.words > 0 {
             self.page.text.truncate(self.start);
@@ -308,7 +308,7 @@ impl Printer {
         self.kept.clear();
     }
 
-    /// Text that nothing changes, as `Replace` does.
+    /// Prints text that `Replace` must not change.
     pub fn quote(&mut self, text: &str, glued: bool) {
         self.word(glued);
         let from = self.length();
@@ -323,7 +323,7 @@ impl Printer {
         if self.words > 0 { self.page.text.len() - self.start } else { 0 }
     }
 
-    /// The open block from a length of it on.
+    /// The text of the open block after its first `length` bytes.
     pub fn block_from(&self, length: usize) -> &[u8] {
         self.page.text.get(self.start + length..).unwrap_or_default()
     }
@@ -356,12 +356,12 @@ impl Printer {
         self.next_number = number;
     }
 
-    /// The open block prints its number itself.
+    /// Records that the open block prints its own number.
     pub fn prints_number(&mut self) {
         self.numbered = true;
     }
 
-    /// Ends the open block. An empty one is not printed. `number`: it may have a block number.
+    /// Ends the open block. An empty block is not printed. `number`: the block may have a block number.
     #[inline]
     pub fn finish(&mut self, number: bool, form: Option<Span>) {
         if self.words == 0 {
@@ -399,7 +399,7 @@ impl Printer {
         self.numbered = false;
     }
 
-    /// Puts the number before the block: only now is it known that it has none of its own.
+    /// Inserts the block number. This comes last because the block may print a number of its own.
     fn insert_number(&mut self) {
         let mut prefix = [b' '; 24];
         let bare = self.layout.number_letter == Some(SequenceNumbers::BARE);
@@ -416,7 +416,7 @@ impl Printer {
         }
         let (length, shift) = (self.page.text.len(), prefix.len() - at);
         self.kept.iter_mut().for_each(|kept| *kept = kept.start + shift..kept.end + shift);
-        self.page.text.extend_from_slice(&prefix[at..]); // as many bytes as are needed
+        self.page.text.extend_from_slice(&prefix[at..]); // reserves the space for the shift
         self.page.text.copy_within(self.start..length, self.start + shift);
         self.page.text[self.start..self.start + shift].copy_from_slice(&prefix[at..]);
     }
@@ -429,7 +429,7 @@ impl Printer {
         self.kept.clear();
     }
 
-    /// Replaces by one row; `None` when the block has become too long.
+    /// Applies one `Replace`; `None` if the block has become too long.
     fn replace_by(&mut self, (old, new, span): &(Vec<u8>, Vec<u8>, Span)) -> Option<()> {
         if memchr::memmem::find(&self.page.text[self.start..], old).is_none() {
             return Some(());
@@ -441,7 +441,7 @@ impl Printer {
                 self.page.text.extend_from_slice(&block[from..at]);
                 self.page.text.extend_from_slice(new);
                 from = at + old.len();
-                // each row may double the block: the first that makes it too long is the last
+                // each row may double the block, so stop at the first one that makes it too long
                 if !self.fits(Some(*span)) {
                     return None;
                 }
@@ -457,13 +457,13 @@ impl Printer {
         Some(())
     }
 
-    /// Is the open block longer than its control reads?
+    /// Is the open block longer than the control accepts?
     #[inline]
     pub fn is_too_long(&self) -> bool {
         self.page.text.len() - self.start > self.layout.longest
     }
 
-    /// Is the open block, as far as it is made, one that the control reads? The first that is not is kept.
+    /// Is the open block short enough for the control so far? The first block that is too long is recorded.
     #[inline]
     fn fits(&mut self, replaced: Option<Span>) -> bool {
         let length = self.page.text.len() - self.start;
@@ -474,7 +474,7 @@ impl Printer {
     }
 }
 
-/// `%` and O lines frame a program and are never numbered.
+/// `%` and O lines are the frame of a program and are never numbered.
 fn is_frame(block: &[u8]) -> bool {
     matches!(block, [b'%' | b':', ..]) || matches!(block, [b'O' | b'o', digit, ..] if digit.is_ascii_digit())
 }
@@ -482,11 +482,11 @@ fn is_frame(block: &[u8]) -> bool {
 #[cold]
 fn too_long(block: TooLong) -> Done {
     let TooLong { length, most, replaced } = block;
-    let diag = Diag::new(Code::PR027, format!("a block of {length} characters, and the control reads {most}"));
+    let diag = Diag::new(Code::PR027, format!("a block of {length} characters, but the control reads only {most}"));
     Err(Box::new(match replaced {
         Some(span) => diag
-            .at(span, "this makes it too long")
-            .help("take this Replace out: what it writes is replaced again by the next"),
-        None => diag.help("make several blocks of it, or shorten its comment"),
+            .at(span, "this makes the block too long")
+            .help("remove this Replace: the next one replaces its text again"),
+        None => diag.help("split it into several blocks, or shorten its comment"),
     }))
 }

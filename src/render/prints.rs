@@ -1,11 +1,11 @@
-//! What a sequence prints: codes, axes, angles.
+//! Queries on the output of a sequence: codes, axes, angles.
 
 use super::shape::Shape;
 use crate::compile::{LetterKind, Op, Routine};
 use crate::control::{Code, Group};
 use crate::lang::{Origin, VarId};
 
-/// Does a sequence print a code as typed that answers this?
+/// Does a sequence contain a typed code for which `asked` is true?
 pub fn prints_code(routine: &Routine, asked: impl Fn(Code) -> bool, shape: &Shape) -> bool {
     routine.steps().any(|i| match shape.program.ops[i] {
         Op::Literal { index, .. } => shape.program.literals[index as usize].code.is_some_and(&asked),
@@ -22,7 +22,7 @@ pub fn prints_letter(routine: &Routine, asked: u8, shape: &Shape) -> bool {
     })
 }
 
-/// Does a sequence print its motion code: as typed, or by a variable?
+/// Does a sequence print its motion code, as typed or by a variable?
 pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     let by_variable = |i: usize| match shape.program.ops[i] {
         Op::Var { letter, var, .. } => {
@@ -33,14 +33,14 @@ pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     prints_code(routine, |code| shape.group_of(code) == Some(Group::Motion), shape) || routine.steps().any(by_variable)
 }
 
-/// Does a sequence print a motion code, or one of no group, which may move by itself?
+/// Does a sequence print a motion code, or a code of no group, which may move by itself?
 pub fn prints_own_motion(routine: &Routine, shape: &Shape) -> bool {
     let own = |code: Code| code.letter == b'G' && matches!(shape.group_of(code), None | Some(Group::Motion));
     prints_motion(routine, shape) || prints_code(routine, own, shape)
 }
 
-/// Does a sequence come to words of axes before it says a motion? A block with a code of no group, as G28, goes by
-/// itself.
+/// Does a sequence print axis words before its first motion code? A block with a code of no group, as G28, does not count: it
+/// moves by itself.
 pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
     for start in routine.steps().filter(is_line) {
@@ -56,18 +56,18 @@ pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     false
 }
 
-/// Does a sequence say the work offset? An argument of a macro is none.
+/// Does a sequence print the work offset? An argument of a macro does not count.
 pub fn says_work(routine: &Routine, shape: &Shape) -> bool {
     routine.steps().any(|op| shape.program.work.says(op))
 }
 
-/// Does a sequence say what its speed counts: as typed, or by a variable?
+/// Does a sequence print the speed mode (G96, G97), as typed or by a variable?
 pub fn says_speed_mode(routine: &Routine, shape: &Shape) -> bool {
     routine.vars.has(VarId::Speedtype)
         || prints_code(routine, |code| shape.group_of(code) == Some(Group::SpeedMode), shape)
 }
 
-/// The variables that say where a linear axis goes.
+/// The variables of a linear axis' target.
 pub fn words_of(axis: usize, shape: &Shape) -> &'static [VarId] {
     match (axis, shape.linear) {
         (0, _) => &[VarId::H, VarId::Hdist],
@@ -79,12 +79,12 @@ pub fn words_of(axis: usize, shape: &Shape) -> &'static [VarId] {
     }
 }
 
-/// Does a sequence print where a linear axis goes?
+/// Does a sequence print the target of a linear axis?
 pub fn prints_axis(routine: &Routine, axis: usize, shape: &Shape) -> bool {
     words_of(axis, shape).iter().any(|&var| routine.vars.has(var))
 }
 
-/// Does a sequence print words of axes? `typed`: with numbers of its own, so that the tool leaves its place.
+/// Does a sequence print axis words? `typed`: only words with typed or calculated numbers, which move the tool off its position.
 pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool {
     routine.steps().any(|i| {
         let letter = match shape.program.ops[i] {
@@ -93,7 +93,7 @@ pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool 
             Op::Formula { letter, .. } => letter,
             _ => return false,
         };
-        // a word of an ignored axis takes the tool nowhere
+        // a word of an ignored axis does not move the tool
         shape.letters[letter].kind == LetterKind::Axis && !shape.is_ignored(letter)
     })
 }

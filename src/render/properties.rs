@@ -1,5 +1,4 @@
-//! The values of the form's properties: the first that is there counts, of the caller's, the operation's, the job's, the
-//! shop's and the form's own.
+//! Values of the form's properties. The first existing value applies, in this order: caller, operation, job, shop, form.
 
 use super::fault::{Done, fault};
 use crate::diag::Code;
@@ -11,7 +10,7 @@ use crate::toolpath::Given;
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     value: PropertyValue,
-    /// As a length it counts in the form's units; else in those of the program.
+    /// A length is in the form's units; otherwise in those of the program.
     in_forms_units: bool,
 }
 
@@ -19,22 +18,22 @@ struct Held {
 #[derive(Clone, Debug, Default)]
 pub struct Properties {
     now: Vec<Held>,
-    /// What holds for operations that say nothing.
+    /// Values for operations that set none.
     of_job: Vec<Held>,
-    /// The caller has said it: nothing else counts.
+    /// The caller set the value, so that nothing overrides it.
     fixed: Vec<bool>,
-    /// How many are fields of tools: the first ones.
+    /// Number of properties that are fields of tools. They come first.
     of_tool: usize,
 }
 
 impl Properties {
-    /// What the form and the shop say, and what the caller says above all.
+    /// Values from the form, the shop and the caller. Those of the caller override all others.
     pub fn new(settings: &Settings, shop: &[(u16, PropertyValue)], caller: &[(u16, PropertyValue)]) -> Properties {
         let own =
             settings.properties.iter().map(|property| Held { value: property.default.clone(), in_forms_units: true });
         let mut now: Vec<_> = own.collect();
         let mut fixed = vec![false; now.len()];
-        // a form for both units counts its own numbers in inches; who gives one sees the program's
+        // the own lengths of a form for both units are inches; a value from outside is in the program's units
         let in_forms_units = settings.units != UnitChoice::Both;
         for (row, value) in shop.iter().chain(caller) {
             now[usize::from(*row)] = Held { value: value.clone(), in_forms_units };
@@ -51,17 +50,17 @@ impl Properties {
         &self.now[usize::from(row)].value
     }
 
-    /// Does a length count in the form's units? Else it counts in the program's.
+    /// Is a length in the form's units? Otherwise it is in the program's.
     pub fn is_in_forms_units(&self, row: u16) -> bool {
         self.now[usize::from(row)].in_forms_units
     }
 
-    /// What was set so far is the job's.
+    /// Saves the current values as those of the job.
     pub fn keep(&mut self) {
         self.of_job.clone_from(&self.now);
     }
 
-    /// An operation begins: what the one before has set is over.
+    /// Begins an operation: restores the values of the job.
     pub fn operation(&mut self) {
         let own = self.of_tool..;
         if self.now[own.clone()] != self.of_job[own.clone()] {
@@ -69,7 +68,7 @@ impl Properties {
         }
     }
 
-    /// A tool gives what its fields say; what it does not have is empty.
+    /// Sets the fields of a tool. A field that the tool lacks is empty.
     pub fn tool(&mut self, settings: &Settings, data: &[(String, Given)]) {
         for row in (0..self.of_tool).filter(|row| !self.fixed[*row]) {
             let name = settings.properties[row].of_tool().unwrap_or_default();
@@ -82,7 +81,7 @@ impl Properties {
         }
     }
 
-    /// The job gives a value; `scale`: the factor from its lengths to the program's.
+    /// Sets a value from the job. `scale`: factor from the job's lengths to the program's.
     pub fn set(&mut self, row: usize, property: &Property, given: &Given, scale: f64) -> Done {
         let value = match given {
             Given::Number(number) => property.kind.read(&number.to_string()),

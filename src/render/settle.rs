@@ -1,4 +1,4 @@
-//! What the control lacks is printed: conditions that no sequence prints, each as a block of its own.
+//! Prints the conditions that the control lacks and that no sequence prints, each in a separate block.
 
 use super::body::run_all;
 use super::cx::{Cx, Writer};
@@ -16,7 +16,7 @@ use crate::compile::{LetterKind, Op, Routine};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
 
-/// What stands between events and the next move.
+/// Prints waiting changes before the next move.
 #[cold]
 pub fn settle(cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
@@ -24,8 +24,7 @@ pub fn settle(cx: &mut Cx<'_>) -> Done {
     print_lacking(cx)
 }
 
-/// What stands before something that is done where the tool is. `cuts`: an Upon that moves the tool would leave out
-/// a part of the cut.
+/// Prints waiting changes at the current position. `cuts`: a cut follows, so that an Upon must not leave the tool elsewhere.
 #[cold]
 pub fn settle_here(cuts: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
@@ -41,7 +40,7 @@ pub fn settle_here(cuts: bool, cx: &mut Cx<'_>) -> Done {
     if cuts { stands_at_cut(cx.said) } else { Ok(()) }
 }
 
-/// Changes that wait are printed.
+/// Prints waiting changes.
 pub fn print_lacking(cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     (cx.want.changed, cx.said.differs) = (false, false);
@@ -49,7 +48,7 @@ pub fn print_lacking(cx: &mut Cx<'_>) -> Done {
     check_reading(shape, cx.want, cx.said)
 }
 
-/// Changes that nothing printed yet, each as a block of its own.
+/// Prints changes that no other block printed, each in a separate block.
 pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     upons(cx.said.lacks(cx.want, shape), cx)?;
@@ -62,8 +61,9 @@ pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
     if let Some(max) = cx.want.get(VarId::Maxrpm)
         && cx.said.conditions.get(VarId::Maxrpm) != Some(max)
     {
-        let message = format!("the spindle is limited to {max} from here, and nothing prints it");
-        let help = "the form prints [maxrpm] at a tool change: give the limit there, for the whole time of the tool";
+        let message = format!("the spindle is limited to {max} from here, but nothing prints the limit");
+        let help = "the form prints [maxrpm] at a tool change: give the limit at the tool change, for all operations \
+            of the tool";
         return fault(Code::PR038, message, help);
     }
     check_own_limit(shape, cx.want, cx.said)?;
@@ -83,7 +83,7 @@ pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
         cx.said.conditions.put(VarId::Cool, Some(cool));
     }
     begin_beside(&mut cx.writer())?;
-    // a code of the coolant may have stopped the spindle
+    // a coolant code may have stopped the spindle
     spindle_change(cx)?;
     own_change(SequenceId::FeedModeChange, &[VarId::Feedtype], cx)?;
     if let Some(feed_type) = cx.want.get(VarId::Feedtype)
@@ -98,24 +98,24 @@ pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// The job's condition is about to be printed: did a line of the form say another one?
+/// Warns if a line of the form set another value than the condition of the job that is about to be printed.
 fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Printer) {
     let Some((typed, line)) = said.take_typed(var) else { return };
     let letter = if var == VarId::Speed { char::from(shape.program.settings.speed_code) } else { 'M' };
     let message =
-        format!("the form prints {letter}{typed}, and the job asks for {letter}{due}, which is printed after it");
-    let help = "take the word out of the form, or let the job say nothing of it";
+        format!("the form prints {letter}{typed}, but the job requests {letter}{due}, which is printed after it");
+    let help = "remove the word from the form, or the value from the job";
     out.note_at(Code::PR056, message, help, line);
 }
 
-/// The form's own sequence for a change that no other sequence served; what it leaves unsaid is generated after it.
+/// Runs the form's own sequence for a change that no other sequence printed. What it does not print is generated afterwards.
 fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     match shape.program.routine(id) {
         Some(routine) if cx.said.lacks(cx.want, shape).meets(VarSet::of(vars)) => {
             run_all(shape.way(routine, cx.want, cx.said), &mut cx.writer())?;
             if !shape.program.settings.control().prints_codes() {
-                // in another language the form's own sequence has printed the change in its own way
+                // in another language, the form's own sequence printed the change in its own words
                 for &var in vars {
                     cx.said.conditions.put(var, cx.said.due(var, cx.want));
                 }
@@ -126,14 +126,14 @@ fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Speed and direction by the form's own sequence, else as a block.
+/// Prints speed and direction by the form's own sequence, else as a block.
 fn spindle_change(cx: &mut Cx<'_>) -> Done {
     let vars = [VarId::Speed, VarId::Direct, VarId::Speedtype];
     own_change(SequenceId::SpindleChange, &vars, cx)?;
     print_spindle(&mut cx.writer())
 }
 
-/// Speed and direction of the spindle that nothing printed yet, unless the form's own sequences say when it turns.
+/// Prints speed and direction of the spindle if no other block did, unless the form's own sequences switch the spindle.
 fn print_spindle(writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let settings = &shape.program.settings;
@@ -174,7 +174,8 @@ fn print_spindle(writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// A tool without a limit of its own printed its revolutions as one: it holds for no more, and for no surface speed.
+/// Checks the spindle limit of a tool whose tool change printed the first speed as the limit: a higher speed or a surface speed
+/// is an error.
 fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
     let Some(limit) = said.conditions.get(VarId::Maxrpm).filter(|_| want.get(VarId::Maxrpm).is_none()) else {
         return Ok(());
@@ -187,7 +188,7 @@ fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
     fault(Code::PR038, message, "give the operation's spindle its `max`")
 }
 
-/// Prints what the speed counts, where something that does not print it is about to print the speed.
+/// Prints the speed mode before the speed, if the block with the speed does not print it.
 pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
     let Some(mode) =
         writer.want.get(VarId::Speedtype).filter(|mode| writer.said.conditions.get(VarId::Speedtype) != Some(*mode))
@@ -196,7 +197,7 @@ pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
     };
     value_code(b'G', mode, writer)?;
     writer.said.conditions.put(VarId::Speedtype, Some(mode));
-    // alone the code would count the speed before it in its own unit
+    // without a new speed, the code would apply to the old speed in the new unit
     if let Some(speed) = writer.want.get(VarId::Speed) {
         speed_word(speed, writer)?;
         writer.said.conditions.put(VarId::Speed, Some(speed));
@@ -205,30 +206,28 @@ pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Is the work offset all that nothing printed yet?
+/// Is the work offset the only change that waits?
 pub fn only_work_waits(shape: &Shape, want: &Want, said: &Said) -> bool {
     said.lacks(want, shape).without(VarSet::of(&[VarId::Work])).is_empty()
 }
 
-/// In a subprogram, a move after a stop needs a spindle that it knows: its caller may have said any.
+/// Checks that a subprogram knows its spindle and coolant after a stop, because its callers may have set any.
 pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
     let unknown = |var: VarId| want.get(var).is_none();
-    let by_form = shape.program.switches_spindle; // then nothing is said again
+    let by_form = shape.program.switches_spindle; // then nothing is printed again
     let stops = said.sub.is_some_and(|sub| sub.stops);
     if !stops || by_form || ![VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(unknown) {
         return Ok(());
     }
-    let help = "give it its own `spindle` and `coolant` before the stop";
-    fault(Code::PR033, "the subprogram goes on after a stop, and its spindle and coolant are unknown here", help)
+    let help = "give the subprogram its own `spindle` and `coolant` before the stop";
+    fault(Code::PR033, "the subprogram continues after a stop, but its spindle and coolant are unknown here", help)
 }
 
-/// Positions are not printed where they would be read as increments, nor the other way round, nor in other units.
+/// Checks that the control would not misread positions: as increments or the reverse, or in other units.
 pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
     if let Some(code) = said.misread_by(shape, want) {
-        let message =
-            format!("the control is in {code} here, and would read every length otherwise than the program means it");
-        let help =
-            "take the code out of the sequence that printed it, or print the program's own after it: `G[unitmode]`";
+        let message = format!("the control is in {code} here, and would misread every length");
+        let help = "remove the code from the sequence, or print the program's own code after it: `G[unitmode]`";
         return fault(Code::PR041, message, help);
     }
     if said.distance_is_wrong(shape) {
@@ -244,7 +243,7 @@ pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
     Ok(())
 }
 
-/// A sequence that prints words of axes before a G90 or G91 of its own prints them in the mode that is in force.
+/// Checks a sequence that prints axis words before its own G90 or G91: they are read in the active mode.
 pub fn check_reading_of(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done {
     for i in routine.steps() {
         let letter = match shape.program.ops[i] {
@@ -266,12 +265,12 @@ pub fn check_reading_of(routine: &Routine, shape: &Shape, want: &Want, said: &Sa
     Ok(())
 }
 
-/// A cut begins where the path says, not where a sequence took the tool.
+/// Checks that a cut begins where the path requires it, not where a sequence moved the tool.
 pub fn stands_at_cut(said: &Said) -> Done {
     match said.stand.moved_by {
         Some(span) => {
-            let message = "this sequence takes the tool away, and the path goes on with a cut";
-            fault_at(Code::PR012, message, "put a rapid to the beginning of the cut before it", Some(span))
+            let message = "this sequence moves the tool away, but the path continues with a cut";
+            fault_at(Code::PR012, message, "before the cut, put a rapid to its start", Some(span))
         }
         None => Ok(()),
     }

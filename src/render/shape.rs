@@ -1,5 +1,5 @@
-//! What a form is for one job: its letters, its axes, the factors to the program's units, what it prints at all. The job's
-//! head completes it; a turret on the other side turns an axis of it round.
+//! The form, adapted to one job: its letters, axes, factors to the program's units, and the output that it needs. The head of the
+//! job completes it. A turret on the other side reverses one axis.
 
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
@@ -13,22 +13,22 @@ use crate::diag;
 use crate::lang::{Machine, SequenceId, VarId};
 use crate::toolpath::Units;
 
-/// The rotary axes among the six, where three are linear.
+/// The rotary axes among the six, on machines with three linear axes.
 pub const ROTARY: std::ops::Range<usize> = 3..6;
 
-/// The rotary axes, in a set of axes.
+/// The rotary axes, as a set of axes.
 pub const ROTARY_BITS: u8 = 0b111_000;
 
-/// What does not change while a program is printed.
+/// Values that do not change during a program, apart from the head of the job and a change of turret.
 pub(super) struct Shape<'p> {
     pub program: &'p Program,
     pub options: Options,
     pub letters: &'p LetterTable,
-    /// Letters of h v d a b c.
+    /// Letters of the axes h, v, d, a, b, c.
     pub axes: [u8; 6],
-    /// What a position is multiplied with to be printed: 2 for an X that counts diameters.
+    /// Factor of a printed position: 2 for an X that counts diameters.
     pub scales: [f64; 6],
-    /// How many linear axes there are: four on a wire EDM machine.
+    /// Number of linear axes: four on a wire EDM machine.
     pub linear: usize,
     /// The axis along which the tool goes into a hole: Z, the first axis of a lathe.
     pub depth: usize,
@@ -38,23 +38,23 @@ pub(super) struct Shape<'p> {
     pub form_scale: f64,
     /// Units of the program.
     pub units: Units,
-    /// What cycles take that name nothing, in program units.
+    /// Defaults of cycles, in program units.
     pub defaults: Defaults,
-    /// An Upon watches where moves go.
+    /// An Upon depends on the targets of moves.
     pub watches_moves: bool,
     /// The form prints lengths or times of moves.
     pub measures: bool,
-    /// Every move sets the position variables; else they are set when a sequence is about to print.
+    /// Every move must set the position variables; otherwise they are set only before a sequence prints.
     pub sets_targets: bool,
-    /// The ways through sequences that were taken so far.
+    /// Routines for the branch combinations that were taken so far.
     pub ways: Ways,
 }
 
-/// Of the depth axis that a form ignores.
+/// Letter of a depth axis that the form ignores.
 const NO_LETTER: u8 = 0;
 
 impl<'p> Shape<'p> {
-    /// The shape of a form, before the job has said its units.
+    /// The shape of a form, before the units of the job are known.
     pub fn new(program: &'p Program, options: Options) -> Self {
         let settings = &program.settings;
         let ([h, v, d], [h2, v2, _]) = (settings.axes, settings.axes2);
@@ -82,7 +82,7 @@ impl<'p> Shape<'p> {
         }
     }
 
-    /// The units of the program, for a job in these, and what counts in them.
+    /// Sets the units of the program for a job in these units, and all values that depend on them.
     pub fn choose_units(&mut self, job: Units) -> Done {
         let settings = &self.program.settings;
         self.units = self.options.units.unwrap_or(job);
@@ -91,7 +91,8 @@ impl<'p> Shape<'p> {
             && !self.program.printed.with(self.program.asked).has(VarId::Unitmode)
         {
             let (program, form) = (self.units.name(), form.map_or("", Units::name));
-            let message = format!("the program would be in {program}, the form is for {form} and prints no [unitmode]");
+            let message =
+                format!("the program would be in {program}, but the form is for {form} and does not print [unitmode]");
             let help = format!(
                 "render with `--units {form}`, or print `G[unitmode]` in StartCode: the machine would move 25.4 times as far or as little"
             );
@@ -104,23 +105,23 @@ impl<'p> Shape<'p> {
         Ok(())
     }
 
-    /// The second turret of a lathe works from the other side.
+    /// Reverses the axis for the second turret of a lathe, which works from the other side.
     pub fn choose_turret(&mut self, turret: Option<f64>) {
         let side = if self.program.settings.reverse_turret_2 && turret == Some(2.0) { -1.0 } else { 1.0 };
         self.scales[1] = self.scales[1].abs() * side;
     }
 
-    /// The depth axis in a set of axes.
+    /// The depth axis, as a set of axes.
     pub fn depth_bit(&self) -> u8 {
         1 << self.depth
     }
 
-    /// What the form's control has of a code.
+    /// The row of a code in the table of the form's control.
     pub fn code_row(&self, code: Code) -> Option<&Row> {
         self.program.settings.codes().row(code)
     }
 
-    /// What a code means on the form's control. `None`: nobody knows.
+    /// The meaning of a code on the form's control; `None` if it is unknown.
     pub fn meaning_of(&self, code: Code) -> Option<Meaning> {
         self.code_row(code).map(|row| row.meaning)
     }
@@ -135,7 +136,7 @@ impl<'p> Shape<'p> {
         self.meaning_of(code).is_some_and(Meaning::is_cycle)
     }
 
-    /// Does a code say the plane of arcs?
+    /// Does a code select the plane of arcs?
     pub fn is_plane(&self, code: Code) -> bool {
         self.group_of(code) == Some(Group::Plane)
     }
@@ -151,7 +152,7 @@ impl<'p> Shape<'p> {
         settings.is_flat && letter == settings.axes[2]
     }
 
-    /// The axis of a letter, in a set of axes.
+    /// The axis of a letter, as a set of axes.
     pub fn axis_bit(&self, letter: u8) -> u8 {
         self.axes.iter().position(|&axis| axis == letter).map_or(0, |axis| 1 << axis)
     }

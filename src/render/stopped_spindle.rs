@@ -1,4 +1,4 @@
-//! Cuts of a mill whose job has turned the spindle off.
+//! Warns of cuts on a mill while the job has turned the spindle off.
 
 use super::printer::Printer;
 use super::shape::Shape;
@@ -7,7 +7,7 @@ use crate::diag::Code;
 use crate::lang::{Machine, VarId};
 use crate::toolpath::CycleKind;
 
-/// Warns of the first such cut of each operation.
+/// Warns of the first cut with the spindle off in each operation.
 #[inline]
 pub fn warn_of_standing(shape: &Shape, want: &mut Want, out: &mut Printer) {
     if !want.standing_told && stands(shape, want) {
@@ -15,7 +15,7 @@ pub fn warn_of_standing(shape: &Shape, want: &mut Want, out: &mut Printer) {
     }
 }
 
-/// Does the spindle stand in a cut that needs it? A tap starts it by itself, and a manual cycle does not cut.
+/// Is the spindle off in a cut that needs it? A tap starts the spindle by itself, and a manual cycle does not cut.
 fn stands(shape: &Shape, want: &Want) -> bool {
     let settings = &shape.program.settings;
     let off = want.get(VarId::Direct) == Some(settings.spindle[2]) && !want.cycle.is_some_and(CycleKind::is_tap);
@@ -30,6 +30,7 @@ fn stands(shape: &Shape, want: &Want) -> bool {
 fn tell(want: &mut Want, out: &mut Printer) {
     want.standing_told = true;
     let message = format!("tool {} cuts with the spindle off", want.tool.unwrap_or_default());
-    let help = "start it before the cut: SPINDL/3000,RPM,CLW in a CL file, `spindle` in a job; a tool that does not turn needs nothing";
+    let help = "start the spindle before the cut: SPINDL/3000,RPM,CLW in a CL file, `spindle` in a job; ignore this \
+        for a tool that does not turn";
     out.note(Code::PR055, message, help);
 }

@@ -1,4 +1,4 @@
-//! The ways through sequences that were taken so far.
+//! The branch combinations of sequences that were taken so far.
 
 use std::cell::OnceCell;
 
@@ -8,16 +8,16 @@ use super::fault::Done;
 use crate::compile::Routine;
 use crate::diag::Diag;
 
-/// The ways that were taken so far, each made once, by the sequence and its branches.
+/// Routines for the branch combinations that were taken so far, each built once. The key is the sequence with its branches.
 #[derive(Default)]
 pub struct Ways {
     pub known: FrozenMap<(usize, usize, u128), Box<Routine>>,
-    /// A condition could not be asked.
+    /// Error of a condition that could not be evaluated.
     pub fault: OnceCell<Box<Diag>>,
 }
 
 impl Ways {
-    /// Were all conditions so far such that they can be asked?
+    /// Fails if a condition could not be evaluated.
     #[inline]
     pub fn check(&self) -> Done {
         self.fault.get().map_or(Ok(()), |diag| Err(diag.clone()))

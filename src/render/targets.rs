@@ -1,4 +1,4 @@
-//! The position variables: where a move goes, where it comes from, and the travel limits.
+//! The position variables (target and start of a move), and the travel limits.
 
 use super::fault::{Done, fault_at};
 use super::numbers::as_number;
@@ -11,7 +11,7 @@ use crate::lang::VarId;
 use crate::number::quantise;
 use crate::toolpath::Axes;
 
-/// The variables of a target, and of the position before it.
+/// Sets the variables of a target and of the position before it.
 #[inline]
 pub fn set_targets(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said) -> Done {
     const UPPER: [VarId; 2] = [VarId::H2, VarId::V2];
@@ -46,20 +46,20 @@ pub fn set_targets(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Sai
     Ok(())
 }
 
-/// A value in the digits of its axis: distances between such places add up without a rest.
+/// A value rounded to the digits of its axis, so that distances between positions add up exactly.
 #[inline]
 fn as_printed(axis: usize, value: f64, shape: &Shape) -> f64 {
     let decimals = shape.letters[shape.axes[axis]].format.dec.count;
     quantise(value, decimals).map_or(value, |units| as_number(units, decimals))
 }
 
-/// The position variables where the tool is, for a sequence that stands between moves.
+/// Sets the position variables to the tool's position, for a sequence between moves.
 pub fn set_here(shape: &Shape, want: &mut Want, said: &mut Said) -> Done {
     let here = said.stand.position;
     if shape.sets_targets { Ok(()) } else { set_targets(&here, shape, want, said) }
 }
 
-/// The variables of a target's rotary angles.
+/// Sets the variables of a target's rotary angles.
 #[cold]
 fn set_angles(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said) {
     for axis in shape.rotary() {
@@ -71,7 +71,7 @@ fn set_angles(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said) {
         }
         want.put(VarId::Lastrotangle, from);
         want.set(VarId::Rotangle, to);
-        // up to half a turn the job's angles say which way; a view farther off is reached the shorter way round
+        // up to half a turn the job's angles define the direction; for larger angles the shorter direction applies
         let way = from.map(|from| match to - from {
             way if way.abs() <= 180.0 => way,
             way => (way + 180.0).rem_euclid(360.0) - 180.0,
@@ -80,7 +80,7 @@ fn set_angles(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said) {
     }
 }
 
-/// Travel limits of the form.
+/// Checks the travel limits of the form.
 #[cold]
 pub fn check_limits(target: &Axes, shape: &Shape) -> Done {
     for limit in &shape.program.settings.limits {

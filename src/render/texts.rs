@@ -1,4 +1,4 @@
-//! Names and remarks of the job, for people: their values, and how they fit into a comment or a word.
+//! Names and comments of the job: their values, and their conversion for comments and words.
 
 use super::ascii::plain;
 use super::comment_marks::in_comment;
@@ -13,7 +13,7 @@ use crate::diag::Code;
 use crate::lang::{TEXT_COUNT, TextId};
 use crate::toolpath::{Start, ToolChange};
 
-/// The values of text variables, by slot. What the form does not print is not kept.
+/// Values of text variables, by slot. Texts that the form does not print are not stored.
 #[derive(Clone, Debug, Default)]
 pub struct Texts([String; TEXT_COUNT]);
 
@@ -31,12 +31,12 @@ impl Texts {
         }
     }
 
-    /// The comment that is printed now.
+    /// Stores the comment that is printed now.
     pub fn say(&mut self, comment: &str) {
         comment.clone_into(&mut self.0[TextId::Text as usize]);
     }
 
-    /// What the head of the job, the form and the caller say.
+    /// Stores the texts from the head of the job, the form and the caller.
     pub fn start(&mut self, start: &Start, shape: &Shape) {
         let (about, options, program) = (&start.about, &shape.options, shape.program);
         let clock = options.clock.as_ref();
@@ -58,7 +58,7 @@ impl Texts {
         }
     }
 
-    /// What an operation and its tool say.
+    /// Stores the texts of an operation and its tool.
     pub fn operation(&mut self, change: &ToolChange, shape: &Shape) {
         let tool = change.tool.as_ref();
         for (id, text) in [
@@ -72,7 +72,7 @@ impl Texts {
     }
 }
 
-/// Are all texts of a comment empty? Its operations are these; `property`: is the text of a property empty?
+/// Are all texts in the operations of a comment empty? `property`: is the text of a property empty?
 pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) -> bool {
     comment.iter().all(|op| match op {
         Op::TextVar { var, .. } => texts.get(var.id).is_empty(),
@@ -81,19 +81,20 @@ pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) 
     })
 }
 
-/// The names of tools that words have printed, each with the tool's own.
+/// Tool names that words have printed, with the original name of each tool.
 #[derive(Clone, Debug, Default)]
 pub struct Names(HashMap<String, String>);
 
 impl Names {
-    /// A word prints the name of a tool, by which the control calls it: it must have one, and be the only one of it.
+    /// Checks a tool name that is printed as a word. The control selects the tool by it, so it must not be empty, and no other
+    /// tool may print the same.
     pub fn tool(&mut self, text: &Text, out: &Printer) -> Done {
         let own = plain_word(text, fits(out));
         if text.text.is_empty() {
-            let help = "give the tool a `name` in the job, or ask before it: `@if [toolname]`";
+            let help = "give the tool a `name` in the job, or test it first: `@if [toolname]`";
             return fault(
                 Code::PR001,
-                format!("{} has no value here, and the control calls its tools by it", text.name),
+                format!("{} has no value here, but the control selects tools by it", text.name),
                 help,
             );
         }
@@ -102,28 +103,28 @@ impl Names {
             return Ok(());
         }
         let message = format!("the tools `{other}` and `{}` both print as {own}", text.text);
-        fault(Code::PR057, message, "give them names that differ in letters, digits or _ - .")
+        fault(Code::PR057, message, "give them names with different letters, digits or _ - .")
     }
 }
 
-/// A text as a word has it, without the blanks of its width.
+/// A text as printed in a word, without the spaces that fill its width.
 fn plain_word(text: &Text, fits: fn(char) -> Option<char>) -> String {
     let wide = usize::from(text.width.unsigned_abs());
     let most = if wide == 0 { usize::MAX } else { wide };
     text.text.chars().take(most).map(|c| fits(c).unwrap_or('_')).collect()
 }
 
-/// A character as a part of a word, if it is one.
+/// A character that a word may contain; `None` for others.
 fn in_word(c: char) -> Option<char> {
     Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
 }
 
-/// A character of a text between quotation marks that the form types, if it can't end them, a block or a comment.
+/// A character that a typed text in quotation marks may contain: none that could end the quotation, a block or a comment.
 fn in_quotes(c: char) -> Option<char> {
     in_word(c).or(Some(c).filter(|c| " ,:/+*=<>&'#[]".contains(*c)))
 }
 
-/// What stays of a text outside comments, by what is printed before it.
+/// The filter for characters outside comments, depending on the text before them.
 fn fits(out: &Printer) -> fn(char) -> Option<char> {
     if out.is_in_quotes() { in_quotes } else { in_word }
 }
@@ -135,9 +136,9 @@ pub struct Text<'a> {
     pub text: &'a str,
 }
 
-/// Prints a text of the job. In a comment its characters are those of comments, and it is cut where the control's line is
-/// full: `behind` is what else the block has room for. Outside, letters, digits and `_ - .` stay; between quotation
-/// marks blanks and signs too.
+/// Prints a text of the job. In a comment, its characters are converted for comments, and the text is cut to the control's line
+/// length. `behind`: the space that the rest of the block needs; `None` outside comments. Outside comments, only letters, digits
+/// and `_ - .` are kept, between quotation marks also spaces and signs.
 pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
     let Text { name, width, text } = *text;
     let settings = &shape.program.settings;
@@ -152,7 +153,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     };
     if room < most.min(full) {
         let message = format!("{name} is cut to {room} characters: the control's line is full");
-        out.note(Code::PR050, message, "shorten it in the job, or give it a line of its own");
+        out.note(Code::PR050, message, "shorten it in the job, or print it on a separate line");
     }
     let taken = full.min(room);
     let blanks = room - taken;
@@ -179,16 +180,16 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
         block.extend(std::iter::repeat_n(b' ', blanks));
     }
     if changed {
-        let message = format!("{name}, `{text}`, has characters that are no part of a word: `_` stands for each");
+        let message = format!("{name}, `{text}`, has characters that can't be in a word: each is printed as `_`");
         out.note(
             Code::PR050,
             message,
-            "use letters, digits and _ - . in it, or print it between quotation marks or in a comment",
+            "use only letters, digits and _ - . in it, or print it in quotation marks or in a comment",
         );
     }
 }
 
-/// How many characters a block has room for, beside its number and end.
+/// Number of characters available in a block, without its number and end.
 pub fn room(shape: &Shape) -> usize {
     let settings = &shape.program.settings;
     let number = settings.numbers.letter.map_or(0, |letter| usize::from(shape.letters[letter].format.int.count) + 2);
@@ -196,7 +197,7 @@ pub fn room(shape: &Shape) -> usize {
     longest.saturating_sub(number + settings.eob.len())
 }
 
-/// How many characters stand after an operation on its line, as far as the form types them.
+/// Number of typed characters after an operation on its line.
 pub fn typed_behind(at: usize, shape: &Shape) -> usize {
     let program = shape.program;
     let line = program.ops[at + 1..].iter().take_while(|op| !matches!(op, Op::Line { .. }));

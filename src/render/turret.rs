@@ -6,8 +6,8 @@ use crate::diag::Code;
 use crate::lang::VarId;
 use crate::toolpath::Tool;
 
-/// `[comp]`, the T word of a lathe: station and offset register in two digits each. A job's number that holds both
-/// stays as it is.
+/// `[comp]`, the T word of a lathe: two digits for the station and two for the offset register. A tool number that already
+/// contains both is unchanged.
 pub fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
     const STATIONS: f64 = 100.0;
     let whole = tool.number >= STATIONS;
@@ -17,9 +17,11 @@ pub fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
     };
     let other = whole && register != tool.number % STATIONS && register != tool.number;
     if shape.program.printed.has(VarId::Comp) && (other || !whole && register >= STATIONS) {
-        let message =
-            format!("tool {} with the offset register {register} has no T word of two and two digits", tool.number);
-        let help = "give it a register below 100, and a number from 100 on only if it holds the register";
+        let message = format!(
+            "tool {} with the offset register {register} can't be printed as a T word of two and two digits",
+            tool.number
+        );
+        let help = "use a register below 100; use a tool number of 100 or more only if it includes the register";
         return fault(Code::PR039, message, help);
     }
     Ok(if whole { tool.number } else { tool.number * STATIONS + register })

@@ -1,4 +1,4 @@
-//! Upon sequences: printed when a variable changes, before what uses it.
+//! Upon sequences: printed when a variable changes, before the block that uses it.
 
 use super::body::run_all;
 use super::cx::Cx;
@@ -13,12 +13,12 @@ use crate::compile::{LetterKind, Op, Routine, Upon};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
 
-/// The first use only sets the baseline, unless it prints at every use.
+/// Is an Upon due? Its first use only stores the value, unless it prints at every use.
 fn is_due(upon: &Upon, before: Option<f64>, value: f64) -> bool {
     upon.every || before.is_some_and(|before| before != value)
 }
 
-/// Is an Upon sequence due before these variables are used? `moving`: one that prints words of axes.
+/// Is an Upon sequence due before these variables are used? `moving`: consider only those that print axis words.
 pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said: &Said) -> bool {
     shape.program.upon_vars.meets(used)
         && shape.program.upons.iter().zip(&said.upon_used).any(|(upon, before)| {
@@ -28,9 +28,8 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
         })
 }
 
-/// Does Index do the work of `Upon` for the work offset, where another offset comes with another view? Index takes the
-/// tool away and goes over the new place, so the offset's code is all that is left of an Upon sequence that does the
-/// same.
+/// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? Index retracts the tool and
+/// moves over the new position, so that from an Upon that does the same only the offset's code remains.
 pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
@@ -53,7 +52,7 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
 }
 
-/// A tool change prints what it uses: an Upon that moves would do so with the tool that goes.
+/// Marks moving Upons as printed if the tool change prints their variables: they would move with the old tool.
 pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said) {
     for (i, upon) in shape.program.upons.iter().enumerate() {
         if routine.vars.has(upon.var) && prints_axis_words(&upon.routine, false, shape) {
@@ -62,7 +61,7 @@ pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut
     }
 }
 
-/// A variable's value was printed otherwise: no Upon is due for it.
+/// Records that a value was printed by other means, so that no Upon is due for it.
 pub fn upons_are_printed(var: VarId, value: f64, shape: &Shape, said: &mut Said) {
     for (upon, used) in shape.program.upons.iter().zip(&mut said.upon_used) {
         if upon.var == var && !upon.every {
@@ -71,13 +70,13 @@ pub fn upons_are_printed(var: VarId, value: f64, shape: &Shape, said: &mut Said)
     }
 }
 
-/// Runs a sequence after the Upon sequences of the variables that it prints.
+/// Runs a sequence after the Upon sequences of its variables.
 pub fn run_with_upons(routine: &Routine, cx: &mut Cx<'_>) -> Done {
     upons(routine.vars, cx)?;
     run_all(routine, &mut cx.writer())
 }
 
-/// Prints the Upon sequences that are due before these variables are used. Their bodies trigger none.
+/// Prints the Upon sequences that are due before these variables are used. Words inside them trigger no further Upons.
 pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
@@ -111,7 +110,7 @@ pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Increments count from the position that the sequence printed: nothing is left to go along its axes.
+/// Makes increments count from the position that the sequence printed: the remaining distance along its axes is zero.
 fn stands_where_it_was_put(shape: &Shape, want: &mut Want, said: &mut Said) {
     for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
         if said.stand.placed & 1 << axis != 0

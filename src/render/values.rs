@@ -1,4 +1,4 @@
-//! The values that variables print now, for words, calculations and conditions.
+//! Current values of variables, for words, calculations and conditions.
 
 use super::form_sets::Kept;
 use super::said::Said;
@@ -8,16 +8,16 @@ use super::want::Want;
 use crate::lang::{Coolant, TextId, VarId};
 use crate::sema::{PropertyKind, Target, Values};
 
-/// What is asked for values, on behalf of a letter: angles differ by the axis that prints them.
+/// Sources of values, and the letter that prints them: angles depend on the axis of the letter.
 pub struct Now<'r, 'p> {
     pub shape: &'r Shape<'p>,
     pub want: &'r Want,
     pub said: &'r Said,
-    /// The letter of the word, or a blank.
+    /// Letter of the word, or a space.
     pub letter: u8,
-    /// Number of the open block, where one is made.
+    /// Number of the open block, if there is one.
     pub block: Option<i64>,
-    /// What the form sets on its way through a sequence, before it prints any of it.
+    /// Values from `@set` in the sequence, known before it prints.
     pub set: &'r Kept,
 }
 
@@ -78,12 +78,12 @@ impl Values for Now<'_, '_> {
     }
 }
 
-/// A property that is a text: as the form has set it, else as the job has it.
+/// A property that is a text: the form's `@set` value, else the job's.
 pub fn property_text<'r>(row: u16, want: &'r Want, said: &'r Said) -> &'r str {
     said.kept.text_of(Target::Property(row)).unwrap_or_else(|| want.properties.get(row).text())
 }
 
-/// Revolutions are their own limit.
+/// The spindle limit, if none is given: the speed itself, unless it is a surface speed.
 pub fn rpm_as_limit(shape: &Shape, want: &Want) -> Option<f64> {
     let turns = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[1]);
     want.get(VarId::Speed).filter(|_| turns)

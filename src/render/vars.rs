@@ -1,24 +1,24 @@
-//! The values of variables, by slot; and which of them belong together.
+//! Values of variables, by slot, and groups of variables.
 
 use crate::lang::{MOST_VARIABLES, VARIABLES, VarId, VarSet};
 
-/// The variables of where the linear axes go.
+/// Variables of the target, for the linear axes.
 pub const NOW: [VarId; 3] = [VarId::H, VarId::V, VarId::D];
 
-/// The variables of how far they go.
+/// Variables of the distances, for the linear axes.
 pub const MOVED: [VarId; 3] = [VarId::Hdist, VarId::Vdist, VarId::Ddist];
 
-/// Variables that a generated move uses.
+/// Variables that generated moves use.
 pub const MOVE_VARS: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D, VarId::Frate, VarId::Rotangle]);
 
-/// Variables that remember the position before a move.
+/// Variables that hold the position before a move.
 pub const LAST_VARS: VarSet =
     VarSet::of(&[VarId::Lasth, VarId::Lastv, VarId::Lastd, VarId::Hdist, VarId::Vdist, VarId::Ddist]);
 
-/// The variables of the tool's place.
+/// Variables of the tool's position.
 pub const PLACE: [VarId; 6] = [VarId::H, VarId::V, VarId::D, VarId::Lasth, VarId::Lastv, VarId::Lastd];
 
-/// Variables that need the length of each move.
+/// Variables that require the length of each move.
 pub const MEASURES: VarSet =
     VarSet::of(&[VarId::Movelength, VarId::Movetime, VarId::Totalcutdist, VarId::Totalcuttime, VarId::Invtime]);
 
@@ -50,7 +50,7 @@ impl Vars {
         self.known.insert(var);
     }
 
-    /// Gives a value, or takes it away.
+    /// Sets or clears a value.
     pub fn put(&mut self, var: VarId, value: Option<f64>) {
         match value {
             Some(value) => self.set(var, value),

@@ -1,4 +1,4 @@
-//! What the job asks for now: the values of variables, the feed, the conditions, the tool. Only its events write here.
+//! The values that the job currently requests: variables, feed, conditions, tool. Only events of the job change them.
 
 use std::sync::Arc;
 
@@ -18,52 +18,52 @@ use crate::number::quantise;
 use crate::sema::{Settings, Values};
 use crate::toolpath::{Coolant, CycleKind, FeedMode, Spindle, SpindleTurn};
 
-/// What the job asks for now.
+/// The values that the job currently requests.
 #[derive(Clone, Debug)]
 pub struct Want {
     vars: Vars,
-    /// Names and remarks, for people.
+    /// Names and comments.
     pub texts: Texts,
     /// Values of the form's properties.
     pub properties: Properties,
-    /// A condition or a variable changed: the next move must look whether it is printed.
+    /// A condition or a variable changed: the next move must check whether it is printed.
     pub changed: bool,
     /// The feed of moves, in program units.
     feed: Option<f64>,
-    /// The feed of moves in units of its letter, where those are near enough.
+    /// Feed of moves in units of its letter, if rounding loses little.
     feed_units: Option<i64>,
-    /// What feeds count.
+    /// Unit of feeds.
     feed_mode: FeedMode,
-    /// The tool that is in.
+    /// Current tool.
     pub tool: Option<f64>,
-    /// The tools of the job in the order of their use, where it says it.
+    /// The tools of the job in the order of their use, if the job lists them.
     pub tool_order: Option<Arc<[f64]>>,
-    /// What a list goes through, while its lines print.
+    /// The current item of a list, while its lines print.
     pub item: Option<Item>,
     /// Tool changes so far.
     pub tool_changes: usize,
-    /// The spindle's limit that a prompt gave.
+    /// Spindle limit from a prompt.
     pub most_rpm: Option<f64>,
     /// An operation is open.
     pub in_operation: bool,
-    /// Coolant of this kind is on.
+    /// Kinds of coolant that the job turned on.
     pub coolant: Coolant,
-    /// The job has said so; else the form may turn some on itself.
+    /// The job has set the coolant; otherwise the form may turn some on itself.
     pub coolant_is_said: bool,
-    /// The code that ends another kind of coolant, which nothing printed yet.
+    /// Code that turns off another kind of coolant and is not printed yet.
     pub ends_coolant: Option<f64>,
     /// Cutter compensation is on.
     pub compensated: bool,
-    /// The item that is printed cuts.
+    /// The current item of the job is a cut.
     pub cutting: bool,
-    /// A cut of this operation with the spindle off was told.
+    /// The warning about a cut with the spindle off was given in this operation.
     pub standing_told: bool,
-    /// The canned cycle that is open.
+    /// The open canned cycle.
     pub cycle: Option<CycleKind>,
 }
 
 impl Want {
-    /// What holds before the job says anything: values that the form's commands give.
+    /// Values before the first event of the job: those of the form's commands.
     pub fn new(shape: &Shape) -> Want {
         let settings = &shape.program.settings;
         let mut want = Want {
@@ -111,7 +111,7 @@ impl Want {
         self.vars.set(var, value);
     }
 
-    /// Gives a variable a value, or takes it away.
+    /// Sets or clears the value of a variable.
     pub fn put(&mut self, var: VarId, value: Option<f64>) {
         self.vars.put(var, value);
     }
@@ -122,7 +122,7 @@ impl Want {
         self.set(var, sum);
     }
 
-    /// Takes the values of these variables away.
+    /// Clears the values of these variables.
     pub fn forget(&mut self, vars: &[VarId]) {
         for &var in vars {
             self.vars.put(var, None);
@@ -134,12 +134,12 @@ impl Want {
         &self.vars
     }
 
-    /// All values again, as they once were.
+    /// Restores saved values.
     pub fn restore(&mut self, vars: Vars) {
         self.vars = vars;
     }
 
-    /// A condition: the next move must look whether it is printed.
+    /// Sets a condition; the next move must check whether it is printed.
     pub fn set_condition(&mut self, var: VarId, value: f64) {
         self.vars.set(var, value);
         self.changed = true;
@@ -153,47 +153,48 @@ impl Want {
         self.feed
     }
 
-    /// The feed of moves in units of its letter, where those are near enough.
+    /// The feed of moves in units of its letter, if rounding loses little.
     #[inline]
     pub fn feed_units(&self) -> Option<i64> {
         self.feed_units
     }
 
-    /// What feeds count.
+    /// The unit of feeds.
     pub fn feed_mode(&self) -> FeedMode {
         self.feed_mode
     }
 
-    /// Inverse time: every feed block says its own.
+    /// With inverse time, every feed block prints its own feed.
     #[inline]
     pub fn inverse_time(&self) -> bool {
         self.feed_mode == FeedMode::InverseTime
     }
 
-    /// The feed of a move: its own, which the next ones keep.
+    /// Sets the feed of a move, which also applies to the following moves. Without one, the previous feed is kept; a move without
+    /// any feed is an error.
     #[inline]
     pub fn take_feed(&mut self, feed: Option<f64>, shape: &Shape) -> Done {
         if let Some(feed) = feed {
             self.set_feed(feed, shape);
         }
         if self.feed.is_none() {
-            return fault(Code::PR011, "the move has no feed", "give a `feed` here, or one for the whole operation");
+            return fault(Code::PR011, "the move has no feed", "give a `feed` here, or for the whole operation");
         }
         Ok(())
     }
 
-    /// A feed of the job, for the moves that follow.
+    /// Sets a feed of the job, for the following moves.
     #[inline]
     pub fn set_feed(&mut self, feed: f64, shape: &Shape) {
         let feed = if self.inverse_time() { feed } else { feed * shape.scale };
         self.keep_feed(Some(feed), shape);
     }
 
-    /// A feed in program units, for the moves that follow.
+    /// Sets a feed in program units, for the following moves.
     pub fn keep_feed(&mut self, feed: Option<f64>, shape: &Shape) {
         let info = &shape.letters[shape.program.settings.feed_code];
         self.feed = feed;
-        // what loses too much in its digits is looked at each time
+        // a feed that loses too much by rounding is checked at each move
         self.feed_units = feed.and_then(|feed| {
             quantise(feed, info.format.dec.count)
                 .filter(|units| !loses(feed, as_number(*units, info.format.dec.count), ROUNDED))
@@ -201,7 +202,7 @@ impl Want {
         self.vars.put(VarId::Frate, feed);
     }
 
-    /// What the feeds that follow count.
+    /// Sets the unit of the following feeds.
     pub fn set_feed_mode(&mut self, mode: FeedMode, shape: &Shape) {
         let [minute, rev, inverse] = shape.program.settings.feed_type;
         self.feed_mode = mode;
@@ -215,12 +216,12 @@ impl Want {
 
     // ---- conditions
 
-    /// A fixture number below 50, or a code: see [`work_code`].
+    /// Sets the work offset: a fixture number below 50, or a code; see [`work_code`].
     pub fn set_work(&mut self, work: f64, shape: &Shape) -> Done {
         let settings = &shape.program.settings;
         let first = settings.work;
         let Some(code) = work_code(first, work) else {
-            let message = format!("the work offset {work} is a code, and this form counts its offsets from {first}");
+            let message = format!("the work offset {work} is a code, but this form counts its offsets from {first}");
             return fault(Code::PR037, message, "give the number of the fixture, from 1, or a code from 54 to 59");
         };
         let words = &shape.program.work;
@@ -231,14 +232,15 @@ impl Want {
         };
         if !is_said && settings.machine == Machine::Mill && settings.control().prints_codes() {
             let message = format!("the form has no word for the work offset {work}");
-            let help = "give a fixture number from 1 to 6, or a code as 59.1; or name the words of more at the top of the form: `MoreWork 7 G54.1 P1`";
+            let help = "give a fixture number from 1 to 6, or a code as 59.1; or define more work offsets at the top \
+                of the form: `MoreWork 7 G54.1 P1`";
             return fault(Code::PR037, message, help);
         }
         self.set_condition(VarId::Work, code);
         Ok(())
     }
 
-    /// Speed, direction, limit, and what the speed counts.
+    /// Sets speed, direction, limit and speed mode.
     pub fn set_spindle(&mut self, spindle: &Spindle, shape: &Shape) -> Done {
         let settings = &shape.program.settings;
         if let Some(css) = spindle.css {
@@ -262,7 +264,7 @@ impl Want {
         if let Some(max) = spindle.max {
             self.set(VarId::Maxrpm, max);
             if !shape.program.printed.has(VarId::Maxrpm) {
-                let message = format!("the spindle is limited to {max}, and the form nowhere prints [maxrpm]");
+                let message = format!("the spindle is limited to {max}, but the form does not print [maxrpm]");
                 return fault(Code::PR038, message, "print it, as `G50 S[maxrpm]`, before the spindle starts");
             }
         }
@@ -270,14 +272,15 @@ impl Want {
         Ok(())
     }
 
-    /// `[coolantoff]` ends what is on now.
+    /// Makes `[coolantoff]` the code that turns off the current coolant.
     pub fn ends_what_is_on(&mut self, shape: &Shape) {
         let settings = &shape.program.settings;
         let own = codes(self.coolant.first(), settings).and_then(|codes| codes.own_off);
         self.set(VarId::Coolantoff, own.unwrap_or(settings.coolant[1]));
     }
 
-    /// Coolant of a kind or of several, or none. `[coolantoff]` ends the kind that was on until now, of several the first.
+    /// Sets the coolant: one kind, several, or none. `[coolantoff]` becomes the code that turns off the previous kind; of several
+    /// kinds, the first.
     pub fn set_coolant(&mut self, coolant: Coolant, shape: &Shape) -> Done {
         let settings = &shape.program.settings;
         let off = settings.coolant[1];
@@ -290,7 +293,7 @@ impl Want {
         let code = if first == Coolant::OFF { ends } else { codes_of(first, settings)?.on };
         self.set(VarId::Coolantoff, ends);
         if first != before {
-            // another kind does not end one that has a code of its own for that
+            // a new kind does not turn off a kind that has its own "off" code
             let ended = ends != off && code != ends && (first == Coolant::OFF || !coolant.holds(before));
             self.ends_coolant = Some(ends).filter(|_| ended);
         }
@@ -299,7 +302,7 @@ impl Want {
         Ok(())
     }
 
-    /// Another tool, and the job has no coolant for it: what the job had on is off, and the form may turn some on itself.
+    /// Handles a tool change without coolant in the job: the job's coolant is off, and the form may turn some on itself.
     pub fn coolant_unsaid(&mut self, shape: &Shape) -> Done {
         self.set_coolant(Coolant::OFF, shape)?;
         self.coolant_is_said = false;
@@ -307,7 +310,7 @@ impl Want {
     }
 }
 
-/// What a word of a work offset is made of.
+/// Values for the calculated word of a work offset.
 struct OfWork<'w> {
     work: f64,
     properties: &'w Properties,
@@ -335,7 +338,7 @@ impl Values for OfWork<'_> {
     }
 }
 
-/// Factor from the job's surface speed to the program's: feet a minute with inches, metres with millimetres.
+/// Factor from the job's surface speed to the program's: feet per minute with inches, metres per minute with millimetres.
 fn surface_scale(shape: &Shape) -> f64 {
     const METRES_A_FOOT: f64 = 0.3048;
     match shape.scale {
@@ -345,7 +348,7 @@ fn surface_scale(shape: &Shape) -> f64 {
     }
 }
 
-/// Is this no code of a work offset of the form's control?
+/// Is this number no work offset code of the form's control?
 pub fn is_no_work(number: f64, shape: &Shape) -> bool {
     control::Code::of(b'G', number).and_then(|code| shape.group_of(code)) != Some(Group::Work)
 }
@@ -355,24 +358,24 @@ pub fn in_program_units(var: VarId, value: f64, shape: &Shape) -> f64 {
     if matches!(var.row().unit, Unit::Length | Unit::Feed) { value * shape.scale } else { value }
 }
 
-/// A variable that a job may set.
+/// The variable of this name, if a job may set it.
 pub fn settable(name: &str, settings: &Settings) -> Done<VarId> {
     let own = || settings.properties.iter().map(|property| property.name.as_str());
     let jobs = || VARIABLES.iter().filter(|v| v.origin == Origin::Job).map(|v| v.name).chain(own());
     match VarId::parse(name.trim_matches(['[', ']'])) {
         Some(var) if var.row().origin == Origin::Job => Ok(var),
-        // a wire has no tool that says it
+        // a wire has no tool that could define it
         Some(VarId::Dcomp) if settings.machine == Machine::Edm => Ok(VarId::Dcomp),
         Some(var) => fault(
             Code::PR016,
             format!("[{}] comes from the toolpath and can't be set", var.name()),
-            "take it out; val1 to val10 are free",
+            "remove it, or use val1 to val10",
         ),
         None => {
             let help = did_you_mean(name, jobs()).unwrap_or_else(|| {
-                format!("declare it in the form, as `Property {name} number 0 ..`, or give one of val1 to val10")
+                format!("declare it in the form, as `Property {name} number 0 ..`, or use val1 to val10")
             });
-            fault(Code::PR016, format!("`{name}` is no variable"), help)
+            fault(Code::PR016, format!("`{name}` is not a variable"), help)
         }
     }
 }

@@ -17,13 +17,13 @@ use crate::toolpath::Axes;
 #[derive(Default)]
 pub struct AxisUnits {
     pub units: [i64; 6],
-    /// Axes that differ from what was printed.
+    /// Axes whose value differs from the printed one.
     pub changed: u8,
-    /// Axes that changed, and those that may not be dropped.
+    /// Axes whose words must be printed: they changed, or are never left out.
     pub prints: u8,
 }
 
-/// A target in units of its letters, and what of it must be printed.
+/// Computes a target in units of its letters, and the axes that must be printed.
 #[inline]
 pub fn axis_units(target: &Axes, found: &mut AxisUnits, shape: &Shape, said: &Said) -> Done {
     let mut axes = target.given;
@@ -40,7 +40,7 @@ pub fn axis_units(target: &Axes, found: &mut AxisUnits, shape: &Shape, said: &Sa
     Ok(())
 }
 
-/// The words of the axes that must be printed.
+/// Prints the words of the axes that must be printed.
 #[inline]
 pub fn axis_words(target: &Axes, axes: &AxisUnits, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     if shape.program.settings.incremental {
@@ -57,8 +57,8 @@ pub fn axis_words(target: &Axes, axes: &AxisUnits, shape: &Shape, said: &mut Sai
     Ok(())
 }
 
-/// Does a target differ from the tool's position in what would be printed? An increment of zero is no move, also
-/// where the letter's last value is unknown.
+/// Does the printed value of a target differ from that of the tool's position? A zero increment is no move, even if the last
+/// value of the letter is unknown.
 #[cold]
 fn has_increment(target: &Axes, shape: &Shape, said: &Said) -> Done<bool> {
     for axis in 0..6 {
@@ -76,7 +76,7 @@ fn has_increment(target: &Axes, shape: &Shape, said: &Said) -> Done<bool> {
     Ok(false)
 }
 
-/// Increments between printed positions, so that they add up without a rest.
+/// Prints increments between rounded positions, so that they add up exactly.
 pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     for axis in 0..6 {
         if axes & 1 << axis == 0 {
@@ -87,7 +87,8 @@ pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: 
             return fault(
                 Code::PR001,
                 format!("an increment of {} from an unknown position", char::from(info.printed)),
-                "a tool change that prints the position makes it known; a new work offset or a literal axis word does not",
+                "print the position with a variable, as in a tool change; after a new work offset or a typed axis \
+                 word it is unknown",
             );
         };
         let scale = shape.scales[axis];
@@ -100,7 +101,7 @@ pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: 
     Ok(())
 }
 
-/// The motion code, unless it is in force and may be dropped.
+/// Prints the motion code, unless it is active and may be left out.
 #[inline]
 pub fn motion_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
@@ -110,7 +111,7 @@ pub fn motion_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     code_word(code, writer)
 }
 
-/// A code, as typed in its command or by its letter's format.
+/// Prints a code, as typed in its command, else in its letter's format.
 pub fn code_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let info = &shape.letters[code.letter()];
@@ -122,7 +123,7 @@ pub fn code_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// The code of a value of the job or of the form's commands, by its letter's format.
+/// Prints the code of a value from the job or the form's commands, in its letter's format.
 pub fn value_code(letter: u8, value: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let info = &shape.letters[letter];
@@ -131,8 +132,8 @@ pub fn value_code(letter: u8, value: f64, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// A word that belongs to the code before it: the time of a dwell, the angle of an orientation. Its letter may
-/// be that of an axis, the feed or the speed, whose value is then unknown rather than this one.
+/// Prints a word that is a parameter of the code before it: the time of a dwell, the angle of an orientation. If its letter is
+/// that of an axis, the feed or the speed, the value of that letter is unknown afterwards.
 pub fn parameter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     letter_word(letter, value, shape, said, out)?;
     said.forget(&shape.letters[letter]);
@@ -140,12 +141,12 @@ pub fn parameter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, ou
     Ok(())
 }
 
-/// The word of one axis, always printed.
+/// Prints the word of one axis, always.
 pub fn axis_word(axis: usize, target: &Axes, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     letter_word(shape.axes[axis], target.values[axis] * shape.scales[axis], shape, said, out)
 }
 
-/// A letter with a value, always printed.
+/// Prints a letter with a value, always.
 pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     let info = &shape.letters[letter];
     let units = quantised(info, value)?;
@@ -154,7 +155,7 @@ pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: 
     Ok(())
 }
 
-/// The speed of the spindle, always printed.
+/// Prints the speed of the spindle, always.
 pub fn speed_word(speed: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let letter = shape.program.settings.speed_code;
@@ -163,7 +164,7 @@ pub fn speed_word(speed: f64, writer: &mut Writer<'_>) -> Done {
     letter_word(letter, speed, shape, writer.said, writer.out)
 }
 
-/// Prints the feed, when it changed; in inverse time always.
+/// Prints the feed if it changed; with inverse time always.
 #[inline]
 pub fn feed_word(writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
@@ -186,8 +187,8 @@ pub fn feed_word(writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// A feed must not vanish in the digits of its format; where it loses more than a hundredth of itself, or as the pitch of a
-/// tap a quarter of one, that is said.
+/// Checks the rounding of a feed: rounding to zero is an error. A rounding error above 1 % is reported; for the pitch of a tap
+/// above 0.25 %.
 #[inline]
 pub fn check_feed(info: &Letter, var: VarId, value: f64, units: i64, want: &Want, out: &mut Printer) -> Done {
     const OF_TAP: f64 = 0.0025;
@@ -203,24 +204,24 @@ pub fn check_feed(info: &Letter, var: VarId, value: f64, units: i64, want: &Want
 fn lost_digits(info: &Letter, var: VarId, value: f64, printed: f64, out: &mut Printer) -> Done {
     let (name, format) = (var.name(), &info.format);
     if printed == 0.0 {
-        let message = format!("[{name}] is {value} and prints as 0 in the format `{format}`");
+        let message = format!("[{name}] is {value}, but prints as 0 in the format `{format}`");
         return fault_at(Code::PR002, message, "give the letter more decimals", None);
     }
-    const MOST: usize = 5; // one letter's format is the cause of all
+    const MOST: usize = 5; // all of them have the same cause: the letter's format
     if out.notes().iter().filter(|note| note.code == Code::PR025).count() == MOST {
         return Ok(());
     }
     let percent = (printed.abs() / value.abs() - 1.0) * 100.0;
     let letter = char::from(info.printed);
-    let message = format!("[{name}] is {value:.5} and prints as {letter}{printed}: {percent:+.1} %");
+    let message = format!("[{name}] is {value:.5}, but prints as {letter}{printed}: {percent:+.1} %");
     if out.notes().iter().any(|note| note.message == message) {
         return Ok(());
     }
-    out.note(Code::PR025, message, "give the letter more decimals, or the job a value that the format can say");
+    out.note(Code::PR025, message, "give the letter more decimals, or use a value with fewer digits in the job");
     Ok(())
 }
 
-/// A generated block: motion code, axes that changed, feed. Nothing changed, nothing printed.
+/// Prints a generated block: motion code, changed axes, feed. If nothing changed, prints nothing.
 #[inline]
 pub fn move_block(target: &Axes, code: &sema::Code, feeds: bool, writer: &mut Writer<'_>) -> Done<bool> {
     let shape = writer.shape;
@@ -238,7 +239,7 @@ pub fn move_block(target: &Axes, code: &sema::Code, feeds: bool, writer: &mut Wr
     Ok(true)
 }
 
-/// The generated dwell block.
+/// Prints the generated dwell block.
 pub fn dwell_block(seconds: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let dwell = &shape.program.settings.dwell;

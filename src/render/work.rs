@@ -1,4 +1,4 @@
-//! A work offset that no sequence prints, as a block of its own.
+//! Prints a work offset that no sequence prints, in a separate block.
 
 use super::cx::Writer;
 use super::fault::{Done, fault};
@@ -11,7 +11,7 @@ use crate::compile::WorkWord;
 use crate::diag::Code;
 use crate::lang::VarId;
 
-/// The work offset, where something that does not print it is about to print a position.
+/// Prints the work offset before a position, if the block with the position does not print it.
 pub fn work_before(writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     match writer.want.get(VarId::Work) {
@@ -24,7 +24,7 @@ pub fn work_before(writer: &mut Writer<'_>) -> Done {
     }
 }
 
-/// The work offset as the form prints it, as a block of its own.
+/// Prints the work offset in a separate block, in the form's own words.
 pub fn work_block(work: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let words = &shape.program.work;
@@ -35,11 +35,11 @@ pub fn work_block(work: f64, writer: &mut Writer<'_>) -> Done {
         }
         None if words.ways.is_empty() && !is_no_work(work, shape) => value_code(b'G', work, writer)?,
         Some(_) => {
-            let message = format!("the work offset changes to {work}, which the form prints as text");
-            return fault(Code::PR017, message, "add the sequence `WorkChange` with that text");
+            let message = format!("the work offset changes to {work}, but the form prints it as text");
+            return fault(Code::PR017, message, "add the sequence `WorkChange` with this text");
         }
         None => {
-            let message = format!("the work offset changes to {work}, and the form nowhere prints [work]");
+            let message = format!("the work offset changes to {work}, but the form does not print [work]");
             return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
         }
     }

@@ -1,4 +1,4 @@
-//! The words of a work offset: a code with its word, a word alone, or a code; and what `MoreWork` gives for further fixtures.
+//! Words of a work offset: a code with its word, a word alone, or a code; and the words of `MoreWork` for further fixtures.
 
 use super::cx::Writer;
 use super::fault::Done;
@@ -7,7 +7,7 @@ use crate::compile::WorkWord;
 use crate::control::Code;
 use crate::sema;
 
-/// The words that `G[work]` prints for a fixture of `MoreWork`. False: the form has none for it.
+/// Prints the words of `G[work]` for a fixture of `MoreWork`. Returns false if the form has none for it.
 pub fn more_work_words(work: f64, writer: &mut Writer<'_>) -> Done<bool> {
     match writer.shape.program.work.more(work) {
         Some((&WorkWord { code, letter: Some(letter), is_code, .. }, value)) => {
@@ -18,7 +18,7 @@ pub fn more_work_words(work: f64, writer: &mut Writer<'_>) -> Done<bool> {
     }
 }
 
-/// A code and its word, a word alone, or a code.
+/// Prints a code with its word, a word alone, or a code.
 pub fn work_words(code: Option<Code>, letter: u8, is_code: bool, value: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     if let Some(code) = code {
@@ -27,7 +27,7 @@ pub fn work_words(code: Option<Code>, letter: u8, is_code: bool, value: f64, wri
     if is_code {
         return value_code(letter, value, writer);
     }
-    // the number of an offset has no point, whatever else its letter prints
+    // the number of an offset has no decimal point, even if other values of its letter have one
     let info = &shape.letters[letter];
     if code.is_some() && value.fract() == 0.0 {
         writer.out.text(&format!("{}{value}", char::from(info.printed)), false);

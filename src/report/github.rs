@@ -1,8 +1,8 @@
-//! Findings as annotations of GitHub's workflows: a line each, which the site shows beside the form's line.
+//! Findings as annotations of GitHub's workflows, one per line; GitHub shows them beside the form's line.
 
 use crate::diag::{Findings, Severity};
 
-/// One line a finding.
+/// One line per finding.
 pub fn annotations(form: &Findings) -> String {
     let mut text = String::new();
     for diag in &form.diags {
@@ -16,7 +16,7 @@ pub fn annotations(form: &Findings) -> String {
             let (line, column) = source.line_column(label.span.start);
             let (end_line, end_column) = source.line_column(label.span.end);
             let file = property(&source.name);
-            // columns say something within one line only
+            // columns are valid only within one line
             let columns = match line == end_line {
                 true => format!(",col={column},endColumn={end_column}"),
                 false => String::new(),

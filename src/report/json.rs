@@ -1,4 +1,4 @@
-//! Findings for programs: JSON, version 1 (docs/lint.schema.json).
+//! Findings as JSON for other programs, version 1 (docs/lint.schema.json).
 
 use serde_json::{Value, json};
 
@@ -23,7 +23,7 @@ pub fn report<'a>(forms: impl Iterator<Item = &'a Findings> + Clone, unread: usi
     })
 }
 
-/// A place in a job or a program.
+/// A location in a job or a program.
 fn location(place: &Location) -> Value {
     json!({
         "file": place.file, "line": place.line, "column": place.column, "step": place.step,

@@ -1,4 +1,4 @@
-//! Findings of forms, and verdicts on programs, as reports for programs.
+//! Findings of forms and verdicts on programs, in formats for other programs.
 
 mod github;
 mod json;

@@ -1,11 +1,11 @@
-//! A verdict for programs: JSON, version 1 (docs/verify.md).
+//! A verdict as JSON for other programs, version 1 (docs/verify.md).
 
 use serde_json::{Value, json};
 
 use crate::source::Source;
 use crate::verify::{Counts, Finding, Verdict};
 
-/// A verdict with all that was found. `names` are those of the job and of the program, `files` those of the form.
+/// A verdict with all findings. `names` are those of the job and of the program, `files` those of the form.
 pub fn proof(verdict: &Verdict, counts: Counts, names: [&str; 2], files: &[Source]) -> Value {
     let [job, program] = names;
     let allowed: serde_json::Map<String, Value> = match verdict {

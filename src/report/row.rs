@@ -1,4 +1,4 @@
-//! A finding as a row: what packages for other languages show of it.
+//! A finding as a row, for the packages for other languages.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ pub struct Row {
     pub severity: &'static str,
     /// What is wrong.
     pub message: String,
-    /// What to type instead.
+    /// A proposed fix, in words.
     pub help: Option<String>,
     /// The form, job or program.
     pub file: Option<String>,
@@ -26,7 +26,7 @@ pub struct Row {
     pub path: Option<String>,
     /// The line of the program, from 1.
     pub program_line: Option<u64>,
-    /// All of it in a line.
+    /// The whole finding in one line.
     pub text: String,
 }
 

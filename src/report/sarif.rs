@@ -6,7 +6,7 @@ use crate::diag::{CODES, CodeRow, Diag, Findings, Severity};
 use crate::source::Source;
 use crate::span::Span;
 
-/// The whole log; `all_read`: no form was left out.
+/// The whole log; `all_read`: no form was skipped.
 pub fn log<'a>(forms: impl Iterator<Item = &'a Findings>, all_read: bool) -> Value {
     let rules: Vec<&CodeRow> = CODES.iter().filter(|row| row.name.starts_with("PF")).collect();
     let described: Vec<Value> = rules

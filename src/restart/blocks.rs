@@ -1,4 +1,4 @@
-//! The blocks of the new program: head, what is put in force, the way in, the rest.
+//! The blocks of the new program: the head, the blocks that restore the modal state, the approach, the rest.
 
 use super::entry::{Entry, Found};
 use super::{Asked, Refused, Way, refuse};
@@ -7,7 +7,7 @@ use crate::machine::offsets;
 use crate::nc::Rotation;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// The text, how many lines stand before the old program's own, and what the operator must know.
+/// Returns the text, the number of lines before the first line of the old program, and the notes for the operator.
 pub fn program(
     text: &[u8],
     control: &Control,
@@ -33,7 +33,7 @@ pub fn program(
     Ok((new, (head + own.len()) as u64, notes))
 }
 
-/// What is put in force, and the way in.
+/// The blocks that restore the modal state, and the approach.
 fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(Vec<String>, Vec<String>), Refused> {
     let Entry { line, standing, switches, said, height, depth } = &found.entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
@@ -41,7 +41,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
     let comment = format!("RESTART AT LINE {line}");
     let comment = if control.is_lathe() || !is_bare(control) { format!("({comment})") } else { format!("; {comment}") };
     let mut blocks = vec![comment];
-    // what holds from block to block
+    // modal codes
     let units = if standing.units == Units::Inch { Meaning::Inch } else { Meaning::Mm };
     let plane = match standing.plane {
         Plane::Xy => Meaning::PlaneXy,
@@ -55,8 +55,8 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
     };
     let modes = [units, plane, Meaning::SideOff, Meaning::CycleEnd, Meaning::LengthOff, Meaning::Absolute, feed_mode];
     for group in modes.chunks(4) {
-        // a lathe has its lengths by the turret
-        // what the program never said is the machine's own
+        // on a lathe the turret position selects the length
+        // modes that the program never sets depend on the machine
         let is_said = |meaning: &&Meaning| match **meaning {
             Meaning::LengthOff => !control.is_lathe(),
             own if own == units => said.units,
@@ -68,12 +68,12 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
             blocks.push(words.join(" "));
         }
     }
-    // up, to the machine's zero
+    // retract to machine zero
     let up = if control.is_lathe() {
         let home = Code { letter: b'G', tenths: 280 };
         control.row(home).filter(|row| row.meaning == Meaning::Reference).map(|row| {
             notes.push(
-                "it goes home along X first: a tool in a bore or behind a shoulder is taken out by hand before"
+                "the program goes home along X first: move a tool in a bore or behind a shoulder out by hand before"
                     .to_owned(),
             );
             vec![format!("{} U0", row.code), format!("{} W0", row.code)]
@@ -86,18 +86,14 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
         (_, Some(clear)) if !control.is_lathe() => {
             if code(Meaning::Machine).and(code(Meaning::ToolChange)).is_some() {
                 return refuse(
-                    "a height of the work offset counts with the length of the tool, and which one is in the spindle is not known",
-                    "leave --clear-z out: the tool goes up to the machine's zero by G53",
+                    "--clear-z is a height of the tool tip, but the tool in the spindle is unknown",
+                    "leave --clear-z out: then the tool retracts to the machine zero with G53",
                 );
             }
             if let Some(height) = height.filter(|height| clear < *height) {
                 return refuse(
-                    format!(
-                        "--clear-z {} is below the height from which the tool comes down: {}",
-                        number(clear),
-                        number(height)
-                    ),
-                    "say a height above everything",
+                    format!("--clear-z {} is below {}, the height of the rapids", number(clear), number(height)),
+                    "give a height above all obstacles",
                 );
             }
             if switches.work {
@@ -109,16 +105,15 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
         (Some(up), _) => {
             if is_bare(control) {
                 notes.push(
-                    "G53 counts from the machine's zero: home the machine first, or say a height with --clear-z"
-                        .to_owned(),
+                    "G53 uses machine coordinates: home the machine first, or give a height with --clear-z".to_owned(),
                 );
             }
             blocks.extend(up);
         }
         (None, _) => {
             return refuse(
-                format!("{} has no code that goes up to the machine's zero", control.name()),
-                "say a height above everything: --clear-z 50",
+                format!("{} has no code for a retract to the machine zero", control.name()),
+                "give a height above all obstacles: --clear-z 50",
             );
         }
     }
@@ -129,10 +124,10 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
             let change = code(Meaning::ToolChange).unwrap_or_default();
             blocks.push(format!("T{tool} {change}"));
         } else {
-            notes.push(format!("put T{tool} into the spindle first: the control has no code that changes tools"));
+            notes.push(format!("put T{tool} into the spindle first: the control has no tool change code"));
         }
     }
-    // a tool that a block before the entry has named
+    // a tool that an earlier block has preselected
     if let Some(next) = standing.named_tool.filter(|next| Some(*next) != standing.tool && *next != 0.0)
         && !control.is_lathe()
     {
@@ -153,7 +148,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
             blocks.push(word);
         }
     }
-    // the head may have turned it on
+    // the head may have turned the coolant on
     if !(switches.flood || switches.mist || switches.through) {
         blocks.extend(code(Meaning::CoolantOff));
     }
@@ -163,7 +158,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
     if let (Some(depth), Some(cut)) = (depth, code(Meaning::Line)) {
         blocks.push(format!("{cut} Z{} F{}", number(*depth), number(standing.feed)));
         notes.push(format!(
-            "it goes down at feed to Z{} beside what is cut already: look whether there is room",
+            "the tool feeds down to Z{} beside the finished cuts: check that there is room",
             number(*depth)
         ));
     }
@@ -177,17 +172,18 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
     blocks.extend(code(returns).filter(|_| !control.is_lathe()));
     if found.entry.line < found.asked {
         notes.push(format!(
-            "it begins at line {line}, where the tool is clear, not at line {}: the blocks between are run again",
+            "the program begins at line {line}, where the tool is clear, not at line {}: the blocks between are run \
+             again",
             found.asked
         ));
     }
     for (line, code) in &found.codes {
-        notes.push(format!("{code} of line {line} is not run again: say it by hand if it matters"));
+        notes.push(format!("{code} of line {line} is not run again: enter it by hand if you need it"));
     }
     Ok((blocks, notes))
 }
 
-/// The spindle as it turns.
+/// The blocks that start the spindle.
 fn spindle(control: &Control, found: &Found, blocks: &mut Vec<String>) {
     let Entry { standing, switches, .. } = &found.entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
@@ -208,7 +204,7 @@ fn spindle(control: &Control, found: &Found, blocks: &mut Vec<String>) {
     }
 }
 
-/// Across, the length, and down to the height of the entry.
+/// The move across, the tool length, and the move down to the height of the entry.
 fn way_in(control: &Control, entry: &Entry, blocks: &mut Vec<String>) -> Result<(), Refused> {
     let Entry { standing, switches, height, .. } = entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
@@ -237,20 +233,20 @@ fn way_in(control: &Control, entry: &Entry, blocks: &mut Vec<String>) -> Result<
         (ToolLength::Register, _) => blocks.push(format!("{register} {down}")),
         _ => {
             return refuse(
-                format!("how {} turns the length of a tool on is not known here", control.name()),
-                "begin at the change of a tool: --tool",
+                format!("the code that turns a tool length on is unknown for {}", control.name()),
+                "begin at a tool change: --tool",
             );
         }
     }
     Ok(())
 }
 
-/// Comments of Grbl's kind begin with a semicolon.
+/// Is a comment written as on Grbl, with a semicolon?
 fn is_bare(control: &Control) -> bool {
     control.rules() == crate::control::Rules::Grbl
 }
 
-/// A number as programs write it: with its point, and the decimals that it has.
+/// A number as in programs: with its point and without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{:.6}", value);
     let text = text.trim_end_matches('0');

@@ -1,4 +1,4 @@
-//! Where a program can be begun: the last safe place before the one that is asked for.
+//! Finds the line where a program can be begun: the last safe location before the requested one.
 
 use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
@@ -6,52 +6,52 @@ use crate::nc::{Action, Cooling, Kind, Rotation, RunError, RunSettings, Simulato
 use crate::terminal::escaped;
 use crate::toolpath::{FeedMode, StopKind};
 
-/// What is asked for.
+/// The requested location.
 #[derive(Clone, Debug)]
 pub enum Target {
-    /// The change to a tool, the first time.
+    /// The first change to this tool.
     Tool(u32),
     /// The block with this number.
     Block(u64),
     /// A line of the program, from 1.
     Line(u64),
-    /// The first comment that has this text.
+    /// The first comment that contains this text.
     Operation(String),
 }
 
-/// A place where a program can be begun.
+/// A location where a program can be begun.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// Its line: the first block that is run.
     pub line: u64,
-    /// What is in force before it.
+    /// The modal state before it.
     pub standing: Standing,
-    /// What is on besides.
+    /// Further values in force.
     pub switches: Switches,
     pub said: Said,
-    /// The height from which the tool comes down; `None`: it comes from where tools are changed.
+    /// The height from which the tool comes down; `None`: it comes from the tool change position.
     pub height: Option<f64>,
-    /// Where it goes down to from there at feed: into a cut that goes on.
+    /// The depth to which it then feeds down, into a cut that continues.
     pub depth: Option<f64>,
 }
 
-/// What a run of a program has switched on, besides what its state says.
+/// Values that a program has switched on, in addition to its modal state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Switches {
     /// Coolant: flood, through the spindle, mist.
     pub flood: bool,
     pub mist: bool,
     pub through: bool,
-    /// The register of the length that is on; negative where it is taken off.
+    /// The register of the active length; negative if it is subtracted.
     pub length: Option<f64>,
     /// Surface speed, with its limit.
     pub surface: Option<f64>,
     pub limit: Option<f64>,
-    /// A work offset was named.
+    /// A work offset has been programmed.
     pub work: bool,
 }
 
-/// What the program has said, be it what held before.
+/// Modes that the program has set, even to the value in force.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Said {
     pub units: bool,
@@ -59,7 +59,7 @@ pub struct Said {
 }
 
 impl Switches {
-    /// Follows what a block does.
+    /// Updates the values after a block.
     pub fn follow(&mut self, action: &Action, run: &Simulator<'_>) {
         match action {
             Action::Coolant(Cooling::Off) => (self.flood, self.mist, self.through) = (false, false, false),
@@ -75,15 +75,15 @@ impl Switches {
     }
 }
 
-/// What was found of a program.
+/// The result of the search in a program.
 #[derive(Debug)]
 pub struct Found {
     pub entry: Entry,
-    /// The line that was asked for.
+    /// The requested line.
     pub asked: u64,
-    /// The head: lines before the first one that moves or changes a tool.
+    /// The head: lines before the first block that moves or changes a tool.
     pub head: u64,
-    /// Codes between head and entry that no state keeps: with their lines.
+    /// Codes between head and entry that are not part of the modal state, with their lines.
     pub codes: Vec<(u64, String)>,
 }
 
@@ -91,7 +91,7 @@ pub struct Found {
 pub fn find(text: &[u8], settings: RunSettings, asked: &Asked) -> Result<Found, Refused> {
     let first = search(text, settings, asked, true);
     match asked.target {
-        // that of the first operation may stand in the head
+        // the comment of the first operation may be in the head
         Target::Operation(_) => first.or_else(|_| search(text, settings, asked, false)),
         _ => first,
     }
@@ -126,29 +126,29 @@ struct Search<'t> {
     target: &'t Target,
     exactly: bool,
     said: Said,
-    /// Only what comes after the head is an operation.
+    /// Comments in the head are not searched for the operation.
     past_head: bool,
     switches: Switches,
-    /// The last place where the program can be begun, up to what is asked for.
+    /// The last possible entry, up to the requested location.
     entry: Option<Entry>,
-    /// The first after it.
+    /// The first possible entry after it.
     next: Option<u64>,
     asked: Option<u64>,
     head: Option<u64>,
     codes: Vec<(u64, String)>,
-    /// Codes up to the entry.
+    /// Number of codes up to the entry.
     kept: usize,
-    /// Why no place after the head can be one.
+    /// The reason why no location after the head is possible.
     never: Option<String>,
-    /// The last block moved.
+    /// The last block was a move.
     moved: bool,
-    /// The highest way across since the tool was changed.
+    /// The highest Z of a move across since the tool change.
     way: Option<f64>,
     /// The last move was a rapid.
     came_at_rapid: bool,
-    /// Another length of a tool is on than that by which the height was said: where the tool is depends on both.
+    /// The active tool length is not the one with which the Z position was programmed: the position depends on both.
     height_by_other: bool,
-    /// The line with the T word of a change that is not made yet, where the tool stands free.
+    /// The possible entry with the T word of a pending tool change, if the tool is clear there.
     tool_line: Option<Entry>,
 }
 
@@ -183,7 +183,7 @@ impl<'t> Search<'t> {
         let line = run.line();
         let is_asked = self.asked.is_none() && self.is_target(line, depth, items, run);
         let moves = |action: &Action| matches!(action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
-        // where no code changes tools the program stops for it, with the tool at the machine's zero
+        // on a control without a tool change code, the program stops for the change with the tool at machine zero
         let by_hand = run.control().first(Meaning::ToolChange).is_none() && !run.control().is_lathe();
         let stops = by_hand && before.said & 0b100 != 0;
         let changes = items.iter().any(|item| match item.action {
@@ -196,12 +196,12 @@ impl<'t> Search<'t> {
             Action::Coolant(cooling) => *cooling != Cooling::Off,
             _ => false,
         };
-        // what moves or turns is not run again before the tool is out
+        // blocks that move or start something are not run again before the retract
         let begins = |item: &crate::nc::Item| moves(&item.action) || switches(&item.action);
         if self.head.is_none() && (changes || items.iter().any(begins)) {
             self.head = Some(line - 1);
         }
-        // the place before this block
+        // the location before this block
         if self.exactly {
             if is_asked && depth == 0 && self.never.is_none() {
                 (self.entry, self.kept) = (self.exact_entry(before, line, changes, run), self.codes.len());
@@ -221,8 +221,7 @@ impl<'t> Search<'t> {
             self.asked = Some(line);
         }
         if self.head.is_some() && computes(run.text()) {
-            self.never
-                .get_or_insert(format!("line {line} computes values, which are not known without the blocks before"));
+            self.never.get_or_insert(format!("line {line} computes values from the blocks before"));
         }
         let [units, feed_mode] = run.says_modes();
         self.said.units |= units;
@@ -247,7 +246,7 @@ impl<'t> Search<'t> {
                     self.codes.push((line, code.to_string()));
                 }
                 Action::Frame => {
-                    self.never.get_or_insert(format!("line {line} moves the frame of the positions"));
+                    self.never.get_or_insert(format!("line {line} moves the coordinate frame"));
                 }
                 _ => {}
             }
@@ -261,10 +260,10 @@ impl<'t> Search<'t> {
                 let station = if run.control().is_lathe() && *number > 99 { number / 100 } else { *number };
                 items.iter().any(|item| matches!(item.action, Action::Tool(tool) if tool == f64::from(station)))
             }
-            // a line of a subprogram is not after those of the main program
+            // a line of a subprogram does not come after the lines of the main program
             Target::Line(asked) => line == *asked || depth == 0 && line > *asked,
             Target::Block(number) => block_number(run.text()) == Some(*number),
-            // the list of operations in a header is none
+            // comments in the header only list the operations
             Target::Operation(_) if self.past_head && self.head.is_none() => false,
             Target::Operation(name) => items.iter().any(|item| match item.action {
                 Action::Comment(start, end) => {
@@ -276,7 +275,7 @@ impl<'t> Search<'t> {
         }
     }
 
-    /// Can the program be begun with this block? It changes the tool, or the tool stands at the height of its ways.
+    /// Can the program be begun with this block? It must change the tool, or the tool must be at the height of its moves across.
     fn entry_before(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         let control = run.control();
         let is_free = !before.compensated && !before.has_cycle && !before.is_shifted;
@@ -293,7 +292,7 @@ impl<'t> Search<'t> {
         };
         let names_tool = run.names_tool();
         if changes {
-            // from its T word on, where that stands in a block before
+            // starts at its T word, if the T word is in an earlier block
             let first = self.tool_line.take().filter(|_| !names_tool);
             return first.or_else(|| is_free.then(|| entry(None)));
         }
@@ -306,28 +305,28 @@ impl<'t> Search<'t> {
         }
         let height = before.position[2];
         let is_high = self.way.is_none_or(|way| height >= way - 1e-9);
-        // a block that moves without its code would do what the old program's last move did
+        // a block that moves without a motion code would use the last motion of the old program
         let goes_on = before.is_rapid || run.names_motion() || !run.has_axes();
         (is_high && goes_on).then(|| entry(Some(height)))
     }
 
-    /// The entry with the very block: down from the height of the ways, and at feed into the cut.
+    /// The entry at the requested block itself: down from the height of the moves across, and at feed into the cut.
     fn exact_entry(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         if changes {
             return self.entry_before(before, line, changes, run);
         }
         let why = if run.control().is_lathe() {
-            "a lathe begins at a change of the turret"
+            "on a lathe a restart begins at a turret change"
         } else if before.compensated {
-            "it is inside of cutter compensation, which begins with a move of its own"
+            "the block is under cutter compensation, which must begin with its own move"
         } else if before.has_cycle {
-            "a canned cycle is in force, whose words stand in the blocks before"
+            "a canned cycle is active, and its words are in the blocks before"
         } else if before.is_shifted || self.height_by_other || before.unknown & 0b111 != 0 {
-            "where the tool is there only the machine knows"
+            "the position of the tool at this block is unknown"
         } else if before.feed <= 0.0 || before.feed_mode == FeedMode::InverseTime {
-            "no feed is in force with which it could go down"
+            "no feed is active for the move down"
         } else if !(run.names_motion() || before.is_line || !run.has_axes()) {
-            "its block moves by the G2, G3 or G0 of a block before"
+            "the block depends on the G2, G3 or G0 of an earlier block"
         } else {
             let depth = before.position[2];
             let height = self.way.filter(|way| *way >= depth).unwrap_or(depth);
@@ -341,22 +340,25 @@ impl<'t> Search<'t> {
     fn finish(self) -> Result<Found, Refused> {
         let Some(asked) = self.asked else {
             let what = match self.target {
-                Target::Tool(number) => format!("the program never changes to T{number}"),
+                Target::Tool(number) => format!("the program has no tool change to T{number}"),
                 Target::Block(number) => format!("the program has no block N{number} that is run"),
                 Target::Line(line) => format!("no block is run at line {line} or after it"),
                 Target::Operation(name) => format!("no comment of the program has `{}`", escaped(name)),
             };
-            return refuse(what, "`postform simulate PROGRAM` shows what is run, with lines");
+            return refuse(what, "`postform simulate PROGRAM` shows the blocks that are run, with their lines");
         };
-        let after = self.next.map_or("none after it".to_owned(), |line| format!("line {line} is the next"));
+        let after = self.next.map_or("there is no later line where it can begin".to_owned(), |line| {
+            format!("the next possible line is {line}")
+        });
         if self.exactly && self.entry.is_none() {
-            let why = self.never.unwrap_or_else(|| "it can't be begun with this very block".into());
-            let help = "leave --exactly out: then it begins at the last place before it where the tool is clear";
-            return refuse(format!("the program can't be begun exactly at line {asked}: {why}"), help);
+            let why = self.never.unwrap_or_else(|| "a restart can't begin with this block".into());
+            let help = "leave --exactly out: then the program begins at the last earlier line where the tool is clear";
+            return refuse(format!("the program can't begin exactly at line {asked}: {why}"), help);
         }
         let Some(entry) = self.entry else {
-            let why = self.never.unwrap_or_else(|| "the tool is nowhere at the height of its ways before it".into());
-            return refuse(format!("the program can't be begun before line {asked}: {why}"), after);
+            let why =
+                self.never.unwrap_or_else(|| "the tool is never at the height of its rapids before this line".into());
+            return refuse(format!("the program can't begin at or before line {asked}: {why}"), after);
         };
         let mut codes = self.codes;
         codes.truncate(self.kept);
@@ -364,7 +366,7 @@ impl<'t> Search<'t> {
     }
 }
 
-/// N of a block.
+/// The N number of a block.
 fn block_number(text: &[u8]) -> Option<u64> {
     let text = std::str::from_utf8(text).ok()?.trim_start();
     let text = text.strip_prefix('/').unwrap_or(text).trim_start();
@@ -373,7 +375,7 @@ fn block_number(text: &[u8]) -> Option<u64> {
     digits.get(..end)?.parse().ok()
 }
 
-/// Does a block give a parameter a value?
+/// Does a block assign a value to a parameter?
 fn computes(text: &[u8]) -> bool {
     let mut symbols =
         tokens(text).filter_map(|token| if let Kind::Symbol(symbol) = token.kind { Some(symbol) } else { None });

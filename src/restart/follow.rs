@@ -1,4 +1,4 @@
-//! The proof: from the entry on the new program does what the old one does.
+//! The proof: from the entry on, the new program makes the same motions as the old one.
 
 use std::fmt::Write as _;
 
@@ -7,11 +7,11 @@ use super::{Refused, refuse};
 use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
 use crate::toolpath::Plane;
 
-/// How far positions may differ, in the program's units: text has six decimals.
+/// Greatest difference of positions, in the program's units: the text has six decimals.
 const SAME: f64 = 2e-6;
 
-/// Runs both programs side by side; how many moves they have in common. `across`: the new one has gone to where the tool is at the
-/// entry, as far as that is known.
+/// Runs both programs side by side and returns the number of common moves. `across`: the new program has moved to the position
+/// at the entry, as far as it is known.
 pub fn same(
     old: &[u8],
     new: &[u8],
@@ -21,11 +21,11 @@ pub fn same(
 ) -> Result<u64, Refused> {
     let mut old = Side::new(super::run(old, settings), found.entry.line);
     let mut new = Side::new(super::run(new, settings), head_lines + 1);
-    // both as far as the entry
+    // run both up to the entry
     old.reach("the program")?;
     new.reach("the new program")?;
     let mut moves = 0;
-    // where the program does not say again where to cut, both must cut where they were at the entry
+    // if the program does not repeat its X and Y, both programs must be at the same X and Y at the entry
     let placed = across && found.entry.standing.unknown & 0b11 == 0;
     loop {
         let (one, other) = (old.next("the program")?, new.next("the new program")?);
@@ -34,23 +34,24 @@ pub fn same(
             (Some(one), Some(_)) if !placed && one.goes_down_unsaid() => {
                 return refuse(
                     format!(
-                        "at line {} the program goes down at a position of X and Y that it says only before the entry",
+                        "at line {} the program goes down at an X and Y that are given only before the entry",
                         old.line()
                     ),
-                    "begin at another place: where X and Y are said before the tool goes down",
+                    "begin at another line, after which X and Y are given before the tool goes down",
                 );
             }
             (Some(one), Some(other)) if one.is_as(other) => moves += 1,
             _ => {
-                let text = |seen: &Option<Seen>| seen.as_ref().map_or("it is over".to_owned(), Seen::text);
+                let text = |seen: &Option<Seen>| seen.as_ref().map_or("it has ended".to_owned(), Seen::text);
                 return refuse(
                     format!(
-                        "the new program would not do the same: at line {} of the program {}, in the new one {}",
+                        "the new program would not make the same moves: at line {} of the old program {}, in the new \
+                         program {}",
                         old.line(),
                         text(&one),
                         text(&other)
                     ),
-                    "begin at another place: at a change of the tool, or print the job again with `render --from-tool`",
+                    "begin at a tool change, or print the job again with `render --from-tool`",
                 );
             }
         }
@@ -58,7 +59,7 @@ pub fn same(
     Ok(moves)
 }
 
-/// A move or a stop, and what is in force at it.
+/// A move or a stop, with the modal state at that point.
 #[derive(Debug)]
 struct Seen {
     action: Action,
@@ -115,13 +116,13 @@ impl Seen {
             (one, two) => one == two,
         };
         let (one, two) = (&self.standing, &other.standing);
-        // up to the first cut the spindle may stand
+        // before the first cut the spindle may be off
         let cuts = matches!(self.action, Action::Feed { .. } | Action::Arc(_) | Action::Hole(_));
         let turns = !cuts || (one.rotation, one.speed) == (two.rotation, two.speed);
         let stands = (one.tool, one.work, one.units, one.plane, one.feed_mode, one.compensated)
             == (two.tool, two.work, two.units, two.plane, two.feed_mode, two.compensated)
             && turns;
-        // a length does not matter while the height is the machine's
+        // at a machine height the tool length does not matter
         let (mut on, own) = (self.switches.clone(), &other.switches);
         if self.is_at_machine_height() {
             on.length = own.length;
@@ -129,7 +130,7 @@ impl Seen {
         same && stands && on == *own
     }
 
-    /// Does it go down, or cut, where X or Y (X or Z of a lathe) are those of a block before, counted from an unknown position?
+    /// Does it go down or cut at an X or Y (X or Z on a lathe) from an earlier block, measured from an unknown position?
     fn goes_down_unsaid(&self) -> bool {
         let across = |machine: u8| machine & if self.standing.plane == Plane::Xz { 0b101 } else { 0b011 } != 0;
         match &self.action {
@@ -173,12 +174,12 @@ fn at(to: &[f64; 6]) -> String {
     format!("X{} Y{} Z{}", to[0], to[1], to[2])
 }
 
-/// Positions that the program knows.
+/// Compares only the axes whose position the program contains.
 fn near_known(one: &[f64; 6], two: &[f64; 6], machine: u8) -> bool {
     (0..6).all(|axis| machine & 1 << axis != 0 || (one[axis] - two[axis]).abs() <= SAME)
 }
 
-/// A program as it is followed.
+/// A program that is being run.
 struct Side<'a> {
     run: Simulator<'a>,
     switches: Switches,

@@ -1,8 +1,8 @@
-//! A program that begins in the middle of another one, with everything in force that is in force there.
+//! A program that begins in the middle of another one, with the same modal state.
 //!
-//! The new program has the head of the old one up to its first move or tool change, blocks that put in force what is in force at
-//! the entry, a way in from above, and the rest of the old program as it is. It is then run beside the old one: from the entry on both do the
-//! same, or there is no new program.
+//! The new program has the head of the old one up to its first move or tool change. Blocks that restore the modal state at the
+//! entry follow, then an approach from above, then the unchanged rest of the old program. It is then run beside the old
+//! program. If the two differ anywhere after the entry, there is no new program.
 
 mod blocks;
 mod entry;
@@ -15,14 +15,14 @@ pub use entry::Target;
 use crate::control::Rules;
 use crate::nc::RunSettings;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug)]
 pub struct Asked {
     /// Where to begin.
     pub target: Target,
-    /// Above this height nothing is in the way, in the program's units; where the control can't go up to the machine's zero.
+    /// A height above all obstacles, in the program's units, for a control that can't retract to machine zero.
     pub clear: Option<f64>,
-    /// Begin with the very block that is asked for, though the tool stands in its cut there: it goes down at feed.
+    /// Begin at the requested block itself, even in the middle of a cut: the tool goes down at feed.
     pub exactly: bool,
 }
 
@@ -31,22 +31,22 @@ pub struct Asked {
 pub struct Restarted {
     /// Its text.
     pub text: Vec<u8>,
-    /// The line of the old program from which on it goes.
+    /// The line of the old program at which it continues.
     pub line: u64,
-    /// The line that was asked for.
+    /// The requested line.
     pub asked: u64,
-    /// What the operator must know, a sentence each.
+    /// Notes for the operator, one sentence each.
     pub notes: Vec<String>,
-    /// Moves that are the same in both, from the entry on.
+    /// Number of equal moves in both programs, from the entry on.
     pub moves: u64,
 }
 
-/// Why there is no new program.
+/// The reason why there is no new program.
 #[derive(Debug)]
 pub enum Refused {
     /// The program can't be read.
     Io(io::Error),
-    /// A sentence, and what would do.
+    /// A sentence, and a proposed solution.
     Why(String, String),
 }
 
@@ -60,24 +60,24 @@ fn refuse<T>(why: impl Into<String>, help: impl Into<String>) -> Result<T, Refus
     Err(Refused::Why(why.into(), help.into()))
 }
 
-/// Largest program that is restarted, in bytes.
+/// Maximum size of a program, in bytes.
 const LARGEST: u64 = 1 << 30;
 
-/// Makes a program that begins where it is asked to.
+/// Makes a program that begins at the requested location.
 ///
 /// # Errors
-/// It can't be read, or there is no such place in it, or what is in force there can't be put in force again.
+/// The program can't be read, the location does not exist, or the modal state there can't be restored.
 pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Asked) -> Result<Restarted, Refused> {
     if !matches!(settings.control.rules(), Rules::Fanuc | Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl) {
         let name = settings.control.name();
         return refuse(
-            format!("programs of {name} are not restarted: their blocks are in a language of their own"),
-            "print the job again from the tool on: `postform render JOB --form FORM --from-tool 3`",
+            format!("programs of {name} can't be restarted: they are not in G codes"),
+            "print the job again from this tool on: `postform render JOB --form FORM --from-tool 3`",
         );
     }
     let size = program.seek(SeekFrom::End(0))?;
     if size > LARGEST {
-        return refuse("the program is larger than 1 GB", "print the job again from the tool on");
+        return refuse("the program is larger than 1 GB", "print the job again from this tool on");
     }
     program.seek(SeekFrom::Start(0))?;
     let mut text = Vec::new();
@@ -89,7 +89,7 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
         let moves = follow::same(&text, &new, settings, &found, (head_lines, way.across))?;
         Ok(Restarted { text: new, line: found.entry.line, asked: found.asked, notes, moves })
     };
-    // to a change of the tool the spindle stands, and the tool stays where it is; else only where the blocks after it count on it
+    // before a tool change, the first attempt leaves the tool in position with the spindle off; later ones move it or start the spindle
     match found.entry.height {
         None => {
             let [first, ways @ ..] = [[false, false], [true, false], [false, true], [true, true]];
@@ -100,16 +100,16 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
     }
 }
 
-/// How the tool comes to the entry.
+/// The approach to the entry.
 #[derive(Clone, Copy, Debug)]
 struct Way {
-    /// It goes over the entry.
+    /// The tool moves to a position above the entry.
     across: bool,
-    /// The spindle turns.
+    /// The spindle is started.
     turning: bool,
 }
 
-/// A run of a text.
+/// A simulator for a text.
 fn run(text: &[u8], settings: RunSettings) -> crate::nc::Simulator<'_> {
     crate::nc::Simulator::new(Cursor::new(text), settings)
 }

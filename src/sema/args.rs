@@ -1,4 +1,4 @@
-//! Arguments of commands: reading them.
+//! Reads the arguments of commands.
 
 use super::code::Code;
 use crate::control;
@@ -6,7 +6,7 @@ use crate::lang::{Args, CommandId};
 use crate::span::Span;
 use crate::syntax::Spanned;
 
-/// What is wrong with an argument: the place, if it is one of the arguments, and what to say.
+/// An argument that can't be read: its location, if the fault is in one argument, and a message.
 pub struct BadArg {
     /// The argument.
     pub span: Option<Span>,
@@ -14,10 +14,10 @@ pub struct BadArg {
     pub message: String,
 }
 
-/// An argument that was read.
+/// Result of reading an argument.
 pub type Read<T> = Result<T, BadArg>;
 
-/// Says that an argument can't be read.
+/// Returns the error of an argument that can't be read.
 pub fn bad<T>(arg: Option<&Spanned>, message: impl Into<String>) -> Read<T> {
     Err(BadArg { span: arg.map(|a| a.span), message: message.into() })
 }
@@ -28,7 +28,7 @@ pub struct Arguments<'a> {
     pub all: &'a [Spanned],
     /// The whole command.
     pub span: Span,
-    /// Somebody typed them, so that codes are printed as they stand here.
+    /// The user typed the arguments (they are no defaults), so that codes print as typed.
     pub typed: bool,
 }
 
@@ -37,7 +37,7 @@ impl Arguments<'_> {
         self.id.name()
     }
 
-    /// Are there as many as the command takes?
+    /// Checks the number of arguments.
     pub fn check(&self) -> Read<()> {
         let (takes, given) = (self.id.row().args, self.all.len());
         if given == 0 && !matches!(self.id, CommandId::Name | CommandId::Eob) {
@@ -48,7 +48,7 @@ impl Arguments<'_> {
         };
         let what = match takes {
             Args::Codes(..) => "codes".into(),
-            Args::Motion(1, 2) => "codes: of arcs, and of the spindle, as `G2 M3`".into(),
+            Args::Motion(1, 2) => "codes: one for arcs and one for the spindle, as `G2 M3`".into(),
             Args::Motion(..) => "G codes".into(),
             Args::Switch => "argument, Y or N".into(),
             Args::Choice(_) => "word".into(),
@@ -56,7 +56,7 @@ impl Arguments<'_> {
             _ if most == 1 => "number".into(),
             _ => "numbers".to_owned(),
         };
-        bad(self.all.get(most), format!("{} takes {} {what}, here are {given}", self.name(), range(least, most)))
+        bad(self.all.get(most), format!("{} takes {} {what}, but here are {given}", self.name(), range(least, most)))
     }
 
     pub fn switch(&self) -> Read<bool> {
@@ -67,20 +67,20 @@ impl Arguments<'_> {
         }
     }
 
-    /// Codes. The first of a motion word moves the tool, as no M code does, whatever its number.
+    /// Reads codes. The first code of a motion word must be a G code, because no M code moves the tool.
     pub fn codes(&self) -> Read<Vec<Code>> {
         let takes = self.id.row().args;
         let letter = if let Args::Codes(letter, ..) = takes { letter } else { 'G' };
         let codes: Vec<Code> = self.all.iter().map(|arg| self.code(arg, letter)).collect::<Read<_>>()?;
         match codes.iter().zip(self.all).find(|(code, _)| !code.code.letter.eq_ignore_ascii_case(&b'G')) {
             Some((_, arg)) if matches!(takes, Args::Motion(..)) => {
-                bad(Some(arg), format!("`{}` is no G code, and only a G code moves the tool", arg.text))
+                bad(Some(arg), format!("`{}` is not a G code, and only a G code moves the tool", arg.text))
             }
             _ => Ok(codes),
         }
     }
 
-    /// `G0`, `0`, `M19`: with its letter or without.
+    /// Reads one code, with its letter or without: `G0`, `0`, `M19`.
     pub fn code(&self, arg: &Spanned, letter: char) -> Read<Code> {
         let first = arg.text.bytes().next().unwrap_or(b' ');
         let (given, digits) =
@@ -92,16 +92,16 @@ impl Arguments<'_> {
                 let text = given.filter(|_| self.typed).map(|_| arg.text.clone());
                 Ok(Code { code: control::Code { letter: given.unwrap_or(letter as u8), ..code }, text })
             }
-            None => bad(Some(arg), format!("`{}` is no code, as `{letter}0` is", arg.text)),
+            None => bad(Some(arg), format!("`{}` is not a code, as `{letter}0`", arg.text)),
         }
     }
 
-    /// Letters, apart or together: `X Y Z` or `XYZ`.
+    /// Reads letters, apart or together: `X Y Z` or `XYZ`.
     pub fn letters(&self) -> Read<Vec<u8>> {
         let mut letters = Vec::new();
         for arg in self.all {
             if !arg.text.bytes().all(|b| b.is_ascii_alphabetic()) {
-                return bad(Some(arg), format!("`{}` is no letter", arg.text));
+                return bad(Some(arg), format!("`{}` is not a letter", arg.text));
             }
             letters.extend(arg.text.bytes());
         }
@@ -112,20 +112,20 @@ impl Arguments<'_> {
         if !(least..=most).contains(&letters.len()) {
             let plural = if most == 1 { "letter" } else { "letters" };
             let (takes, given) = (range(least, most), letters.len());
-            return bad(None, format!("{} takes {takes} {plural}, here are {given}", self.name()));
+            return bad(None, format!("{} takes {takes} {plural}, but here are {given}", self.name()));
         }
         Ok(letters)
     }
 
-    /// One letter among other words.
+    /// Reads one letter among other words.
     pub fn letter(&self, arg: &Spanned) -> Read<u8> {
         match arg.text.as_bytes() {
             [letter] if letter.is_ascii_alphabetic() => Ok(*letter),
-            _ => bad(Some(arg), format!("`{}` is no letter", arg.text)),
+            _ => bad(Some(arg), format!("`{}` is not a letter", arg.text)),
         }
     }
 
-    /// A number as the command takes it.
+    /// Reads a number that the command accepts.
     pub fn number(&self) -> Read<f64> {
         let takes = self.id.row().args;
         match takes {
@@ -137,7 +137,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// A length that is not negative.
+    /// Reads a length that is not negative.
     pub fn length(&self, arg: &Spanned) -> Read<f64> {
         match number(arg)? {
             value if value < 0.0 => bad(Some(arg), format!("{} can't be negative", self.name())),
@@ -145,7 +145,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// The word of a choice, as the table writes it.
+    /// Reads the word of a choice; returns it in the spelling of the table.
     pub fn choice(&self) -> Read<&'static str> {
         match choice_of(self.id, &self.all[0].text) {
             Some(word) => Ok(word),
@@ -158,18 +158,18 @@ impl Arguments<'_> {
     }
 }
 
-/// A number of the decimal system: no exponent, no infinity.
+/// Reads a decimal number, without exponent or infinity.
 pub fn number(arg: &Spanned) -> Read<f64> {
     match arg.text.parse::<f64>() {
         Ok(value) if value.is_finite() && arg.text.bytes().all(|b| !b.is_ascii_alphabetic()) => Ok(value),
-        _ => bad(Some(arg), format!("`{}` is no number", arg.text)),
+        _ => bad(Some(arg), format!("`{}` is not a number", arg.text)),
     }
 }
 
 pub fn whole(arg: &Spanned, least: i64, most: i64) -> Read<i64> {
     match arg.text.parse::<i64>() {
         Ok(n) if (least..=most).contains(&n) => Ok(n),
-        _ => bad(Some(arg), format!("`{}` is no whole number from {least} to {most}", arg.text)),
+        _ => bad(Some(arg), format!("`{}` is not a whole number from {least} to {most}", arg.text)),
     }
 }
 
@@ -177,7 +177,7 @@ fn range(least: usize, most: usize) -> String {
     if least == most { least.to_string() } else { format!("{least} to {most}") }
 }
 
-/// What a command wants, for a message.
+/// The arguments that a command needs, for a message.
 fn wants(id: CommandId) -> String {
     let many = |least: u8, most: u8, one: &str, many: &str| match (least, most) {
         (1, 1) => one.to_owned(),
@@ -195,7 +195,7 @@ fn wants(id: CommandId) -> String {
     }
 }
 
-/// The word of a choice, as the table writes it.
+/// The word of a choice in the spelling of the table.
 pub fn choice_of(id: CommandId, text: &str) -> Option<&'static str> {
     match id.row().args {
         Args::Choice(words) => words.iter().find(|w| w.eq_ignore_ascii_case(text)).copied(),

@@ -1,4 +1,4 @@
-//! `Call`: the files that a form brings in.
+//! `Call`: the other files of a form.
 
 use super::check::Analysis;
 use super::limits::MOST_TEXT;
@@ -10,19 +10,19 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{self, Head, Spanned, Statement};
 
-/// Deepest nesting of `Call`.
+/// Maximum nesting depth of `Call`.
 const MOST_CALLS: usize = 8;
 
-/// Largest file of a control.
+/// Maximum size of a control's file, in bytes.
 const LARGEST_CONTROL: usize = 1 << 20;
 
-/// Does a name lead out of the folder of its form?
+/// Does a name lead out of the form's folder?
 fn is_outside(name: &str) -> bool {
     name.starts_with(['/', '\\']) || name.contains(':') || name.split(['/', '\\']).any(|part| part == "..")
 }
 
 impl Analysis {
-    /// Parses a file and, in place of each `Call`, the file it names.
+    /// Parses a file and, at each `Call`, the file that it names.
     pub(super) fn add_file(
         &mut self,
         source: Source,
@@ -62,7 +62,7 @@ impl Analysis {
         }
     }
 
-    /// Reads the file that `Control my.toml` names.
+    /// Reads the file of a command like `Control my.toml`.
     fn control_file(&mut self, statement: &Statement, load: &mut dyn FnMut(&str) -> Result<Source, String>) {
         let [arg] = &statement.args[..] else { return };
         if !control::is_file(&arg.text) {
@@ -75,7 +75,7 @@ impl Analysis {
         }
     }
 
-    /// Reads the file that `MachineFile vf2.toml` names, and those that it names.
+    /// Reads the file of a command like `MachineFile vf2.toml`, and the files that it names.
     fn machine_file(&mut self, statement: &Statement, load: &mut dyn FnMut(&str) -> Result<Source, String>) {
         let [arg] = &statement.args[..] else { return };
         let Some(source) = self.beside(arg, Code::PF021, "a machine's file", load) else { return };
@@ -89,7 +89,7 @@ impl Analysis {
         }
     }
 
-    /// The text of a file beside the form; what is wrong with it is reported.
+    /// The text of a file in the form's folder. Reports an error if it can't be read.
     fn beside(
         &mut self,
         arg: &Spanned,
@@ -102,14 +102,14 @@ impl Analysis {
             Ok(source) if source.text.len() <= LARGEST_CONTROL => Some(source),
             loaded => {
                 let why = loaded.err().unwrap_or_else(|| format!("is larger than {} KB", LARGEST_CONTROL >> 10));
-                let help = format!("{what} stands beside the form, as `my-vf2.toml`");
+                let help = format!("put {what} into the form's folder, as `my-vf2.toml`");
                 self.report(Diag::new(code, format!("`{}` {why}", arg.text)).at(arg.span, "named here").help(help));
                 None
             }
         }
     }
 
-    /// Reports what is wrong in a file that the form names.
+    /// Reports an error in a file that the form names.
     fn wrong_file(&mut self, code: Code, source: Source, wrong: WrongFile, (arg, of): (&Spanned, &str)) {
         let number = self.files.len() as u32;
         let rest = source.text.get(wrong.start..).unwrap_or_default();
@@ -135,9 +135,9 @@ impl Analysis {
         } else if is_outside(&name) {
             Some("is outside the form's folder".to_owned())
         } else if open.contains(&name) || self.called.contains(&name) {
-            Some("was called before: each form once, and no circles".to_owned())
+            Some("was called before: each form can be called once, and not in a circle".to_owned())
         } else if open.len() >= MOST_CALLS {
-            Some(format!("is called {MOST_CALLS} deep"))
+            Some(format!("is called at a depth of {MOST_CALLS} calls"))
         } else {
             match load(&name) {
                 Ok(source) if self.size + source.text.len() > MOST_TEXT => {

@@ -1,4 +1,4 @@
-//! The whole form: every item once, every finding of the file in one run.
+//! Analyses the whole form: each item once, and all findings of the file in one run.
 
 use std::collections::HashSet;
 
@@ -15,16 +15,16 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{self, Head};
 
-/// A form that was analysed.
+/// An analysed form.
 #[derive(Debug)]
 pub struct Checked {
     /// The files: the form itself first, then those that it calls.
     pub files: Vec<Source>,
     /// Trees of the files.
     pub trees: Vec<syntax::Form>,
-    /// What the files mean together.
+    /// The meaning of all files together.
     pub form: Form,
-    /// Everything found so far, in no order.
+    /// All findings so far, unsorted.
     pub diags: Vec<Diag>,
 }
 
@@ -35,7 +35,7 @@ impl Checked {
     }
 }
 
-/// Analyses a form. `load` brings the files that `Call` names, relative to the form's folder, or says why not.
+/// Analyses a form. `load` returns a file that `Call` names, relative to the form's folder, or the reason why it can't.
 pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Result<Source, String>) -> Checked {
     let mut analysis = Analysis { limits, ..Analysis::default() };
     analysis.add_file(main, &mut vec![], load);
@@ -57,14 +57,14 @@ pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Resul
 pub(super) struct Analysis {
     pub(super) limits: Limits,
     pub(super) files: Vec<Source>,
-    /// The forms that were called, by the names they were called by.
+    /// Names of the forms that were called.
     pub(super) called: HashSet<String>,
-    /// The bytes of all files.
+    /// Total size of all files in bytes.
     pub(super) size: usize,
     pub(super) trees: Vec<syntax::Form>,
-    /// The items of all files as they are read: a file, and an item of its tree.
+    /// The items of all files in reading order: number of the file, and index of the item in its tree.
     pub(super) order: Vec<(u32, u32)>,
-    /// The control of the form, where a file describes it.
+    /// The control of the form, if a file describes it.
     pub(super) control: Option<&'static Control>,
     pub(super) form: Form,
     pub(super) diags: Vec<Diag>,
@@ -79,7 +79,7 @@ impl Analysis {
         self.diags.push(diag);
     }
 
-    /// Machine and units come first: the defaults of the others depend on them.
+    /// Reads machine and units first, because the defaults of the other commands depend on them.
     fn settings(&mut self, items: &[&Head]) {
         let find = |id: CommandId| {
             items.iter().find_map(|item| match item {
@@ -104,15 +104,15 @@ impl Analysis {
             }
             Head::Statement(statement) => self.statement(statement),
             Head::StrayEnd(line) => {
-                // `End Code` was meant to be one word
+                // `End Code` is a misspelling of `EndCode`
                 let text = self.files[line.span.file as usize].slice(line.span);
                 let joined: String = text.split_whitespace().take(2).collect();
                 let help = match SequenceId::parse(&joined) {
                     Some(id) => format!("write `{}`", id.name()),
-                    None => "take it out, or give the lines above it a sequence name".into(),
+                    None => "remove it, or give the lines above it a sequence name".into(),
                 };
                 self.report(
-                    Diag::new(Code::PF007, "End stands outside a sequence")
+                    Diag::new(Code::PF007, "End is outside a sequence")
                         .at(line.span, "no sequence is open here")
                         .help(help),
                 );
@@ -127,10 +127,10 @@ impl Analysis {
         }
     }
 
-    /// What only the whole form shows.
+    /// Checks that need the whole form.
     fn whole(&mut self) {
         self.line_limit();
-        // what stands between subprograms and the main program says which come first
+        // a `Between` sequence without `SubsFirst` implies that subprograms come first
         let says = self.commands_seen.iter().any(|(id, _)| *id == CommandId::SubsFirst);
         if !says && self.form.sequences.contains_key(&SequenceId::Between) {
             self.form.settings.subs_first = true;

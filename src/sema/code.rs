@@ -1,18 +1,18 @@
-//! A code as a command of a form gives it.
+//! A code in a command of a form.
 
 use crate::control;
 
-/// A code of a command: printed as typed when its letter was typed, else by the letter's format.
+/// A code in a command: if its letter was typed, it prints as typed, otherwise in its letter's format.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Code {
-    /// The letter, given or implied, and the number.
+    /// The letter, typed or implied, and the number.
     pub code: control::Code,
     /// The code as typed, `G00`.
     pub text: Option<String>,
 }
 
 impl Code {
-    /// A code that nobody typed.
+    /// A code that is not typed in the form.
     pub fn plain(code: control::Code) -> Code {
         Code { code, text: None }
     }

@@ -1,4 +1,4 @@
-//! Expressions of a form: names found, types checked, what is wrong reported.
+//! Expressions of a form: resolves names, checks types and reports errors.
 
 use super::formula::{Formula, Function, NoValues};
 use super::names::{Context, property, variable};
@@ -10,14 +10,14 @@ use crate::lang::{Coolant, TextVar, VarId, VarSet, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{Arithmetic, Comparison, Expr, ExprKind, Operator, Spanned, Unread};
 
-/// Variables that are 1 or 0: a condition asks them as they are.
+/// Variables that are 1 or 0. A condition may use them without a comparison.
 const YES_OR_NO: VarSet =
     VarSet::of(&[VarId::Lasthole, VarId::Isfirsthole, VarId::Rigid, VarId::Isfirsttool, VarId::Islasttool]);
 
 const EQUAL: Operator = Operator::Comparison(Comparison::Equal);
 const UNEQUAL: Operator = Operator::Comparison(Comparison::Unequal);
 
-/// What an expression is.
+/// Type of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Number,
@@ -35,7 +35,7 @@ impl Kind {
     }
 }
 
-/// A number, as between the brackets of a word.
+/// An expression that must be a number, as between the brackets of a word.
 pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let expr = read(expr, diags)?;
     let (formula, kind) = typed(expr, context, diags)?;
@@ -43,12 +43,12 @@ pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Di
     Some(formula)
 }
 
-/// A condition. A variable alone asks whether it has a value.
+/// A condition. A variable alone is true if it has a value.
 pub fn condition(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     asked(read(expr, diags)?, context, diags)
 }
 
-/// Yes or no, as a property keeps it: a condition, or one of its words alone.
+/// A yes-or-no value for a property: a condition, or one of the words for yes and no.
 pub fn yes_or_no(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let expr = read(expr, diags)?;
     if let ExprKind::Word(word) = &expr.kind
@@ -59,7 +59,7 @@ pub fn yes_or_no(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec
     asked(expr, context, diags)
 }
 
-/// A text, as the property of this row keeps it.
+/// A text value for the property of this row.
 pub fn text(expr: &Result<Expr, Unread>, row: u16, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let expr = read(expr, diags)?;
     let property = &context.settings.properties[usize::from(row)];
@@ -72,17 +72,17 @@ pub fn text(expr: &Result<Expr, Unread>, row: u16, context: &Context, diags: &mu
         diags.push(
             Diag::new(
                 Code::PF706,
-                format!("[{}] is a choice: a text of the job may be none of its words", property.name),
+                format!("[{}] is a choice: a text of the job may not be one of its words", property.name),
             )
-            .at(expr.span, "whatever the job says")
-            .help(format!("ask for the text with `@if`, and set {}", property.kind.takes())),
+            .at(expr.span, "any text of the job")
+            .help(format!("test the text with `@if`, and set {}", property.kind.takes())),
         );
         return None;
     }
     Some(formula)
 }
 
-/// Does somebody write a text there?
+/// Is the expression a text literal?
 pub fn says_text(expr: &Result<Expr, Unread>) -> bool {
     matches!(expr, Ok(Expr { kind: ExprKind::Text(_), .. }))
 }
@@ -92,8 +92,8 @@ fn read<'a>(expr: &'a Result<Expr, Unread>, diags: &mut Vec<Diag>) -> Option<&'a
         Ok(expr) => Some(expr),
         Err(unread) => {
             let all = || {
-                "write names, numbers, + - * / and brackets, as `[vclear-pointd]`; text of the control with brackets stands in \
-                 backquotes"
+                "write names, numbers, + - * / and brackets, as `[vclear-pointd]`; put text of the control with \
+                 brackets in backquotes"
                     .to_owned()
             };
             diags.push(
@@ -111,24 +111,20 @@ fn wants(kind: Kind, wanted: Kind, span: Span, diags: &mut Vec<Diag>) -> Option<
         return Some(());
     }
     let help = match (kind, wanted) {
-        (Kind::Text, Kind::Number) => {
-            "a text is compared with `=` and `like`; printed, it stands by itself: `[toolname]`"
-        }
-        (Kind::YesNo, Kind::Number) => "ask it in a condition: `@if [isfirsttool]`, `@if [header] = yes`",
-        (Kind::Number, Kind::Text) => {
-            "a text is compared with a text: `[toolname] = \"5\"`, `[toolname] like \"DRILL*\"`"
-        }
+        (Kind::Text, Kind::Number) => "compare a text with `=` or `like`; print it alone: `[toolname]`",
+        (Kind::YesNo, Kind::Number) => "test it in a condition: `@if [isfirsttool]`, `@if [header] = yes`",
+        (Kind::Number, Kind::Text) => "compare a text with a text: `[toolname] = \"5\"`, `[toolname] like \"DRILL*\"`",
         _ => "compare it: `[speed] > 0`, `[toolname] like \"DRILL*\"`",
     };
     diags.push(
-        Diag::new(Code::PF704, format!("{} where {} is needed", kind.name(), wanted.name()))
+        Diag::new(Code::PF704, format!("{}, but {} is needed", kind.name(), wanted.name()))
             .at(span, format!("this is {}", kind.name()))
             .help(help),
     );
     None
 }
 
-/// A part that is asked whether it holds.
+/// An expression that is used as a condition.
 fn asked(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let (formula, kind) = typed(expr, context, diags)?;
     match (formula, kind) {
@@ -157,9 +153,12 @@ fn typed(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<(Formu
                 if text.width != 0 {
                     let alone = name.split(':').next().unwrap_or(name);
                     diags.push(
-                        Diag::new(Code::PF702, format!("`{name}` has a width, which only what is printed has"))
-                            .at(expr.span, "compared as it is")
-                            .help(format!("write `[{alone}]`; `like \"LID*\"` asks for its beginning")),
+                        Diag::new(
+                            Code::PF702,
+                            format!("`{name}` has a width, but only printed texts can have a width"),
+                        )
+                        .at(expr.span, "compared without a width")
+                        .help(format!("write `[{alone}]`; `like \"LID*\"` tests its beginning")),
                     );
                 }
                 (Formula::TextVar(text.id), Kind::Text)
@@ -171,13 +170,12 @@ fn typed(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<(Formu
         },
         ExprKind::Word(word) => {
             let help = match VarId::parse(word) {
-                Some(var) => format!("a variable stands between brackets: `[{}]`", var.name()),
-                None => {
-                    "a name of a value is compared with its variable: `[direct] = cw`; text stands in quotes".into()
-                }
+                Some(var) => format!("write a variable in brackets: `[{}]`", var.name()),
+                None => "compare the name of a value with its variable: `[direct] = cw`; put text in quotes".into(),
             };
-            diags
-                .push(Diag::new(Code::PF706, format!("`{word}` is no value")).at(expr.span, "a name alone").help(help));
+            diags.push(
+                Diag::new(Code::PF706, format!("`{word}` is not a value")).at(expr.span, "a name alone").help(help),
+            );
             return None;
         }
         ExprKind::Call(name, args) => (call(name, args, context, diags)?, Kind::Number),
@@ -197,7 +195,7 @@ fn call(name: &Spanned, args: &[Expr], context: &Context, diags: &mut Vec<Diag>)
         let help = did_you_mean(&name.text, names());
         let all = || format!("there are {}", names().collect::<Vec<_>>().join(", "));
         diags.push(
-            Diag::new(Code::PF703, format!("`{}` is no function", name.text))
+            Diag::new(Code::PF703, format!("`{}` is not a function", name.text))
                 .at(name.span, "unknown")
                 .help(help.unwrap_or_else(all)),
         );
@@ -206,8 +204,8 @@ fn call(name: &Spanned, args: &[Expr], context: &Context, diags: &mut Vec<Diag>)
     if args.len() > 1 && !function.takes_several() {
         diags.push(
             Diag::new(Code::PF703, format!("{} takes one number", name.text))
-                .at(args[1].span, "one too many")
-                .help("take it out; `min` and `max` take several"),
+                .at(args[1].span, "one argument too many")
+                .help("remove it; `min` and `max` take several numbers"),
         );
         return None;
     }
@@ -244,9 +242,8 @@ fn calculated(
     let both = Box::new([number(left)?, number(right)?]);
     let zero = || both[1].is_constant() && both[1].number(&NoValues).is_ok_and(near::is_zero);
     if arithmetic == Arithmetic::Divide && zero() {
-        diags.push(
-            Diag::new(Code::PF705, "a division by zero").at(right.span, "this is 0").help("divide by something else"),
-        );
+        diags
+            .push(Diag::new(Code::PF705, "a division by zero").at(right.span, "this is 0").help("use another divisor"));
         return None;
     }
     Some((Formula::Arithmetic(arithmetic, both, right.span), Kind::Number))
@@ -263,7 +260,7 @@ fn compared(
         return Some(cools);
     }
     let word = |side: &Expr| if let ExprKind::Word(word) = &side.kind { Some(word.clone()) } else { None };
-    // a bare name is what its partner makes of it
+    // the meaning of a bare name depends on the other operand
     let both = match (word(left), word(right)) {
         (None, Some(word)) => {
             let (formula, kind) = typed(left, context, diags)?;
@@ -284,8 +281,8 @@ fn compared(
         let Formula::Text(pattern) = right_formula else {
             diags.push(
                 Diag::new(Code::PF704, "`like` compares with a pattern in quotes")
-                    .at(right.span, "this is none")
-                    .help("write `[toolname] like \"DRILL*\"`; `*` stands for any text, `?` for one character"),
+                    .at(right.span, "this is not a pattern")
+                    .help("write `[toolname] like \"DRILL*\"`; `*` matches any text, `?` matches one character"),
             );
             return None;
         };
@@ -298,7 +295,7 @@ fn compared(
     Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
 }
 
-/// A choice beside a text in quotes, which must be one of its words; they have no order.
+/// Checks a comparison of a choice with a text in quotes: the text must be one of its words, and words have no order.
 fn chosen(
     operator: Operator,
     sides: [(Formula, Kind); 2],
@@ -318,8 +315,8 @@ fn chosen(
     if !matches!(operator, EQUAL | UNEQUAL | Operator::Like) {
         diags.push(
             Diag::new(Code::PF704, format!("the words of [{}] have no order", property.name))
-                .at(at[0].span.to(at[1].span), "compared as greater and less")
-                .help("ask with `=` or `<>`"),
+                .at(at[0].span.to(at[1].span), "compared with greater or less")
+                .help("compare with `=` or `<>`"),
         );
         return None;
     }
@@ -336,7 +333,7 @@ fn chosen(
     }
 }
 
-/// `[cool] = through`: kinds of coolant are compared by their names, whatever their codes are.
+/// `[cool] = through`: kinds of coolant are compared by name, not by code.
 fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Option<Formula> {
     let (ExprKind::Variable(name), ExprKind::Word(word)) = (&left.kind, &right.kind) else { return None };
     let kind = Coolant::parse(word).filter(|_| VarId::parse(name) == Some(VarId::Cool))?;
@@ -351,7 +348,7 @@ fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Op
     }
 }
 
-/// What a bare name is beside this.
+/// The meaning of a bare name, from the other operand.
 fn named(
     word: &str,
     span: Span,
@@ -367,7 +364,7 @@ fn named(
                 Ok(value) => Some((Formula::Text(value.text().to_owned()), Kind::Text)),
                 Err(_) => {
                     diags.push(
-                        Diag::new(Code::PF706, format!("`{word}` is no value of [{}]", property.name))
+                        Diag::new(Code::PF706, format!("`{word}` is not a value of [{}]", property.name))
                             .at(span, "unknown")
                             .help(format!("it takes {}", property.kind.takes())),
                     );
@@ -398,18 +395,18 @@ fn named(
     }
     let shown = match beside {
         Formula::Var(var) => format!("[{}]", var.name()),
-        _ => "what it is compared with".to_owned(),
+        _ => "the other side".to_owned(),
     };
     let list = || names.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let help = match names.is_empty() {
         _ if Coolant::parse(word).is_some() && matches!(beside, Formula::Var(VarId::Cool)) => {
-            format!("say its code at the top of the form: `CoolantKind {word} M88`")
+            format!("define its code at the top of the form: `CoolantKind {word} M88`")
         }
-        true => "compare it with a number; a text stands in quotes".to_owned(),
+        true => "compare with a number; put a text in quotes".to_owned(),
         false => {
-            did_you_mean(word, names.iter().map(|(name, _)| *name)).unwrap_or_else(|| format!("take one of {}", list()))
+            did_you_mean(word, names.iter().map(|(name, _)| *name)).unwrap_or_else(|| format!("use one of {}", list()))
         }
     };
-    diags.push(Diag::new(Code::PF706, format!("`{word}` is no value of {shown}")).at(span, "unknown").help(help));
+    diags.push(Diag::new(Code::PF706, format!("`{word}` is not a value of {shown}")).at(span, "unknown").help(help));
     None
 }

@@ -1,32 +1,32 @@
-//! What the file of a program is called: `ProgramName O[program#]`, `Extension mpf`.
+//! The file name of a program: `ProgramName O[program#]`, `Extension mpf`.
 
 use super::args::{Arguments, Read, bad};
 use super::store::Setting;
 use crate::lang::{TextId, TextVar, VarId};
 
-/// How long an extension may be.
+/// Maximum length of an extension.
 const LONGEST_EXTENSION: usize = 8;
 
 /// A part of the name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NamePart {
-    /// As typed.
+    /// Text as typed.
     Typed(String),
-    /// The program's number.
+    /// Number of the program.
     Number,
-    /// A text of the job's head.
+    /// Text of the job's head.
     Text(TextId),
 }
 
-/// What a program's file is called, without its extension; empty: as the job's file.
+/// The file name of a program, without its extension. Empty: the name of the job's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ProgramName(pub Vec<NamePart>);
 
-/// What the name of a program's file ends with.
+/// The extension of the file name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Extension(pub String);
 
-/// May a character stand in the name of a program's file? Controls, networks and memory cards know no others.
+/// May the file name contain this character? Controls, networks and memory cards accept no others.
 pub fn is_of_file_names(c: char) -> bool {
     c.is_ascii_alphanumeric() || "_-.".contains(c)
 }
@@ -39,23 +39,23 @@ impl Setting for ProgramName {
         while !rest.is_empty() {
             let (typed, variable) = rest.split_once('[').map_or((rest, None), |(typed, rest)| (typed, Some(rest)));
             if let Some(c) = typed.chars().find(|&c| !is_of_file_names(c)) {
-                return bad(Some(arg), format!("`{c}` stands in no name of a program: letters, digits and _ - . do"));
+                return bad(Some(arg), format!("`{c}` can't be part of a file name: use letters, digits and _ - ."));
             }
             if !typed.is_empty() {
                 parts.push(NamePart::Typed(typed.to_owned()));
             }
             let Some(variable) = variable else { break };
             let Some((name, behind)) = variable.split_once(']') else {
-                return bad(Some(arg), "a bracket without its partner");
+                return bad(Some(arg), "an unmatched bracket");
             };
             parts.push(match (VarId::parse(name), TextVar::parse(name)) {
                 (Some(VarId::Program), _) => NamePart::Number,
                 (_, Some(text)) if TEXTS.contains(&text.id) && text.width == 0 => NamePart::Text(text.id),
                 _ => {
-                    let message = format!("[{name}] is not known when a file gets its name");
+                    let message = format!("[{name}] can't be used in a file name");
                     return bad(
                         Some(arg),
-                        format!("{message}: [program#], [progname], [partname], [jobfile] and [date] are"),
+                        format!("{message}: use [program#], [progname], [partname], [jobfile] or [date]"),
                     );
                 }
             });
@@ -73,7 +73,8 @@ impl Setting for Extension {
         let fits =
             (1..=LONGEST_EXTENSION).contains(&extension.len()) && extension.bytes().all(|c| c.is_ascii_alphanumeric());
         if !fits {
-            let message = format!("`{text}` is no extension: up to {LONGEST_EXTENSION} letters and digits, as `mpf`");
+            let message =
+                format!("`{text}` is not an extension: use up to {LONGEST_EXTENSION} letters and digits, as `mpf`");
             return bad(args.all.first(), message);
         }
         self.0 = extension.to_owned();

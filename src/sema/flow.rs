@@ -1,4 +1,4 @@
-//! Directives of a sequence: which of its lines print when.
+//! Directives of a sequence: they select the lines that print.
 
 use super::expression::{condition, number, says_text, text, yes_or_no};
 use super::formula::{Formula, NoValues};
@@ -10,26 +10,27 @@ use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, did_you_mean, directive
 use crate::span::Span;
 use crate::syntax::{Directive, DirectiveKind, Spanned};
 
-/// How deep directives may lie in each other.
+/// Maximum nesting depth of directives.
 pub const DEEPEST: usize = 8;
-/// How many branches a sequence may have: each has its bit.
+/// Maximum number of branches in a sequence: each needs one bit.
 pub const MOST_ARMS: usize = 128;
 
-/// Puts the lines of a sequence and its directives together.
+/// Combines the lines of a sequence with its directives.
 #[derive(Default)]
 pub struct Flow {
-    /// What is closed so far, on each level that is open.
+    /// Finished steps of each open level.
     levels: Vec<Level>,
-    /// Directives that lie too deep and wait for their `@end`: they open no level, so that a tree is never deeper.
+    /// Number of directives beyond the maximum depth that wait for their `@end`. They open no level, so that the tree has a
+    /// maximum depth.
     too_deep: usize,
-    /// The outermost level.
+    /// Steps of the outermost level.
     steps: Vec<Step>,
     arms: usize,
-    /// A directive was there.
+    /// The sequence has a directive.
     any: bool,
 }
 
-/// An `@if` or `@for` that waits for its `@end`.
+/// An `@if` or `@for` without its `@end` so far.
 struct Level {
     /// The directive.
     span: Span,
@@ -51,7 +52,7 @@ impl Flow {
         open.unwrap_or(&mut self.steps)
     }
 
-    /// A line that prints.
+    /// Adds a line that prints.
     pub fn line(&mut self, index: usize) {
         match self.steps().last_mut() {
             Some(Step::Lines(lines)) => lines.end = index + 1,
@@ -59,7 +60,7 @@ impl Flow {
         }
     }
 
-    /// A directive.
+    /// Adds a directive.
     pub fn directive(&mut self, directive: &Directive, context: &Context, diags: &mut Vec<Diag>) {
         self.any = true;
         if self.lies_too_deep(directive, diags) {
@@ -78,10 +79,10 @@ impl Flow {
                 self.count_arm(at, diags);
             }
             DirectiveKind::End if self.levels.is_empty() => {
-                wrong(format!("{name} without its @if"), "no @if is open here", "take it out, or write `@if` above it");
+                wrong(format!("{name} without its @if"), "no @if is open here", "remove it, or write `@if` above it");
             }
             DirectiveKind::Elif(_) | DirectiveKind::Else if !self.in_condition() => {
-                wrong(format!("{name} without its @if"), "no @if is open here", "take it out, or write `@if` above it");
+                wrong(format!("{name} without its @if"), "no @if is open here", "remove it, or write `@if` above it");
             }
             DirectiveKind::Elif(asked) => {
                 self.no_more_behind_else(name, at, diags);
@@ -114,9 +115,12 @@ impl Flow {
                     Some(Target::Property(row)) if kind(row).is_text() => text(value, row, context, diags),
                     Some(Target::Var(var)) if says_text(value) => {
                         diags.push(
-                            Diag::new(Code::PF704, format!("{} keeps a number, and this is a text", var.name()))
+                            Diag::new(Code::PF704, format!("{} is a number, but this is a text", var.name()))
                                 .at(directive.rest.span, "a free variable")
-                                .help("a text is kept in a property: `Property note text - What it is`, `@set note = \"..\"`"),
+                                .help(
+                                    "use a property for a text: `Property note text - What it is`, `@set note = \
+                                    \"..\"`",
+                                ),
                         );
                         None
                     }
@@ -133,11 +137,11 @@ impl Flow {
                     Some(meant) => format!("did you mean `{meant}`?"),
                     None => {
                         let names: Vec<_> = DIRECTIVES.iter().map(|row| row.name).collect();
-                        format!("there are {}; other text with @ stands in backquotes", names.join(", "))
+                        format!("the directives are {}; put other text with @ in backquotes", names.join(", "))
                     }
                 };
-                wrong(format!("`{name}` is no directive"), "unknown", &help);
-                // so that what belongs to it is not wrong, too
+                wrong(format!("`{name}` is not a directive"), "unknown", &help);
+                // treat it as the directive that was meant, to avoid errors that only follow from this one
                 match meant {
                     Some("@if" | "@for") if self.levels.len() == DEEPEST => self.too_deep += 1,
                     Some("@if") => {
@@ -152,7 +156,7 @@ impl Flow {
         }
     }
 
-    /// All of it, as far as directives make it more than lines. An open `@if` is reported.
+    /// The finished steps; `None` if the sequence has no directives. An `@if` or `@for` without `@end` is reported.
     pub fn finish(mut self, diags: &mut Vec<Diag>) -> Option<Vec<Step>> {
         if let Some(level) = self.levels.last() {
             diags.push(
@@ -197,25 +201,25 @@ impl Flow {
         if self.arms == MOST_ARMS + 1 {
             diags.push(
                 Diag::new(Code::PF707, format!("a sequence with more than {MOST_ARMS} branches"))
-                    .at(at, "one too many")
-                    .help("make it simpler: too many ways to try them all"),
+                    .at(at, "one branch too many")
+                    .help("simplify the conditions: there are too many combinations to check"),
             );
         }
     }
 
-    /// Is an `@if` the directive that `@end` closes next?
+    /// Is `@if` the innermost open directive?
     fn in_condition(&self) -> bool {
         self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { .. }))
     }
 
-    /// Does a directive lie too deep, or belong to one that does? Its lines count as those of the level above.
+    /// Is a directive beyond the maximum depth, or does it belong to such a directive? Its lines then belong to the level above.
     fn lies_too_deep(&mut self, directive: &Directive, diags: &mut Vec<Diag>) -> bool {
         if directive.kind.opens() && self.levels.len() == DEEPEST {
             if self.too_deep == 0 {
                 diags.push(
-                    Diag::new(Code::PF707, format!("directives lie more than {DEEPEST} deep"))
-                        .at(directive.name.span, "one too many")
-                        .help("ask for both with `and`, or go on with `@elif`"),
+                    Diag::new(Code::PF707, format!("directives are nested more than {DEEPEST} deep"))
+                        .at(directive.name.span, "one level too many")
+                        .help("combine conditions with `and`, or use `@elif`"),
                 );
             }
             self.too_deep += 1;
@@ -228,7 +232,7 @@ impl Flow {
         inside
     }
 
-    /// What an `@for` goes through.
+    /// The kind of items of an `@for`.
     fn list(&self, directive: &Directive, diags: &mut Vec<Diag>) -> Each {
         let rest = &directive.rest;
         let mut wrong = |message: String, label: &str, help: String| {
@@ -239,7 +243,7 @@ impl Flow {
             let help = did_you_mean(&rest.text, names())
                 .unwrap_or_else(|| "write `@for tool`, `@for operation` or `@for work`".into());
             let what = if rest.text.is_empty() { "@for".to_owned() } else { format!("`@for {}`", rest.text) };
-            wrong(format!("{what} goes through nothing"), "no list", help);
+            wrong(format!("{what} has no list"), "the list is missing", help);
             return Each::Tool;
         };
         let outer = |level: &Level| if let Kind::For(each, _) = level.kind { Some(each) } else { None };
@@ -247,7 +251,9 @@ impl Flow {
             Some(outer) if each != Each::Operation || outer == Each::Operation => wrong(
                 format!("@for {} inside @for {}", each.name(), outer.name()),
                 "one list inside another",
-                "only `@for operation` lies in another: it lists the operations of that tool or work offset".into(),
+                "only `@for operation` can be inside another @for: it lists the operations of that tool or work \
+                 offset"
+                    .into(),
             ),
             _ => {}
         }
@@ -270,7 +276,7 @@ impl Flow {
             let help = if name == "@else" { "write `@elif` for another condition" } else { "take it out" };
             diags.push(
                 Diag::new(Code::PF707, format!("words after {name}"))
-                    .at(directive.rest.span, "nothing stands here")
+                    .at(directive.rest.span, "no words are allowed here")
                     .help(help),
             );
         }
@@ -283,22 +289,22 @@ impl Flow {
         context: &Context,
         diags: &mut Vec<Diag>,
     ) -> Option<Formula> {
-        // one that can't be read holds like any other: the form does not print
+        // the placeholder does not matter: a form with an unreadable condition never prints
         let formula = condition(asked, context, diags).unwrap_or(Formula::Has(VarId::H));
         if let Some(holds) = formula.decided(&NoValues, &|_| false) {
             let what = if holds { "always true" } else { "never true" };
-            let help = if holds { "take the condition out" } else { "take its lines out" };
+            let help = if holds { "remove the condition" } else { "remove its lines" };
             diags.push(
                 Diag::new(Code::PF708, format!("a condition that is {what}"))
-                    .at(directive.rest.span, "nothing in it changes")
-                    .help(format!("{help}, or ask for a variable: `[speed] > 0`")),
+                    .at(directive.rest.span, "it contains no value that changes")
+                    .help(format!("{help}, or test a variable: `[speed] > 0`")),
             );
         }
         Some(formula)
     }
 }
 
-/// What `@set` gives a value.
+/// The target of `@set`.
 fn settable(target: &Spanned, context: &Context, diags: &mut Vec<Diag>) -> Option<Target> {
     if let Some((row, _)) = property(&target.text, context) {
         return Some(Target::Property(row));
@@ -319,7 +325,7 @@ fn settable(target: &Spanned, context: &Context, diags: &mut Vec<Diag>) -> Optio
                 .unwrap_or_else(|| "val1 to val10 and the form's properties can be set: `@set val1 = [h]+2`".into());
             (format!("`{}` can't be set by a form", target.text), help)
         };
-        diags.push(Diag::new(Code::PF707, message).at(target.span, "no variable of its own").help(help));
+        diags.push(Diag::new(Code::PF707, message).at(target.span, "not a variable that can be set").help(help));
     }
     var.map(Target::Var)
 }

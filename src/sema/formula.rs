@@ -1,4 +1,4 @@
-//! Expressions with their names resolved and their types known, and the one function that calculates them.
+//! Expressions with resolved names and checked types, and their evaluation.
 
 use std::borrow::Cow;
 
@@ -15,58 +15,58 @@ pub enum Formula {
     Number(f64),
     /// A text.
     Text(String),
-    /// Yes or no.
+    /// A yes-or-no constant.
     Yes(bool),
-    /// A variable's value.
+    /// Value of a variable.
     Var(VarId),
     /// A text of the job.
     TextVar(TextId),
-    /// Is the coolant of this kind?
+    /// True if the coolant includes this kind.
     Cools(Coolant),
     /// A property that is a number, by its row.
     Property(u16),
     /// A property that is a text.
     PropertyText(u16),
-    /// Is the property, which is yes or no, yes?
+    /// True if the yes-or-no property is yes.
     PropertyHolds(u16),
-    /// Has the variable a value?
+    /// True if the variable has a value.
     Has(VarId),
-    /// Is the variable, which is 1 or 0, 1?
+    /// True if the variable, which is 1 or 0, is 1.
     True(VarId),
-    /// Is the text there?
+    /// True if the text is not empty.
     HasText(TextId),
-    /// The other sign.
+    /// Number with its sign reversed.
     Negative(Box<Formula>),
-    /// Two numbers make one; the place is the second one's.
+    /// Operation on two numbers; the span is that of the second number.
     Arithmetic(Arithmetic, Box<[Formula; 2]>, Span),
     /// A function of numbers.
     Call(Function, Vec<Formula>),
-    /// Two values compared.
+    /// Comparison of two values.
     Compare(Comparison, Box<[Formula; 2]>),
-    /// A text compared with a pattern.
+    /// Comparison of a text with a pattern.
     Like(Box<Formula>, String),
-    /// The contrary.
+    /// Negation of a condition.
     Not(Box<Formula>),
-    /// Both.
+    /// True if both conditions are true.
     And(Box<[Formula; 2]>),
-    /// One of them, or both.
+    /// True if at least one condition is true.
     Or(Box<[Formula; 2]>),
 }
 
 /// Functions of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
-    /// Without its sign.
+    /// Absolute value.
     Abs,
-    /// The least.
+    /// Minimum.
     Min,
-    /// The greatest.
+    /// Maximum.
     Max,
-    /// To the nearest whole number, half away from zero.
+    /// Nearest whole number; halves are rounded away from zero.
     Round,
-    /// To the whole number below.
+    /// Next whole number below.
     Floor,
-    /// To the whole number above.
+    /// Next whole number above.
     Ceil,
 }
 
@@ -81,7 +81,7 @@ impl Function {
         ("ceil", Function::Ceil),
     ];
 
-    /// Finds a name in any case.
+    /// Finds a function by its name, in upper or lower case.
     pub fn parse(name: &str) -> Option<Function> {
         Function::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, function)| *function)
     }
@@ -104,13 +104,13 @@ impl Function {
     }
 }
 
-/// Where values come from.
+/// Source of the values in a formula.
 pub trait Values {
-    /// The value that a variable prints now; `None`: it has none.
+    /// The current value of a variable; `None` if it has none.
     fn number(&self, var: VarId) -> Option<f64>;
     /// A text; empty where the job has none.
     fn text(&self, id: TextId) -> &str;
-    /// The coolant that the job wants now.
+    /// The coolant that the job currently requests.
     fn coolant(&self) -> Coolant;
     /// A property as a number, by its row; yes is 1.
     fn property(&self, row: u16) -> f64;
@@ -118,7 +118,7 @@ pub trait Values {
     fn property_text(&self, row: u16) -> &str;
 }
 
-/// No values: what is calculated without them is always the same.
+/// No values: a formula that can be calculated with this source is constant.
 pub struct NoValues;
 
 impl Values for NoValues {
@@ -143,7 +143,7 @@ impl Values for NoValues {
     }
 }
 
-/// What comes out.
+/// Result of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value<'a> {
     /// A number.
@@ -155,7 +155,7 @@ pub enum Value<'a> {
 }
 
 impl Value<'_> {
-    /// The value by itself.
+    /// The value with its own copy of a text.
     pub fn into_owned(self) -> Value<'static> {
         match self {
             Value::Number(number) => Value::Number(number),
@@ -165,20 +165,20 @@ impl Value<'_> {
     }
 }
 
-/// Why nothing comes out.
+/// Reason why a formula has no result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Without {
     /// A variable has no value.
     Value(VarId),
-    /// A division by zero: by this.
+    /// A division by zero; the span is that of the divisor.
     Divisor(Span),
 }
 
 impl Formula {
-    /// Calculates.
+    /// Calculates the value.
     ///
     /// # Errors
-    /// A variable has no value, or something is divided by zero.
+    /// A variable has no value, or a divisor is zero.
     pub fn value<'a>(&'a self, values: &'a dyn Values) -> Result<Value<'a>, Without> {
         Ok(match self {
             Formula::Text(text) => Value::Text(Cow::Borrowed(text)),
@@ -223,15 +223,15 @@ impl Formula {
                 let args: Result<Vec<f64>, Without> = args.iter().map(|arg| arg.number(values)).collect();
                 Ok(function.of(&args?))
             }
-            // sema has checked the types
+            // not reached: sema checked the types
             _ => Ok(f64::from(u8::from(self.holds(values)?))),
         }
     }
 
-    /// Does a condition hold? A comparison with a variable that has no value does not.
+    /// Evaluates a condition. A comparison with a variable that has no value is false.
     ///
     /// # Errors
-    /// Something is divided by zero.
+    /// A divisor is zero.
     pub fn holds(&self, values: &dyn Values) -> Result<bool, Without> {
         let without = |error| match error {
             Without::Value(_) => Ok(false),
@@ -256,12 +256,12 @@ impl Formula {
             Formula::Not(of) => Ok(!of.holds(values)?),
             Formula::And(both) => Ok(both[0].holds(values)? && both[1].holds(values)?),
             Formula::Or(both) => Ok(both[0].holds(values)? || both[1].holds(values)?),
-            // sema has checked the types
+            // not reached: sema checked the types
             _ => Ok(false),
         }
     }
 
-    /// Takes every part, the whole first.
+    /// Calls `take` for the formula and each of its parts; the whole comes first.
     pub fn each(&self, take: &mut dyn FnMut(&Formula)) {
         take(self);
         match self {
@@ -274,7 +274,7 @@ impl Formula {
         }
     }
 
-    /// The variables that it asks.
+    /// The variables in the formula.
     pub fn vars(&self) -> VarSet {
         let mut vars = VarSet::default();
         self.each(&mut |part| match part {
@@ -285,7 +285,7 @@ impl Formula {
         vars
     }
 
-    /// Does it ask what `@set` gives this?
+    /// Does the formula use the target of this `@set`?
     pub fn asks(&self, target: Target) -> bool {
         let mut asks = false;
         self.each(&mut |part| {
@@ -301,7 +301,7 @@ impl Formula {
         asks
     }
 
-    /// The texts that it asks.
+    /// The texts in the formula.
     pub fn texts(&self) -> TextSet {
         let mut texts = TextSet::default();
         self.each(&mut |part| {
@@ -312,12 +312,12 @@ impl Formula {
         texts
     }
 
-    /// Is it always the same?
+    /// Is the value constant?
     pub fn is_constant(&self) -> bool {
         self.asks_only(&|_| false)
     }
 
-    /// Does it ask nothing but such properties, by their rows?
+    /// Does the formula depend only on properties for which `known` is true?
     fn asks_only(&self, known: &dyn Fn(u16) -> bool) -> bool {
         let mut only = self.vars().is_empty() && self.texts() == TextSet::default();
         self.each(&mut |part| {
@@ -328,7 +328,7 @@ impl Formula {
         only
     }
 
-    /// Does a condition hold, as far as the known properties alone decide it? `None`: the job decides.
+    /// Evaluates a condition as far as the known properties decide it. `None`: the job decides.
     pub fn decided(&self, values: &dyn Values, known: &dyn Fn(u16) -> bool) -> Option<bool> {
         let both = |both: &[Formula; 2]| both.each_ref().map(|side| side.decided(values, known));
         match self {
@@ -349,7 +349,7 @@ impl Formula {
     }
 }
 
-/// Does a comparison of two values hold? Values of two kinds are neither equal nor unequal.
+/// Evaluates a comparison of two values. Values of different types are neither equal nor unequal.
 fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
     use std::cmp::Ordering::{Equal, Greater, Less};
     let order = match (left, right) {
@@ -369,12 +369,12 @@ fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
     }
 }
 
-/// Is a text like a pattern? `*` stands for any text, `?` for one character; case does not count.
+/// Does a text match a pattern? `*` matches any text, `?` one character; upper and lower case are equal.
 fn is_like(text: &str, pattern: &str) -> bool {
     let text: Vec<char> = text.chars().flat_map(char::to_lowercase).collect();
     let pattern: Vec<char> = pattern.chars().flat_map(char::to_lowercase).collect();
     let (mut at, mut asked) = (0, 0);
-    // where the last `*` stands, and how much of the text it covers so far
+    // position of the last `*`, and how much of the text it matches so far
     let mut star: Option<(usize, usize)> = None;
     while at < text.len() {
         match pattern.get(asked) {

@@ -1,4 +1,4 @@
-//! A library: several posts in one file, each begun by its `Name`.
+//! Libraries: files with several posts. Each post begins with its `Name`.
 
 use super::check::Analysis;
 use crate::diag::{Code, Diag};
@@ -7,22 +7,22 @@ use crate::source::Source;
 use crate::syntax::{self, Head, Statement};
 
 impl Analysis {
-    /// Where the second post begins among the items, which is reported; what is after it is not looked at.
+    /// The index of the item at which a second post begins. Reports the second post; the items after it are not analysed.
     pub(super) fn second_post(&mut self, items: &[&Head]) -> Option<usize> {
         let begun = items.iter().enumerate().filter_map(|(at, item)| Some((at, named(item)?)));
         let posts: Vec<(usize, &Statement)> = begun.collect();
         let (&(_, first), &(at, second)) = (posts.first()?, posts.get(1)?);
         let has_sequences = |items: &[&Head]| items.iter().any(|item| matches!(item, Head::Sequence(_)));
         if !has_sequences(&items[..at]) || !has_sequences(&items[at..]) {
-            return None; // one post that is named twice
+            return None; // one post with two names
         }
         let names: Vec<String> = posts.iter().map(|(_, post)| format!("`{}`", text(post))).collect();
         self.report(
-            Diag::new(Code::PF006, format!("the file holds {} posts: {}", names.len(), names.join(", ")))
+            Diag::new(Code::PF006, format!("the file contains {} posts: {}", names.len(), names.join(", ")))
                 .at(second.line.span, "another post begins here")
                 .at(first.line.span, "the first one")
                 .help(format!(
-                    "say which with `--post {}`, or copy its lines into a file of its own",
+                    "choose one with `--post {}`, or copy its lines into a separate file",
                     names[0].trim_matches('`')
                 )),
         );
@@ -30,7 +30,7 @@ impl Analysis {
     }
 }
 
-/// The `Name` that begins a post.
+/// The `Name` statement that begins a post.
 fn named(item: &Head) -> Option<&Statement> {
     match item {
         Head::Statement(post) if CommandId::parse(&post.name.text) == Some(CommandId::Name) => Some(post),
@@ -42,10 +42,11 @@ fn text(statement: &Statement) -> String {
     statement.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" ")
 }
 
-/// One post of a file, by its name in any case: the lines of the others are empty, so that all places stay.
+/// Extracts one post of a file by its name, in upper or lower case. The lines of other posts become empty, so that line numbers
+/// stay the same.
 ///
 /// # Errors
-/// The file has no such post: the names of those that it has.
+/// The file has no such post. The error lists the names of its posts.
 pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
     let tree = syntax::parse(&file, 0);
     let posts: Vec<(String, usize)> = tree
@@ -57,7 +58,7 @@ pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
     let Some(row) = posts.iter().position(|(own, _)| own.eq_ignore_ascii_case(name)) else {
         return Err(posts.into_iter().map(|(name, _)| name).collect());
     };
-    // what stands before the first name is of the first post
+    // text before the first name belongs to the first post
     let begin = if row == 0 { 0 } else { posts[row].1 };
     let end = posts.get(row + 1).map_or(file.text.len(), |(_, start)| *start);
     let kept = |(at, c): (usize, char)| if (begin..end).contains(&at) || c == '\n' { Some(c) } else { None };

@@ -1,31 +1,31 @@
-//! The limits that the manual sets: words on a line, lines of sequences in a form.
+//! Limits from the manual: words on a line, and lines of sequences in a form.
 
 use super::check::Analysis;
 use crate::diag::{Code, Diag, Severity};
 use crate::syntax::Body;
 
-/// How strictly the classic limits hold.
+/// How the classic limits are applied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Limits {
-    /// 15 words a line, 150 lines: over it is an error.
+    /// 15 words per line, 150 lines: exceeding them is an error.
     #[default]
     Classic,
-    /// 15 words a line, 150 lines: over it is a warning.
+    /// 15 words per line, 150 lines: exceeding them is a warning.
     Extended,
 }
 
-/// Most words on a sequence line, as the manual says.
+/// Maximum number of words on a sequence line, from the manual.
 pub const MOST_WORDS: usize = 15;
-/// Most sequence lines in a form, as the manual says.
+/// Maximum number of sequence lines in a form, from the manual.
 pub const MOST_LINES: usize = 150;
-/// Most bytes of a form, with all that it calls: no form has a tenth of that.
+/// Maximum size of a form in bytes, with all files that it calls. No known form has a tenth of that.
 pub const MOST_TEXT: usize = 512 << 10;
 
 impl Limits {
     /// Names of the limits.
     pub const NAMES: [&'static str; 2] = ["classic", "extended"];
 
-    /// The limits of a name, in either case.
+    /// Finds limits by name, in upper or lower case.
     pub fn parse(name: &str) -> Option<Limits> {
         let at = Limits::NAMES.iter().position(|known| known.eq_ignore_ascii_case(name))?;
         Some([Limits::Classic, Limits::Extended][at])
@@ -33,7 +33,7 @@ impl Limits {
 }
 
 impl Analysis {
-    /// Counts the line of a sequence, and its words.
+    /// Counts a line of a sequence and its words, and checks the limits.
     pub(super) fn limits_of(&mut self, body: &Body) {
         self.line_count += 1;
         if self.line_count == MOST_LINES + 1 {
@@ -44,20 +44,20 @@ impl Analysis {
             return;
         }
         let at = body.begins().nth(MOST_WORDS).map_or(body.line.span, |piece| piece.span);
-        let mut diag = Diag::new(Code::PF601, format!("{count} words on a line, the limit is {MOST_WORDS}"))
+        let mut diag = Diag::new(Code::PF601, format!("{count} words on a line: the limit is {MOST_WORDS}"))
             .at(at, format!("word {}", MOST_WORDS + 1))
             .help("break the line in two; `--limits extended` makes this a warning");
         self.soften(&mut diag);
         self.report(diag);
     }
 
-    /// The lines of all sequences together.
+    /// Checks the number of lines in all sequences together.
     pub(super) fn line_limit(&mut self) {
         if let Some(at) = self.over_lines {
-            let text = format!("{} sequence lines, the limit is {MOST_LINES}", self.line_count);
+            let text = format!("{} sequence lines: the limit is {MOST_LINES}", self.line_count);
             let mut diag = Diag::new(Code::PF602, text)
                 .at(at, format!("line {}", MOST_LINES + 1))
-                .help("take out sequences that are not used; `--limits extended` makes this a warning");
+                .help("remove unused sequences; `--limits extended` makes this a warning");
             self.soften(&mut diag);
             self.report(diag);
         }

@@ -16,20 +16,23 @@ pub(super) fn duplicate_format(letter: u8, span: Span, first: Option<Span>) -> D
         Some(first) => diag.at(first, "first here"),
         None => diag,
     };
-    diag.help("keep one of them; a letter that needs two can be printed by another letter with `Rename`")
+    diag.help(
+        "keep one of them; if a letter needs two formats, use another letter for the second and print it with \
+        `Rename`",
+    )
 }
 
 pub(super) fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
-    Diag::new(Code::PF004, format!("{name} is there twice"))
+    Diag::new(Code::PF004, format!("{name} is defined twice"))
         .at(span, "again here")
         .at(first, "first here")
         .help("keep one of them")
 }
 
-/// What was meant is text of the control.
+/// Adds the advice to write the text in backquotes, because it is text of the control.
 pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
     let [begin, end] = [span.start, span.end].map(|at| (Span { start: at, end: at, ..span }, "`".to_owned()));
-    diag.help("text of the control stands in backquotes, from the beginning of the line to its end").fix(
+    diag.help("put text of the control in backquotes, from the beginning of the line to its end").fix(
         "put the line in backquotes",
         false,
         vec![begin, end],
@@ -38,13 +41,13 @@ pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
 
 pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
-    let mut diag = Diag::new(Code::PF201, format!("`{}` is no command or sequence", name)).at(span, "unknown");
-    // an abbreviation is no slip of the fingers, but the name that begins with it is meant
+    let mut diag = Diag::new(Code::PF201, format!("`{}` is not a command or a sequence", name)).at(span, "unknown");
+    // an abbreviation is no misspelling, but the name that begins with it is meant
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
     let begins = || names().find(|n| name.len() > 2 && begins_with(n));
-    // for posts of other kinds, which may come
+    // reserved for a later version
     if let Some(kept) = ["PlaneOn", "PlaneOff"].iter().find(|kept| kept.eq_ignore_ascii_case(name)) {
-        return diag.help(format!("{kept} is kept for tilted planes, which postform does not print yet: take it out"));
+        return diag.help(format!("{kept} is reserved for tilted planes, which postform can't print yet: remove it"));
     }
     diag.help = did_you_mean(name, names())
         .or_else(|| begins().map(|n| format!("did you mean `{n}`?")))
@@ -52,15 +55,15 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     diag
 }
 
-/// A letter with a number, as no name is: `G80`.
+/// Is the name a letter with a number, as `G80`? No valid name is.
 pub fn is_word(name: &str) -> bool {
     let number = name.strip_prefix(|c: char| c.is_ascii_alphabetic());
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// Words of a sequence whose name line is not there.
+/// Error: words of a sequence whose name line is missing.
 pub fn no_name_line(span: Span) -> Diag {
-    Diag::new(Code::PF001, "words that print stand outside a sequence")
+    Diag::new(Code::PF001, "words to print are outside a sequence")
         .at(span, "this line belongs to no sequence")
-        .help("look for the name line above it: it is missing, or misspelt")
+        .help("check the name line of the sequence above it: it is missing or misspelt")
 }

@@ -1,4 +1,4 @@
-//! From the tree to a checked form: names, arguments, formats, limits.
+//! Converts the tree to a checked form: names, arguments, formats and limits.
 
 mod args;
 mod called;

@@ -10,16 +10,16 @@ use crate::lang::{SequenceId, TextVar, VarId, VarSet};
 use crate::number::LetterFormat;
 use crate::span::Span;
 
-/// A form that was read. It can be rendered when reading it raised no error.
+/// An analysed form. It can be rendered if the analysis found no error.
 #[derive(Clone, Debug, Default)]
 pub struct Form {
-    /// What the commands say.
+    /// Settings from the commands.
     pub settings: Settings,
-    /// Letter formats by letter, with the place of each.
+    /// Letter formats by letter, with the location of each.
     pub formats: IndexMap<u8, (LetterFormat, Span)>,
-    /// Packed words, `A010360`: the letter and its digits as typed.
+    /// Packed words, as `A010360`: the letter and its digits as typed.
     pub packed: IndexMap<u8, String>,
-    /// The sequences in the order of the file.
+    /// The sequences in file order.
     pub sequences: IndexMap<SequenceId, Sequence>,
     /// `Upon [var]` and `Upon Every [var]`.
     pub upons: Vec<Upon>,
@@ -28,33 +28,33 @@ pub struct Form {
 /// A sequence.
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    /// Which.
+    /// Its name.
     pub id: SequenceId,
     /// The name line.
     pub span: Span,
-    /// The count of an advanced cycle.
+    /// The line count of an advanced cycle.
     pub count: Option<usize>,
-    /// The remark on the name line; names the kind of a Custom cycle.
+    /// The comment on the name line. For a Custom cycle it names the kind of cycle.
     pub remark: Option<String>,
-    /// The body is the single word `None`.
+    /// The body consists of the word `None`.
     pub is_none: bool,
     /// `End Cancel`.
     pub cancel: Option<Span>,
     /// The lines that print.
     pub lines: Vec<Line>,
-    /// Which of them print when, where directives say it.
+    /// Selection of the lines by directives, if there are any.
     pub steps: Option<Vec<Step>>,
 }
 
 impl Sequence {
-    /// The kind of cycle that a Custom serves, by the first word of its remark.
+    /// The kind of cycle that a Custom sequence prints: the first word of its comment.
     pub fn custom_kind(&self) -> Option<&str> {
         let is_custom = matches!(self.id, SequenceId::Custom1 | SequenceId::Custom2 | SequenceId::Custom3);
         self.remark.as_deref().filter(|_| is_custom).and_then(kind_of_remark)
     }
 }
 
-/// The first word of a Custom cycle's remark: the kind of cycle that it serves.
+/// The first word of a Custom cycle's comment: the kind of cycle that it prints.
 pub fn kind_of_remark(remark: &str) -> Option<&str> {
     remark.split([' ', '\t', ',', '(']).next().filter(|word| !word.is_empty())
 }
@@ -70,7 +70,7 @@ pub struct Upon {
     pub span: Span,
     /// The lines that print.
     pub lines: Vec<Line>,
-    /// Which of them print when, where directives say it.
+    /// Selection of the lines by directives, if there are any.
     pub steps: Option<Vec<Step>>,
 }
 
@@ -86,9 +86,9 @@ pub struct Line {
 /// One word of a line.
 #[derive(Clone, Debug)]
 pub struct Word {
-    /// Where.
+    /// Location of the word.
     pub span: Span,
-    /// No blank stands before it in the output.
+    /// No space precedes it in the output.
     pub glued: bool,
     /// What the word prints.
     pub kind: WordKind,
@@ -101,7 +101,7 @@ pub enum WordKind {
     Var(u8, VarId),
     /// A variable's value alone.
     Value(VarId),
-    /// A variable inside a comment of the program: its value is for people.
+    /// A variable inside a comment of the program; the control does not read its value.
     Remark(VarId),
     /// A letter with a number, printed as typed.
     Literal(u8, String, f64),
@@ -109,7 +109,7 @@ pub enum WordKind {
     Text(String),
     /// Text of a comment of the program.
     Note(String),
-    /// Text in backquotes: nothing about it is looked at or changed.
+    /// Text in backquotes: neither checked nor changed.
     Quote(String),
     /// A calculated value, with its letter if it has one.
     Formula(Option<u8>, Box<Formula>),
@@ -121,9 +121,9 @@ pub enum WordKind {
     RemarkText(TextVar),
     /// A property that is a text, by its row.
     PropertyText(u16),
-    /// The same inside a comment of the program.
+    /// A text property inside a comment of the program.
     RemarkProperty(u16),
-    /// So many words that follow are a comment with texts of the job: left out where the job has none of them.
+    /// A comment with texts of the job, made of this many following words. It is left out if all of its texts are empty.
     Comment(usize),
 }
 
@@ -145,7 +145,7 @@ impl Word {
         }
     }
 
-    /// Variable of the word, unless that stands in a comment.
+    /// Variable of the word, unless the word is in a comment.
     pub fn printed_var(&self) -> Option<VarId> {
         match self.kind {
             WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
@@ -153,7 +153,7 @@ impl Word {
         }
     }
 
-    /// The variables whose values it prints outside comments, by themselves or calculated with.
+    /// Variables whose values the word prints outside comments, directly or in a calculation.
     pub fn printed_vars(&self) -> VarSet {
         match &self.kind {
             WordKind::Formula(_, formula) => formula.vars(),
@@ -161,7 +161,7 @@ impl Word {
         }
     }
 
-    /// The variables whose values it prints, be it in a comment.
+    /// Variables whose values the word prints, in comments too.
     pub fn told_vars(&self) -> VarSet {
         match &self.kind {
             WordKind::Formula(_, formula) | WordKind::RemarkFormula(formula) => formula.vars(),
@@ -169,17 +169,17 @@ impl Word {
         }
     }
 
-    /// The G or M code that is typed in it; after the slash of block delete, too.
+    /// The typed G or M code of the word, also after the slash of block delete.
     pub fn code(&self) -> Option<Code> {
         b"GM".iter().find_map(|&letter| Code::of(letter, self.typed(letter)?))
     }
 
-    /// Is it one of these codes, as typed?
+    /// Is the word one of these typed codes?
     pub fn is_code(&self, letter: u8, codes: &[f64]) -> bool {
         self.typed(letter).is_some_and(|value| codes.contains(&value))
     }
 
-    /// Number of the word, if the word has this letter and is typed; after the slash of block delete, too.
+    /// The typed number of a word with this letter, also after the slash of block delete.
     pub fn typed(&self, letter: u8) -> Option<f64> {
         match &self.kind {
             WordKind::Literal(own, _, value) if *own == letter => Some(*value),

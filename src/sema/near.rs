@@ -1,40 +1,40 @@
-//! When numbers are the same to a form: calculating leaves noise after the digits that print, as in 12.7 mm that are
-//! 0.49999999999999994 inches, and a form that asks for .5 can't know of it.
+//! Tolerance for comparing numbers in a form. Calculation leaves noise beyond the printed digits: 12.7 mm are 0.49999999999999994
+//! inches, and a form that compares with .5 must still be true.
 
 use std::cmp::Ordering;
 
-/// What is nearer is the same: a thousandth of the finest digit that a control reads.
+/// Absolute tolerance: a thousandth of the finest digit that a control reads.
 const NEAR: f64 = 1e-9;
 
-/// The same in proportion, for numbers so large that their own digits end before.
+/// Relative tolerance, for numbers so large that their own precision is coarser than the absolute tolerance.
 const NEAR_OF_LARGE: f64 = 1e-12;
 
 fn is_near(left: f64, right: f64) -> bool {
     (left - right).abs() <= NEAR.max(NEAR_OF_LARGE * left.abs().max(right.abs()))
 }
 
-/// The order of two numbers; `None`: one of them is none.
+/// The order of two numbers; `None` if one of them is not a number.
 pub fn order(left: f64, right: f64) -> Option<Ordering> {
     if is_near(left, right) { Some(Ordering::Equal) } else { left.partial_cmp(&right) }
 }
 
-/// Is it nothing to divide by?
+/// Is the divisor zero?
 pub fn is_zero(value: f64) -> bool {
     is_near(value, 0.0)
 }
 
-/// The whole number below.
+/// The next whole number below.
 pub fn floor(value: f64) -> f64 {
     let nearest = value.round();
     if is_near(value, nearest) { nearest } else { value.floor() }
 }
 
-/// The whole number above.
+/// The next whole number above.
 pub fn ceil(value: f64) -> f64 {
     -floor(-value)
 }
 
-/// The nearest whole number, half away from zero.
+/// The nearest whole number; halves are rounded away from zero.
 pub fn round(value: f64) -> f64 {
     floor(value.abs() + 0.5).copysign(value)
 }

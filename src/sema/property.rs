@@ -1,4 +1,4 @@
-//! Properties: values by names of the form's own, which a shop, a job or a person may give.
+//! Properties: named values that the form declares and that a shop, a job or a user may set.
 
 use std::collections::HashSet;
 
@@ -7,19 +7,19 @@ use super::store::Setting;
 use crate::lang::{TextVar, VarId, did_you_mean};
 use crate::span::Span;
 
-/// How many fields of tools a form may name.
+/// Maximum number of tool fields in a form.
 const MOST_FIELDS: usize = 24;
-/// What the name of a tool's field begins with.
+/// Prefix of a tool field's name.
 const OF_TOOL: &str = "tool.";
 
 impl Property {
-    /// The field of a job's tools that it stands for, as `holder`; `None`: the form declares it.
+    /// The field of the job's tools that this property represents, as `holder`; `None` if the form declares the property.
     pub fn of_tool(&self) -> Option<&str> {
         self.name.strip_prefix(OF_TOOL)
     }
 }
 
-/// The fields of tools that texts name, as `[tool.holder]`: texts that each tool of a job gives under `data`, or does not have.
+/// The tool fields in the texts of a form, as `[tool.holder]`. Each tool of a job may give such a text under `data`.
 pub(super) fn fields_of_tools<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<Property> {
     let mut fields: Vec<Property> = Vec::new();
     for text in texts {
@@ -44,27 +44,27 @@ pub(super) fn fields_of_tools<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<P
     fields
 }
 
-/// How many properties a form may have.
+/// Maximum number of properties in a form.
 const MOST: usize = 64;
-/// How long a name may be.
+/// Maximum length of a name.
 const LONGEST_NAME: usize = 30;
-/// How long a text may be.
+/// Maximum length of a text.
 const LONGEST_TEXT: usize = 200;
 
-/// What a property is.
+/// Type of a property.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PropertyKind {
     /// Any number.
     Number,
-    /// A length, in the form's units.
+    /// A length in the form's units.
     Length,
-    /// Degrees.
+    /// An angle in degrees.
     Angle,
     /// Yes or no.
     YesNo,
     /// Text.
     Text,
-    /// One of these words.
+    /// One of a list of words.
     Choice(Vec<String>),
 }
 
@@ -75,20 +75,20 @@ pub enum PropertyValue {
     Number(f64),
     /// Yes or no.
     YesNo(bool),
-    /// A text, or the word that was chosen.
+    /// A text, or the selected word.
     Text(String),
 }
 
 /// `Property through choice(off,on,high) off Coolant through the spindle`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Property {
-    /// Its name, in lower case.
+    /// Name in lower case.
     pub name: String,
-    /// What it is.
+    /// Type of the value.
     pub kind: PropertyKind,
-    /// What holds where nobody says otherwise.
+    /// Default value.
     pub default: PropertyValue,
-    /// What it is for, as a question.
+    /// Description, as a question.
     pub text: String,
     /// The command.
     pub span: Span,
@@ -109,25 +109,25 @@ impl PropertyKind {
                     let meant = match other {
                         "bool" | "boolean" | "switch" | "yes/no" => Some("did you mean `yesno`?".to_owned()),
                         _ if other.starts_with("choice(") => {
-                            Some("write its words without blanks: `choice(off,on)`".into())
+                            Some("write its words without spaces: `choice(off,on)`".into())
                         }
                         _ => did_you_mean(other, kinds),
                     };
-                    let all = || "there are number, length, angle, yesno, text and choice(off,on)".to_owned();
-                    return Err(format!("`{text}` is no kind of property; {}", meant.unwrap_or_else(all)));
+                    let all = || "the kinds are number, length, angle, yesno, text and choice(off,on)".to_owned();
+                    return Err(format!("`{text}` is not a kind of property; {}", meant.unwrap_or_else(all)));
                 };
                 let words: Vec<String> = text["choice(".len()..text.len() - 1].split(',').map(str::to_owned).collect();
                 let mut seen = HashSet::new();
                 let once = words.iter().all(|word| seen.insert(word.to_ascii_lowercase()));
                 if words.len() < 2 || words.iter().any(String::is_empty) || !once {
-                    return Err("a choice has two or more words, each once, as choice(off,on)".into());
+                    return Err("a choice needs two or more different words, as choice(off,on)".into());
                 }
                 PropertyKind::Choice(words)
             }
         })
     }
 
-    /// What it takes, in words.
+    /// The accepted values, in words.
     pub fn takes(&self) -> String {
         match self {
             PropertyKind::Number => "a number".into(),
@@ -139,7 +139,7 @@ impl PropertyKind {
         }
     }
 
-    /// Its name, as forms write it.
+    /// The name of the type, as written in forms.
     pub fn name(&self) -> &'static str {
         match self {
             PropertyKind::Number => "number",
@@ -151,15 +151,15 @@ impl PropertyKind {
         }
     }
 
-    /// Is its value text, which is printed and compared as such?
+    /// Is the value a text, printed and compared as such?
     pub fn is_text(&self) -> bool {
         matches!(self, PropertyKind::Text | PropertyKind::Choice(_))
     }
 
-    /// Reads a value as somebody types it.
+    /// Reads a value as typed by a user.
     ///
     /// # Errors
-    /// It is none of this kind: what it takes.
+    /// The text is no value of this type. The error describes the accepted values.
     pub fn read(&self, text: &str) -> Result<PropertyValue, String> {
         let value = match self {
             PropertyKind::Number | PropertyKind::Length | PropertyKind::Angle => {
@@ -188,7 +188,7 @@ impl PropertyKind {
 }
 
 impl PropertyValue {
-    /// As a number: yes is 1.
+    /// The value as a number; yes is 1.
     pub fn number(&self) -> f64 {
         match self {
             PropertyValue::Number(number) => *number,
@@ -197,7 +197,7 @@ impl PropertyValue {
         }
     }
 
-    /// As a text; empty for what is none.
+    /// The value as a text; empty for other types.
     pub fn text(&self) -> &str {
         if let PropertyValue::Text(text) = self { text } else { "" }
     }
@@ -221,21 +221,23 @@ impl Setting for Vec<Property> {
         let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
         let own = &name.text;
         if !own.starts_with(|c: char| c.is_ascii_lowercase()) || !own.chars().all(letters) || own.len() > LONGEST_NAME {
-            let message =
-                format!("`{own}` is no name of a property: lower-case letters, digits and _, at most {LONGEST_NAME}");
+            let message = format!(
+                "`{own}` can't be the name of a property: use lower-case letters, digits and _, at most \
+                    {LONGEST_NAME}"
+            );
             return bad(Some(name), message);
         }
         if VarId::parse(own).is_some() || TextVar::parse(own).is_some() {
-            return bad(Some(name), format!("[{own}] is a variable: a property has a name of its own"));
+            return bad(Some(name), format!("[{own}] is a variable: use another name for the property"));
         }
         if ["and", "or", "not", "like"].contains(&own.as_str()) {
-            return bad(Some(name), format!("`{own}` is a word of conditions: take another name"));
+            return bad(Some(name), format!("`{own}` is a word of conditions: use another name"));
         }
         if self.iter().any(|other| other.name == *own) {
-            return bad(Some(name), format!("there is a property `{own}`"));
+            return bad(Some(name), format!("the property `{own}` exists already"));
         }
         if self.len() == MOST {
-            return bad(Some(name), format!("a form has at most {MOST} properties"));
+            return bad(Some(name), format!("a form can have at most {MOST} properties"));
         }
         let kind = PropertyKind::parse(&kind.text).or_else(|message| bad(Some(kind), message))?;
         let value = kind.read(&default.text).or_else(|message| bad(Some(default), message))?;
@@ -245,7 +247,7 @@ impl Setting for Vec<Property> {
     }
 }
 
-/// What `@set` gives a value.
+/// The target of `@set`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// A free variable.

@@ -23,7 +23,7 @@ impl Analysis {
             self.report(
                 Diag::new(Code::PF002, format!("{} has no End", node.name.name.text))
                     .at(span, "this sequence")
-                    .help("write `End` on a line of its own after its last line"),
+                    .help("write `End` alone on a line after its last line"),
             );
         }
         let mut words = vec![node.name.name.text.as_str()];
@@ -93,23 +93,33 @@ impl Analysis {
         let count = count.and_then(|text| self.count(node, id, text, least));
         if id.row().is_cycle && id != SequenceId::Cancel && !counted && least <= 1 && most > 1 && !torn {
             self.report(
-                Diag::new(Code::PF709, format!("{} prints {least} lines or {most}: two kinds of cycles", id.name()))
-                    .at(span, "one line is repeated by the control, several are printed for each hole")
-                    .help("give all branches one line, or all of them several, or the sequence a count"),
+                Diag::new(
+                    Code::PF709,
+                    format!("the branches of {} print {least} or {most} lines: two kinds of cycles", id.name()),
+                )
+                .at(
+                    span,
+                    "with one line the control repeats the cycle, with several lines postform prints them \
+                        at each hole",
+                )
+                .help(
+                    "give all branches one line, or give all branches several lines, or give the sequence a \
+                        count",
+                ),
             );
         }
         if least == 0 && most > 0 && must_print(id) && !torn {
             self.report(
-                Diag::new(Code::PF709, format!("a way through {} prints nothing", id.name()))
-                    .at(span, "where no condition holds, or in a branch without lines")
-                    .help("add `@else` with what is printed then: a move, a hole or a tool change would be lost"),
+                Diag::new(Code::PF709, format!("a branch of {} prints nothing", id.name()))
+                    .at(span, "if no condition is true, or in a branch without lines")
+                    .help("add `@else` with the lines for this case: a move, a hole or a tool change would be lost"),
             );
         }
         let list = steps.as_deref().and_then(first_list).filter(|_| is_often(id));
         if let Some((each, at)) = list {
             self.report(
                 Diag::new(Code::PF707, format!("@for {} in {}", each.name(), id.name()))
-                    .at(at, "the whole list, each time that this prints")
+                    .at(at, "this would print the whole list each time")
                     .help("print lists in StartCode, EndCode or a tool change"),
             );
         }
@@ -128,37 +138,40 @@ impl Analysis {
         }
     }
 
-    /// The count of an advanced cycle.
+    /// Reads the line count of an advanced cycle.
     fn count(&mut self, node: &SequenceNode, id: SequenceId, text: &str, lines: usize) -> Option<usize> {
         let at = node.name.args.last().map_or(node.name.line.span, |arg| arg.span);
         if !id.row().is_cycle {
             self.report(
-                Diag::new(Code::PF405, format!("{} is no canned cycle", id.name()))
-                    .at(at, "only a canned cycle has a count")
-                    .help("a remark stands at least three blanks after the name"),
+                Diag::new(Code::PF405, format!("{} is not a canned cycle", id.name()))
+                    .at(at, "only a canned cycle can have a count")
+                    .help("put at least three spaces between the name and a comment"),
             );
             return None;
         }
         let Ok(count) = text.parse::<usize>() else {
             self.report(
-                Diag::new(Code::PF405, format!("`{text}` is no count of lines"))
+                Diag::new(Code::PF405, format!("`{text}` is not a number of lines"))
                     .at(at, "here")
-                    .help("a count is a whole number; a remark stands at least three blanks after the name"),
+                    .help("a count is a whole number; put at least three spaces between the name and a comment"),
             );
             return None;
         };
         if count == 0 || count > lines {
             self.report(
-                Diag::new(Code::PF401, format!("{} counts {count} lines, its body has {lines}", id.name()))
-                    .at(at, format!("from 1 to {lines}"))
-                    .help("the count says how many of the first lines are printed at the first hole only"),
+                Diag::new(
+                    Code::PF401,
+                    format!("the count of {} is {count}, but the number of lines in its body is {lines}", id.name()),
+                )
+                .at(at, format!("from 1 to {lines}"))
+                .help("the count is the number of first lines that are printed only at the first hole"),
             );
             return None;
         }
         Some(count)
     }
 
-    /// `End Cancel` of a canned cycle.
+    /// Reads `End Cancel` of a canned cycle.
     fn end_cancel(&mut self, end: Option<&End>) -> Option<Span> {
         let args = &end?.args;
         let cancel = args.first().filter(|word| word.text.eq_ignore_ascii_case("Cancel"));
@@ -172,17 +185,17 @@ impl Analysis {
         cancel.map(|word| word.span)
     }
 
-    /// `End` of a sequence that is no canned cycle.
+    /// Checks the `End` of a sequence that is no canned cycle.
     fn plain_end(&mut self, end: Option<&End>) {
         let Some((end, word)) = end.and_then(|end| Some((end, end.args.first()?))) else { return };
         let diag =
-            Diag::new(Code::PF405, format!("`{}` after the End of a sequence that is no canned cycle", word.text));
-        // the last line of a program in Klartext
+            Diag::new(Code::PF405, format!("`{}` after the End of a sequence that is not a canned cycle", word.text));
+        // `END PGM` is the last line of a program in Klartext
         self.report(if word.text.eq_ignore_ascii_case("PGM") {
             let last = end.args.last().map_or(word.span, |last| last.span);
             in_backquotes(diag.at(word.span, "text of the control"), end.word.to(last))
         } else {
-            diag.at(word.span, "take this out").help("only a canned cycle is cancelled")
+            diag.at(word.span, "take this out").help("only a canned cycle can be cancelled")
         });
     }
 
@@ -190,23 +203,23 @@ impl Analysis {
         let machine = self.form.settings.machine;
         if !machines.has(machine) {
             self.report(
-                Diag::new(Code::PF603, format!("{name} is for {machines}, this form is for {}", machine.name()))
+                Diag::new(Code::PF603, format!("{name} is for {machines}, but this form is for {}", machine.name()))
                     .at(span, format!("not on a {}", machine.name()))
-                    .help("take it out, or say with `Machine` what the form is for"),
+                    .help("remove it, or set the type of machine with `Machine`"),
             );
         }
     }
 
-    /// `EndCancel` is a word like any other, and would be printed.
+    /// Reports `EndCancel`, which would be printed like any other word.
     fn glued_end(&mut self, body: &Body) {
         if let Some((text, span, meant)) = torn_end(body) {
-            let diag = Diag::new(Code::PF002, format!("`{text}` is no End")).at(span, "words of the output");
+            let diag = Diag::new(Code::PF002, format!("`{text}` is not an End")).at(span, "words of the output");
             self.report(diag.help(format!("write `{meant}`")));
         }
     }
 
-    /// A command between a name and its End would be printed: where its arguments are right ones, it was meant as a command.
-    /// Text commands are left out: `CALL` and `NAME` are words of conversational controls, too.
+    /// Reports a command between a name and its End, where it would be printed. A line counts as a command if its arguments are
+    /// valid. Text commands are not checked: `CALL` and `NAME` are also words of conversational controls.
     fn command_inside(&mut self, body: &Body) {
         let Some((first, args)) = body.words.split_first().filter(|(_, args)| !args.is_empty()) else { return };
         let [Piece { kind: PieceKind::Stray(name), .. }] = first.pieces.as_slice() else { return };
@@ -217,16 +230,16 @@ impl Analysis {
         };
         let args: Vec<Spanned> = args.iter().map(spanned).collect();
         let span = args.iter().fold(first.span, |all, arg| all.to(arg.span));
-        // tried on settings of their own: those of the form grow with its commands
+        // tried on separate settings, so that the form's settings do not change
         if Settings::blank().apply(&Arguments { id, all: &args, span, typed: true }).is_ok() {
-            let diag = Diag::new(Code::PF020, format!("{} is a command, and stands inside a sequence", id.name()));
-            let help = "move it above the first sequence; a word of the control's own stands in backquotes";
+            let diag = Diag::new(Code::PF020, format!("the command {} is inside a sequence", id.name()));
+            let help = "move it above the first sequence; put a word of the control in backquotes";
             self.report(diag.at(span, "this would be printed").help(help));
         }
     }
 }
 
-/// Would something of the job be lost where the sequence prints nothing?
+/// Would an event of the job be lost if the sequence prints nothing?
 fn must_print(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed, S::Index, S::Unwind];
@@ -244,14 +257,14 @@ fn must_print(id: SequenceId) -> bool {
     id.row().is_cycle || moves.contains(&id) || changes.contains(&id)
 }
 
-/// Does a sequence print for single moves or holes?
+/// Does a sequence print single moves or holes?
 fn is_often(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed];
     id.row().is_cycle || moves.contains(&id)
 }
 
-/// `EndCancel`, `End; Cancel`, `End;`: as it is typed, and what was meant.
+/// `EndCancel`, `End; Cancel`, `End;`: the typed text, and the intended one.
 fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
     let texts: Option<Vec<&str>> = body
         .words
@@ -271,11 +284,11 @@ fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
     Some((text, span, meant))
 }
 
-/// What a sequence prints, and when, where directives say it.
+/// The lines of a sequence, and their selection by directives.
 struct Lines {
     lines: Vec<Line>,
     steps: Option<Vec<Step>>,
-    /// Its directives are wrong: what it prints on which way is not known.
+    /// A directive is wrong, so that the selected lines are unknown.
     torn: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What the commands of a form say. Which command sets which field, and what holds without it, is in the rows of `lang`.
+//! Settings from the commands of a form. The rows of `lang` define the field of each command and its default.
 
 use super::args::{Arguments, Read};
 use super::code::Code;
@@ -10,12 +10,12 @@ use crate::lang::{Beam, COMMANDS, CommandId, Coolant, Machine, UnitChoice, VarId
 use crate::span::Span;
 use crate::syntax::Spanned;
 
-/// Centre words of an arc.
+/// Format of an arc's centre.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ArcCentre {
-    /// One letter for each axis, in the order of the axes; fewer cover fewer planes.
+    /// One letter for each axis, in the order of the axes. With fewer letters, fewer planes are possible.
     Letters(Vec<u8>),
-    /// The radius with this letter; printed negative for arcs over 180 degrees.
+    /// The radius with this letter; negative for arcs over 180 degrees.
     Radius(u8),
 }
 
@@ -33,16 +33,16 @@ pub struct DwellWord {
 /// Block numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SequenceNumbers {
-    /// The letter, or a blank for numbers alone; `None` numbers only the lines that print `[block]`.
+    /// The letter; a space for numbers without a letter. With `None`, only lines that print `[block]` have numbers.
     pub letter: Option<u8>,
     /// The first number.
     pub start: i64,
-    /// From one to the next.
+    /// Increment from one number to the next.
     pub step: i64,
 }
 
 impl SequenceNumbers {
-    /// The letter of numbers that have none.
+    /// Placeholder letter for numbers without a letter.
     pub const BARE: u8 = b' ';
 }
 
@@ -55,11 +55,11 @@ impl Default for ArcCentre {
 /// `CoolantKind through M88 M89`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoolantKind {
-    /// The kind.
+    /// Kind of coolant.
     pub kind: Coolant,
-    /// The code that turns it on.
+    /// Code that turns it on.
     pub on: f64,
-    /// The code that ends it; `None`: the one that ends flood coolant.
+    /// Code that turns it off; `None`: the code that turns off flood coolant.
     pub off: Option<f64>,
 }
 
@@ -72,7 +72,7 @@ pub struct MoreWork {
     pub code: Option<control::Code>,
     /// The letter of its word.
     pub letter: u8,
-    /// The number of that word for the first fixture.
+    /// The number in that word for the first fixture.
     pub number: f64,
 }
 
@@ -82,18 +82,18 @@ pub enum LineEnd {
     /// A line feed.
     #[default]
     Lf,
-    /// A carriage return before it.
+    /// A carriage return and a line feed.
     CrLf,
 }
 
 /// A prompted variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prompt {
-    /// What is asked for.
+    /// The variable that the answer sets.
     pub var: VarId,
-    /// The question.
+    /// Text of the question.
     pub text: String,
-    /// The answer when nobody gives one.
+    /// Value without an answer.
     pub default: Option<f64>,
     /// The command.
     pub span: Span,
@@ -104,9 +104,9 @@ pub struct Prompt {
 pub struct TravelLimit {
     /// Letter of the axis.
     pub letter: u8,
-    /// Least position, form units or degrees.
+    /// Minimum position, in form units or degrees.
     pub least: f64,
-    /// Greatest position.
+    /// Maximum position.
     pub greatest: f64,
     /// The command.
     pub span: Span,
@@ -115,9 +115,9 @@ pub struct TravelLimit {
 /// `Replace old new`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replacement {
-    /// The text that goes.
+    /// The text to be replaced.
     pub old: String,
-    /// The text that comes.
+    /// The replacement.
     pub new: String,
     /// The command.
     pub span: Span,
@@ -127,14 +127,14 @@ macro_rules! settings {
     ($($id:ident $name:literal ($args:expr) $times:ident ($without:expr) $standing:ident
        { $($field:ident : $type:ty)? $(= $($place:tt)+)? $(=> $method:ident)? }
        $(if ($used:expr))? $(eg $example:literal)? $meaning:literal;)*) => {
-        /// Everything that commands set. Lengths are in the form's units.
+        /// All settings of a form. Lengths are in the form's units.
         #[derive(Clone, Debug)]
         #[allow(rustdoc::broken_intra_doc_links)] // names in brackets are variables of forms
         pub struct Settings {
             $($(#[doc = $meaning] pub $field: $type,)?)*
-            /// What the form is for.
+            /// Type of the machine.
             pub machine: Machine,
-            /// What it cuts with, where that is switched on and off.
+            /// Type of the beam (torch or laser), which the program switches on and off.
             pub beam: Option<Beam>,
             /// The depth axis is neither printed nor compared.
             pub is_flat: bool,
@@ -148,17 +148,17 @@ macro_rules! settings {
             pub axes: [u8; 3],
             /// Letters of the upper guide's axes.
             pub axes2: [u8; 3],
-            /// Centre words of full circles.
+            /// Format of the centre of full circles.
             pub centre_full: Option<ArcCentre>,
-            /// The prompted variables.
+            /// Prompts for variables.
             pub prompts: Vec<Prompt>,
-            /// Later passes of a thread print approach, cut, clear and return; else X alone.
+            /// Later passes of a thread print approach, cut, clear and return; otherwise only X.
             pub thread_full: bool,
-            /// Secondary clearance of deep cycles that name none.
+            /// Secondary clearance of deep cycles without their own.
             pub cycle_back_deep: Option<f64>,
-            /// Secondary clearance of chip-breaking cycles that name none.
+            /// Secondary clearance of chip-breaking cycles without their own.
             pub cycle_back_chipbreak: Option<f64>,
-            /// Secondary clearance of cycles through webs that name none.
+            /// Secondary clearance of cycles through webs without their own.
             pub cycle_back_thru: Option<f64>,
             /// A peck cycle dwells after each step.
             pub cycle_dwell_steps: bool,
@@ -167,7 +167,7 @@ macro_rules! settings {
         }
 
         impl Settings {
-            /// Nothing: not even the defaults.
+            /// Empty settings, without the defaults.
             pub(super) fn blank() -> Self {
                 Settings {
                     $($($field: <$type>::default(),)?)*
@@ -214,7 +214,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What a form of this machine and these units has before its first command.
+    /// The defaults of a form for this machine and these units.
     pub fn new(machine: Machine, units: UnitChoice) -> Self {
         let mut settings = Settings { machine, units, ..Settings::blank() };
         for row in COMMANDS {
@@ -228,23 +228,23 @@ impl Settings {
         settings
     }
 
-    /// Stores one command.
+    /// Checks and stores one command.
     pub(super) fn apply(&mut self, args: &Arguments) -> Read<()> {
         args.check()?;
         self.store(args)
     }
 
-    /// The control that the form is for; that of forms that name none is much like a Fanuc.
+    /// The control of the form. If the form names none, a generic control that resembles a Fanuc.
     pub fn control(&self) -> &'static Control {
         self.control.unwrap_or_else(Control::of_no_name)
     }
 
-    /// The control whose codes the form has. Codes of lathes have other meanings, which are told by the form's commands.
+    /// The control whose code table applies. Codes of lathes have other meanings, which the form's commands define.
     pub fn codes(&self) -> &'static Control {
         if self.machine == Machine::Mill { self.control() } else { Control::of_no_name() }
     }
 
-    /// Do the form's commands name this G code, so that what it does is known?
+    /// Is this G code in a command of the form, so that its effect is known?
     pub fn names_code(&self, asked: control::Code) -> bool {
         let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];
         let more = [self.depth_rapid.as_ref(), self.thread.as_ref(), Some(&self.orient.0)];

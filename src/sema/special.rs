@@ -1,4 +1,4 @@
-//! Commands with words of their own.
+//! Commands with special arguments.
 
 use super::args::{Arguments, Read, bad, number, whole};
 use super::code::Code;
@@ -15,7 +15,7 @@ impl Setting for DwellWord {
             None => false,
             Some(unit) if unit.text.eq_ignore_ascii_case("s") => false,
             Some(unit) if unit.text.eq_ignore_ascii_case("ms") => true,
-            Some(unit) => return bad(Some(unit), "the unit of a dwell is `s` or `ms`"),
+            Some(unit) => return bad(Some(unit), "the unit of a dwell must be `s` or `ms`"),
         };
         *self = DwellWord { code: args.code(&args.all[0], 'G')?, letter: args.letter(&args.all[1])?, milliseconds };
         Ok(())
@@ -40,7 +40,7 @@ impl Setting for ArcCentre {
                 ArcCentre::Letters(letters.to_vec())
             }
             _ => {
-                let message = format!("{} takes centre letters as `I J K`, or `R`", args.id.name());
+                let message = format!("{} takes centre letters, as `I J K`, or `R`", args.id.name());
                 return bad(args.all.first(), message);
             }
         };
@@ -48,7 +48,7 @@ impl Setting for ArcCentre {
     }
 }
 
-/// `N 10 10`, `- 0 1`, `None`, `None 100 10`: with None, start and step are those of `[block]`.
+/// `N 10 10`, `- 0 1`, `None`, `None 100 10`. With None, start and step apply to `[block]`.
 impl Setting for SequenceNumbers {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let letter = match &args.all[0].text {
@@ -58,7 +58,7 @@ impl Setting for SequenceNumbers {
             _ => {
                 return bad(
                     args.all.first(),
-                    "Sequence#s begins with a letter, with `-` for numbers alone, or is None",
+                    "Sequence#s takes a letter, or `-` for numbers without a letter, or None",
                 );
             }
         };
@@ -74,7 +74,7 @@ impl Setting for Vec<MoreWork> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let first = whole(&args.all[0], 2, 999)? as u16;
         if self.last().is_some_and(|last| last.first >= first) {
-            return bad(args.all.first(), "the fixtures of MoreWork count up from line to line");
+            return bad(args.all.first(), "the fixtures of MoreWork must increase from line to line");
         }
         let (code, word) = match &args.all[1..] {
             [word] => (None, word),
@@ -86,7 +86,7 @@ impl Setting for Vec<MoreWork> {
         let number =
             digits.parse::<f64>().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
         let (Some(letter), Some(number)) = (letter, number) else {
-            return bad(Some(word), format!("`{}` is no word, as `G505` or `P1`", word.text));
+            return bad(Some(word), format!("`{}` is not a word, as `G505` or `P1`", word.text));
         };
         self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase() as u8, number });
         Ok(())
@@ -98,11 +98,11 @@ impl Setting for Vec<CoolantKind> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let kind = match Coolant::parse(&args.all[0].text) {
             Some(kind @ (Coolant::THROUGH | Coolant::AIR | Coolant::MIST | Coolant::HIGH)) => kind,
-            Some(_) => return bad(args.all.first(), "flood coolant and its end are said by `Coolant M8 M9`"),
-            None => return bad(args.all.first(), "a kind of coolant is through, air, mist or high"),
+            Some(_) => return bad(args.all.first(), "define flood coolant and its end with `Coolant M8 M9`"),
+            None => return bad(args.all.first(), "a kind of coolant must be through, air, mist or high"),
         };
         if self.iter().any(|other| other.kind == kind) {
-            return bad(args.all.first(), format!("there is a code for {}", kind.name()));
+            return bad(args.all.first(), format!("{} has a code already", kind.name()));
         }
         let code =
             |index: usize| args.all.get(index).map(|arg| args.code(arg, 'M').map(|code| code.value())).transpose();
@@ -146,7 +146,7 @@ impl Setting for Vec<TravelLimit> {
         let letter = args.letter(&args.all[0])?;
         let (least, greatest) = (number(&args.all[1])?, number(&args.all[2])?);
         if least >= greatest {
-            return bad(Some(&args.all[2]), "the greatest position is not above the least");
+            return bad(Some(&args.all[2]), "the greatest position must be above the least position");
         }
         self.push(TravelLimit { letter, least, greatest, span: args.span });
         Ok(())
@@ -159,12 +159,13 @@ impl Setting for Vec<Prompt> {
         let name = args.all[0].text.trim_matches(['[', ']', '<', '>']);
         let Some(var) = VarId::parse(name) else {
             let message = format!(
-                "`{name}` is no variable: Ask gives one of val1 to val10, and a name of its own has `Property {name} number 0 ..`"
+                "`{name}` is not a variable: use val1 to val10 with Ask; for a name of your own write `Property \
+                 {name} number 0 ..`"
             );
             return bad(args.all.first(), message);
         };
         if var.row().origin == Origin::Computed {
-            let message = format!("[{name}] comes from the toolpath and can't be asked for: use val1 to val10");
+            let message = format!("[{name}] comes from the toolpath and can't be used with Ask: use val1 to val10");
             return bad(args.all.first(), message);
         }
         let text = args.all.get(1).map_or_else(|| var.row().meaning.to_owned(), |a| a.text.clone());
@@ -175,12 +176,12 @@ impl Setting for Vec<Prompt> {
 }
 
 impl Settings {
-    /// `Machine` and `Units` are read ahead of all others, whose defaults depend on them.
+    /// Checks `Machine` and `Units`. They were read before all other commands, whose defaults depend on them.
     pub(super) fn known_word(&mut self, args: &Arguments) -> Read<()> {
         args.choice().map(|_| ())
     }
 
-    /// The machine itself was read before; this is its tool.
+    /// Stores the beam of `Machine`. The machine itself was read before.
     pub(super) fn machine_word(&mut self, args: &Arguments) -> Read<()> {
         self.beam = Beam::parse(args.choice()?);
         Ok(())
@@ -188,13 +189,13 @@ impl Settings {
 
     pub(super) fn ignored_axis(&mut self, args: &Arguments) -> Read<()> {
         if !args.letters()?[0].eq_ignore_ascii_case(&self.axes[2]) {
-            let message = format!("the axis that may be ignored is the depth axis, {}", char::from(self.axes[2]));
+            let message = format!("only the depth axis, {}, can be ignored", char::from(self.axes[2]));
             return bad(args.all.first(), message);
         }
         if self.beam.is_none() {
             return bad(
                 args.all.first(),
-                "Ignore is for torches and lasers: say `Machine Torch` or `Machine Laser` above it",
+                "Ignore is for torches and lasers: write `Machine Torch` or `Machine Laser` above it",
             );
         }
         self.is_flat = true;
@@ -215,7 +216,7 @@ impl Settings {
         let mut centre = ArcCentre::default();
         centre.set(args)?;
         if let ArcCentre::Radius(_) = centre {
-            return bad(args.all.first(), "a full circle has no radius word: give centre letters");
+            return bad(args.all.first(), "a full circle can't have a radius word: give centre letters");
         }
         self.centre_full = Some(centre);
         Ok(())
@@ -250,14 +251,14 @@ impl Settings {
     }
 }
 
-/// The G code of an arc and, if it is given, the M code of the spindle that turns the same way.
+/// Reads the G code of an arc and, if given, the M code for the same spindle direction.
 fn turn(args: &Arguments, spindle: &mut f64) -> Read<Code> {
     let (arc, turn) = args.all.split_at(1);
     let code = Arguments { all: arc, ..*args }.codes()?.swap_remove(0);
     if let [second] = turn {
         let turn = args.code(second, 'M')?;
         if !turn.letter().eq_ignore_ascii_case(&b'M') {
-            return bad(Some(second), format!("`{}` is no M code of the spindle", second.text));
+            return bad(Some(second), format!("`{}` is not an M code of the spindle", second.text));
         }
         *spindle = turn.value();
     }

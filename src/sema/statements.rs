@@ -1,4 +1,4 @@
-//! What stands above the sequences: letter formats and commands.
+//! Statements above the sequences: letter formats and commands.
 
 use indexmap::map::Entry;
 
@@ -46,7 +46,7 @@ impl Analysis {
             && let Some(&(_, centre)) = self.commands_seen.iter().find(|(seen, _)| *seen == CommandId::CtrCode)
         {
             self.report(
-                Diag::new(Code::PF003, "ArcPlane stands after CtrCode")
+                Diag::new(Code::PF003, "ArcPlane is after CtrCode")
                     .at(statement.line.span, "move this up")
                     .at(centre, "before this"),
             );
@@ -54,7 +54,7 @@ impl Analysis {
         if !id.row().repeats {
             if let Some(&(_, first)) = self.commands_seen.iter().find(|(seen, _)| *seen == id) {
                 self.report(
-                    Diag::new(Code::PF006, format!("{} is there twice", id.name()))
+                    Diag::new(Code::PF006, format!("{} is given twice", id.name()))
                         .at(statement.line.span, "again here")
                         .at(first, "first here")
                         .help("keep one of them"),
@@ -71,7 +71,7 @@ impl Analysis {
             let at = bad.span.unwrap_or(statement.line.span);
             let mut diag = Diag::new(Code::PF302, bad.message).at(at, "here");
             if let Tail::Lost(lost) = &statement.line.tail {
-                diag = diag.at(lost.span, "two blanks before this make it a comment");
+                diag = diag.at(lost.span, "two spaces before this make it a comment");
             }
             let without = match id.row().without.to_string() {
                 nothing if nothing.is_empty() => nothing,
@@ -93,7 +93,7 @@ impl Analysis {
         }
     }
 
-    /// A line that begins with no command's name: what was it to be?
+    /// Reports a line that begins with no command's name, with advice on what was probably meant.
     fn no_command(&mut self, statement: &Statement) {
         let (name, span) = (&statement.name.text, statement.name.span);
         let whole = statement.args.iter().fold(span, |all, arg| all.to(arg.span));
@@ -102,10 +102,10 @@ impl Analysis {
         let diag = if prints {
             let upon = name.get(..4).is_some_and(|head| head.eq_ignore_ascii_case("Upon"));
             let help = match upon {
-                true => format!("write `Upon {}`, with a blank", &name[4..]),
+                true => format!("write `Upon {}`, with a space", &name[4..]),
                 false => "put it between a sequence name and its End".into(),
             };
-            Diag::new(Code::PF001, "words that print stand outside a sequence")
+            Diag::new(Code::PF001, "words to print are outside a sequence")
                 .at(whole, "this line belongs to no sequence")
                 .help(help)
         } else if self.first_sequence.is_some() && is_word(name) {
@@ -119,7 +119,7 @@ impl Analysis {
     }
 }
 
-/// A control character in text that goes into programs. Old names may have bytes that count as one, and print nothing.
+/// Finds a control character in text for programs. Names are exempt: they are not printed, and old ones may contain such bytes.
 fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> {
     use CommandId::{Comment, Eob, Mod, Replace};
     if !matches!(id, Comment | Eob | Mod | Replace) {
@@ -128,7 +128,7 @@ fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> 
     args.iter().find_map(|arg| Some((arg, arg.text.chars().find(|&c| c.is_control() && c != '\t')?)))
 }
 
-/// A letter, and nothing that a name has after it.
+/// Does the name look like a letter format? A letter is followed by nothing that belongs to a name.
 fn is_like_a_format(name: &str) -> bool {
     let mut bytes = name.bytes();
     bytes.next().is_some_and(|b| b.is_ascii_alphabetic())

@@ -1,4 +1,4 @@
-//! Parts of a sequence: lines, and what says which of them print.
+//! Parts of a sequence: lines, and the directives that select them.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use crate::span::Span;
 /// A part of a sequence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// These of its lines.
+    /// Lines of the sequence that print.
     Lines(Range<usize>),
-    /// The first arm whose condition holds; without one nothing.
+    /// The first arm with a true condition prints; if there is none, nothing prints.
     If(Vec<Arm>),
-    /// These once for each.
+    /// The steps print once for each item.
     For(Each, Vec<Step>, Span),
-    /// A variable has this value from here on.
+    /// Sets a variable or property for everything after it.
     Set(Target, Formula, Span),
 }
 
@@ -25,13 +25,13 @@ pub enum Step {
 pub struct Arm {
     /// The directive.
     pub span: Span,
-    /// When it prints; `None`: else.
+    /// Condition of the arm; `None` for `@else`.
     pub condition: Option<Formula>,
-    /// What is in it.
+    /// Steps inside the arm.
     pub steps: Vec<Step>,
 }
 
-/// How many lines a sequence prints, on its shortest and on its longest way.
+/// Minimum and maximum number of lines that a sequence prints.
 pub fn line_counts(steps: &[Step]) -> (usize, usize) {
     let mut both = (0, 0);
     for step in steps {
@@ -51,7 +51,7 @@ pub fn line_counts(steps: &[Step]) -> (usize, usize) {
     both
 }
 
-/// Takes every step, and those in it after it.
+/// Calls `take` for every step, and then for the steps inside it.
 pub fn each_step<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Step)) {
     for step in steps {
         take(step);
@@ -63,7 +63,7 @@ pub fn each_step<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Step)) {
     }
 }
 
-/// All formulas of steps, each with the place of its directive.
+/// Calls `take` for all formulas of the steps, with the location of the directive.
 pub fn each_formula<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Formula, Span)) {
     each_step(steps, &mut |step| match step {
         Step::Lines(_) | Step::For(..) => {}
@@ -76,7 +76,7 @@ pub fn each_formula<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Formula, Spa
     });
 }
 
-/// The first list that the steps go through, if there is one.
+/// The first list in the steps, if there is one.
 pub fn first_list(steps: &[Step]) -> Option<(Each, Span)> {
     steps.iter().find_map(|step| match step {
         Step::For(each, _, span) => Some((*each, *span)),

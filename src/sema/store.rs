@@ -1,4 +1,4 @@
-//! Fields of the settings, by their types: how each takes the arguments of its command.
+//! Setting of fields by their type: how each type takes the arguments of its command.
 
 use super::args::{Arguments, Read, bad, whole};
 use super::code::Code;
@@ -7,11 +7,11 @@ use crate::lang::Args;
 
 /// A field that a command sets.
 pub trait Setting {
-    /// Takes the arguments, of which there are as many as the command's row says.
+    /// Sets the field from the arguments. Their number was checked against the command's row.
     fn set(&mut self, args: &Arguments) -> Read<()>;
 }
 
-/// A field that is empty without its command.
+/// A field that has no value without its command.
 impl<T: Setting + Default> Setting for Option<T> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let mut value = T::default();
@@ -28,7 +28,7 @@ impl Setting for bool {
     }
 }
 
-/// A control by its name; one that a file describes was read with the form.
+/// A control by its name. A control that a file describes is stored before the commands are read.
 impl Setting for Option<&'static Control> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let name = args.text().to_ascii_lowercase();
@@ -38,7 +38,8 @@ impl Setting for Option<&'static Control> {
         let Some(control) = Control::named(&name) else {
             let known = control::names().collect::<Vec<_>>().join(", ");
             let message = format!(
-                "there is no control `{name}`: there are {known}, or a file, as `my-vf2.toml`; most other controls are much like `fanuc`: `postform new --control-file fanuc -o {name}.toml` makes a file to begin with"
+                "there is no control `{name}`: use {known}, or a file, as `my-vf2.toml`; most other controls are \
+                 similar to `fanuc`: `postform new --control-file fanuc -o {name}.toml` makes a file to start from"
             );
             return bad(args.all.first(), message);
         };
@@ -74,7 +75,7 @@ impl Setting for f64 {
     }
 }
 
-/// Numbers of codes; later ones that are not given stay as they are.
+/// Numbers of codes. If fewer codes are given, the last fields keep their values.
 impl<const N: usize> Setting for [f64; N] {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         for (slot, code) in self.iter_mut().zip(args.codes()?) {
@@ -84,7 +85,7 @@ impl<const N: usize> Setting for [f64; N] {
     }
 }
 
-/// Codes, however they are typed.
+/// Codes, with or without their letters.
 impl Setting for Vec<control::Code> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = args.codes()?.iter().map(|code| code.code).collect();
@@ -113,7 +114,7 @@ impl Setting for u8 {
     }
 }
 
-/// Letters; those of a command that repeats add up.
+/// Letters. A command that repeats adds letters.
 impl Setting for Vec<u8> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         self.extend(args.letters()?);

@@ -1,4 +1,4 @@
-//! What an Upon sets: words after it print it, and conditions are asked before it.
+//! Checks of `@set` in Upon sequences: conditions are evaluated before the Upon runs.
 
 use super::model::Form;
 use super::property::Target;
@@ -6,8 +6,8 @@ use super::step::{Step, each_formula, each_step};
 use crate::diag::{Code, Diag};
 use crate::span::Span;
 
-/// Conditions of sequences that ask what an Upon sets. A sequence chooses its way before the Upons that print in front of
-/// it, so it would go by the value of before.
+/// Reports conditions of a sequence that depend on a value set in an Upon. A sequence selects its branches before the Upons in
+/// front of it run, so it would use the old value.
 pub(super) fn check(form: &Form, diags: &mut Vec<Diag>) {
     let mut set: Vec<(Target, Span, &'static str)> = Vec::new();
     for upon in &form.upons {
@@ -21,10 +21,10 @@ pub(super) fn check(form: &Form, diags: &mut Vec<Diag>) {
         each_formula(sequence.steps.as_deref().unwrap_or_default(), &mut |formula, at| {
             let Some((_, by, upon)) = set.iter().find(|(target, ..)| formula.asks(*target)) else { return };
             diags.push(
-                Diag::new(Code::PF707, format!("what Upon [{upon}] sets is asked before it prints"))
-                    .at(at, "asked before the Upon in front of this sequence prints")
+                Diag::new(Code::PF707, format!("a value that Upon [{upon}] sets is tested before Upon prints"))
+                    .at(at, "tested before the Upon of this sequence prints")
                     .at(*by, "set here")
-                    .help(format!("ask [{upon}] itself, or set the value in the sequence that asks")),
+                    .help(format!("test [{upon}] itself, or set the value in the sequence that tests it")),
             );
         });
     }

@@ -3,7 +3,7 @@
 use super::settings::Settings;
 use crate::lang::VarId;
 
-/// The names that a variable's values have, with the number of each.
+/// The names of a variable's values, with the number of each.
 pub fn names_of(var: VarId, settings: &Settings) -> Vec<(&'static str, f64)> {
     let table = |names: &[&'static str], values: &[f64]| names.iter().copied().zip(values.iter().copied()).collect();
     match var {

@@ -1,4 +1,4 @@
-//! Words of a line: variables found, texts put together, what can't be read reported.
+//! Words of a line: resolves variables, joins texts and reports errors.
 
 use super::expression::number;
 use super::formula::Formula;
@@ -12,13 +12,13 @@ use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
 use crate::terminal::steers;
 
-/// The words of one body line.
+/// Resolves the words of a body line.
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     let (codes, remark) = body.words.split_at(before_remark(&body.words, context.comment));
     let mut words = Vec::new();
     if let Some(span) = statement(codes) {
-        let diag = Diag::new(Code::PF001, "a statement of the control's own language, with brackets of its own");
-        diags.push(in_backquotes(diag.at(span, "not to be read as variables"), span));
+        let diag = Diag::new(Code::PF001, "a statement in the control's own language, with brackets");
+        diags.push(in_backquotes(diag.at(span, "these brackets are not variables"), span));
         words.push(Word { span, glued: false, kind: WordKind::Quote(String::new()) });
         return Line { span: body.line.span, words };
     }
@@ -42,7 +42,7 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     Line { span: body.line.span, words }
 }
 
-/// `IF [#1 GT 2] GOTO 5`, `WHILE [#1 LT 5] DO1`: where it stands.
+/// Finds a statement of the control's own language: `IF [#1 GT 2] GOTO 5`, `WHILE [#1 LT 5] DO1`.
 fn statement(words: &[syntax::Word]) -> Option<Span> {
     let text = |word: &syntax::Word| match word.pieces.first() {
         Some(Piece { kind: PieceKind::Stray(text), .. }) => text.to_ascii_uppercase(),
@@ -53,8 +53,8 @@ fn statement(words: &[syntax::Word]) -> Option<Span> {
     asks.then(|| first.span.to(last.span))
 }
 
-/// How many words stand before a comment that runs to the end of the block. Like the words in round brackets, those
-/// after its mark are for people: they set nothing, and are printed whenever the block is.
+/// The number of words before a comment that extends to the end of the block. Words after its mark are comment text, like those
+/// in round brackets: they set nothing, and print whenever the block does.
 pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
     let [open, close] = comment;
     let opens = |word: &syntax::Word| matches!(word.pieces.first(), Some(Piece { kind: PieceKind::Stray(text), .. }) if text.starts_with(open.as_str()));
@@ -63,7 +63,7 @@ pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
 }
 
 fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut Vec<Word>, diags: &mut Vec<Diag>) {
-    // only between two words is a blank missing; texts stick to their variables
+    // a space is missing only between two words; texts may be joined to variables
     let glued = previous.is_some_and(|before| !piece.lacks_blank_after(before));
     let kind = match &piece.kind {
         PieceKind::Variable { letter, name } if let Some((row, property)) = property(&name.text, context) => {
@@ -77,7 +77,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var))
         }
         PieceKind::Expression { letter, expr, .. } => match number(expr, context, diags) {
-            // a name in blanks or brackets is the name
+            // a name with spaces or in brackets is still only a name
             Some(Formula::Var(var)) => letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var)),
             Some(formula) => WordKind::Formula(*letter, Box::new(formula)),
             None => return,
@@ -113,22 +113,22 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
         && !matches!(kind, WordKind::PropertyText(_))
     {
         diags.push(
-            Diag::new(Code::PF001, "a sign can't stand before a variable")
-                .at(*span, "this sign would be printed before the value's own")
-                .help("take the sign out; `RevSigns` reverses the sign of a letter"),
+            Diag::new(Code::PF001, "a sign before a variable")
+                .at(*span, "this sign would be printed before the sign of the value")
+                .help("remove the sign; `RevSigns` reverses the sign of a letter"),
         );
     }
     if is_value && previous.is_some_and(Piece::is_word) {
         diags.push(
-            Diag::new(Code::PF001, "a value stands directly after a word")
-                .at(piece.span, "this would be printed as a word of its own")
-                .help("keep one of them; digits in front of a value come from its format, as `T 2` for T01"),
+            Diag::new(Code::PF001, "a value directly after a word")
+                .at(piece.span, "this would be printed as a separate word")
+                .help("keep one of them; for leading zeros use a format, as `T 2` for T01"),
         );
     }
     words.push(Word { span: piece.span, glued, kind });
 }
 
-/// The word of a property.
+/// Resolves a word with a property.
 fn property_word(
     letter: Option<u8>,
     row: u16,
@@ -139,9 +139,9 @@ fn property_word(
     match property.kind {
         PropertyKind::YesNo => {
             diags.push(
-                Diag::new(Code::PF704, format!("[{}] is yes or no, and nothing to print", property.name))
+                Diag::new(Code::PF704, format!("[{}] is yes or no, and can't be printed", property.name))
                     .at(span, "this is yes or no")
-                    .help(format!("ask it: `@if [{}]`", property.name)),
+                    .help(format!("test it: `@if [{}]`", property.name)),
             );
             None
         }
@@ -150,22 +150,22 @@ fn property_word(
     }
 }
 
-/// A text with its width; reports a width that is none.
+/// Resolves a text with its width; reports an invalid width.
 fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     let var = TextVar::parse(&name.text);
     if var.is_none() {
         let text = name.text.split(':').next().unwrap_or_default();
         diags.push(
-            Diag::new(Code::PF702, format!("`{}` has a width that is none", name.text))
-                .at(name.span, format!("from 1 to {WIDEST}, or from -1 to -{WIDEST}"))
-                .help(format!("write `[{text}:12]` for 12 characters, `[{text}:-12]` to have the text at their right")),
+            Diag::new(Code::PF702, format!("`{}` has an invalid width", name.text))
+                .at(name.span, format!("use 1 to {WIDEST}, or -1 to -{WIDEST}"))
+                .help(format!("write `[{text}:12]` for 12 characters, `[{text}:-12]` for 12 characters aligned right")),
         );
     }
     var
 }
 
-/// Outside comments a text of the job stands after text of the form: alone, a name like M30 would be a code. A blank, a
-/// point or the slash of block delete before it changes nothing about that.
+/// Checks that a text of the job outside comments follows text of the form. Otherwise a name like M30 would be read as a code. A
+/// space, a point or the slash of block delete before it is not sufficient.
 fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     let holds = |piece: &Piece| match &piece.kind {
         PieceKind::Stray(text) | PieceKind::Quote(text) => !text.trim_matches([' ', '/', '.']).is_empty(),
@@ -185,16 +185,16 @@ fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
             Some(letter) => {
                 let letter = char::from(*letter);
                 (
-                    format!("[{inner}] is a text, and {letter} prints a number"),
+                    format!("[{inner}] is a text, but {letter} prints a number"),
                     format!("write `` `{letter}`[{inner}] ``"),
                 )
             }
             None if beside.into_iter().any(Piece::is_word) => {
-                let message = format!("[{inner}] is a text, and stands beside a word");
-                (message, "put a blank, or text in backquotes, between them".to_owned())
+                let message = format!("[{inner}] is a text next to a word");
+                (message, "put a space, or text in backquotes, between them".to_owned())
             }
             None if !pieces[..i].iter().any(holds) => {
-                let message = format!("[{inner}] stands alone: a name like M30 would be a code");
+                let message = format!("[{inner}] is printed alone: a name like M30 would be a code");
                 (message, format!("put it into a comment, `([{inner}])`, or after text: `` `\"`[{inner}]`\"` ``"))
             }
             None => continue,
@@ -203,13 +203,13 @@ fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A comment of the program while it is read: text and values.
+/// Builds a comment of the program: text and values.
 struct Note<'a> {
     span: Span,
     glued: bool,
     text: String,
     words: &'a mut Vec<Word>,
-    /// Where its words begin.
+    /// Index of its first word.
     begin: usize,
 }
 
@@ -218,7 +218,7 @@ impl<'a> Note<'a> {
         Note { span, glued, text: String::new(), begin: words.len(), words }
     }
 
-    /// A word of the comment that is no text of its own.
+    /// Adds a word of the comment that is not plain text.
     fn push(&mut self, span: Span, kind: WordKind) {
         self.end();
         self.words.push(Word { span, glued: self.glued, kind });
@@ -276,14 +276,14 @@ impl<'a> Note<'a> {
         }
     }
 
-    /// A comment in round brackets, closed with the form's mark when it is open.
+    /// Adds a comment in round brackets. If it is not closed, the form's mark closes it.
     fn brackets(&mut self, parts: &[Piece], closed: bool, context: &Context, diags: &mut Vec<Diag>) {
         self.text.push('(');
         self.pieces(parts, context, diags);
         self.text.push_str(if closed { ")" } else { &context.comment[1] });
     }
 
-    /// The whole comment.
+    /// Completes the comment.
     fn finish(mut self) {
         self.end();
         let words = &self.words[self.begin..];
@@ -293,7 +293,7 @@ impl<'a> Note<'a> {
         }
     }
 
-    /// The text so far becomes a word.
+    /// Makes a word of the text so far.
     fn end(&mut self) {
         if !self.text.is_empty() {
             let text = WordKind::Note(std::mem::take(&mut self.text));
@@ -303,51 +303,51 @@ impl<'a> Note<'a> {
     }
 }
 
-/// Text is printed as it stands, unless it can't have been meant so.
+/// Checks a text that is printed as typed: reports one that is certainly a mistake.
 fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     if text.contains(['[', ']', '<', '>']) {
         diags.push(
-            Diag::new(Code::PF001, format!("`{}` is no word", text)).at(span, "a bracket without its partner").help(
-                "variables are written `X[h]`, what is calculated `X[h+1]`; text with brackets stands in backquotes",
-            ),
+            Diag::new(Code::PF001, format!("`{}` is not a word", text))
+                .at(span, "an unmatched bracket")
+                .help("write variables as `X[h]`, expressions as `X[h+1]`; put text with brackets in backquotes"),
         );
     } else if text.contains('`') {
         diags.push(
-            Diag::new(Code::PF001, "a backquote without its partner")
-                .at(span, "text in backquotes ends on its line")
-                .help("write a second one after the text; a backquote in it is written twice"),
+            Diag::new(Code::PF001, "an unmatched backquote")
+                .at(span, "text in backquotes must end on the same line")
+                .help("write a second backquote after the text; write a backquote inside the text twice"),
         );
     } else if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
         diags.push(invisible(c, span));
     } else if after_word {
         diags.push(
-            Diag::new(Code::PF001, format!("`{}` stands directly after a word", text))
+            Diag::new(Code::PF001, format!("`{}` is directly after a word", text))
                 .at(span, "this would be printed after the value")
-                .help("take it out, or put a blank before it"),
+                .help("remove it, or put a space before it"),
         );
     }
 }
 
-/// Nothing about text in backquotes is looked at, but for what nobody sees.
+/// Checks text in backquotes only for invisible characters.
 fn check_quote(text: &str, span: Span, diags: &mut Vec<Diag>) {
     if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
         diags.push(invisible(c, span));
     }
 }
 
-/// A character that nobody sees, or takes for a blank.
+/// Is a character invisible, or does it look like a space?
 fn is_invisible(c: char) -> bool {
     steers(c) || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
 }
 
-/// What is said of one.
+/// The finding for an invisible character.
 pub(super) fn invisible(c: char, span: Span) -> Diag {
     let what = match c {
-        '\u{a0}' => "a no-break space, which looks like a blank".to_owned(),
+        '\u{a0}' => "a no-break space, which looks like a space".to_owned(),
         c if c.is_control() => format!("the control character U+{:04X}", u32::from(c)),
         c => format!("the character U+{:04X}, which is invisible", u32::from(c)),
     };
-    Diag::new(Code::PF001, format!("the line holds {what}"))
+    Diag::new(Code::PF001, format!("the line contains {what}"))
         .at(span, "in this word")
-        .help("take it out; where a blank belongs, type one")
+        .help("remove it, or replace it by a space")
 }

@@ -1,10 +1,10 @@
-//! The sheet of a job, from what lies in it.
+//! Collects the sheet of a job from its contents.
 
 use super::{OperationRow, SetupSheet, StopRow, ToolRow, Work};
 use crate::survey::{Reach, Survey, Totals};
 use crate::toolpath::{Event, FeedMode, Flow, Given, Place, Sink, Start, StopKind, Tool, Units};
 
-/// Takes the head of a job and its stops.
+/// Collects the head of a job and its stops.
 #[derive(Debug, Default)]
 pub struct Stops {
     /// The head.
@@ -42,8 +42,8 @@ fn json(value: &Given) -> serde_json::Value {
     }
 }
 
-/// The rows that the job gives; the caller adds what it knows of program, machine and files. `by_diameter`: the job is a
-/// lathe's, and whether X of its programs counts diameters.
+/// The rows from the job; the caller adds the data of program, machine and files. `by_diameter`: `None` for a mill; for a
+/// lathe, whether X of its programs is a diameter.
 pub fn of_job(
     survey: &Survey,
     stops: Stops,
@@ -54,7 +54,7 @@ pub fn of_job(
         let [first, second, third] = reach.0.map(|range| range.map(|(least, most)| [least, most]));
         match by_diameter {
             None => [first, second, third],
-            // a lathe's job has Z first, and then the radius
+            // in a lathe's job, Z is first and the radius second
             Some(by_diameter) => {
                 let scale = if by_diameter { 2.0 } else { 1.0 };
                 [second.map(|ends| ends.map(|end| end * scale)), None, first]

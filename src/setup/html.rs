@@ -1,4 +1,4 @@
-//! The sheet as a page that stands alone: A4 and Letter, light and dark on the screen, black on paper.
+//! The sheet as a self-contained page: A4 and Letter, light and dark on the screen, black on paper.
 
 use super::{SetupSheet, facts, tables, title};
 
@@ -24,7 +24,7 @@ figure { margin: 0; } figcaption { color: var(--quiet); }
 }
 ";
 
-/// The sheet as HTML. Nothing of it comes from elsewhere, and nothing of the job runs.
+/// The sheet as HTML. It loads nothing from other sites, and text of the job is never executed.
 pub fn html(sheet: &SetupSheet) -> String {
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>{0}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<dl>\n",

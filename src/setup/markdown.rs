@@ -25,7 +25,7 @@ pub fn markdown(sheet: &SetupSheet) -> String {
     text
 }
 
-/// A text in a table: it ends no cell, and is no code of the page.
+/// A text in a table, escaped so that it ends no cell and forms no markup.
 fn cell(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

@@ -1,4 +1,4 @@
-//! The setup sheet: what a machinist loads, touches off and looks at before a job runs, on one page.
+//! The setup sheet: everything that a machinist loads, touches off and checks before a job runs, on one page.
 
 mod collect;
 mod html;
@@ -14,59 +14,59 @@ use sha2::{Digest, Sha256};
 use crate::machine::Machine;
 use crate::preflight::Times;
 
-/// What the page says. Lengths are in `units`, feeds in units a minute or a turn, as the job counts them.
+/// The contents of the page. Lengths are in `units`, feeds in units per minute or per revolution, as in the job.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SetupSheet {
     /// Name of the job.
     pub name: Option<String>,
     /// Name or number of the part.
     pub part: Option<String>,
-    /// What it is made of.
+    /// Its material.
     pub material: Option<String>,
     /// Number of the program.
     pub program: Option<u32>,
-    /// The day of printing, as the caller says it.
+    /// The date of printing, set by the caller.
     pub date: Option<String>,
-    /// The control for which the program is.
+    /// The control of the program.
     pub control: String,
-    /// The form that prints it.
+    /// The form that printed it.
     pub form: String,
     /// `mm` or `inch`.
     pub units: &'static str,
-    /// What X counts, of a lathe; `None`: the job is a mill's.
+    /// The meaning of X on a lathe: radius or diameter. `None`: the job is for a mill.
     pub x: Option<&'static str>,
-    /// What the proof of the program says.
+    /// The verdict on the program.
     pub verdict: String,
-    /// The machine, and whether the program fits into it: a sentence each.
+    /// The machine, and whether the program fits into it, one sentence each.
     pub machine: Vec<String>,
-    /// Work offsets, with how far cuts reach in them.
+    /// Work offsets, with the extents of the cuts in them.
     pub works: Vec<Work>,
     /// Tools in the order of their first use.
     pub tools: Vec<ToolRow>,
     /// Operations in their order.
     pub operations: Vec<OperationRow>,
-    /// Where the program stops, with the comment before it in the job.
+    /// Stops of the program, with the comment before each in the job.
     pub stops: Vec<StopRow>,
     /// Minutes of all cuts; without rapids, dwells and tool changes.
     pub minutes: Option<f64>,
-    /// How long the program takes on the machine, with its accelerations, in seconds; `None`: they are not known.
+    /// Time of the program on the machine with its accelerations, in seconds; `None`: the accelerations are unknown.
     #[serde(serialize_with = "seconds")]
     pub times: Option<Times>,
     /// SHA-256 of job, form, control, machine and program.
     pub hashes: Vec<[String; 2]>,
-    /// Pictures as SVG, with what they show.
+    /// Pictures as SVG, each with its caption.
     #[serde(skip)]
     pub pictures: Vec<[String; 2]>,
 }
 
 impl SetupSheet {
-    /// Adds a file by the digits that `sha256sum` prints of it.
+    /// Adds a file with its SHA-256, as `sha256sum` prints it.
     pub fn add_file(&mut self, name: String, bytes: &[u8]) {
         let digits = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         self.hashes.push([name, digits]);
     }
 
-    /// Takes what the machine's table has of the tools: lengths, and names where the job has none.
+    /// Adds values of the tools from the machine's table: lengths, and names that the job lacks.
     pub fn take_tools(&mut self, machine: &Machine) {
         let Some(table) = &machine.tools else { return };
         let scale = if self.units == "inch" { 25.4 } else { 1.0 };
@@ -78,7 +78,7 @@ impl SetupSheet {
         }
     }
 
-    /// Takes how long the program takes on the machine, as a whole and for each tool.
+    /// Adds the time of the program on the machine, in total and for each tool.
     pub fn take_times(&mut self, times: &Times) {
         for row in &mut self.tools {
             let own = |(tool, _): &&(Option<u32>, f64)| tool.is_some_and(|tool| f64::from(tool) == row.number);
@@ -95,11 +95,11 @@ fn seconds<S: serde::Serializer>(times: &Option<Times>, serializer: S) -> Result
 /// A work offset.
 #[derive(Clone, Debug, Serialize)]
 pub struct Work {
-    /// As the program calls it.
+    /// Its name in the program.
     pub name: String,
-    /// Least and greatest X, Y, Z of the cuts; X of a lathe as its programs count it, and no Y.
+    /// Least and greatest X, Y, Z of the cuts; on a lathe, X as its programs write it, and no Y.
     pub cuts: [Option<[f64; 2]>; 3],
-    /// Of cuts and rapids.
+    /// The same for cuts and rapids.
     pub moves: [Option<[f64; 2]>; 3],
 }
 
@@ -112,30 +112,30 @@ pub struct ToolRow {
     pub name: Option<String>,
     /// Its diameter.
     pub diameter: Option<f64>,
-    /// Radius of its corner.
+    /// Its corner radius.
     pub corner_radius: Option<f64>,
-    /// Register of its length.
+    /// Its length register.
     pub length_register: Option<f64>,
-    /// Register of its diameter.
+    /// Its diameter register.
     pub diameter_register: Option<f64>,
     /// Its length in the machine, in the job's units.
     pub length: Option<f64>,
     /// Its comment in the job.
     pub comment: Option<String>,
-    /// What else the job has of it, by names of its own.
+    /// Further values in the job, under their own names.
     pub data: serde_json::Map<String, serde_json::Value>,
     /// Names of its operations.
     pub operations: Vec<String>,
-    /// Its lowest cut.
+    /// The lowest Z of its cuts.
     pub lowest: Option<f64>,
-    /// Minutes of its cuts; with their accelerations where the machine's are known.
+    /// Minutes of its cuts, with the machine's accelerations if they are known.
     pub minutes: Option<f64>,
-    /// Seconds from its change to the next one, on the machine.
+    /// Seconds from its tool change to the next one, on the machine.
     pub seconds: Option<f64>,
 }
 
 impl ToolRow {
-    /// Its registers, with the length that the machine has.
+    /// Its registers, with its length in the machine.
     fn registers(&self) -> String {
         let length = self.length.map_or(String::new(), |length| format!(" = {}", short(length)));
         let of = |letter: char, register: Option<f64>| Some(format!("{letter}{}", short(register?)));
@@ -144,7 +144,7 @@ impl ToolRow {
         if both.is_empty() { "-".into() } else { both.join(", ") }
     }
 
-    /// What a reader is told of it: its comment, and its data.
+    /// Its comment and its data, as text for the reader.
     fn remark(&self) -> String {
         let data = self.data.iter().map(|(name, value)| {
             let text = value.as_str().map(str::to_owned).or_else(|| value.as_f64().map(short));
@@ -164,21 +164,21 @@ pub struct OperationRow {
     pub tool: Option<f64>,
     /// Its work offset.
     pub work: String,
-    /// The speed of the spindle when it begins: revolutions a minute, or the surface speed's unit.
+    /// The spindle speed at its beginning: revolutions per minute, or a surface speed in its unit.
     pub speed: Option<f64>,
-    /// It is a surface speed, and the spindle turns at most so fast; 0: nothing limits it.
+    /// Set if the speed is a surface speed: the limit of the spindle speed, or 0 without a limit.
     pub surface: Option<f64>,
-    /// The feed when it begins.
+    /// The feed at its beginning.
     pub feed: Option<f64>,
-    /// What the feed counts: `per_minute`, `per_rev` or `inverse_time`.
+    /// The unit of the feed: `per_minute`, `per_rev` or `inverse_time`.
     pub feed_mode: &'static str,
     /// Holes of its cycles.
     pub holes: u64,
     /// Length of its cuts.
     pub length: f64,
-    /// Its lowest cut.
+    /// The lowest Z of its cuts.
     pub lowest: Option<f64>,
-    /// Minutes of its cuts; with their accelerations where the machine's are known.
+    /// Minutes of its cuts, with the machine's accelerations if they are known.
     pub minutes: Option<f64>,
 }
 
@@ -206,9 +206,9 @@ impl OperationRow {
 /// A stop.
 #[derive(Clone, Debug, Serialize)]
 pub struct StopRow {
-    /// `M0` stops, `M1` stops where the operator wants it.
+    /// `M0` always stops, `M1` stops only if the operator has switched it on.
     pub optional: bool,
-    /// The tool that is in the spindle.
+    /// The tool in the spindle.
     pub tool: Option<f64>,
     /// The comment before it in the job.
     pub comment: Option<String>,
@@ -227,12 +227,12 @@ fn maybe(value: Option<f64>) -> String {
     value.map_or("-".into(), short)
 }
 
-/// Minutes as people say them.
+/// Minutes in a readable form.
 fn time(minutes: Option<f64>) -> String {
     minutes.map_or("not known".into(), crate::nc::clock)
 }
 
-/// A table with its head: what both kinds of page show.
+/// A table with its head, for both kinds of page.
 struct Table {
     title: &'static str,
     head: Vec<&'static str>,
@@ -279,7 +279,7 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
     });
     let stops = sheet.stops.iter().map(|stop| {
         vec![
-            if stop.optional { "M1, where you want it" } else { "M0" }.to_owned(),
+            if stop.optional { "M1, if optional stop is on" } else { "M0" }.to_owned(),
             stop.tool.map_or("-".into(), |tool| format!("T{}", short(tool))),
             text(&stop.comment),
         ]
@@ -320,7 +320,9 @@ fn facts(sheet: &SetupSheet) -> Vec<[String; 2]> {
     say("units", Some(sheet.x.map_or(units.clone(), |x| format!("{units}; X counts {x}"))));
     say("date", sheet.date.clone());
     match &sheet.times {
-        Some(times) => say("time", Some(format!("{}; that of an operation is that of its cuts", times.sentence()))),
+        Some(times) => {
+            say("time", Some(format!("{}; the time of an operation is the time of its cuts", times.sentence())))
+        }
         None => {
             let feeds =
                 if sheet.minutes.is_some() { " at programmed feeds, without rapids and tool changes" } else { "" };

@@ -1,5 +1,5 @@
-//! What lies ahead in a job: its tools, operations and work offsets, how far its cuts reach, how long they are. Forms that print
-//! such things before the first move have the job read twice: a survey is made by the first reading.
+//! The contents of a job before it is printed: its tools, operations and work offsets, the extents and the length of its cuts.
+//! Some forms print these before the first move. The job is then read twice, and the first reading makes the survey.
 
 mod motion;
 mod subprograms;
@@ -18,31 +18,31 @@ use crate::toolpath::{Call, Event, First, Flow, Place, Sink, Spindle, Stop, Tool
 use motion::Motion;
 use subprograms::Subprograms;
 
-/// What a form gives where a job names nothing.
+/// Values of the form for jobs that lack them.
 #[derive(Clone, Debug)]
 pub struct Terms {
-    /// What cycles take that name nothing, for jobs in inches and in millimetres.
+    /// Default values of cycles, for jobs in inches and in millimetres.
     pub defaults: [Defaults; 2],
-    /// The work offset of a job that names none, as the form counts it.
+    /// The work offset of a job without one, as the form numbers it.
     pub work: f64,
-    /// How the form counts work offsets: the first one.
+    /// The number of the first work offset in the form.
     pub first_work: f64,
-    /// Only the order of the tools is asked for, which some jobs say in their head.
+    /// Only the order of the tools is needed; some jobs contain it in their head.
     pub only_order: bool,
-    /// How fast the machine is: times have its accelerations.
+    /// The speeds of the machine, for times with its accelerations.
     pub rates: Option<Rates>,
 }
 
 /// An operation of the job.
 #[derive(Clone, Debug)]
 pub struct Operation {
-    /// How it begins; its first move is left out.
+    /// Its tool change; the first move is left out.
     pub begins: ToolChange,
     /// Its tool: a row of [`Survey::tools`].
     pub tool: Option<usize>,
     /// The tool change before it: a row of [`Survey::changes`].
     pub change: usize,
-    /// The spindle when it begins.
+    /// The spindle at its beginning.
     pub spindle: Spindle,
     /// The work offset in which it begins.
     pub work: f64,
@@ -66,7 +66,7 @@ pub struct ToolUse {
 /// A work offset of the job.
 #[derive(Clone, Debug)]
 pub struct WorkUse {
-    /// The offset, as the form counts it.
+    /// The offset, as the form numbers it.
     pub work: f64,
     /// Sums of the moves made in it.
     pub totals: Totals,
@@ -74,7 +74,7 @@ pub struct WorkUse {
     pub operations: Vec<usize>,
 }
 
-/// What lies ahead in a job. Lengths are in the job's units.
+/// The contents of a job. Lengths are in the job's units.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
     /// Sums of the whole job.
@@ -85,7 +85,7 @@ pub struct Survey {
     pub tools: Vec<ToolUse>,
     /// The work offsets in the order of their first use, each once.
     pub works: Vec<WorkUse>,
-    /// The numbers of the tools as they are changed, one for each change.
+    /// The tool numbers in the order of the tool changes, one per change.
     pub changes: Vec<f64>,
 }
 
@@ -104,7 +104,7 @@ pub struct Surveyor {
 }
 
 impl Surveyor {
-    /// Nothing is read yet.
+    /// A surveyor that has read nothing.
     pub fn new(terms: Terms) -> Surveyor {
         let (defaults, work) = (terms.defaults[0], terms.work);
         Surveyor {
@@ -119,7 +119,7 @@ impl Surveyor {
         }
     }
 
-    /// The survey, when the job was read.
+    /// The survey, after the job has been read.
     pub fn finish(mut self) -> Survey {
         self.flush();
         let Survey { operations, works, .. } = &mut self.survey;
@@ -135,7 +135,7 @@ impl Surveyor {
         self.survey.operations.last().and_then(|operation| operation.tool)
     }
 
-    /// Adds what was summed up to all that it is a part of.
+    /// Adds the current sums to the job, the operation, the tool and the work offset.
     fn flush(&mut self) {
         self.motion.stop(&mut self.now);
         let now = std::mem::take(&mut self.now);
@@ -196,7 +196,7 @@ impl Surveyor {
             }
         };
         if self.terms.only_order {
-            // nothing else of it is asked for
+            // nothing else is needed
             self.survey.operations.clear();
         }
         let begins = ToolChange { first: First::Nothing, ..change.clone() };
@@ -222,7 +222,7 @@ impl Surveyor {
         self.row_of(self.work);
     }
 
-    /// The row of a work offset, a new one where it is used first.
+    /// The row of a work offset; a new row at its first use.
     fn row_of(&mut self, work: f64) -> usize {
         let works = &mut self.survey.works;
         *self.work_rows.entry(key(work)).or_insert_with(|| {
@@ -231,7 +231,7 @@ impl Surveyor {
         })
     }
 
-    /// A call adds what the subprogram does, in the work offset of the call where it says none itself.
+    /// Adds the moves of a subprogram; its work offset is that of the call, unless it sets one itself.
     fn call(&mut self, call: &Call) {
         self.flush();
         self.motion.forget_place();

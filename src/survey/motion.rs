@@ -1,4 +1,4 @@
-//! Moves measured: how far they reach, how long they are, how much time they take.
+//! Measures moves: their extents, their length, their time.
 
 use super::totals::Totals;
 use crate::cycle::{Defaults, Plan, Step, Steps, plan, thread_passes};
@@ -8,7 +8,7 @@ use crate::toolpath::{
     Arc, Axes, CycleSpec, Direction, Event, FeedMode, Hole, PlaneArc, Spindle, Thread, ToolChange, Units,
 };
 
-/// Where the tool is, and how fast it cuts.
+/// The position of the tool, and its feed.
 #[derive(Debug)]
 pub struct Motion {
     defaults: Defaults,
@@ -20,22 +20,22 @@ pub struct Motion {
     cycle: Option<CycleSpec>,
     /// Height of the cycle's last point.
     point: Option<f64>,
-    /// Where the cycle returns to, counted from its first point.
+    /// The height to which the cycle returns: its return height above its first point.
     return_plane: Option<f64>,
     steps: Steps,
-    /// Quarters of an arc.
+    /// Quarter parts of an arc.
     parts: Vec<f64>,
-    /// Plans the times on axes that accelerate, where the machine is known.
+    /// Plans the times on axes that accelerate, if the machine is known.
     planner: Option<Planner>,
-    /// Millimetres of a unit of the job.
+    /// Number of millimetres in a unit of the job.
     scale: f64,
 }
 
 impl Motion {
-    /// At an unknown place. `rates`: how fast the machine is, where that is known.
+    /// A motion at an unknown position. `rates`: the speeds of the machine, if known.
     pub fn new(defaults: Defaults, machine: Machine, units: Units, rates: Option<&Rates>) -> Motion {
         Motion {
-            // a rigid tap goes in and out at its feed, whoever makes it
+            // a rigid tap goes in and out at its feed, whether a cycle or single moves make it
             defaults: Defaults { rigid: true, ..defaults },
             is_lathe: machine == Machine::Lathe,
             at: Axes::default(),
@@ -59,19 +59,19 @@ impl Motion {
         }
     }
 
-    /// Nobody knows where the tool is.
+    /// The position becomes unknown.
     pub fn forget_place(&mut self) {
         self.at = Axes::default();
     }
 
-    /// In a subprogram nothing is known but what it says itself.
+    /// Begins a subprogram: only values that it sets itself are known in it.
     pub fn begin_subprogram(&mut self) {
         self.forget_place();
         self.spindle = Spindle::default();
         (self.feed, self.mode) = (None, FeedMode::PerMinute);
     }
 
-    /// An operation begins; `fresh`: with another tool.
+    /// Begins an operation; `fresh`: the tool is another one.
     pub fn operation(&mut self, change: &ToolChange, fresh: bool) {
         if fresh {
             self.spindle = Spindle::default();
@@ -92,18 +92,18 @@ impl Motion {
         };
     }
 
-    /// The spindle, as far as the job has said it.
+    /// The spindle, with the values that the job has set so far.
     pub fn spindle(&self) -> Spindle {
         self.spindle
     }
 
-    /// Turns of the spindle in a minute, where they are known.
+    /// Spindle revolutions per minute, if known.
     fn rpm(&self) -> Option<f64> {
         self.spindle.speed.filter(|_| self.spindle.css != Some(true))
     }
 
-    /// Turns of the spindle in a minute over a cut that begins there: at a constant surface speed (metres or feet a minute)
-    /// those at its middle, which for a straight cut is exact.
+    /// Spindle revolutions per minute over a cut that begins at `from`. At a constant surface speed (metres or feet per minute)
+    /// they are those at the middle of the cut, which is exact for a straight cut.
     fn rpm_from(&self, from: &Axes) -> Option<f64> {
         let (Some(speed), Some(true)) = (self.spindle.speed, self.spindle.css) else { return self.rpm() };
         let radius = (from.get(1)? + self.at.get(1)?).abs() / 2.0;
@@ -112,7 +112,7 @@ impl Motion {
         Some((speed * surface / a_turn).min(self.spindle.max.unwrap_or(f64::INFINITY))).filter(|rpm| rpm.is_finite())
     }
 
-    /// Adds what an event does.
+    /// Adds the moves of an event.
     pub fn event(&mut self, event: &Event<'_>, sums: &mut Totals) {
         match event {
             Event::Rapid(to) => self.rapid(to, sums),
@@ -138,7 +138,7 @@ impl Motion {
         }
     }
 
-    /// Goes somewhere; what the move does not say stays.
+    /// Moves to a position; axes that it does not contain stay.
     fn go(&mut self, to: &Axes) {
         for axis in 0..6 {
             if let Some(value) = to.get(axis) {
@@ -163,7 +163,7 @@ impl Motion {
         }
     }
 
-    /// How far the tool came from there, in millimetres and degrees, as far as both positions are known.
+    /// The distance from `from`, in millimetres and degrees, for axes with both positions known.
     fn way(&self, from: &Axes) -> Way {
         let between = |axis| Some(self.at.get(axis)? - from.get(axis)?);
         let way = |axis| between(axis).map_or(0.0, |way| if axis < 3 { way * self.scale } else { way });
@@ -172,7 +172,7 @@ impl Motion {
         whole
     }
 
-    /// The machine's axis that an axis of the job is: a lathe's job has Z first, and then the radius.
+    /// The machine axis for an axis of the job: in a lathe's job, Z is first and the radius second.
     fn machine_axis(&self, axis: usize) -> usize {
         match (self.is_lathe, axis) {
             (true, 0) => 2,
@@ -196,7 +196,7 @@ impl Motion {
         self.cut((&from, square.sqrt()), self.feed, sums, |planner, feed| planner.cut(&way, feed));
     }
 
-    /// A cut of this length from there, and how it is planned at so many millimetres a second.
+    /// A cut of this length from `from`; `plan` gets its feed in millimetres per second.
     fn cut(
         &mut self,
         (from, length): (&Axes, f64),
@@ -240,12 +240,12 @@ impl Motion {
             Some(PlaneArc::new(from, to, centre, ccw, arc.turns))
         };
         let Some(curve) = curve() else {
-            // printing it says what is wrong
+            // the render reports the error
             return sums.cuts.moves_to(&self.at);
         };
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
-        // after a whole turn the quarters are the same ones again
+        // after a full turn the quarters repeat
         let turn = PlaneArc { sweep: curve.sweep.clamp(-std::f64::consts::TAU, std::f64::consts::TAU), ..curve };
         turn.quadrant_parts(&mut parts);
         for part in &parts {
@@ -295,9 +295,9 @@ impl Motion {
         sums.holes += 1;
         self.rapid(&hole.at, &mut Totals::default());
         sums.moves.moves_to(&self.at);
-        // along which it goes into the hole
+        // the axis of the hole
         let depth_axis = if self.is_lathe { 0 } else { 2 };
-        // a point without its height is as high as the one before it
+        // a point without a height has the height of the point before it
         let (Some(spec), Some(point)) = (&self.cycle, hole.at.get(depth_axis).or(self.point)) else { return };
         self.point = Some(point);
         let Ok(planes) = Plan::of(spec, hole.depth, &self.defaults, self.rpm()) else { return };
@@ -312,7 +312,7 @@ impl Motion {
         sums.moves.to(depth_axis, point + top);
         self.at.set(depth_axis, point + top);
         if planned.is_err() {
-            // a cycle that only the form knows
+            // a cycle that only the form defines
             sums.cut(0.0, None);
             for height in [0.0, planes.bottom] {
                 sums.cuts.to(depth_axis, point + height);

@@ -1,20 +1,20 @@
-//! Subprograms: what each adds where it is called. It is summed up once, whoever calls it and how often.
+//! Subprograms: the sums that each adds where it is called. They are computed once, for any number of calls.
 
 use std::collections::HashMap;
 
 use super::totals::Totals;
 use crate::toolpath::{Call, key};
 
-/// What a subprogram adds in one work offset.
+/// The sums of a subprogram in one work offset.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// The offset that it says itself; `None`: its caller's.
+    /// The offset that it sets itself; `None`: that of its caller.
     pub work: Option<f64>,
     /// Sums of its moves.
     pub totals: Totals,
 }
 
-/// What a subprogram adds, in each of its work offsets.
+/// The sums of a subprogram, for each of its work offsets.
 #[derive(Clone, Debug, Default)]
 pub struct Parts(Vec<Part>);
 
@@ -28,15 +28,15 @@ impl Parts {
     }
 }
 
-/// Is it known what a subprogram adds?
+/// The progress in the sums of a subprogram.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum State {
-    /// Its own moves alone.
+    /// Only its own moves are included.
     #[default]
     Own,
-    /// Those that it calls are being added.
+    /// The subprograms that it calls are being added.
     Adding,
-    /// All of it.
+    /// Everything is included.
     Known,
 }
 
@@ -44,7 +44,7 @@ enum State {
 #[derive(Clone, Debug, Default)]
 struct Sub {
     parts: Parts,
-    /// The work offset that it has said last.
+    /// The work offset that it has set last.
     work: Option<f64>,
     calls: Vec<Call>,
     state: State,
@@ -54,34 +54,34 @@ struct Sub {
 #[derive(Debug, Default)]
 pub struct Subprograms {
     by_number: HashMap<u64, Sub>,
-    /// The one that is written now.
+    /// The subprogram that is being defined.
     open: Option<(u64, Sub)>,
 }
 
 impl Subprograms {
-    /// A subprogram begins.
+    /// Begins a subprogram.
     pub fn begin(&mut self, number: f64) {
         self.open = Some((key(number), Sub::default()));
     }
 
-    /// It ends.
+    /// Ends the open subprogram.
     pub fn end(&mut self) {
         self.by_number.extend(self.open.take());
     }
 
-    /// Is one open?
+    /// Is a subprogram open?
     pub fn is_open(&self) -> bool {
         self.open.is_some()
     }
 
-    /// The open subprogram says its work offset.
+    /// The open subprogram sets its work offset.
     pub fn change_work(&mut self, work: f64) {
         if let Some((_, sub)) = &mut self.open {
             sub.work = Some(work);
         }
     }
 
-    /// The open subprogram moves.
+    /// Adds moves of the open subprogram.
     pub fn add(&mut self, totals: &Totals) {
         if let Some((_, sub)) = &mut self.open
             && !totals.is_still()
@@ -90,7 +90,7 @@ impl Subprograms {
         }
     }
 
-    /// The open subprogram calls another one, which is reached by a rapid. The call's offset is counted as the form counts.
+    /// The open subprogram calls another one, after a rapid to it. The call's offset is numbered as in the form.
     pub fn call(&mut self, call: &Call, way: &Totals) {
         if let Some((_, sub)) = &mut self.open {
             let call = Call { work: call.work.or(sub.work), ..*call };
@@ -101,11 +101,11 @@ impl Subprograms {
         }
     }
 
-    /// What a subprogram adds, with all that it calls. One that the job does not have adds nothing, nor does the call by
-    /// which one comes back to itself: both are refused when the job is printed.
+    /// The sums of a subprogram, with all subprograms that it calls. A missing subprogram adds nothing, and neither does a
+    /// recursive call: both are refused when the job is printed.
     pub fn parts_of(&mut self, number: f64) -> &[Part] {
         let called = key(number);
-        // the next call to follow, of each that is open
+        // the next call to follow, for each open subprogram
         let mut open = vec![(called, 0)];
         while let Some((number, next)) = open.pop() {
             let Some(sub) = self.by_number.get_mut(&number) else { continue };
@@ -123,7 +123,7 @@ impl Subprograms {
         self.by_number.get(&called).map_or(&[], |sub| &sub.parts.0)
     }
 
-    /// Adds what a subprogram calls, all of which is known.
+    /// Adds the sums of the called subprograms; all of them are complete.
     fn add_called(&mut self, number: u64) {
         let Some(sub) = self.by_number.get_mut(&number) else { return };
         let (mut parts, calls) = (std::mem::take(&mut sub.parts), std::mem::take(&mut sub.calls));

@@ -1,26 +1,26 @@
-//! The tree: every name, letter, variable, number, comment and lost tail with its span.
+//! The syntax tree: every name, letter, variable, number, comment and lost tail with its span.
 
 use super::expression::{Expr, Unread};
 use crate::span::Span;
 
-/// Text of the form with its place.
+/// Text of the form with its location.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spanned {
-    /// As written.
+    /// Text as typed.
     pub text: String,
-    /// Where.
+    /// Location.
     pub span: Span,
 }
 
 /// One file.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Form {
-    /// Lines outside sequences and whole sequences, in the order of the file.
+    /// Lines outside sequences, and sequences, in file order.
     pub items: Vec<Head>,
 }
 
 impl Form {
-    /// Commands and what looks like one.
+    /// Commands, and lines that look like one.
     pub fn statements(&self) -> impl Iterator<Item = &Statement> {
         self.items.iter().filter_map(|item| if let Head::Statement(statement) = item { Some(statement) } else { None })
     }
@@ -53,45 +53,45 @@ impl Form {
     }
 }
 
-/// An item of the form's outermost level.
+/// An item at the outermost level of a form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Head {
-    /// An empty line or a line that is a comment as a whole.
+    /// An empty line or a line with only a comment.
     Blank(Line),
     /// A letter format.
     Format {
-        /// The line it is on.
+        /// The line.
         line: Line,
         /// The letter.
         letter: Spanned,
-        /// What follows it, `->3.>4`.
+        /// The text after it, `->3.>4`.
         spec: Spanned,
     },
-    /// A command or something that looks like one.
+    /// A command, or a line that looks like one.
     Statement(Statement),
-    /// `End` where no sequence is open.
+    /// `End` while no sequence is open.
     StrayEnd(Line),
     /// A sequence.
     Sequence(Box<SequenceNode>),
 }
 
-/// A line's span and what follows its words.
+/// The span of a line, and the text after its words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
-    /// The whole line without its end.
+    /// The whole line without its line end.
     pub span: Span,
-    /// What stands after the words.
+    /// Text after the words.
     pub tail: Tail,
 }
 
-/// What stands after the words of a line.
+/// Text after the words of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Tail {
     /// Nothing.
     None,
     /// A comment that begins with `#`.
     Comment(Span),
-    /// Text after two blanks or a tab: not output.
+    /// Text after two spaces or a tab, which is not printed.
     Lost(Spanned),
 }
 
@@ -102,7 +102,7 @@ pub struct Statement {
     pub line: Line,
     /// First word.
     pub name: Spanned,
-    /// The words after it; quotes are taken off.
+    /// The words after it, without quotes.
     pub args: Vec<Spanned>,
 }
 
@@ -111,14 +111,14 @@ pub struct Statement {
 pub struct SequenceNode {
     /// The name line.
     pub name: Statement,
-    /// The lines between.
+    /// The lines between name and end.
     pub body: Vec<Body>,
-    /// The end; `None` when the file or the next sequence came first.
+    /// The end; `None` if the file ends or the next sequence begins before it.
     pub end: Option<End>,
 }
 
 impl SequenceNode {
-    /// From the name line to the end, or to the last line where the end is missing.
+    /// From the name line to the end, or to the last line if the end is missing.
     pub fn span(&self) -> Span {
         let end = self.end.as_ref().map(|end| end.line.span);
         let last = end.or(self.body.last().map(|body| body.line.span));
@@ -133,37 +133,37 @@ pub struct Body {
     pub line: Line,
     /// Words of the line; none on an empty line, a comment or a directive.
     pub words: Vec<Word>,
-    /// What the line says of those after it, instead of words.
+    /// The directive, on a line with one instead of words.
     pub directive: Option<Box<Directive>>,
 }
 
-/// `@if [cool] = through`: which lines print.
+/// `@if [cool] = through`: selects the lines that print.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Directive {
     /// `@if`, as typed.
     pub name: Spanned,
-    /// What stands after the name, without a comment.
+    /// The text after the name, without a comment.
     pub rest: Spanned,
-    /// Which directive.
+    /// Kind of the directive.
     pub kind: DirectiveKind,
 }
 
 /// The kinds of directives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DirectiveKind {
-    /// `@if`: the lines after it print where the condition holds.
+    /// `@if`: the lines after it print if the condition is true.
     If(Result<Expr, Unread>),
-    /// `@elif`: else these, where that condition holds.
+    /// `@elif`: otherwise these lines, if that condition is true.
     Elif(Result<Expr, Unread>),
-    /// `@else`: else these.
+    /// `@else`: otherwise these lines.
     Else,
     /// `@end` of `@if` or `@for`.
     End,
-    /// `@for`: the lines after it print once for each.
+    /// `@for`: the lines after it print once for each item.
     For,
     /// `@set NAME = value`.
     Set(Spanned, Result<Expr, Unread>),
-    /// None of these.
+    /// Any other text.
     Unknown,
 }
 
@@ -173,7 +173,7 @@ impl DirectiveKind {
         matches!(self, DirectiveKind::If(_) | DirectiveKind::For)
     }
 
-    /// Do lines of a branch end before the directive?
+    /// Does the directive end the lines of a branch?
     pub fn closes(&self) -> bool {
         matches!(self, DirectiveKind::Elif(_) | DirectiveKind::Else | DirectiveKind::End)
     }
@@ -184,27 +184,27 @@ impl DirectiveKind {
 pub struct End {
     /// The line.
     pub line: Line,
-    /// The word itself.
+    /// Span of the word `End`.
     pub word: Span,
     /// The words after `End`.
     pub args: Vec<Spanned>,
 }
 
-/// What stands between two blanks.
+/// The text between two spaces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// Where.
+    /// Location.
     pub span: Span,
-    /// More than one when a blank is missing, or in a text with variables.
+    /// Its parts. There are several if a space is missing, or in a text with variables.
     pub pieces: Vec<Piece>,
 }
 
 /// A part of a word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// Where.
+    /// Location.
     pub span: Span,
-    /// What.
+    /// Kind.
     pub kind: PieceKind,
 }
 
@@ -225,37 +225,37 @@ pub enum PieceKind {
         /// The number as typed.
         number: Spanned,
     },
-    /// `[h+1]`: a value that is calculated.
+    /// `[h+1]`: a calculated value.
     Expression {
         /// The letter, if any.
         letter: Option<u8>,
-        /// What stands between the brackets.
+        /// The text between the brackets.
         text: Spanned,
-        /// The same as a tree.
+        /// The expression as a tree.
         expr: Box<Result<Expr, Unread>>,
     },
-    /// `[toolname]`, `[toolname:12]`: a variable that is text.
+    /// `[toolname]`, `[toolname:12]`: a variable with a text value.
     TextVariable {
-        /// The letter, where one stands before it; none belongs there.
+        /// A letter before it, which is an error.
         letter: Option<u8>,
         /// The name between the brackets, with its width.
         name: Spanned,
     },
-    /// Text in backquotes, without them: it prints as it stands.
+    /// Text in backquotes, without them. It prints as typed.
     Quote(String),
     /// Any other text, as typed.
     Stray(String),
     /// A comment of the program, `(TOOL [tool])`.
     Note {
-        /// Text and variables, in order; the marks are not among them.
+        /// Text and variables in order, without the comment marks.
         parts: Vec<Piece>,
-        /// The closing mark is there.
+        /// The closing mark exists.
         closed: bool,
     },
 }
 
 impl Body {
-    /// The parts with which its words begin. Text in backquotes, and what sticks to it, is one word.
+    /// The first part of each printed word. Text in backquotes and the parts joined to it are one word.
     pub fn begins(&self) -> impl Iterator<Item = &Piece> {
         self.words.iter().flat_map(|word| {
             let is_first = move |at: usize| at == 0 || word.pieces[at].lacks_blank_after(&word.pieces[at - 1]);
@@ -265,13 +265,13 @@ impl Body {
 }
 
 impl Piece {
-    /// Is it a word of its own, with a letter and a value?
+    /// Is the part a complete word, with a letter and a value?
     pub fn is_word(&self) -> bool {
         matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Expression { .. } | PieceKind::Literal { .. })
     }
 
-    /// Is a blank missing between the piece before and this one? Both are printed as words all the same. A value without
-    /// a letter could belong to either, which nobody guesses.
+    /// Is a space missing between the previous part and this one? Both still print as separate words. A value without a letter is
+    /// never separated, because it could belong to either word.
     pub fn lacks_blank_after(&self, before: &Piece) -> bool {
         let begins = match self.kind {
             PieceKind::Variable { letter, .. } | PieceKind::Expression { letter, .. } => letter.is_some(),

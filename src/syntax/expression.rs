@@ -1,4 +1,4 @@
-//! Expressions: what stands between brackets beside a plain name, and what a directive asks.
+//! Expressions: text between brackets that is no plain name, and conditions of directives.
 
 use std::sync::LazyLock;
 
@@ -12,17 +12,17 @@ use super::grammar::{FormGrammar, Rule};
 use super::operator::{Arithmetic, Comparison, Operator};
 use crate::span::Span;
 
-/// How deep brackets may lie in each other.
+/// Maximum nesting depth of brackets.
 pub const DEEPEST: usize = 32;
-/// How long an expression may be: nobody reads a longer one.
+/// Maximum length of an expression in characters; a longer one is unreadable.
 pub const LONGEST: usize = 500;
 
 /// An expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expr {
-    /// Where.
+    /// Location.
     pub span: Span,
-    /// What.
+    /// Kind.
     pub kind: ExprKind,
 }
 
@@ -35,7 +35,7 @@ pub enum ExprKind {
     Text(String),
     /// A name between brackets: a variable.
     Variable(String),
-    /// A name outside brackets: what a variable may be, as `through`.
+    /// A name outside brackets: a value of a variable, as `through`.
     Word(String),
     /// `max(h, 0)`.
     Call(Spanned, Vec<Expr>),
@@ -46,7 +46,7 @@ pub enum ExprKind {
 }
 
 impl Expr {
-    /// Takes the name of each variable, with its place.
+    /// Calls `take` with the name and location of each variable.
     pub fn variables(&self, take: &mut dyn FnMut(&str, Span)) {
         match &self.kind {
             ExprKind::Variable(name) => take(name, self.span),
@@ -61,15 +61,15 @@ impl Expr {
 /// An expression that can't be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unread {
-    /// Where reading it stopped.
+    /// Location where reading stopped.
     pub span: Span,
-    /// Why.
+    /// Reason.
     pub why: String,
-    /// What to write instead, where that is known.
+    /// Advice for a correction, if known.
     pub help: Option<String>,
 }
 
-/// Loosest first.
+/// In order of precedence, lowest first.
 static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
     let infix = |rule| Op::infix(rule, Assoc::Left);
     PrattParser::new()
@@ -88,7 +88,7 @@ static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
         .op(Op::prefix(Rule::negative))
 });
 
-/// Do brackets after a square one lie so deep that no line of a form means it? The grammar goes down with them.
+/// Are brackets in the line nested too deeply for an expression? The recursion of the grammar grows with their depth.
 pub fn is_too_deep(line: &str) -> bool {
     let mut depth = 0_usize;
     line.bytes().any(|c| {
@@ -102,10 +102,10 @@ pub fn is_too_deep(line: &str) -> bool {
     })
 }
 
-/// Reads an expression that stands at `span`; `in_brackets`: names are variables.
+/// Parses an expression at `span`; `in_brackets`: names are variables.
 ///
 /// # Errors
-/// It can't be read: where, and why.
+/// The expression can't be read. The error contains the location and the reason.
 pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unread> {
     if text.len() > LONGEST {
         return Err(Unread { span, why: format!("it has more than {LONGEST} characters"), help: None });
@@ -119,7 +119,11 @@ pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unr
         }
         if depth > DEEPEST {
             let here = Span { start: span.start + at as u32, end: span.start + at as u32 + 1, ..span };
-            return Err(Unread { span: here, why: format!("its brackets lie more than {DEEPEST} deep"), help: None });
+            return Err(Unread {
+                span: here,
+                why: format!("its brackets are nested more than {DEEPEST} deep"),
+                help: None,
+            });
         }
     }
     let read = Reading { start: span.start, file: span.file };
@@ -137,7 +141,7 @@ pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unr
     }
 }
 
-/// Where reading stopped, and what stands there.
+/// The error at the point where reading stopped.
 fn unread(text: &str, at: usize, span: Span) -> Unread {
     let at = if text.is_char_boundary(at) { at } else { text.len() };
     let (read, rest) = text.split_at(at);
@@ -149,7 +153,7 @@ fn unread(text: &str, at: usize, span: Span) -> Unread {
     match rest.trim_start().chars().next() {
         Some(c) => {
             let at = text.len() - rest.trim_start().len();
-            Unread { span: here(at, c), why: format!("`{c}` makes no sense here"), help }
+            Unread { span: here(at, c), why: format!("`{c}` can't be here"), help }
         }
         None => {
             let last = text.trim_end().char_indices().next_back();
@@ -159,18 +163,18 @@ fn unread(text: &str, at: usize, span: Span) -> Unread {
     }
 }
 
-/// What to write instead of what other languages have here.
+/// Advice for syntax of other languages.
 fn instead(read: &str, rest: &str) -> Option<String> {
-    /// What stands where reading stopped, and what a form says for it.
+    /// Text at the point where reading stopped, with the advice for it.
     const OTHERS: [(&str, &str); 8] = [
-        ("!=", "write `<>` for what is not equal"),
+        ("!=", "write `<>` for not equal"),
         ("!", "write `not`"),
         ("&", "write `and`"),
         ("|", "write `or`"),
-        ("'", "a text stands in double quotes: `\"DRILL 8\"`"),
-        ("^", "a power is a product: `[d*d]`"),
-        ("then", "take `then` out: the lines that print stand below, up to `@end`"),
-        ("goto", "text of the control stands in backquotes, on a line of its own"),
+        ("'", "put a text in double quotes: `\"DRILL 8\"`"),
+        ("^", "write a power as a product: `[d*d]`"),
+        ("then", "remove `then`: write the lines to print below, up to `@end`"),
+        ("goto", "put text of the control in backquotes, on a separate line"),
     ];
     let (before, behind) = (read.trim_end(), rest.trim_start());
     let lower = behind.to_ascii_lowercase();
@@ -180,24 +184,24 @@ fn instead(read: &str, rest: &str) -> Option<String> {
     let help = match behind.chars().next() {
         _ if known.is_some() => known?,
         Some('=') if before.ends_with('=') => "one `=` compares",
-        Some('*') if before.ends_with('*') => "a power is a product: `[d*d]`",
+        Some('*') if before.ends_with('*') => "write a power as a product: `[d*d]`",
         Some(',') if digit(before.chars().next_back()) && digit(behind.chars().nth(1)) => {
-            "a decimal has a point, no comma"
+            "write decimals with a point, not a comma"
         }
         Some(c) if c.is_ascii_alphanumeric() || "[\"(".contains(c) => {
             "an operator is missing before it: one of = <> < <= > >= and or like, + - * /"
         }
-        None if before.is_empty() => "write what is asked, as `@if [cool] = on`, or what is set, as `@set val1 = 2`",
+        None if before.is_empty() => "write a condition, as `@if [cool] = on`, or a value, as `@set val1 = 2`",
         None if count('(') > count(')') => "a closing bracket is missing",
         None if before.ends_with('*') && before.split(['=', ' ']).next_back().is_some_and(|word| word.len() > 1) => {
-            "a pattern stands in quotes after `like`: `[toolname] like \"DRILL*\"`"
+            "put a pattern in quotes after `like`: `[toolname] like \"DRILL*\"`"
         }
         _ => return None,
     };
     Some(help.to_owned())
 }
 
-/// Where the text of an expression stands.
+/// Location of an expression's text.
 #[derive(Clone, Copy)]
 struct Reading {
     file: u32,
@@ -279,7 +283,7 @@ fn operator(rule: Rule) -> Operator {
 mod tests {
     use super::*;
 
-    /// With a bracket around each part.
+    /// The expression with brackets around each part.
     fn shown(text: &str) -> String {
         fn show(expr: &Expr) -> String {
             match &expr.kind {
@@ -327,18 +331,18 @@ mod tests {
         let table = [
             ("", "0: something is missing at its end"),
             ("[h]+", "3: something is missing at its end"),
-            ("[h]+*2", "4: `*` makes no sense here"),
+            ("[h]+*2", "4: `*` can't be here"),
             ("[h", "1: something is missing at its end"),
-            ("[h]]", "3: `]` makes no sense here"),
-            ("[h] [v]", "4: `[` makes no sense here"),
-            ("[h] == 1", "5: `=` makes no sense here"),
+            ("[h]]", "3: `]` can't be here"),
+            ("[h] [v]", "4: `[` can't be here"),
+            ("[h] == 1", "5: `=` can't be here"),
         ];
         for (text, why) in table {
             assert_eq!(shown(text), why, "{text}");
         }
         let deep = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
         assert_eq!(shown(&deep(32)), "1");
-        assert_eq!(shown(&deep(33)), "32: its brackets lie more than 32 deep");
+        assert_eq!(shown(&deep(33)), "32: its brackets are nested more than 32 deep");
         assert_eq!(shown(&"1+".repeat(400)), "0: it has more than 500 characters");
     }
 }

@@ -1,7 +1,7 @@
-//! The grammar of forms. Nothing outside the files of `syntax` knows of pest.
+//! The grammar of forms. Only the files of `syntax` use pest.
 #![allow(missing_docs)]
 
-/// The parser that pest makes of the grammar.
+/// The parser that pest generates from the grammar.
 #[derive(pest_derive::Parser)]
 #[grammar = "../grammar/postform.pest"]
 pub struct FormGrammar;

@@ -1,4 +1,4 @@
-//! Form text to a tree of spans. Parsing cannot fail: what makes no sense is in the tree as such.
+//! Parses form text to a tree of spans. Parsing cannot fail: the tree also contains unreadable parts.
 
 mod ast;
 mod directive;

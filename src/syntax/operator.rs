@@ -1,6 +1,6 @@
 //! Operators of expressions.
 
-/// What makes one number of two.
+/// Operators on two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// `+`.
@@ -13,7 +13,7 @@ pub enum Arithmetic {
     Divide,
 }
 
-/// How two values are compared.
+/// Comparisons of two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
     /// `=`.
@@ -33,9 +33,9 @@ pub enum Comparison {
 /// All operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operator {
-    /// Two numbers make one; `-` stands before one, too.
+    /// An operation on two numbers; `-` also negates one number.
     Arithmetic(Arithmetic),
-    /// Two values are compared.
+    /// A comparison of two values.
     Comparison(Comparison),
     /// `like`.
     Like,
@@ -48,7 +48,7 @@ pub enum Operator {
 }
 
 impl Operator {
-    /// As it is written.
+    /// The operator as written.
     pub fn name(self) -> &'static str {
         match self {
             Operator::Arithmetic(Arithmetic::Add) => "+",

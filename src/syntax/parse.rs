@@ -1,4 +1,4 @@
-//! Lines through the grammar. Nothing outside this file and that of expressions knows of pest.
+//! Parses lines with the grammar. Only this file and that of expressions use pest.
 
 use pest::Parser;
 use pest::iterators::Pair;
@@ -11,9 +11,9 @@ use crate::lang::{CommandId, SequenceId, SequenceName, TextVar};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Stack that must be there: with less than 64 KB left pest refuses what it is given.
+/// Minimum free stack in bytes: with less than 64 KB left, pest refuses its input.
 const LEAST_STACK: usize = 128 << 10;
-/// Stack that is made where it is not.
+/// Size of a new stack, allocated if less than the minimum is free.
 const STACK: usize = 1 << 20;
 
 /// Parses file number `file`. Every byte of the text is in some line of the result.
@@ -26,12 +26,12 @@ fn lines(source: &Source, file: u32) -> Form {
     let mut around = Around { lines: &lines, marks: vec![None; lines.len()], has_sequence: false };
     let mut form = Form::default();
     let mut open: Option<SequenceNode> = None;
-    // how many directives of the open sequence wait for their @end
+    // number of directives in the open sequence that wait for their @end
     let mut depth = 0_usize;
     for (index, &(start, text)) in lines.iter().enumerate() {
         let at = At { file, start };
         if let Some(sequence) = &mut open {
-            // between a directive and its @end blanks at the beginning of a line are no comment
+            // between a directive and its @end, leading spaces do not make a line a comment
             let inner = if depth > 0 { text.trim_start_matches([' ', '\t']) } else { text };
             let inner_start = start + text.len() - inner.len();
             match body_line(At { file, start: inner_start }, inner) {
@@ -46,7 +46,7 @@ fn lines(source: &Source, file: u32) -> Form {
                 }
                 Ok(_) => {
                     depth = 0;
-                    // a sequence name on a line of its own: the End before it is missing
+                    // the name of a sequence on its own line: the End before it is missing
                     form.items.extend(open.take().map(boxed));
                     open = head(at, text, index, &mut around, &mut form);
                 }
@@ -64,12 +64,12 @@ fn lines(source: &Source, file: u32) -> Form {
     form
 }
 
-/// Most items are lines: they need not be as large as a sequence.
+/// Boxed, because most items are lines and much smaller than a sequence.
 fn boxed(node: SequenceNode) -> Head {
     Head::Sequence(Box::new(node))
 }
 
-/// Where a line stands in its file.
+/// Location of a line in its file.
 #[derive(Clone, Copy)]
 struct At {
     file: u32,
@@ -91,12 +91,13 @@ impl At {
     }
 }
 
-/// The pairs of one line. The grammar is total, so a refusal (a bug, caught by the property tests) is an empty line.
+/// The pairs of one line. The grammar accepts every line; if it still fails (a bug that the property tests would find), the line
+/// counts as empty.
 fn pairs(rule: Rule, text: &str) -> impl Iterator<Item = Pair<'_, Rule>> {
     FormGrammar::parse(rule, text).into_iter().flatten().flat_map(Pair::into_inner)
 }
 
-/// A line outside sequences; returns the sequence that it opens.
+/// Parses a line outside sequences; returns the sequence that it opens.
 fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
     for pair in pairs(Rule::head_line, text) {
         let mut line = at.line(text);
@@ -105,7 +106,7 @@ fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Fo
                 let mut parts = pair.into_inner();
                 let (Some(letter), Some(spec)) = (parts.next(), parts.next()) else { continue };
                 line.tail = parts.next().map_or(Tail::None, |pair| tail(at, &pair));
-                // after a sequence `G80` is a word whose name line is missing, and no format
+                // after a sequence, `G80` is a word without a name line, not a letter format
                 if spec.as_str().bytes().all(|b| b.is_ascii_digit()) && around.has_sequence {
                     let span = at.span(&letter).to(at.span(&spec));
                     let name = Spanned { text: format!("{}{}", letter.as_str(), spec.as_str()), span };
@@ -132,7 +133,7 @@ fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Fo
     None
 }
 
-/// The sequence that a statement opens; any other statement is one of the form.
+/// Returns the sequence that a statement opens; adds any other statement to the form.
 fn opened(statement: Statement, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
     if opens_sequence(&statement, index, around) {
         around.has_sequence = true;
@@ -142,7 +143,7 @@ fn opened(statement: Statement, index: usize, around: &mut Around<'_>, form: &mu
     None
 }
 
-/// A line that is a comment as a whole: by `#`, or because it is indented.
+/// The tail of a line that is only a comment: with `#`, or indented.
 fn remark(at: At, pair: &Pair<Rule>) -> Tail {
     let text = pair.as_str();
     let inner = text.trim_start_matches([' ', '\t']);
@@ -172,15 +173,15 @@ fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
     Statement { line, name, args }
 }
 
-/// How many lines an unknown name may be from its `End`, empty ones and comments among them: no form has half as many.
+/// Maximum number of lines from an unknown name to its `End`, including empty lines and comments. No known form has half as many.
 const LONGEST_SEQUENCE: usize = 400;
 
-/// What is known of the lines around one.
+/// Information about the lines around the current one.
 struct Around<'a> {
     lines: &'a [(usize, &'a str)],
-    /// What each tells about an unknown name above it, as far as somebody asked.
+    /// Classification of each line, computed when needed.
     marks: Vec<Option<Mark>>,
-    /// A sequence stands above.
+    /// There is a sequence above.
     has_sequence: bool,
 }
 
@@ -191,20 +192,20 @@ impl Around<'_> {
     }
 }
 
-/// What a line tells about an unknown name above it.
+/// Classification of a line, for an unknown name above it.
 #[derive(Clone, Copy)]
 enum Mark {
     /// `End`.
     End,
-    /// A name: no `End` after it belongs to the unknown one.
+    /// A name: an `End` after it does not belong to the unknown name.
     Name,
-    /// Nothing.
+    /// Any other line.
     Other,
 }
 
 impl Mark {
     fn of(text: &str) -> Mark {
-        // the layout must not matter: neither empty lines nor how words are set apart
+        // the layout must not matter: neither empty lines nor the separators of words
         let all: Vec<&str> = text.split([' ', '\t', ';']).filter(|word| !word.is_empty()).collect();
         let Some(first) = all.first().copied().filter(|word| !word.starts_with('#')) else { return Mark::Other };
         if first.eq_ignore_ascii_case("End") {
@@ -218,8 +219,8 @@ impl Mark {
     }
 }
 
-/// Does this line open a sequence? A known name does; an unknown one when an `End` comes before the next known name,
-/// so that a misspelt sequence costs one message and not one for each of its lines.
+/// Does this line open a sequence? A known name does. An unknown name does if an `End` comes before the next known name, so that
+/// a misspelt name causes one message instead of one for each line.
 fn opens_sequence(statement: &Statement, index: usize, around: &mut Around<'_>) -> bool {
     if names_sequence(statement) {
         return true;
@@ -246,19 +247,19 @@ fn names_sequence(statement: &Statement) -> bool {
     SequenceName::parse(&words).is_some()
 }
 
-/// Inside a sequence: is this the name line of the next one? Only a line whose words are a name and at most a count.
+/// Is this line inside a sequence the name line of the next one? It is if its words are a name and at most a count.
 fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
     let Some(last) = body.words.last() else { return false };
     let words: Vec<&str> = text[..last.span.end as usize - start].split_whitespace().collect();
     match SequenceName::parse(&words) {
-        Some(SequenceName::Plain(SequenceId::Stop, _)) => false, // a word of conversational controls
+        Some(SequenceName::Plain(SequenceId::Stop, _)) => false, // it is also a word of conversational controls
         Some(SequenceName::Plain(_, count)) => count.is_none_or(|c| c.bytes().all(|b| b.is_ascii_digit())),
         Some(SequenceName::Upon(name) | SequenceName::UponEvery(name)) => name.starts_with(['[', '<']),
         None => false,
     }
 }
 
-/// A line inside a sequence, or its end.
+/// Parses a line inside a sequence, or its end.
 fn body_line(at: At, text: &str) -> Result<Body, End> {
     let mut body = Body { line: at.line(text), words: Vec::new(), directive: None };
     if is_too_deep(text) {
@@ -291,7 +292,7 @@ fn body_line(at: At, text: &str) -> Result<Body, End> {
                         _ => body.line.tail = tail(at, &part),
                     }
                 }
-                body.words.shrink_to_fit(); // a push makes room for four
+                body.words.shrink_to_fit(); // `push` reserves space for four
             }
             Rule::directive => {
                 let (mut name, mut rest) = (None, Spanned { text: String::new(), span: at.span(&pair) });
@@ -324,7 +325,7 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
                 }
             }
             match letter {
-                // the first forms have every number in brackets
+                // in the first forms, every number is in brackets
                 Some(letter) if old && is_number(&name.text) => PieceKind::Literal { letter, number: name },
                 _ if !old && is_calculated(&name.text) => {
                     let expr = Box::new(expression(&name.text, name.span, true));
@@ -354,17 +355,17 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
     Piece { span, kind }
 }
 
-/// Is it more than a name? A text may have a width.
+/// Is the text more than a name? A text variable may have a width.
 fn is_calculated(text: &str) -> bool {
     text.contains(['+', '*', '/', '(', ' ', '\t']) || text.contains('-') && !TextVar::is_text(text)
 }
 
-/// Digits with a sign and a point.
+/// Is the text a number: digits, with a sign and a point?
 fn is_number(text: &str) -> bool {
     text.parse::<f64>().is_ok() && text.bytes().all(|b| b.is_ascii_digit() || b"+-.".contains(&b))
 }
 
-/// `G<0>` as `G0`: an argument of the first forms. Its place stays whole.
+/// Converts `G<0>` to `G0`, for arguments of the first forms. The span stays the same.
 fn without_brackets(mut arg: Spanned) -> Spanned {
     let inner = arg.text.strip_suffix('>').and_then(|text| text.split_once('<'));
     if let Some((letter, number)) = inner
@@ -478,7 +479,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
-        /// The grammar is total: every line matches, and the words, comment and lost tail cover all but blanks.
+        /// The grammar is total: every line matches, and words, comment and lost tail cover everything except spaces.
         #[test]
         fn every_line_matches(text in "[ \\tA-Za-z0-9#;%:()\\[\\]<>.+~\"/é\u{0}-]{0,24}") {
             for rule in [Rule::head_line, Rule::body_line] {

@@ -2,7 +2,7 @@
 
 use super::rates::Way;
 
-/// An arc from where the tool stands.
+/// An arc from the current position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     /// The axes of its plane.
@@ -11,11 +11,11 @@ pub struct Curve {
     pub from: [f64; 2],
     /// The angle that it turns, in radians, positive from the first axis to the second.
     pub sweep: f64,
-    /// How far the axes outside of the plane move.
+    /// The travel of the axes outside of the plane.
     pub rise: Way,
 }
 
-/// How far chords may leave an arc: Grbl's `$12`, in millimetres.
+/// How far chords may deviate from an arc: Grbl's `$12`, in millimetres.
 const CHORD: f64 = 0.002;
 
 impl Curve {
@@ -23,23 +23,23 @@ impl Curve {
         self.from[0].hypot(self.from[1])
     }
 
-    /// Its length with its rise.
+    /// Its length including its rise.
     pub fn length(&self) -> f64 {
         let rise: f64 = self.rise[..3].iter().map(|part| part * part).sum();
         (self.radius() * self.sweep).hypot(rise.sqrt())
     }
 
-    /// The chords that Grbl makes of it, by `mc_arc` of its motion_control.c.
+    /// The chords into which Grbl divides it: `mc_arc` in its motion_control.c.
     pub(super) fn chords(self) -> impl Iterator<Item = Way> {
         let radius = self.radius();
         let per_chord = (CHORD * (2.0 * radius - CHORD)).max(0.0).sqrt();
         let count = (0.5 * self.sweep.abs() * radius / per_chord).floor();
-        // one that is smaller than a chord's error is a line to its end
+        // an arc smaller than the chord error is a line to its end
         let count = if count.is_finite() { count.max(1.0) } else { 1.0 };
         self.parts(count as u64)
     }
 
-    /// So many chords of the same length.
+    /// A number of chords of the same length.
     pub(super) fn parts(self, count: u64) -> impl Iterator<Item = Way> {
         let share = 1.0 / count as f64;
         let at = move |part: f64| {

@@ -1,19 +1,19 @@
-//! Corners by a junction deviation, as Grbl goes around them: `plan_buffer_line` and `plan_compute_profile_parameters` of its
-//! planner.c. The chords of an arc are lines to it.
+//! Corners with a junction deviation, as in Grbl: `plan_buffer_line` and `plan_compute_profile_parameters` in its planner.c.
+//! Grbl treats the chords of an arc as lines.
 
 use super::leg::Leg;
 use super::queue::Queue;
 use super::rates::{Rates, Way, size};
 
-/// From this cosine on two directions are the same, or opposite: Grbl's own.
+/// From this cosine on, two directions are the same or opposite: Grbl's own value.
 const SAME: f64 = 0.999_999;
 
-/// What it keeps from one leg to the next.
+/// The state from one leg to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Deviation {
     /// How far the path may leave a corner, in millimetres.
     deviation: f64,
-    /// Direction of the last leg; `None`: the tool stands.
+    /// Direction of the last leg; `None`: the tool is at rest.
     direction: Option<Way>,
 }
 
@@ -26,7 +26,7 @@ impl Deviation {
         self.direction = None;
     }
 
-    /// A line; `feed`: a cut, at so many millimetres a second.
+    /// A line; `feed` is that of a cut, in millimetres per second.
     pub fn line(&mut self, way: &Way, feed: Option<f64>, rates: &Rates, queue: &mut Queue) {
         let all = size(way);
         if all == 0.0 {
@@ -36,7 +36,7 @@ impl Deviation {
         let along = way.map(|part| part / length);
         let speed = rates.speed(&along, feed);
         if !(speed > 0.0 && speed.is_finite()) {
-            // nothing says how fast it is
+            // its speed is unknown
             self.stop();
             return queue.stop();
         }
@@ -58,11 +58,11 @@ impl Deviation {
         });
     }
 
-    /// The square of the greatest speed from one direction into another; infinite where they are the same.
+    /// The square of the greatest speed from one direction into another; infinite if they are the same.
     fn corner(&self, rates: &Rates, before: &Way, after: &Way) -> f64 {
         let cosine: f64 = before.iter().zip(after).map(|(before, after)| -before * after).sum();
         if cosine > SAME {
-            // back the way it came
+            // reversal of the direction
             return 0.0;
         }
         if cosine < -SAME {

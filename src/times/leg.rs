@@ -1,34 +1,34 @@
-//! A piece of path with one direction.
+//! A piece of path in one direction.
 
-/// A leg of the way. Speeds are kept as their squares: a leg of this length at this acceleration changes them by `2 a s`.
+/// A leg of the path. Speeds are stored as squares, because a leg of length `s` at acceleration `a` changes the square by `2 a s`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leg {
-    /// Millimetres, or degrees where only those turn.
+    /// Millimetres, or degrees if only rotary axes move.
     pub length: f64,
-    /// Square of the speed at which it would go without the legs beside it.
+    /// Square of its speed without the adjacent legs.
     pub speed: f64,
     pub acceleration: f64,
-    /// Square of the greatest speed at its beginning, for the corner there.
+    /// Square of the greatest speed at its beginning, which the corner there limits.
     pub most_entry: f64,
-    /// Square of its speed at the beginning, as planned so far.
+    /// Square of the speed at its beginning, as planned so far.
     pub entry: f64,
     pub is_cut: bool,
 }
 
 impl Leg {
-    /// The square of the speed that it reaches over its length from one end.
+    /// The square of the speed that it reaches at one end from `speed` at the other.
     pub fn reached_from(&self, speed: f64) -> f64 {
         2.0f64.mul_add(self.acceleration * self.length, speed)
     }
 
-    /// Seconds from its beginning to its end, where the speed has the square `exit`.
+    /// Its time in seconds, if the speed at its end has the square `exit`.
     pub fn seconds(&self, exit: f64) -> f64 {
         let (entry, exit) = (self.entry.min(self.speed), exit.min(self.speed));
         if self.acceleration.is_infinite() {
             return self.length / self.speed.sqrt();
         }
         let change = 2.0 * self.acceleration;
-        // without a speed of its own it would accelerate to the middle
+        // without a speed limit it would accelerate to the middle
         let peak = ((change * self.length + entry + exit) / 2.0).min(self.speed).max(entry).max(exit);
         let ramps = (2.0 * peak - entry - exit) / change;
         let steady = (self.length - ramps).max(0.0);

@@ -1,4 +1,4 @@
-//! How long moves take on axes that accelerate: trapezoids of speed along the path, planned ahead over the blocks that come.
+//! The time of moves on axes that accelerate: trapezoids of speed along the path, planned ahead over the next blocks.
 //!
 //! Lengths are millimetres and degrees, times are seconds.
 

@@ -1,4 +1,4 @@
-//! Plans the speeds of moves and counts their time, by the rules of a control for corners.
+//! Plans the speeds of moves and counts their time, by the corner rules of a control.
 
 use super::corner::{Corner, PathMode};
 use super::curve::Curve;
@@ -15,7 +15,7 @@ pub struct Planner {
     rule: Rule,
 }
 
-/// What stands between two legs.
+/// The corner rule between two legs.
 #[derive(Clone, Debug)]
 enum Rule {
     Deviation(Deviation),
@@ -23,7 +23,7 @@ enum Rule {
 }
 
 impl Planner {
-    /// The tool stands.
+    /// A planner with the tool at rest.
     pub fn new(rates: Rates) -> Planner {
         let rule = match rates.corner {
             Corner::Deviation(deviation) => Rule::Deviation(Deviation::new(deviation)),
@@ -37,12 +37,12 @@ impl Planner {
         self.line(way, None);
     }
 
-    /// A straight cut at so many millimetres a second; degrees, where only rotary axes move.
+    /// A straight cut at a feed in millimetres per second, or degrees if only rotary axes move.
     pub fn cut(&mut self, way: &Way, feed: f64) {
         self.line(way, Some(feed));
     }
 
-    /// An arc at so many millimetres a second.
+    /// An arc at a feed in millimetres per second.
     pub fn arc(&mut self, curve: &Curve, feed: f64) {
         match &mut self.rule {
             Rule::Deviation(rule) => {
@@ -54,14 +54,14 @@ impl Planner {
         }
     }
 
-    /// The program says how exactly the path is followed; a control that has one way keeps it.
+    /// Sets the accuracy of the path; a control with only one mode ignores it.
     pub fn path_mode(&mut self, mode: PathMode) {
         if let Rule::Linuxcnc(rule) = &mut self.rule {
             rule.path_mode(mode, &self.rates, &mut self.queue);
         }
     }
 
-    /// The tool stops: what comes waits for all that was before it.
+    /// The tool stops: the next move waits for all moves before it.
     pub fn stop(&mut self) {
         match &mut self.rule {
             Rule::Deviation(rule) => rule.stop(),
@@ -70,7 +70,7 @@ impl Planner {
         self.queue.stop();
     }
 
-    /// Stops, and gives the time since it was asked last.
+    /// Stops, and returns the time since the last call.
     pub fn take(&mut self) -> Spent {
         self.stop();
         self.queue.take()

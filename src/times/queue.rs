@@ -1,4 +1,4 @@
-//! Speeds over the legs that are known: each begins so fast that all after it can still be followed.
+//! Speeds over the known legs: each starts only as fast as all legs after it allow.
 
 use std::collections::VecDeque;
 
@@ -15,13 +15,13 @@ pub struct Spent {
 
 /// Legs whose speeds may still rise.
 ///
-/// The last leg is taken to end in a stop; a new leg raises the speeds before it, backwards until one stays as it was, then
-/// forwards as far as the accelerations allow. Legs that no later one can change are counted and dropped, and so is the first
-/// one when more wait than the control plans ahead.
+/// The last leg is planned to end in a stop. A new leg raises the speeds before it: first backwards until one stays the same,
+/// then forwards as far as the accelerations allow. Legs that no later leg can change are counted and dropped. The first leg is
+/// also dropped if more legs wait than the control plans ahead.
 #[derive(Clone, Debug)]
 pub(super) struct Queue {
     ahead: usize,
-    /// The first one's entry is fixed.
+    /// The entry speed of the first leg is fixed.
     legs: VecDeque<Leg>,
     spent: Spent,
 }
@@ -31,7 +31,7 @@ impl Queue {
         Queue { ahead, legs: VecDeque::new(), spent: Spent::default() }
     }
 
-    /// The last leg, where the tool does not stand.
+    /// The last leg; `None` if the tool is at rest.
     pub fn last(&self) -> Option<&Leg> {
         self.legs.back()
     }
@@ -39,7 +39,7 @@ impl Queue {
     pub fn push(&mut self, leg: Leg) {
         self.legs.push_back(leg);
         let count = self.legs.len();
-        // backwards: as fast as the way to the stop at the end allows
+        // backwards: as fast as the distance to the stop at the end allows
         let (mut exit, mut changed) = (0.0, count);
         for at in (1..count).rev() {
             let leg = &mut self.legs[at];
@@ -49,7 +49,7 @@ impl Queue {
             }
             (leg.entry, exit, changed) = (entry, entry, at);
         }
-        // forwards: as fast as the way from the beginning allows; what limits a speed here is over and done
+        // forwards: as fast as the distance from the beginning allows; a leg that limits the speed here is final
         let mut done = 0;
         for at in changed..count {
             let before = &self.legs[at - 1];
@@ -75,12 +75,12 @@ impl Queue {
         }
     }
 
-    /// The time since it was asked last.
+    /// The time since the last call.
     pub fn take(&mut self) -> Spent {
         std::mem::take(&mut self.spent)
     }
 
-    /// Two moves overlap for so long.
+    /// Two moves overlap for this time.
     pub fn overlap(&mut self, seconds: f64, is_cut: bool) {
         *self.spent_on(is_cut) -= seconds;
     }

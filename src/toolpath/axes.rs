@@ -1,6 +1,6 @@
 //! Positions, and the unit of their lengths.
 
-/// Coordinates h v d and rotary a b c; those not given keep the tool's last position.
+/// Coordinates h v d and rotary a b c. Axes that are not given keep the tool's last position.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Axes {
     /// Value of each axis: lengths in the job's units, angles in degrees.
@@ -25,7 +25,7 @@ impl Axes {
         (self.given & 1 << axis != 0).then(|| self.values[axis])
     }
 
-    /// Gives one axis a value, in the job's units or degrees.
+    /// Sets the value of one axis, in the job's units or degrees.
     #[inline]
     pub fn set(&mut self, axis: usize, value: f64) {
         self.values[axis] = value;
@@ -44,7 +44,7 @@ pub enum Units {
 }
 
 impl Units {
-    /// Name of the unit, as jobs and options write it.
+    /// Name of the unit, as in jobs and options.
     pub fn name(self) -> &'static str {
         match self {
             Units::Inch => "inch",
@@ -52,7 +52,7 @@ impl Units {
         }
     }
 
-    /// Millimetres of one of it.
+    /// Length of one unit in millimetres.
     pub fn in_mm(self) -> f64 {
         match self {
             Units::Inch => 25.4,

@@ -1,4 +1,4 @@
-//! Jobs for a torch or a laser: where a cut begins and ends, and positions along a depth axis that the form ignores.
+//! Jobs for a torch or a laser: begin and end of each cut, and positions without a depth axis that the form ignores.
 
 use super::axes::Axes;
 use super::event::Event;
@@ -10,32 +10,34 @@ use crate::diag::{Code, Diag};
 
 /// The depth axis, as a bit.
 const DEPTH: u8 = 0b100;
-/// Heights that differ by less are one, in the job's units.
+/// Heights that differ by less are equal, in the job's units.
 const SAME_HEIGHT: f64 = 1e-6;
 
-/// A sink that tells another where cuts begin and end: from the first move at feed to the next rapid. They are parts of the path,
-/// [`Section::Cut`], with the lead-in and lead-out inside.
+/// A sink that adds the begin and end of cuts and passes events on. A cut lasts from the first feed move to the next
+/// rapid. Cuts are parts of the path ([`Section::Cut`]), and include the lead-in and lead-out.
 pub struct Cuts<'s> {
     sink: &'s mut dyn Sink,
-    /// The form ignores the depth axis.
+    /// Whether the form ignores the depth axis.
     is_flat: bool,
-    /// A cut has begun.
+    /// Whether a cut has begun.
     is_on: bool,
-    /// Other parts that began or ended since the last move: whether one began, which, and where.
+    /// Other parts that began or ended since the last move: whether the part began, its section, and its place in the
+    /// job.
     parts: Vec<(bool, Section, Place)>,
-    /// Where the tool is.
+    /// Position of the tool.
     at: Axes,
     /// The height of the cuts.
     height: Option<f64>,
 }
 
 impl<'s> Cuts<'s> {
-    /// For this sink; `is_flat`: the form ignores the depth axis.
+    /// A sink in front of `sink`. `is_flat`: the form ignores the depth axis.
     pub fn new(sink: &'s mut dyn Sink, is_flat: bool) -> Cuts<'s> {
         Cuts { sink, is_flat, is_on: false, parts: Vec::new(), at: Axes::default(), height: None }
     }
 
-    /// The parts that wait; `begins`: the cut begins before them, else it ends after those that end.
+    /// Pushes the waiting parts and the begin or end of a cut. A cut begins before the waiting parts, and ends after
+    /// those that end.
     fn switch(&mut self, begins: bool, place: Place) -> Result<(), Stop> {
         let parts = std::mem::take(&mut self.parts);
         let ended = parts.iter().position(|(begins, ..)| *begins).unwrap_or(parts.len());
@@ -55,12 +57,12 @@ impl<'s> Cuts<'s> {
         Ok(())
     }
 
-    /// Positions without the depth axis, where the form ignores it.
+    /// The position, without the depth axis if the form ignores it.
     fn flat(&self, to: Axes) -> Axes {
         if self.is_flat { Axes { given: to.given & !DEPTH, ..to } } else { to }
     }
 
-    /// The tool goes there; does it move along an axis that counts?
+    /// Moves the tool. Returns whether it moves along an axis that the form does not ignore.
     fn goes(&mut self, to: &Axes) -> bool {
         let counted = self.flat(*to);
         let moves = (0..6).any(|axis| counted.get(axis).is_some_and(|value| self.at.get(axis) != Some(value)));
@@ -72,14 +74,14 @@ impl<'s> Cuts<'s> {
         moves
     }
 
-    /// A rapid ends the cut, also one along an ignored axis alone, which is no move.
+    /// A rapid ends the cut. A rapid along the ignored axis only also ends it, but is not passed on.
     fn rapid(&mut self, to: Axes, place: Place) -> Result<(), Stop> {
         self.switch(false, place)?;
         let moves = self.goes(&to);
         if moves || !self.is_flat { self.sink.push(Event::Rapid(self.flat(to)), place) } else { Ok(()) }
     }
 
-    /// A move at feed to there; false: along an ignored axis alone, which is no move.
+    /// Begins a cut for a feed move. Returns `false` if the move is along the ignored axis only.
     fn cuts(&mut self, to: &Axes, place: Place) -> Result<bool, Stop> {
         if !self.goes(to) && self.is_flat {
             return Ok(false);
@@ -97,18 +99,18 @@ impl<'s> Cuts<'s> {
         if (height - depth).abs() <= SAME_HEIGHT {
             return Ok(());
         }
-        let message = format!("the job cuts at Z{depth} and at Z{height}, and the form ignores Z");
-        wrong(message, "cut at one height, or take `Ignore Z` out of the form and print Z")
+        let message = format!("the job cuts at Z{depth} and at Z{height}, but the form ignores Z");
+        wrong(message, "cut at one height, or remove `Ignore Z` from the form and print Z")
     }
 
     fn arc(&mut self, arc: &Arc, feed: Option<f64>, place: Place) -> Result<(), Stop> {
         if self.is_flat && arc.plane != Plane::Xy {
             return wrong(
-                "an arc outside XY, and the form ignores Z".into(),
-                "cut in XY, or take `Ignore Z` out of the form and print Z",
+                "an arc outside XY, but the form ignores Z".into(),
+                "cut in XY, or remove `Ignore Z` from the form and print Z",
             );
         }
-        // a full circle ends where it begins
+        // this also covers a full circle, which ends where it begins
         self.goes(&arc.to);
         if self.is_flat {
             self.same_height()?;
@@ -142,7 +144,7 @@ impl<'s> Cuts<'s> {
             Event::Line { to, feed } if self.cuts(&to, place)? => {
                 self.sink.push(Event::Line { to: self.flat(to), feed }, place)
             }
-            // its feed counts from here on
+            // the feed of the line is in force from here on
             Event::Line { feed: Some(feed), .. } => self.sink.push(Event::Feed(feed), place),
             Event::Line { .. } => Ok(()),
             Event::Arc { arc, feed } => self.arc(arc, feed, place),
@@ -185,7 +187,7 @@ fn wrong<T>(message: String, help: &str) -> Result<T, Stop> {
 }
 
 fn no_holes<T>() -> Result<T, Stop> {
-    wrong("a torch or a laser makes no holes by cycles".into(), "cut the hole as a circle, or take the cycle out")
+    wrong("a torch or a laser can't make holes with cycles".into(), "cut the hole as a circle, or remove the cycle")
 }
 
 impl Sink for Cuts<'_> {

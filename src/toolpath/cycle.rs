@@ -22,13 +22,13 @@ pub enum Orient {
 }
 
 impl Orient {
-    /// The angle in degrees from 0 to 360, where the form's is `form`.
+    /// The angle in degrees from 0 to 360. `form`: the angle of the form.
     pub fn angle(self, form: f64) -> f64 {
         if let Orient::At(angle) = self { angle.rem_euclid(360.0) } else { form }
     }
 }
 
-/// Most pecks of one hole: more is a slip of the decimal point.
+/// The largest number of pecks of one hole. A larger number comes from a misplaced decimal point.
 pub const MOST_PECKS: usize = 10_000;
 
 /// A canned cycle without its points. Lengths are in the job's units; heights are distances
@@ -37,45 +37,45 @@ pub const MOST_PECKS: usize = 10_000;
 pub struct CycleSpec {
     /// Kind of the cycle.
     pub kind: CycleKind,
-    /// How deep the bottom is below the point, positive down.
+    /// Depth of the bottom below the point, positive down.
     pub depth: Option<f64>,
-    /// How far above the point the feed begins: the R plane.
+    /// Height of the R plane above the point, where the feed begins.
     pub clear: Option<f64>,
     /// Return plane above the first point.
     pub return_height: Option<f64>,
-    /// Feed into the hole, a length a minute or a turn as the operation says.
+    /// Feed into the hole, per minute or per turn as in the operation.
     pub feed: Option<f64>,
     /// Feed of plunges; `None`: `feed`.
     pub plunge: Option<f64>,
-    /// How much deeper each peck goes, counted from the R plane.
+    /// Depth of each peck, counted from the R plane.
     pub step: Option<f64>,
     /// Depth of the first peck.
     pub first_step: Option<f64>,
-    /// How far above the last depth the feed begins again; after a chip break, how far the tool lifts.
+    /// Height above the last depth where the feed begins again; after a chip break, the height of the lift.
     pub back: Option<f64>,
     /// Dwell at the bottom, in seconds.
     pub dwell: Option<f64>,
     /// Dwell at the bottom, in turns of the spindle.
     pub revs: Option<f64>,
-    /// How far below the R plane the rapid goes on.
+    /// Distance of the extra rapid below the R plane.
     pub rapto: Option<f64>,
     /// Angle at which a boring cycle stops the spindle.
     pub orient: Option<Orient>,
-    /// How far a boring cycle moves off the wall, without `offset_y` along the first axis.
+    /// Distance that a boring cycle moves off the wall. Without `offset_y`, this is along the first axis.
     pub offset: Option<f64>,
-    /// Feed out of the hole over feed into it.
+    /// Feed out of the hole divided by the feed into it.
     pub ratio: Option<f64>,
     /// Number of starts of a tapped thread.
     pub starts: Option<f64>,
-    /// Tapping in step with the spindle; else as the form says.
+    /// Whether the tap is rigid, in step with the spindle; `None`: as in the form.
     pub rigid: Option<bool>,
     /// Number of chip breaks between full retracts.
     pub times: Option<f64>,
-    /// How much each peck is less than the one before.
+    /// Amount by which each peck is smaller than the previous one.
     pub decr: Option<f64>,
-    /// Depth of the least peck.
+    /// Depth of the smallest peck.
     pub min_step: Option<f64>,
-    /// Diameter of a countersink, from which comes its depth.
+    /// Diameter of a countersink. The depth is calculated from it.
     pub diameter: Option<f64>,
     /// Full angle of a countersink, in degrees.
     pub angle: Option<f64>,
@@ -87,22 +87,22 @@ pub struct CycleSpec {
     pub pecks: Vec<Peck>,
     /// Kind of pecks of a tap: deep or chip breaking.
     pub mode: Option<CycleKind>,
-    /// A tap that does not reverse the spindle.
+    /// Whether the tap does not reverse the spindle.
     pub norevr: bool,
-    /// A tap that leaves the hole by a rapid.
+    /// Whether the tap leaves the hole by a rapid.
     pub rapout: bool,
-    /// How far a boring cycle lifts while it is off the wall.
+    /// Height that a boring cycle lifts while the tool is off the wall.
     pub jog: Option<f64>,
-    /// How far a boring cycle moves off the wall along y, where `offset` is the part along x.
+    /// Distance that a boring cycle moves off the wall along y; `offset` is then the distance along x.
     pub offset_y: Option<f64>,
-    /// Steps count from the point, as in APT, and not from the clearance plane, as a control's Q does.
+    /// Whether steps are counted from the point, as in APT, instead of the clearance plane, as with a control's Q.
     pub steps_from_point: bool,
-    /// The cycle is printed as single moves, whatever the form has.
+    /// Whether the cycle is printed as single moves even if the form has a cycle for it.
     pub emulate: bool,
 }
 
 impl CycleSpec {
-    /// A cycle of this kind that says nothing else.
+    /// A cycle of this kind without further values.
     pub fn new(kind: CycleKind) -> CycleSpec {
         CycleSpec {
             kind,
@@ -140,7 +140,7 @@ impl CycleSpec {
         }
     }
 
-    /// How deep the holes are that the cycle says, in the job's units: by `depth`, else by the last of `webs` or `pecks`.
+    /// Depth of the cycle's holes, in the job's units: `depth`, else the last of `webs` or `pecks`.
     pub fn deepest(&self) -> Option<f64> {
         self.depth.or_else(|| self.webs.last().copied()).or_else(|| self.pecks.last().map(|peck| peck.to))
     }

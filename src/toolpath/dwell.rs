@@ -1,8 +1,8 @@
-//! The dwell that holds from one cycle to the next.
+//! The dwell that is kept from one cycle to the next.
 
 use super::{CycleKind, CycleSpec};
 
-/// The last dwell of a cycle: a face, and a tap that does not reverse, take it when they say none.
+/// The last dwell of a cycle. A face cycle, or a tap that does not reverse, uses it if it has no dwell of its own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LastDwell {
     seconds: Option<f64>,
@@ -10,7 +10,7 @@ pub struct LastDwell {
 }
 
 impl LastDwell {
-    /// Fills a cycle in, or remembers what it says.
+    /// Fills in the dwell of a cycle, or keeps the cycle's own dwell.
     pub fn fill(&mut self, spec: &mut CycleSpec) {
         match (spec.dwell, spec.revs) {
             (None, None) if spec.kind == CycleKind::Face || spec.norevr => {

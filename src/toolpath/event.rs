@@ -14,11 +14,11 @@ use crate::lang::Coolant;
 pub enum StopKind {
     /// The machine stops: M0.
     Program,
-    /// The machine stops where the operator wants it to: M1.
+    /// The machine stops if the operator has turned on the optional stop: M1.
     Optional,
 }
 
-/// What a wire EDM machine does between moves.
+/// An action of a wire EDM machine between moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdmAction {
     /// The wire is threaded.
@@ -36,9 +36,9 @@ pub enum EdmAction {
 pub struct Call {
     /// The subprogram's number in the job.
     pub sub: f64,
-    /// How often the subprogram runs.
+    /// Number of runs of the subprogram.
     pub times: f64,
-    /// Where the tool is when the subprogram is called.
+    /// Position of the tool at the call.
     pub at: Axes,
     /// Work offset of the call: a fixture number below 50, else the code.
     pub work: Option<f64>,
@@ -49,9 +49,9 @@ pub struct Call {
 pub enum Event<'a> {
     /// The head of the job: the first event.
     Start(&'a Start),
-    /// An operation begins; the tool changes where its number does.
+    /// An operation begins. The tool changes if its number is another.
     ToolChange(&'a ToolChange),
-    /// A rapid move to a place.
+    /// A rapid move to a position.
     Rapid(Axes),
     /// A straight move at feed.
     Line {
@@ -80,7 +80,7 @@ pub enum Event<'a> {
         to: Axes,
         /// The feed from here on; `None`: as before.
         feed: Option<f64>,
-        /// The move is a rapid.
+        /// Whether the move is a rapid.
         rapid: bool,
     },
     /// The tool axis from here on, a unit vector; a job begins with 0, 0, 1.
@@ -101,7 +101,7 @@ pub enum Event<'a> {
     Stop(StopKind),
     /// A comment to print.
     Comment(&'a str),
-    /// Text to print as it stands.
+    /// Text to print without changes.
     Text(&'a str),
     /// The feed from here on, in the operation's mode.
     Feed(f64),
@@ -111,7 +111,7 @@ pub enum Event<'a> {
     Spindle(Spindle),
     /// The coolant from here on.
     Coolant(Coolant),
-    /// The tool goes to the machine's own place, which the form says: home.
+    /// The tool goes home, to the machine position that the form defines.
     Home,
     /// The value of a variable or property of the form from here on, by name.
     Set(&'a str, &'a Given),
@@ -123,7 +123,7 @@ pub enum Event<'a> {
     SubCall(&'a Call),
     /// A thread is cut, on a lathe.
     Thread(&'a Thread),
-    /// A wire EDM machine does something.
+    /// An action of a wire EDM machine.
     Edm(EdmAction),
     /// The job is over: the last event.
     Finish,

@@ -10,27 +10,27 @@ use super::{Flow, Place, Sink, Stop, flow};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 
-/// Most items that may stand before an operation's first move.
+/// The largest number of items before an operation's first move.
 const MOST_HELD: usize = 4096;
 
-/// Stands between a reader and its sink.
+/// A filter between a reader and its sink.
 pub struct Hold<'s> {
     sink: &'s mut dyn Sink,
     change: Option<(ToolChange, Place)>,
     waiting: Vec<(Waiting, Place)>,
     /// The axes that a tool change of this machine may print.
     axes: u8,
-    /// The axis along which the tool goes into a hole.
+    /// The axis along which the tool enters a hole.
     depth: u8,
-    /// Where the rapids so far lead, while they do not say all axes: of each the first place.
+    /// Target of the rapids so far, until all axes are given. For each axis it is the first position.
     first: Axes,
-    /// The tool that is in.
+    /// The tool in the spindle.
     tool: Option<f64>,
-    /// The change that is held loads another one.
+    /// Whether the held change loads another tool.
     changes: bool,
 }
 
-/// An event that stands before the first move, owned.
+/// An owned event that comes before the first move.
 enum Waiting {
     Plain(Event<'static>),
     Comment(String),
@@ -40,7 +40,7 @@ enum Waiting {
 }
 
 impl Waiting {
-    /// An event to keep; `None`: the tool must have changed before it.
+    /// Converts an event to be held; `None`: the tool must have changed before it.
     fn of(event: &Event<'_>) -> Option<Waiting> {
         Some(match *event {
             Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
@@ -61,7 +61,7 @@ impl Waiting {
         })
     }
 
-    /// Comments, rapids and changes: nothing of theirs is printed by a sequence before the tool change.
+    /// Whether no sequence prints this event before the tool change: comments, rapids and changes.
     fn prints_nothing(&self) -> bool {
         matches!(
             self,
@@ -72,7 +72,7 @@ impl Waiting {
 }
 
 impl<'s> Hold<'s> {
-    /// In front of `sink`.
+    /// A filter in front of `sink`.
     pub fn new(sink: &'s mut dyn Sink) -> Self {
         Hold {
             sink,
@@ -86,10 +86,10 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Holds a tool change; its `first` is filled in here.
+    /// Holds a tool change. Its `first` is filled in by this filter.
     ///
     /// # Errors
-    /// Those of the sink for what was held before.
+    /// The sink fails at an event that was held before.
     pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Stop> {
         self.release(First::Nothing)?;
         let tool = change.tool.as_ref().map(|tool| tool.number);
@@ -99,7 +99,7 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// The tool changes now. `first` is the first move, where no rapid before it told a place.
+    /// Passes the tool change on. `first` is the first move, unless an earlier rapid has given a position.
     fn release(&mut self, first: First) -> Result<(), Stop> {
         let said = std::mem::take(&mut self.first);
         if let Some((mut change, place)) = self.change.take() {
@@ -119,8 +119,8 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// A rapid goes there: of each axis the first place is kept. Another tool has no height before it is told one: ways
-    /// across are those of its change, which goes down at the last of them.
+    /// Records the target of a rapid. The first position of each axis is kept. A new tool has no height until a rapid
+    /// gives one. Until then, rapids across belong to its tool change, and the tool goes down at the last of them.
     fn reaches(&mut self, to: &Axes) {
         if self.is_way() && self.first.given & to.given & !self.depth != 0 {
             self.first.given &= !to.given;
@@ -132,19 +132,19 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Are the rapids so far ways across of another tool, which has no height yet?
+    /// Whether the rapids so far are moves across of a new tool that has no height yet.
     fn is_way(&self) -> bool {
         self.changes && self.depth != 0 && self.first.given & self.depth == 0
     }
 
-    /// Rapids that tell no height, before a tool change that goes to a later place.
+    /// Removes rapids without a height, because the tool change goes to a later position.
     fn forget_ways(&mut self) {
         let (depth, changes) = (self.depth, self.changes);
         let is_way = |w: &Waiting| matches!(w, Waiting::Plain(Event::Rapid(to)) if changes && to.given & depth == 0);
         self.waiting.retain(|(waiting, _)| !is_way(waiting));
     }
 
-    /// Lets the tool change now, and passes an event on after it.
+    /// Passes the tool change on, and then an event.
     fn release_before(&mut self, event: Event<'_>, place: Place, first: First) -> Result<(), Stop> {
         self.release(first)?;
         self.sink.push(event, place)
@@ -153,7 +153,7 @@ impl<'s> Hold<'s> {
     #[cold]
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
         match event {
-            // rapids before it told places of the offset before: they are gone to in that one
+            // earlier rapids have given positions in the previous offset, so the tool moves to them in that offset
             Event::Work(_) if self.first.given != 0 && !self.is_way() => {
                 self.release_before(event, place, First::Nothing)
             }
@@ -161,7 +161,7 @@ impl<'s> Hold<'s> {
                 self.change_in(work);
                 Ok(())
             }
-            // what is switched or set before anything is done is the tool change's
+            // switches and settings before any other event belong to the tool change
             Event::Spindle(spindle) if self.prints_nothing() => {
                 self.change_with(spindle);
                 Ok(())
@@ -173,7 +173,7 @@ impl<'s> Hold<'s> {
                 Ok(())
             }
             Event::Rapid(to) => {
-                // CAM systems go to the height first and then across, or the other way: the tool change waits for both
+                // CAM systems move to the height first and then across, or the other way round: wait for both
                 self.reaches(&to);
                 if self.axes & !self.first.given == 0 || to.given & !self.axes != 0 {
                     return self.release_before(event, place, First::Nothing);
@@ -201,16 +201,16 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Nothing that waits is printed by itself.
+    /// Whether none of the waiting events is printed by itself.
     fn prints_nothing(&self) -> bool {
         self.waiting.iter().all(|(waiting, _)| waiting.prints_nothing())
     }
 
-    /// The tool change is in this work offset: the first position counts from it, and the tool must not go there in
-    /// another.
+    /// Puts the tool change in this work offset. The first position is in this offset, and the tool must not move there
+    /// in another.
     fn change_in(&mut self, work: f64) {
         if self.first.given != 0 {
-            // another tool goes to its place in the last offset at once
+            // a new tool moves directly to its position in the last offset
             self.first = Axes::default();
             self.forget_ways();
         }
@@ -219,7 +219,7 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// The tool change switches the spindle so.
+    /// Adds a spindle event to the tool change.
     fn change_with(&mut self, spindle: Spindle) {
         if let Some((change, _)) = &mut self.change {
             let before = change.spindle.unwrap_or_default();
@@ -232,31 +232,31 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// The path begins with the first hole of the cycle that waits.
+    /// The first move if the path begins with the first hole of the waiting cycle.
     fn first_hole(&mut self, hole: Hole) -> First {
         let spec = self.waiting.iter().find_map(|(waiting, _)| match waiting {
             Waiting::Cycle(spec) => Some(spec.clone()),
             _ => None,
         });
         if self.first.given & self.depth != 0 {
-            // over the hole, at the height that a rapid told
+            // above the hole, at the height of an earlier rapid
             self.reaches(&Axes { given: hole.at.given & self.axes & !self.depth, ..hole.at });
         } else {
             self.first = Axes::default();
-            self.forget_ways(); // the tool change goes over the hole at once
+            self.forget_ways(); // the tool change moves directly above the hole
         }
         spec.map_or(First::Cut, |spec| First::Hole(spec, hole))
     }
 
-    /// The path begins with a call: the tool change goes to the call's place, so in the call's work offset; the
-    /// operation's own comes after.
+    /// Handles a path that begins with a call. The tool change moves to the position of the call, in the work offset of
+    /// the call. The work offset of the operation follows.
     fn first_call(&mut self, call: &Call, place: Place) -> Result<(), Stop> {
         let own = self
             .change
             .as_mut()
             .filter(|_| call.work.is_some())
             .map(|(change, _)| std::mem::replace(&mut change.work, call.work));
-        let lost = own == Some(None); // the offset that is in force is the renderer's to know
+        let lost = own == Some(None); // only the renderer has the offset that is in force
         let first = if call.at.given == 0 || lost { First::Nothing } else { First::Rapid(call.at) };
         self.release_before(Event::SubCall(call), place, first)?;
         match own.flatten() {
@@ -285,7 +285,7 @@ impl Sink for Hold<'_> {
             (self.axes, self.depth) = match start.machine {
                 Machine::Mill => (0b111, 0b100),
                 Machine::Lathe => (0b011, 0b001),
-                Machine::Edm => (0b011, 0), // nothing goes down
+                Machine::Edm => (0b011, 0), // no axis goes down
             };
         }
         self.sink.event(event, place)

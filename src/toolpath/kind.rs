@@ -1,4 +1,4 @@
-//! Kinds of canned cycles, and which sequence serves each.
+//! Kinds of canned cycles, and the sequence for each.
 
 use super::tool::SpindleTurn;
 use crate::lang::SequenceId;
@@ -28,18 +28,18 @@ pub enum CycleKind {
     Thru,
     /// A countersink by its diameter and angle.
     Csink,
-    /// A stop: the operator does it.
+    /// A stop for manual work by the operator.
     Manual,
-    /// The form's first cycle of its own.
+    /// The first custom cycle of the form.
     Custom1,
-    /// The form's second cycle of its own.
+    /// The second custom cycle of the form.
     Custom2,
-    /// The form's third cycle of its own.
+    /// The third custom cycle of the form.
     Custom3,
 }
 
 impl CycleKind {
-    /// All of them with the names that jobs use.
+    /// All kinds with their names in jobs.
     pub const NAMES: [(&'static str, CycleKind); 15] = [
         ("drill", CycleKind::Drill),
         ("face", CycleKind::Face),
@@ -58,18 +58,18 @@ impl CycleKind {
         ("custom3", CycleKind::Custom3),
     ];
 
-    /// The name that jobs use.
+    /// The name of the kind in jobs.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
 
-    /// Finds a name in any case.
+    /// Finds a kind by its name, in upper or lower case.
     pub fn parse(name: &str) -> Option<CycleKind> {
         Self::NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
     }
 
-    /// The sequence that serves it by its name (render.md section 3); the other kinds are served by a Custom that is
-    /// labelled with them, if at all.
+    /// The sequence with the name of this kind (render.md section 3). Other kinds are printed only by a Custom sequence
+    /// that is labelled with them.
     pub fn sequence(self) -> Option<SequenceId> {
         Some(match self {
             CycleKind::Drill => SequenceId::Drill,
@@ -87,7 +87,7 @@ impl CycleKind {
         })
     }
 
-    /// Which way the spindle turns as a tap goes in.
+    /// The direction in which the spindle turns while a tap goes in.
     pub fn inwards(self) -> Option<SpindleTurn> {
         match self {
             CycleKind::Tap => Some(SpindleTurn::Cw),
@@ -96,7 +96,7 @@ impl CycleKind {
         }
     }
 
-    /// Is it a tap?
+    /// Whether the kind is a tap.
     pub fn is_tap(self) -> bool {
         matches!(self, CycleKind::Tap | CycleKind::LTap)
     }

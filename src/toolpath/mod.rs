@@ -1,4 +1,4 @@
-//! Toolpath events: what readers produce and the renderer consumes, one at a time.
+//! Toolpath events. Readers produce them and the renderer consumes them, one at a time.
 
 mod axes;
 mod cuts;
@@ -41,7 +41,7 @@ pub use summary::Summary;
 pub use thread::Thread;
 pub use tool::{Coolant, FeedMode, Spindle, SpindleTurn, Tool};
 
-/// A number as a key; zero has one sign.
+/// A number as a key of a map. Both signs of zero give the same key.
 pub(crate) fn key(number: f64) -> u64 {
     (number + 0.0).to_bits()
 }

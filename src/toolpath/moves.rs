@@ -15,7 +15,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The axes of the plane in the order that makes counter-clockwise positive, and the axis across it.
+    /// The two axes of the plane in the order in which counter-clockwise is positive, and the axis across the plane.
     pub fn axes(self) -> ([usize; 2], usize) {
         match self {
             Plane::Xy => ([0, 1], 2),
@@ -25,7 +25,7 @@ impl Plane {
     }
 }
 
-/// Which way an arc turns, seen from the plane's positive third axis.
+/// Direction of an arc, seen from the positive end of the axis across the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Clockwise: G2.
@@ -39,7 +39,7 @@ pub enum Direction {
 pub struct Arc {
     /// End of the arc.
     pub to: Axes,
-    /// Centre of the arc, an absolute position; the third coordinate does not count.
+    /// Centre of the arc as an absolute position. Its coordinate across the plane is ignored.
     pub center: Option<Axes>,
     /// Radius, instead of the centre: negative for the longer way round.
     pub radius: Option<f64>,
@@ -47,11 +47,11 @@ pub struct Arc {
     pub direction: Direction,
     /// Plane of the arc.
     pub plane: Plane,
-    /// Full turns before the end is reached for good.
+    /// Full turns before the arc stops at its end.
     pub turns: u32,
 }
 
-/// Side of the path on which the tool is.
+/// Side of the path where the tool is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Left of the path: G41.
@@ -65,29 +65,29 @@ pub enum Side {
 pub struct Infeed {
     /// End of the move.
     pub to: Axes,
-    /// Side on which the tool will be.
+    /// Side of the path where the tool will be.
     pub side: Side,
-    /// The move is a rapid.
+    /// Whether the move is a rapid.
     pub rapid: bool,
 }
 
 /// Named parts of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
-    /// The way onto the contour.
+    /// The approach onto the contour.
     Leadin,
-    /// The way off the contour.
+    /// The move off the contour.
     Leadout,
-    /// The way down into the material.
+    /// The move down into the material.
     Plunge,
-    /// The way up out of the material.
+    /// The move up out of the material.
     Retract,
-    /// The way across to the next pass.
+    /// The move across to the next pass.
     SideStep,
     /// The moves of one Z level.
     ZLevel,
     /// A pass of a pocket or of a surface.
     Row,
-    /// All that a torch or a laser cuts without a rapid; no job has it.
+    /// Everything that a torch or a laser cuts without a rapid between. Jobs do not contain it.
     Cut,
 }

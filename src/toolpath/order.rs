@@ -1,25 +1,25 @@
-//! The order of events: what can't come where it comes is a fault of whoever pushes events, never of a job.
+//! Checks the order of events. A wrong order is a fault of the code that pushes events, never of a job.
 
 use super::event::Event;
 use crate::diag::{Code, Diag};
 
-/// Where a stream of events stands.
+/// State of a stream of events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
     /// Outside a cycle.
     #[default]
     Path,
-    /// In a cycle, until anything but a hole comes.
+    /// In a cycle, until an event other than a hole.
     Cycle,
     /// After the end.
     End,
 }
 
 impl Order {
-    /// Goes on by one event.
+    /// Takes the next event.
     ///
     /// # Errors
-    /// A hole outside a cycle, an event after the end.
+    /// A hole is outside a cycle, or an event comes after the end.
     #[inline]
     pub fn follow(&mut self, event: &Event<'_>) -> Result<(), Box<Diag>> {
         *self = match (*self, event) {
@@ -34,12 +34,12 @@ impl Order {
     }
 }
 
-/// Something that no reader pushes: an error of postform itself.
+/// An error for events that no reader pushes. This is an error of postform itself.
 ///
 /// # Errors
-/// Always.
+/// Always fails.
 #[cold]
 pub fn impossible<T>(what: &str) -> Result<T, Box<Diag>> {
-    let help = "this is a fault of postform, not of the job: please report it, with the job if you may";
+    let help = "this is an error in postform, not in the job: please report it, if possible with the job";
     Err(Box::new(Diag::new(Code::PX001, what).help(help)))
 }

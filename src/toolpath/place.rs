@@ -1,13 +1,13 @@
-//! Places in a job, small enough to go with every event.
+//! Locations in a job, small enough to be passed with every event.
 
 use std::fmt;
 
 use crate::diag::Location;
 
-/// Where an event stands in its input.
+/// Location of an event in its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Place {
-    /// Line of the input, from 1; 0 when there is none.
+    /// Line of the input, from 1; 0 if there is none.
     pub line: u64,
     /// Column, from 1.
     pub column: u32,
@@ -22,7 +22,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The path inside the document, as `operations[0].path[3].cycle.points[2]`; empty at the top.
+    /// The path inside the document, such as `operations[0].path[3].cycle.points[2]`; empty at the top level.
     pub fn path(&self) -> String {
         let mut path = match (self.operation, self.subprogram) {
             (0, 0) => return String::new(),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Angles that differ by less are one.
+/// Angles that differ by less are equal.
 const SAME_ANGLE: f64 = 1e-9;
 
 /// An arc in its plane, in the plane's own coordinates.
@@ -14,12 +14,12 @@ pub struct PlaneArc {
     pub radius: f64,
     /// Angle of the start, radians.
     pub start: f64,
-    /// Angle swept, counter-clockwise positive; more than a turn for a helix of several.
+    /// Angle swept, positive counter-clockwise. It is more than a full turn for a helix with several turns.
     pub sweep: f64,
 }
 
 impl PlaneArc {
-    /// The arc from `from` to `to` about `centre`; equal ends make a full circle. `turns` are added to it.
+    /// The arc from `from` to `to` about `centre`. Equal ends make a full circle. `turns` full turns are added.
     pub fn new(from: [f64; 2], to: [f64; 2], centre: [f64; 2], ccw: bool, turns: u32) -> PlaneArc {
         let angle = |p: [f64; 2]| (p[1] - centre[1]).atan2(p[0] - centre[0]);
         let (start, end) = (angle(from), angle(to));
@@ -36,8 +36,8 @@ impl PlaneArc {
         PlaneArc { centre, radius, start, sweep: if ccw { sweep } else { -sweep } }
     }
 
-    /// The centre of an arc with this radius; a negative radius goes the longer way round. `None`: the ends are
-    /// farther apart than the diameter, or one.
+    /// The centre of an arc with this radius. A negative radius means the longer way round. `None`: the ends are equal,
+    /// or farther apart than the diameter.
     pub fn centre_by_radius(from: [f64; 2], to: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let half = dx.hypot(dy) / 2.0;
@@ -45,7 +45,7 @@ impl PlaneArc {
             return None;
         }
         let square = radius * radius - half * half;
-        // a half circle whose radius was rounded
+        // allow a half circle whose radius was rounded
         if square < 0.0 && half > radius.abs() * (1.0 + 1e-6) + 1e-6 {
             return None;
         }
@@ -56,13 +56,13 @@ impl PlaneArc {
         Some([(from[0] + to[0]) / 2.0 + side * height * nx, (from[1] + to[1]) / 2.0 + side * height * ny])
     }
 
-    /// The point after a part of the sweep, from 0 to 1.
+    /// The point at a fraction of the sweep, from 0 to 1.
     pub fn point(&self, part: f64) -> [f64; 2] {
         let (sin, cos) = (self.start + self.sweep * part).sin_cos();
         [self.centre[0] + self.radius * cos, self.centre[1] + self.radius * sin]
     }
 
-    /// Parts of the sweep at which the arc crosses a quadrant line, between 0 and 1 and without them.
+    /// Fractions of the sweep where the arc crosses a quadrant line, excluding 0 and 1.
     pub fn quadrant_parts(&self, parts: &mut Vec<f64>) {
         let direction = self.sweep.signum();
         let first = self.start * direction / FRAC_PI_2;
@@ -79,7 +79,7 @@ impl PlaneArc {
         }
     }
 
-    /// Equal parts, each of at most `most` radians.
+    /// Fractions that divide the sweep into equal parts of at most `most` radians.
     pub fn equal_parts(&self, most: f64, parts: &mut Vec<f64>) {
         let count = (self.sweep.abs() / most - SAME_ANGLE).ceil().max(1.0);
         parts.extend((1..count as u64).map(|i| i as f64 / count));
@@ -123,7 +123,7 @@ mod tests {
     }
 
     proptest! {
-        /// A centre found by radius lies at that radius from both ends, and the arc takes the side that was asked for.
+        /// A centre that is found by radius has that distance from both ends, and the arc sweeps the requested side.
         #[test]
         fn radius_arcs_close(x in -10.0..10.0f64, y in -10.0..10.0f64, stretch in 1.001..5.0f64, ccw: bool, long: bool) {
             prop_assume!(x.hypot(y) > 0.01);

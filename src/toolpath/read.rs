@@ -1,16 +1,16 @@
-//! Why reading a job ends early.
+//! Reasons why reading a job ends early.
 
 use super::Stop;
 use crate::diag::Diag;
 
-/// Why a job was not read to its end.
+/// The reason why a job was not read to its end.
 #[derive(Debug)]
 pub enum ReadError {
     /// The input could not be read.
     Io(std::io::Error),
-    /// The job is wrong, or what its events asked for is.
+    /// The job is wrong, or its events request something that is not possible.
     Job(Box<Diag>),
-    /// The sink has seen enough: no error.
+    /// The sink needs no more events. This is not an error.
     Stopped,
 }
 

@@ -1,4 +1,4 @@
-//! Who takes events, and how it ends that.
+//! Sinks take events, and can stop the reader.
 
 use std::ops::ControlFlow;
 
@@ -6,12 +6,12 @@ use super::event::Event;
 use super::place::Place;
 use crate::diag::{Diag, Location};
 
-/// Why a sink takes no more events.
+/// The reason why a sink takes no more events.
 #[derive(Debug)]
 pub enum Stop {
-    /// The sink has seen enough, which is no error.
+    /// The sink needs no more events. This is not an error.
     Enough,
-    /// What is wrong with the event, or with what it asks for.
+    /// The event is wrong, or it requests something that is not possible.
     Wrong(Box<Diag>),
 }
 
@@ -28,7 +28,7 @@ impl From<Diag> for Stop {
 }
 
 impl Stop {
-    /// The finding, if there is one, with the place where it was found unless it has one.
+    /// Adds a location to the finding, unless it already has one.
     pub(crate) fn placed(mut self, place: impl FnOnce() -> Location) -> Stop {
         if let Stop::Wrong(diag) = &mut self {
             diag.place.get_or_insert_with(place);
@@ -37,10 +37,10 @@ impl Stop {
     }
 }
 
-/// What a sink answers: go on, or why not.
+/// The answer of a sink: continue, or the reason to stop.
 pub type Flow = ControlFlow<Stop>;
 
-/// A result as a sink's answer.
+/// Converts a result to the answer of a sink.
 #[inline]
 pub fn flow<E: Into<Stop>>(done: Result<(), E>) -> Flow {
     match done {
@@ -49,12 +49,12 @@ pub fn flow<E: Into<Stop>>(done: Result<(), E>) -> Flow {
     }
 }
 
-/// Something that takes events: the renderer, a summary, a check.
+/// A receiver of events: the renderer, a summary, a check.
 pub trait Sink {
-    /// Takes one event with its place in the input. After a break nothing may be pushed.
+    /// Takes one event with its place in the input. After a break, no more events may be pushed.
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow;
 
-    /// Gives the sink one event as a reader does, so that `?` ends the reading where the sink breaks off.
+    /// Passes one event to the sink. Returns a `Result`, so that `?` ends the reading when the sink stops.
     ///
     /// # Errors
     /// The sink takes no more events.

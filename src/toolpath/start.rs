@@ -3,7 +3,7 @@
 use super::axes::Units;
 use crate::lang::Machine;
 
-/// A value that a job gives a variable or a property of the form.
+/// A value that a job sets for a variable or a property of the form.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Given {
     /// A number.
@@ -12,16 +12,16 @@ pub enum Given {
     Text(String),
 }
 
-/// What a job says of its part, for people.
+/// Information about the part, for people.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct About {
     /// Name or number of the part.
     pub part: Option<String>,
-    /// What the part is made of.
+    /// Material of the part.
     pub material: Option<String>,
-    /// Who gets the part.
+    /// Customer of the part.
     pub customer: Option<String>,
-    /// Who made the job.
+    /// Author of the job.
     pub author: Option<String>,
 }
 
@@ -32,7 +32,7 @@ pub struct Start {
     pub program: Option<f64>,
     /// Name of the job.
     pub name: Option<String>,
-    /// What the job says of its part.
+    /// Information about the part.
     pub about: About,
     /// Units of the job's numbers.
     pub units: Units,
@@ -40,12 +40,12 @@ pub struct Start {
     pub machine: Machine,
     /// Values for variables, by name.
     pub set: Vec<(String, Given)>,
-    /// The tools in order of use, where the job tells.
+    /// The tools in order of use, if the job contains it.
     pub tool_order: Option<Vec<f64>>,
 }
 
 impl Start {
-    /// The head of a mill's job that says nothing else.
+    /// The head of a job for a mill, without further data.
     pub fn new(units: Units) -> Start {
         Start {
             program: None,

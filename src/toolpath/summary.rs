@@ -1,4 +1,4 @@
-//! What is in a job: tools, moves, holes, extents.
+//! Statistics of a job: tools, moves, holes, extents.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ use super::start::Start;
 use super::{Flow, Place, Sink, flow, key};
 use crate::diag::{Code, Diag};
 
-/// Counts a job's events; `postform check` prints it.
+/// Counts the events of a job. `postform check` prints the summary.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
     /// Units of the job.
@@ -21,29 +21,29 @@ pub struct Summary {
     pub program: Option<f64>,
     /// Tool numbers in the order of their first use, with diameter.
     pub tools: Vec<(f64, Option<f64>)>,
-    /// Operations.
+    /// Number of operations.
     pub operations: u64,
-    /// Rapid moves.
+    /// Number of rapid moves.
     pub rapids: u64,
-    /// Straight feed moves.
+    /// Number of straight feed moves.
     pub lines: u64,
-    /// Arcs.
+    /// Number of arcs.
     pub arcs: u64,
-    /// Holes by kind of cycle.
+    /// Number of holes for each kind of cycle.
     pub holes: Vec<(CycleKind, u64)>,
-    /// Least and greatest position of each linear axis over all targets, hole bottoms among them.
+    /// Least and greatest position of each linear axis over all targets, including hole bottoms.
     pub extents: [Option<(f64, f64)>; 3],
-    /// How often the tool axis changes.
+    /// Number of changes of the tool axis.
     pub tilts: u64,
-    /// Where the tool axis changes first.
+    /// Place of the first change of the tool axis.
     tilted: Option<Place>,
-    /// The first operation with nothing in it.
+    /// The first operation without content.
     idle: Option<Place>,
-    /// An operation that has nothing in it so far.
+    /// An operation without content so far.
     begun: Option<Place>,
     order: Order,
     kind: Option<(CycleKind, f64)>,
-    /// Tools that are in `tools`.
+    /// Numbers of the tools in `tools`.
     seen: HashSet<u64>,
     last: [f64; 3],
 }
@@ -63,19 +63,20 @@ impl Summary {
         self.extents[axis] = Some((least.min(value), greatest.max(value)));
     }
 
-    /// Why no form can print the job: what rendering would say at the latest.
+    /// Findings that prevent every form from printing the job. Rendering would report them too.
     pub fn unprintable(&self) -> Vec<Diag> {
         let at = |place: Place, code, message: String, help: &str| Diag::new(code, message).help(help).place(place);
         let tilted = self.tilted.map(|place| {
-            let places = if self.tilts == 1 { "here".into() } else { format!("{} places, the first here", self.tilts) };
+            let places = if self.tilts == 1 { "here".into() } else { format!("{} moves, the first one here", self.tilts) };
             let message = format!("no form can print this, because the tool is tilted ({places})");
             let help =
-                "a form has no words for that: post the operations of each tool axis by themselves, each as a setup; of a CL file `--setup N` takes one";
+                "forms can't print a tilted tool: post the operations of each tool axis separately, as setups; for a \
+                 CL file `--setup N` selects one";
             at(place, Code::PR008, message, help)
         });
         let idle = self.idle.map(|place| {
             let message = "no form can print this, because the operation has no move".to_owned();
-            at(place, Code::PR012, message, "take the operation out, or give it a move")
+            at(place, Code::PR012, message, "remove the operation, or give it a move")
         });
         tilted.into_iter().chain(idle).collect()
     }

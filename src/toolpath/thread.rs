@@ -9,21 +9,21 @@ pub struct Thread {
     pub from: Axes,
     /// End of the thread: z, and the radius of the crest.
     pub to: Axes,
-    /// Distance from crest to crest.
+    /// Distance between two crests.
     pub pitch: f64,
-    /// Height of the thread, on the radius; negative for an inner thread, which is cut outward.
+    /// Height of the thread, on the radius; negative for an internal thread, which is cut outward.
     pub depth: f64,
     /// Depth of the first cut, on the radius.
     pub first_depth: Option<f64>,
-    /// Depth of the least cut, on the radius.
+    /// Depth of the smallest cut, on the radius.
     pub min_depth: Option<f64>,
-    /// Radius at the start less radius at the end.
+    /// Radius at the start minus the radius at the end.
     pub taper: Option<f64>,
     /// Angle of the tip, in degrees.
     pub angle: Option<f64>,
     /// Number of passes.
     pub passes: Option<f64>,
-    /// Length of the runout, as the control counts it.
+    /// Length of the runout, in the unit of the control.
     pub chamfer: Option<f64>,
     /// Number of starts.
     pub starts: Option<f64>,

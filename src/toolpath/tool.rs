@@ -1,4 +1,4 @@
-//! What an operation works with: tool, spindle, coolant, and what its feeds count.
+//! Tool data of an operation: tool, spindle, coolant, and feed mode.
 
 pub use crate::lang::Coolant;
 
@@ -21,43 +21,43 @@ pub struct Tool {
     pub turret: Option<f64>,
     /// Name of the tool.
     pub name: Option<String>,
-    /// What the program says of the tool.
+    /// Comment of the program about the tool.
     pub comment: Option<String>,
-    /// What else is known of it, as a holder or its stick-out, by names of the job's own.
+    /// Other data, such as the holder or the stick-out, under names that the job chooses.
     pub data: Vec<(String, Given)>,
 }
 
-/// Which way the spindle turns.
+/// Rotation of the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpindleTurn {
     /// Clockwise, seen from the spindle: M3.
     Cw,
     /// Counterclockwise: M4.
     Ccw,
-    /// The spindle stands: M5.
+    /// Stopped: M5.
     Off,
 }
 
-/// The spindle; what is not given stays.
+/// The spindle. Values that are not given stay unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Spindle {
-    /// Revolutions a minute; at constant surface speed what the control counts there.
+    /// Revolutions per minute, or the surface speed in the unit of the control.
     pub speed: Option<f64>,
     /// Direction of the spindle.
     pub turn: Option<SpindleTurn>,
-    /// Does the speed count at the surface of the part?
+    /// Whether the speed is a constant surface speed.
     pub css: Option<bool>,
-    /// Highest revolutions a minute at constant surface speed.
+    /// Highest revolutions per minute at constant surface speed.
     pub max: Option<f64>,
 }
 
-/// What a feed counts.
+/// The unit of feeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMode {
-    /// Length a minute: G94, on lathes G98.
+    /// Length per minute: G94, on lathes G98.
     PerMinute,
-    /// Length a turn of the spindle: G95, on lathes G99.
+    /// Length per turn of the spindle: G95, on lathes G99.
     PerRev,
-    /// Moves a minute: G93.
+    /// Moves per minute: G93.
     InverseTime,
 }

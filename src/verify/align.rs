@@ -1,5 +1,5 @@
-//! Which cuts of the job and of the program belong together: each side may have cuts that the other does not have, if they are
-//! too short for the digits of the program, or made again after the tool was taken out.
+//! Pairs the cuts of the job with those of the program. Each side may have cuts that the other side lacks. These are
+//! shorter than the digits of the program, or are made again after the tool was taken out.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lead_alike, lies_between, same};
 use super::intent::Done;
@@ -8,8 +8,8 @@ use super::passage::Passage;
 use super::sides::Sides;
 use super::{arcs, begin};
 
-/// Is the job's cut left out, because it is shorter than the digits of the program show? Then it is dealt with. Cuts of holes are
-/// never left out.
+/// Whether the program leaves out the job's cut because it is shorter than the program's digits. If so, the cut is done.
+/// Cuts of holes are never left out.
 pub(super) fn leaves_out(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     if !cut.is_short(s.limits.tolerance) || !vanishes(s, cut)? {
         return Ok(false);
@@ -19,8 +19,8 @@ pub(super) fn leaves_out(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     Ok(true)
 }
 
-/// The program's next cut that may be the job's: those before it that the job does not need are dealt with. `None`: the program is
-/// over.
+/// The program's next cut that may be the job's cut. Earlier cuts that the job does not need are passed over. `None`: the
+/// program is over.
 pub(super) fn partner(s: &mut Sides<'_>, cut: &Cut) -> Done<Option<Cut>> {
     while let Some(found) = s.next()? {
         if enters_again(s, cut, &found) {
@@ -36,7 +36,7 @@ pub(super) fn partner(s: &mut Sides<'_>, cut: &Cut) -> Done<Option<Cut>> {
     Ok(None)
 }
 
-/// The program's next cut after the job's last one: cuts too short to count are dealt with.
+/// The program's next cut after the job's last one. Cuts that are too short to matter are passed over.
 pub(super) fn after_the_last(s: &mut Sides<'_>) -> Done<Option<Cut>> {
     while let Some(found) = s.next()? {
         if is_nothing(s, &found) {
@@ -49,7 +49,7 @@ pub(super) fn after_the_last(s: &mut Sides<'_>) -> Done<Option<Cut>> {
     Ok(None)
 }
 
-/// Is a cut of the program too short to count, and not the job's cut or its beginning?
+/// Whether a cut of the program is too short to matter, and is neither the job's cut nor its beginning.
 fn is_put_in(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     !found.by_cycle
         && is_nothing(s, found)
@@ -58,12 +58,13 @@ fn is_put_in(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
         && !is_part(s, cut, found)
 }
 
-/// Did the digits of the program swallow the job's short cut? The program stays as near to the job as it can.
+/// Whether the job's short cut disappears in the digits of the program. The program must stay as near to the job as it
+/// can.
 fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     let Some(found) = s.next()? else { return Ok(true) };
     let tolerance = s.limits.tolerance;
     let [to_end, to_begin] = [found.end(), found.from].map(|place| apart(&place, &cut.end()));
-    // its digits show it, whatever rapids lead to it
+    // the digits show the cut, whatever rapids come before it
     let shows = to_end + tolerance / 2.0 < to_begin;
     let joins = found.unknown == 0
         && (shows || joins_alike(s))
@@ -72,35 +73,36 @@ fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
         && same(&found.end(), &cut.end(), ALL, tolerance);
     let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
     let joins = joins && pauses(&s.program.passage) == pauses(&s.job);
-    // one that leads elsewhere is another's
+    // a cut in another direction belongs to another cut of the job
     let joins = joins && lead_alike(cut, &found);
     let nearer = to_end <= to_begin + 1e-9;
     let circle = matches!(found.what, What::Arc(_)) && !found.is_short(tolerance);
     Ok(!joins || !nearer || circle)
 }
 
-/// Do both next cuts follow on the last ones, or neither?
+/// Whether both next cuts follow directly on the previous ones, or neither does.
 fn joins_alike(s: &Sides<'_>) -> bool {
     let (a, b, tolerance) = (&s.program.passage, &s.job, s.limits.tolerance);
     a.rapids.is_empty() == b.rapids.is_empty() || a.stays(tolerance) && b.stays(tolerance)
 }
 
-/// Is a cut of the program too short to count? The digits of both its ends may make a short one twice as long.
+/// Whether a cut of the program is too short to matter. Rounding of both ends may make a short cut twice as long.
 fn is_nothing(s: &Sides<'_>, found: &Cut) -> bool {
     found.unknown == 0 && found.is_short(2.0 * s.limits.tolerance)
 }
 
-/// Is a short cut of the program the job's, which is a little longer?
+/// Whether a short cut of the program is the job's cut, which is a little longer.
 fn is_itself(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
-    // a full circle ends where it begins, too
+    // this also covers a full circle, which ends where it begins
     same(&cut.from, &found.from, ALL, tolerance)
         && same(&cut.end(), &found.end(), ALL, tolerance)
         && cut.is_short(4.0 * tolerance)
         && lead_alike(cut, found)
 }
 
-/// Is a short cut of the program the beginning of the job's cut? One that ends where the job's begins is none of it.
+/// Whether a short cut of the program is the beginning of the job's cut. A cut that ends where the job's cut begins is
+/// not.
 fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
     let goes_along = match (cut.what, found.what) {
@@ -111,8 +113,8 @@ fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
 }
 
-/// Does the program go straight down again to where the cut goes on, after the tool was taken out, as to unwind an
-/// axis?
+/// Whether the program goes straight down again to the position where the cut continues, after the tool was taken out,
+/// for example to unwind an axis.
 fn enters_again(s: &mut Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let What::Line { to } = found.what else { return false };
     let tolerance = s.limits.tolerance;

@@ -1,4 +1,4 @@
-//! Arcs: a program may make them of parts, or of short lines.
+//! Arcs. A program may make them in parts, or of short lines.
 
 use super::cut::{ALL, Cut, Place, What, position, same, shown};
 use super::intent::Done;
@@ -8,10 +8,10 @@ use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
 
-/// How far parts may leave the circle, in tolerances: centres are rounded too.
+/// How far parts may deviate from the circle, in tolerances. It is more than 1 because centres are rounded too.
 const OFF: f64 = 5.0;
 
-/// Does a short straight cut from the beginning of an arc end on it, not past its end and not back?
+/// Whether a short straight cut from the beginning of an arc ends on the arc, not beyond its end and not backwards.
 pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bool {
     let [first, second, _] = axes_of(turn.plane);
     let radius = |at: &Place| (at[first] - turn.center[first]).hypot(at[second] - turn.center[second]);
@@ -19,30 +19,30 @@ pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bo
     (radius(to) - radius(&cut.from)).abs() <= tolerance && angle <= sweep(&cut.from, turn).min(std::f64::consts::PI)
 }
 
-/// The job's arc, as one or in parts; the first was met already.
+/// Compares the job's arc, made as one arc or in parts. The first part was met already.
 pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     let (tolerance, chord) = (s.limits.tolerance, s.limits.chord);
     let [first, second, across] = axes_of(turn.plane);
     let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
     let whole = sweep(&cut.from, turn);
-    // digits turn a small arc by more than a large one
+    // rounding changes the angle of a small arc more than that of a large one
     let slack_angle = 1e-3 + OFF * tolerance / radius;
     let (mut swept, mut parts) = (0.0, 0);
     loop {
         let Some(found) = s.next()? else {
-            let message = format!("the program is over inside the arc to {}", shown(&cut.end(), 0b111));
-            return s.differs(Code::PV017, 0, message, "look at the arcs of the form");
+            let message = format!("the program ends inside the arc to {}", shown(&cut.end(), 0b111));
+            return s.differs(Code::PV017, 0, message, "check the arcs of the form");
         };
         if parts > 0 && !s.program.passage.is_plain() {
             let message = "a rapid, a stop or a dwell inside an arc".to_owned();
-            return s.differs(Code::PV001, found.line, message, "look at the arcs of the form");
+            return s.differs(Code::PV001, found.line, message, "check the arcs of the form");
         }
         if parts > 0 {
             modal::compare(s, cut, &found, false);
         }
         let end = found.end();
         let part = Turn { to: position(&end), turns: 0, ..*turn };
-        // from where the program stands: its digits may close a circle that the job's do not, and the other way
+        // measured from the program's position: rounding may close a circle that is open in the job, or the reverse
         let straight_up = matches!(found.what, What::Line { .. })
             && [first, second].iter().all(|&axis| (end[axis] - found.from[axis]).abs() < 1e-9);
         let mut angle = if straight_up { 0.0 } else { sweep(&found.from, &part) };
@@ -53,9 +53,9 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
                     let name = if turn.direction == Direction::Cw { "clockwise" } else { "counter-clockwise" };
                     let message = || {
                         let end = shown(&cut.end(), 0b111);
-                        format!("the arc to {end} turns the other way, or in another plane: the job's {name}")
+                        format!("the arc to {end} has the opposite direction or another plane: the job's arc is {name}")
                     };
-                    let help = "look at ClockWise, CounterClockWise and ArcPlane";
+                    let help = "check ClockWise, CounterClockWise and ArcPlane";
                     if !same(&found.end(), &cut.end(), ALL, tolerance) {
                         return s.differs(Code::PV001, found.line, message(), help);
                     }
@@ -76,23 +76,23 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
         let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
         let ends = same(&end, &cut.end(), ALL, tolerance);
         let in_it = !ends && (parts > 0 || swept < whole - 1e-6);
-        // on a steep helix the digits of its plane say little of the height
+        // on a steep helix, the rounding of X and Y changes the height by this much
         let steep = ((turn.to[across] - cut.from[across]) / (radius * whole)).abs() * tolerance;
         let off = off.max(((end[across] - height).abs() - 2.0 * steep) * f64::from(u8::from(in_it)));
         if off > slack || swept > whole + slack_angle * f64::from(parts + 1) {
             let message = format!(
-                "a cut goes to {}, not along the job's arc to {}",
+                "a cut goes to {}, which is not on the job's arc to {}",
                 shown(&end, 0b111),
                 shown(&cut.end(), 0b111)
             );
-            return s.differs(Code::PV001, found.line, message, "look at CtrCode, CtrIncremental? and the radius");
+            return s.differs(Code::PV001, found.line, message, "check CtrCode, CtrIncremental? and the radius");
         }
         let share = if cut.mode == FeedMode::InverseTime { angle / whole } else { 1.0 };
         let part = Cut { feed: cut.feed.map(|feed| feed / share), ..cut.clone() };
         modal::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;
-        // the digits of each part turn it
+        // the rounding of each part changes its angle
         if ends && swept > whole - slack_angle * f64::from(parts) {
             s.report.allowed.arcs += u64::from(parts > 1);
             return Ok(());
@@ -100,7 +100,7 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     }
 }
 
-/// A point of a part after an angle, in the plane; the end of a straight one.
+/// The point of a part after an angle, in the plane. For a straight part, this is its end.
 fn point_of(found: &Cut, turn: &Turn, angle: f64) -> [f64; 2] {
     let [first, second, _] = axes_of(turn.plane);
     match found.what {

@@ -1,4 +1,4 @@
-//! Where a cut begins: the program has one, of the same kind, from the same place.
+//! The beginning of a cut. The program must have a cut of the same kind that begins at the same position.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, number, over, same, shown};
 use super::intent::{Done, Expected};
@@ -6,24 +6,25 @@ use super::sides::Sides;
 use super::{align, modal, pauses, rapids, wire};
 use crate::diag::Code;
 
-/// How the program's next cut begins.
+/// The beginning of the program's next cut.
 enum Begins {
-    /// Where the job's does.
+    /// At the beginning of the job's cut.
     There,
-    /// After the end of the job's, to which the program goes at rapid.
+    /// After the end of the job's cut: the program goes to this end at rapid.
     Behind,
-    /// Before it: the program feeds where the job has a rapid.
+    /// Before the job's cut: the program feeds where the job has a rapid.
     Before,
 }
 
-/// The program's next cut, whose way, beginning and state are compared; `None`: the program goes at rapid where the job cuts.
+/// The program's next cut, after its path, beginning and state are compared. `None`: the program goes at rapid where the
+/// job cuts.
 pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
     let found = loop {
         let Some(found) = align::partner(s, cut)? else { return is_missing(s, cut, hole) };
         match begins(s, cut, &found, hole)? {
             Begins::There => break found,
             Begins::Behind => {
-                // the next cut begins there all the same
+                // the next cut still begins at this end
                 s.job.goes_on(cut.end());
                 return Ok(None);
             }
@@ -40,22 +41,22 @@ pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Don
 
 fn is_missing<T>(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<T> {
     if let Some(hole) = hole {
-        let message = format!("the hole at {} is not drilled: the program is over", over(&hole.at));
-        return s.differs(Code::PV002, 0, message, "look at the cycle, and at what ends it");
+        let message = format!("the hole at {} is not drilled: the program ends before it", over(&hole.at));
+        return s.differs(Code::PV002, 0, message, "check the cycle and its end");
     }
     let end = cut.end();
     let to = shown(&end, 0b111);
     let tolerance = s.limits.tolerance;
     let by_rapid = |rapid: &Rapid| rapid.unknown == 0 && same(&rapid.to, &end, ALL, tolerance);
     if s.program.passage.rapids.iter().any(by_rapid) {
-        let message = format!("a rapid goes to {to}, where the job cuts");
+        let message = format!("a rapid goes to {to}, but the job cuts to this position");
         return s.differs(Code::PV007, 0, message, "print the feed code (G1) for this move");
     }
-    let message = format!("the program is over, and the cut to {to} is missing");
-    s.differs(Code::PV017, 0, message, "look at what the form prints for this move")
+    let message = format!("the program ends before the cut to {to}");
+    s.differs(Code::PV017, 0, message, "check the words that the form prints for this move")
 }
 
-/// Checks that both cuts begin at one place.
+/// Checks that both cuts begin at the same position.
 fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done<Begins> {
     let tolerance = s.limits.tolerance;
     let unknown = found.unknown & !cut.unknown & ALL;
@@ -67,17 +68,17 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
         && same(&cut.from, &job, ALL, tolerance)
         && same(&found.from, &program, ALL, tolerance)
     {
-        return Ok(Begins::There); // follows from where the cut before it ended
+        return Ok(Begins::There); // both follow the previous cut
     }
     let end = cut.end();
     let angles = (3..6).filter(|&axis| cut.from[axis] != found.from[axis]).map(|axis| 1 << axis).sum::<u8>();
     let (wanted, is) = (shown(&cut.from, 0b111 | angles), shown(&found.from, 0b111 | angles));
     let line = found.line;
-    // the rapid went where the cut goes
+    // the rapid went to the end of the cut
     let cuts_by_rapid = |rapid: &Rapid| rapid.unknown == 0 && same(&rapid.to, &end, ALL, tolerance);
     if s.program.passage.rapids.iter().any(cuts_by_rapid) && !same(&end, &cut.from, ALL, tolerance) {
         s.found(Code::PV007, line, "print the feed code (G1) for this move", || {
-            format!("a rapid goes to {}, where the job cuts", shown(&end, 0b111))
+            format!("a rapid goes to {}, but the job cuts to this position", shown(&end, 0b111))
         });
         return Ok(Begins::Behind);
     }
@@ -86,37 +87,38 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     }
     if found.by_cycle && found.lead.is_none() && hole.is_none() {
         let place = over(&found.from);
-        let message = format!("the canned cycle is still in force: it drills at {place}, where the job has no hole");
+        let message =
+            format!("the canned cycle is still active: it drills at {place}, but the job has no hole at this position");
         return s.differs(Code::PV013, line, message, "end the cycle: print G80 in Cancel, and `End Cancel`");
     }
     if let (None, Some(axes)) = (hole, unsaid(unknown)) {
         let message = format!(
-            "a cut begins at a place that only the machine knows: {axes} was not said since the work offset or the tool \
-             was changed, or an axis went home"
+            "a cut begins at an unknown position: {axes} is not printed since a change of the work offset or the \
+             tool, or since a move home"
         );
         return s.differs(Code::PV001, line, message, "print all axes before the cut");
     }
     let Some(hole) = hole else {
-        let message = format!("a cut begins at {is}, the job's at {wanted}");
-        return s.differs(Code::PV001, line, message, "look at what the form prints for the moves before it");
+        let message = format!("a cut begins at {is}, but the job's cut begins at {wanted}");
+        return s.differs(Code::PV001, line, message, "check the words that the form prints for the moves before it");
     };
     if !same(&hole.at, &found.from, ACROSS, tolerance) {
         let at = over(&hole.at);
         if s.hole.last.is_some_and(|last| same(&last.at, &found.from, ACROSS, tolerance)) {
             let message = format!("the hole at {} is drilled twice", over(&found.from));
-            return s.differs(Code::PV003, line, message, "look for a second position line in the cycle");
+            return s.differs(Code::PV003, line, message, "remove a second position line from the cycle");
         }
         let message = format!("the hole at {at} is not drilled: the next cut begins at {is}");
         return s.differs(Code::PV002, line, message, "print [h] and [v] in the cycle's position line");
     }
     if unknown & 1 << DEPTH != 0 {
-        let message = format!("the hole at {} is drilled from a height that only the machine knows", over(&hole.at));
+        let message = format!("the hole at {} is drilled from an unknown height", over(&hole.at));
         return s.differs(Code::PV005, line, message, "print [d] before the cycle");
     }
-    // the hole is the job's all the same, and the next may be, too
+    // the hole is still the job's, and the next one may be, too
     s.found(Code::PV005, line, "print R[vclear] in the cycle, at every hole where it changes", || {
         format!(
-            "the feed begins at Z{}, the job's clearance plane is Z{}",
+            "the feed begins at Z{}, but the job's clearance plane is Z{}",
             number(found.from[DEPTH]),
             number(cut.from[DEPTH])
         )
@@ -124,19 +126,19 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     Ok(Begins::There)
 }
 
-/// Does the program feed to where the job goes at rapid? Says so.
+/// Whether the program feeds to a position where the job goes at rapid. Reports it.
 pub(super) fn is_the_jobs_rapid(s: &mut Sides<'_>, found: &Cut) -> bool {
     let (end, tolerance) = (found.end(), s.limits.tolerance);
     let is = s.job.rapids.iter().any(|rapid| same(&rapid.to, &end, ALL, tolerance));
     if is {
         s.found(Code::PV008, found.line, "print the rapid code (G0) for this move", || {
-            format!("a feed move goes to {}, where the job has a rapid", shown(&end, 0b111))
+            format!("a feed move goes to {}, but the job has a rapid to this position", shown(&end, 0b111))
         });
     }
     is
 }
 
-/// The names of axes, unless there are none.
+/// The names of the axes, or `None` if there are none.
 pub(super) fn unsaid(axes: u8) -> Option<String> {
     let names: Vec<String> =
         (0..8).filter(|axis| axes & 1 << axis != 0).map(|axis| char::from(NAMES[axis]).to_string()).collect();

@@ -1,4 +1,4 @@
-//! Calls of subprograms of the job: what each does again.
+//! Calls of the job's subprograms. Each call repeats the items of the subprogram.
 
 use super::intended::Job;
 use super::intent::{Done, Intent, unproven};
@@ -6,19 +6,19 @@ use super::owned_event::Kept;
 use super::tables::Unmodelled;
 use crate::toolpath::{Call, Place};
 
-/// Items that calls may come to.
+/// The largest number of items run by calls.
 const MOST_DONE: u64 = 20_000_000;
-/// How deep calls may lie in each other.
+/// The deepest nesting of calls.
 const DEEPEST: u32 = 64;
 
 impl Job {
-    /// How many subprograms the program begins with.
+    /// The number of subprograms at the beginning of the program.
     pub(super) fn subprograms_first(&self) -> usize {
         if self.expectation.subs_first { self.subprograms.count() } else { 0 }
     }
 
-    /// A call: its work offset, its place, and the subprogram's items as often as it says. What the subprogram switches is
-    /// the operation's again after each run.
+    /// Runs a call: sets its work offset, moves to its position, and runs the subprogram's items as often as requested.
+    /// After each run, the modal state of the operation is restored.
     pub(super) fn call(&mut self, call: &Call, to: &mut impl Intent) -> Done {
         let Some(index) = self.subprograms.defined.iter().position(|sub| sub.number == call.sub) else {
             return unproven(Unmodelled::MissingSubprogram);
@@ -47,7 +47,7 @@ impl Job {
         self.subprograms.defined[index].items = items;
         self.subprograms.depth -= 1;
         if done.is_ok() {
-            to.comes_from(called_at); // else the item that differs stays in sight
+            to.comes_from(called_at); // on an error, the place stays at the item that differs
             self.work_is(of_caller, to);
         }
         done

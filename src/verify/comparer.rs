@@ -21,21 +21,21 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
-/// A difference of just the tolerance is none, though binary numbers make it a little more.
+/// Differences of exactly the tolerance are allowed. Binary rounding makes them a little larger.
 const BINARY: f64 = 1.0 + 1e-6;
 
-/// Compares a program with the events of its job: push them, then ask for the verdict.
+/// Compares a program with the events of its job. Push the events, then call [`Comparer::verdict`].
 ///
-/// Neither side is held: the program is read as far as the events need it, so that both may be streams.
+/// Neither side is kept in memory. The program is read only as far as the events require, so both may be streams.
 pub struct Comparer<'a> {
     job: Job,
     sides: Sides<'a>,
-    /// The first operation has begun.
+    /// Whether the first operation has begun.
     begun: bool,
 }
 
 impl<'a> Comparer<'a> {
-    /// A comparison with this program. `tolerance` in the job's units; else 0.0001 inch or 0.002 mm.
+    /// A comparison with this program. `tolerance` is in the job's units; the default is 0.0001 inch or 0.002 mm.
     pub fn new(
         program: impl Read + Seek + 'a,
         settings: RunSettings,
@@ -72,34 +72,35 @@ impl<'a> Comparer<'a> {
         }
     }
 
-    /// The program counts in these units until it says others.
+    /// Sets the units of the program until the program sets its own.
     pub fn begin_in(&mut self, units: Units) {
         self.sides.program.begin_in(units);
     }
 
-    /// Did the control refuse a block that is ahead of the job? That is said at the job's next cut.
+    /// Whether the control refused a block ahead of the job. This is reported at the job's next cut.
     pub(super) fn is_stuck(&self) -> bool {
         self.sides.program.has_failed()
     }
 
-    /// Runs the program on while its text waits. Before the first operation the job may still set how it is run.
+    /// Runs the program while its text waits. Before the first operation, the job may still change how the program is
+    /// run.
     pub(super) fn run_on(&mut self, waits: &dyn Fn() -> bool) {
         if self.begun {
             self.sides.program.run_on(waits);
         }
     }
 
-    /// How much was compared so far.
+    /// Counts of what was compared so far.
     pub fn counts(&self) -> Counts {
         self.sides.report.counts
     }
 
-    /// How many findings there are so far.
+    /// Number of findings so far.
     pub(super) fn found(&self) -> usize {
         self.sides.report.findings.len() + self.sides.program.hazards.len()
     }
 
-    /// Says where the lines of new findings came from.
+    /// Adds to new findings the form lines that printed their blocks.
     pub(super) fn locate(&mut self, origin: impl Fn(u64) -> Option<TraceLine>) {
         let hazards = self.sides.program.hazards.iter_mut();
         for finding in self.sides.report.findings.iter_mut().chain(hazards).filter(|finding| finding.form.is_none()) {
@@ -114,12 +115,12 @@ impl<'a> Comparer<'a> {
         self.sides.program.warnings()
     }
 
-    /// Is the verdict known, whatever the rest of the job may be?
+    /// Whether the verdict is known and no longer depends on the rest of the job.
     pub fn is_decided(&self) -> bool {
         self.found() > 0 || self.sides.report.unproven.is_some()
     }
 
-    /// The verdict, after the last event or after one that found a difference.
+    /// The verdict, after the last event or after an event with a difference.
     ///
     /// # Errors
     /// The program can't be read.
@@ -142,7 +143,7 @@ impl<'a> Comparer<'a> {
 }
 
 impl Sink for Comparer<'_> {
-    /// Has seen enough when nothing more can be compared: [`Comparer::verdict`] tells why.
+    /// Breaks when nothing more can be compared. [`Comparer::verdict`] then returns the reason.
     fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.report.place = place;
         if matches!(event, Event::ToolChange(_)) && !std::mem::replace(&mut self.begun, true) {
@@ -173,7 +174,7 @@ impl Intent for Sides<'_> {
     }
 
     fn rapid(&mut self, rapid: Rapid) -> Done {
-        // a rapid of no length is none
+        // a rapid without a move is ignored
         let here = self.job.here();
         if here.is_some_and(|here| here.to == rapid.to && here.unknown == rapid.unknown) && rapid.spin.is_none() {
             return Ok(());
@@ -202,7 +203,7 @@ impl Intent for Sides<'_> {
             return Ok(());
         }
         let Some(found) = begin::meet(self, cut, hole)? else { return Ok(()) };
-        // drilled in pecks
+        // the program drills in pecks
         let tolerance = self.limits.tolerance;
         if let Some(hole) = hole.filter(|hole| hole.drilled_in_one && found.end()[DEPTH] > hole.bottom + tolerance) {
             self.peck(cut, hole);
@@ -210,15 +211,15 @@ impl Intent for Sides<'_> {
         }
         self.report.counts.cuts += u64::from(hole.is_none());
         match (cut.what, found.what) {
-            // a helix whose circle no digits show
+            // a helix whose circle is smaller than the digits of the program
             (What::Arc(turn), What::Line { .. }) if is_straight(cut, &turn, self.limits.tolerance) => {
                 let straight = Cut { what: What::Line { to: cut.end() }, ..cut.clone() };
                 lines::line(self, &straight, &found, hole)?;
             }
             (What::Arc(turn), _) => arcs::arc(self, cut, &turn)?,
             (_, What::Arc(_)) => {
-                let message = "an arc, where the job cuts straight".to_owned();
-                return self.differs(Code::PV001, found.line, message, "look at the motion code");
+                let message = "an arc instead of the job's straight cut".to_owned();
+                return self.differs(Code::PV001, found.line, message, "check the motion code");
             }
             _ => lines::line(self, cut, &found, hole)?,
         }
@@ -322,11 +323,11 @@ impl Intent for Sides<'_> {
                 let again =
                     self.hole.last.is_some_and(|last| same(&last.at, &found.from, ACROSS, self.limits.tolerance));
                 let code = if again { Code::PV003 } else { Code::PV013 };
-                let message = format!("the canned cycle drills at {}, and the job is over", over(&found.from));
+                let message = format!("the canned cycle drills at {} after the end of the job", over(&found.from));
                 return self.differs(code, found.line, message, "end the cycle: print G80 in Cancel");
             }
-            let message = format!("a cut to {end}, and the job is over");
-            return self.differs(Code::PV016, found.line, message, "look at EndCode");
+            let message = format!("a cut to {end} after the end of the job");
+            return self.differs(Code::PV016, found.line, message, "check EndCode");
         }
         pauses::compare(self);
         wire::compare(self, 0);
@@ -338,7 +339,8 @@ impl Intent for Sides<'_> {
 }
 
 impl Sides<'_> {
-    /// Is all held that the job does between two cuts? What the program does is asked where it is run to its next cut.
+    /// Checks that everything that the job does between two cuts fits in memory. The program is checked when it runs to
+    /// its next cut.
     #[inline]
     fn can_hold(&mut self) -> Done {
         if self.job.is_too_long() {
@@ -347,7 +349,7 @@ impl Sides<'_> {
         Ok(())
     }
 
-    /// A cut of a hole in pecks, which is compared when the job's hole is whole.
+    /// Records a cut of a hole in pecks. It is compared when the job's hole is complete.
     fn peck(&mut self, cut: &Cut, hole: &Expected) {
         let Limits { increment, tolerance, .. } = self.limits;
         let strokes = &mut self.hole.strokes;

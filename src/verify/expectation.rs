@@ -1,4 +1,4 @@
-//! What a form fills in where its job is silent, and what it says of its own.
+//! Defaults that a form fills in where its job has no value, and values of the form itself.
 
 use super::form_values::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
@@ -12,56 +12,56 @@ use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{Coolant, EdmAction, Units};
 
-/// What the form says of the job's numbers.
+/// Values of the form that the job's numbers depend on.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Expectation {
     /// Cycle defaults in inches and in millimetres.
     pub defaults: [Defaults; 2],
-    /// How far short lines may leave an arc, in inches and in millimetres.
+    /// How far short lines may deviate from an arc, in inches and in millimetres.
     pub chord: [f64; 2],
-    /// One digit of the form along a hole, in inches and in millimetres.
+    /// The smallest digit of the form along a hole, in inches and in millimetres.
     pub increment: [f64; 2],
     /// Code of the first work offset: 54.
     pub first_work: f64,
-    /// Work offset that holds before the job names one.
+    /// Work offset in force until the job selects one.
     pub work: Option<f64>,
-    /// How the form prints offsets, and the control whose codes it has.
+    /// How the form prints work offsets, and the control of its codes.
     pub(super) work_words: Option<(WorkWords, &'static Control)>,
-    /// How much is added to a tool's number for its length and diameter registers, where the job names none.
+    /// Numbers that are added to a tool's number to get its length and diameter registers, if the job has none.
     pub registers: Option<[f64; 2]>,
-    /// The machine loads tools (M6) and has length offsets.
+    /// Whether the machine loads tools (M6) and has length offsets.
     pub tools: bool,
-    /// Where the machine has length offsets, the program turns one on before the tool goes down.
+    /// Whether the program must turn on a length offset before the tool goes down, on a machine that has length offsets.
     pub lengths_due: bool,
-    /// Only the program says its units.
+    /// Whether units are set by the program only.
     pub units_due: bool,
-    /// As which axis of the program each of the job's X Y Z A B C is printed (`Rename`).
+    /// The program axis for each of the job's X Y Z A B C (`Rename`).
     pub axes: [u8; 6],
     /// Codes of the coolant: on, off, mist.
     pub coolant: [f64; 3],
-    /// Taps are rigid where the job does not say; `None`: nothing says.
+    /// Whether taps are rigid if the job does not define it; `None`: not defined.
     pub rigid_tap: Option<bool>,
-    /// The form types the code that makes the taps after it rigid, M29: without it they are not.
+    /// Whether the form prints the code that makes the following taps rigid (M29). Without the code they are not rigid.
     pub announces_taps: bool,
-    /// A lathe's X is a diameter.
+    /// Whether X of a lathe is a diameter.
     pub by_diameter: bool,
-    /// Subprograms stand before the main program.
+    /// Whether subprograms come before the main program.
     pub subs_first: bool,
-    /// What the machine cuts with, where that is switched on and off.
+    /// The torch or laser that the machine switches on and off for cuts.
     pub beam: Option<Beam>,
-    /// The form ignores the depth axis.
+    /// Whether the form ignores the depth axis.
     pub is_flat: bool,
-    /// The codes by which the form threads and cuts a wire, if there is a form.
+    /// The form's codes for threading and cutting a wire; `None` without a form.
     pub(super) wire: Option<Codes>,
-    /// Feeds that the form says itself.
+    /// Feeds that the form itself defines.
     pub feeds: Own,
-    /// Speeds that the form says itself.
+    /// Speeds that the form itself defines.
     pub speeds: Own,
 }
 
 impl Default for Expectation {
-    /// What holds without a form: nothing is filled in.
+    /// The values without a form: nothing is filled in.
     fn default() -> Self {
         let defaults = Defaults { rigid: true, ..Defaults::default() };
         Expectation {
@@ -91,12 +91,12 @@ impl Default for Expectation {
 }
 
 impl Expectation {
-    /// What a control fills in where no form says more.
+    /// The defaults of a control, for a job without a form.
     pub fn of_control(control: &Control) -> Expectation {
         Expectation { tools: loads_tools(control), ..Expectation::default() }
     }
 
-    /// What a form fills in.
+    /// The defaults of a form.
     pub fn of_form(settings: &Settings, sink_as_printed: bool) -> Expectation {
         let defaults = [Units::Inch, Units::Mm]
             .map(|units| Defaults { rigid: true, ..cycle_defaults(settings, units, units, sink_as_printed) });
@@ -120,7 +120,8 @@ impl Expectation {
         }
     }
 
-    /// The feeds and speeds that its sequences type or calculate besides: a cut may have them instead of the job's.
+    /// Adds the feeds and speeds that the form's sequences print as numbers or calculate. A cut may have them instead of
+    /// the job's.
     #[must_use]
     pub fn typed(mut self, program: &Program) -> Expectation {
         let settings = &program.settings;
@@ -139,7 +140,7 @@ impl Expectation {
         self
     }
 
-    /// What the lines of a sequence type that these print.
+    /// Collects the values in the lines of a sequence. `by`: the events that print the sequence.
     fn types(&mut self, program: &Program, ops: &[Op], by: u8) {
         let settings = &program.settings;
         for op in ops {
@@ -163,7 +164,7 @@ impl Expectation {
         }
     }
 
-    /// What a program calls an offset of the job; `None`: the form has none such.
+    /// The program's name for a work offset of the job; `None`: the form has no such offset.
     pub(super) fn work_of(&self, work: f64) -> Option<f64> {
         let counted = work_code(self.first_work, work)?;
         let named = |(words, control): &(WorkWords, &'static Control)| self.feeds.work(counted, words, control);
@@ -172,7 +173,7 @@ impl Expectation {
 }
 
 impl Expectation {
-    /// Values of the form's properties from without, by their rows.
+    /// Sets properties of the form from outside, by their rows.
     #[must_use]
     pub fn given(mut self, properties: &[(u16, PropertyValue)]) -> Expectation {
         for (row, value) in properties {
@@ -183,7 +184,7 @@ impl Expectation {
     }
 }
 
-/// The axis as which each is printed: only angles change their letters without changing what holes and arcs are.
+/// The axes as printed. Only rotary axes can be renamed without changing holes and arcs.
 fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
     let mut axes = [0, 1, 2, 3, 4, 5];
     for (from, to) in rename {
@@ -196,15 +197,15 @@ fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
 }
 
 impl Expectation {
-    /// What a coolant of the job is in a program: two may have one code, as where a machine has no mist.
-    /// `None`: no simulator knows the kind.
+    /// The coolant of a job as it is in a program. Two kinds may have the same code, for example on a machine without
+    /// mist. `None`: the simulator does not know the kind.
     pub(super) fn cooling(&self, coolant: Coolant) -> Option<Cooling> {
         let [on, off, mist] = self.coolant;
         let (code, named) = match coolant {
             Coolant::FLOOD => (on, Cooling::Flood),
             Coolant::MIST => (mist, Cooling::Mist),
             Coolant::OFF => (off, Cooling::Off),
-            // by codes of the form's own, or several at once
+            // coolant by codes of the form, or several kinds at once
             _ => return None,
         };
         let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
@@ -213,19 +214,19 @@ impl Expectation {
 }
 
 impl Expectation {
-    /// The codes of an action.
+    /// The codes of an action of the wire.
     pub(super) fn wire_codes(&self, action: EdmAction) -> impl Iterator<Item = Coded> {
         let row = self.wire.iter().flatten().find(|(own, _)| *own == action);
         row.map(|(_, codes)| codes.clone()).unwrap_or_default().into_iter()
     }
 }
 
-/// Does a code before a tap make it rigid, and nothing else does? A Haas and a Fadal tap rigidly by G84 alone.
+/// Whether taps of this control are rigid only after a code before them. A Haas and a Fadal make rigid taps by G84 alone.
 pub(super) fn taps_ahead(control: &Control) -> bool {
     control.has(Meaning::RigidAhead)
 }
 
-/// Does the control load tools? Not where it refuses M6, as a Grbl does.
+/// Whether the control loads tools. A control that refuses M6, such as Grbl, does not.
 fn loads_tools(control: &Control) -> bool {
     !control.refuses(crate::control::Code::m(6))
 }

@@ -1,5 +1,6 @@
-//! The usual cut: a straight one after another, alike in job and program. It is compared where it stands, because most cuts
-//! of long jobs are such; each other cut goes the long way, which finds the same of this one.
+//! The usual cut: a straight cut that follows another one, equal in job and program. It is compared without copies,
+//! because most cuts of long jobs are of this kind. All other cuts take the general path, which has the same result for
+//! usual cuts.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
 use super::intent::Done;
@@ -7,10 +8,11 @@ use super::modal::has_feed;
 use super::passage::Passage;
 use super::sides::Sides;
 
-/// So many tolerances long is a cut at least that no digits swallow, on either side.
+/// Length of the shortest usual cut in tolerances. Such a cut can't disappear in the digits of either side.
 const LONG: f64 = 4.0;
 
-/// Is the program's next cut the job's, straight on from the last one and with nothing between? Then it is dealt with.
+/// Whether the program's next cut is the job's cut and follows directly on the last one, without anything between. If so,
+/// the cut is done.
 ///
 /// # Errors
 /// The program can't be run to its next cut.

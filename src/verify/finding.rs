@@ -1,4 +1,4 @@
-//! A difference or hazard, from three sides: the job, the form, the program.
+//! A difference or hazard, described by the job, the form and the program.
 
 use crate::diag::{Code, Diag, Location};
 use crate::render::TraceLine;
@@ -6,29 +6,29 @@ use crate::span::Span;
 use crate::terminal::escaped_lines;
 use crate::toolpath;
 
-/// A difference or hazard: where in the job and in the program.
+/// A difference or hazard, with its locations in the job and in the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Row in the table of codes.
+    /// Code of the finding.
     pub code: Code,
-    /// What differs, with both values.
+    /// The difference, with both values.
     pub message: String,
-    /// What to look at.
+    /// The part to check.
     pub help: &'static str,
-    /// The job's item, where one is concerned.
+    /// The job's item, if the finding concerns one.
     pub place: Option<toolpath::Place>,
-    /// The program's line, from 1; 0 where it has none.
+    /// The program's line, from 1; 0 if there is none.
     pub line: u64,
     /// The line of the program as written.
     pub block: String,
-    /// The form line that printed the block, where that was traced.
+    /// The form line that printed the block, if it was traced.
     pub form: Option<Span>,
-    /// How often the difference was found, this time included: what follows from one cause is one finding.
+    /// How often the difference was found. Findings with the same cause are counted here.
     pub times: u64,
 }
 
 impl Finding {
-    /// For people: with the item of the job, the block, and the form line. `program`: what the program is called.
+    /// The finding for people: with the item of the job, the block and the form line. `program`: name of the program.
     pub fn diag(&self, program: &str) -> Diag {
         let mut location = self.place.map(Location::from).unwrap_or_default();
         location.program_line = Some(self.line).filter(|line| *line > 0);
@@ -36,7 +36,7 @@ impl Finding {
         if self.times > 1 {
             diag.message += &format!(" ({} times)", self.times);
         }
-        // the block on a line of its own, and whole
+        // the block is shown on its own line and in full
         if self.line > 0 {
             diag.message += &escaped_lines(&format!("\n{program}, line {}: {}", self.line, self.block));
         }
@@ -46,7 +46,7 @@ impl Finding {
         }
     }
 
-    /// Says which form line printed the block, and by which item of the job where that is not known.
+    /// Adds the form line that printed the block, and the item of the job if it is not known.
     pub(crate) fn locate(&mut self, origin: TraceLine) {
         self.form = origin.form;
         self.place.get_or_insert(origin.place);

@@ -1,4 +1,4 @@
-//! Holes of two programs of different controls: their strokes may be others, and the holes the same.
+//! Holes of two programs for different controls. The strokes may differ if the holes are the same.
 
 use super::cut::{Cut, DEPTH, What, same};
 use super::program::Program;
@@ -7,21 +7,21 @@ use crate::nc::RunError;
 /// X and Y, as bits.
 const ACROSS: u8 = 0b11;
 
-/// Most strokes of a hole.
+/// The largest number of strokes of a hole.
 const MOST: usize = 100_000;
 
-/// A cut straight down or up.
+/// Whether a cut goes straight down or up.
 fn is_stroke(cut: &Cut, tolerance: f64) -> bool {
     matches!(cut.what, What::Line { .. }) && cut.unknown == 0 && same(&cut.from, &cut.end(), ACROSS, tolerance)
 }
 
-/// Do both programs begin a hole at one position: down from one height?
+/// Whether both programs begin a hole at the same position, from the same height down.
 pub(super) fn begin_alike(a: &Cut, b: &Cut, tolerance: f64) -> bool {
     let down = |cut: &Cut| is_stroke(cut, tolerance) && cut.end()[DEPTH] < cut.from[DEPTH] - tolerance;
     down(a) && down(b) && same(&a.from, &b.from, ACROSS | 1 << DEPTH, tolerance)
 }
 
-/// Are two feeds or speeds one that was rounded: by a thousandth at most, or one of them to a whole number?
+/// Whether two feeds or speeds differ by rounding only: by at most a thousandth, or one is rounded to a whole number.
 pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
     const LAST_DIGITS: f64 = 0.001;
     const WHOLE: f64 = 0.005;
@@ -31,10 +31,10 @@ pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
     apart <= LAST_DIGITS * a.abs() || apart <= WHOLE * a.abs() && (to_whole(a, b) || to_whole(b, a))
 }
 
-/// Takes the strokes of the hole in which a program is: the depths of those that go down.
+/// Takes all strokes of the program's current hole. Returns the depths of the strokes that go down.
 ///
 /// # Errors
-/// The program can't be run on.
+/// The program can't be run further.
 pub(super) fn hole(program: &mut Program<'_>, first: &Cut, tolerance: f64) -> Result<Vec<f64>, RunError> {
     let mut depths = vec![first.end()[DEPTH]];
     program.take();

@@ -1,4 +1,5 @@
-//! Feeds and speeds that a form says itself: typed, or calculated from the job's; and for which cuts of the job.
+//! Feeds and speeds that a form itself defines, as numbers or calculated from the job's, and the cuts of the job that may
+//! have them.
 
 use super::tables::OWN;
 use crate::compile::{Program, WorkWords};
@@ -6,36 +7,36 @@ use crate::control::Control;
 use crate::lang::{Coolant, SEQUENCES, SequenceId, TextId, VarId, VarSet};
 use crate::sema::{Formula, PropertyValue, Values};
 
-/// What makes a sequence print, as bits: a job that has none of it never gets what the sequence types.
+/// Events that print a sequence, as bits. A job without these events never gets the values of the sequence.
 pub(super) mod by {
-    /// Every job: its start, its tool changes, its plain moves.
+    /// Events of every job: its start, its tool changes, its plain moves.
     pub const JOB: u8 = 1;
     /// A hole.
     pub const HOLE: u8 = 1 << 1;
     /// The move that turns compensation on.
     pub const INFEED: u8 = 1 << 2;
-    /// The move that turns it off.
+    /// The move that turns compensation off.
     pub const OUTFEED: u8 = 1 << 3;
-    /// A section begins or ends.
+    /// The begin or end of a section.
     pub const SECTION: u8 = 1 << 4;
-    /// A stop, a dwell, the way home.
+    /// A stop, a dwell, the move home.
     pub const PAUSE: u8 = 1 << 5;
     /// A subprogram.
     pub const SUB: u8 = 1 << 6;
-    /// Those that print a cut themselves: a feed that they type is that cut's.
+    /// Events that print a cut themselves. A feed in their sequence is the feed of that cut.
     pub const CUTS: u8 = HOLE | INFEED | OUTFEED;
 }
 
-/// What makes this sequence print.
+/// The events that print this sequence.
 pub(super) fn printed_by(sequence: SequenceId) -> u8 {
     use SequenceId as S;
     match sequence {
         S::InFeed => by::INFEED,
         S::OutFeed => by::OUTFEED,
-        // a thread is printed for all that it is; what Cancel types holds on after its hole
+        // a sequence for threads prints the whole thread; values in Cancel stay in force after its hole
         S::AutoThread | S::CanThread | S::Cancel => by::JOB,
         S::Stop | S::OptStop | S::DwellBlock | S::MoveHome => by::PAUSE,
-        // of a torch: how it comes down, and no cut
+        // these print how a torch comes down, but no cut
         S::BeginCut | S::EndCut => 0,
         S::SubStart | S::SubEnd | S::SubCall | S::Between => by::SUB,
         S::BeginLeadin
@@ -57,32 +58,32 @@ pub(super) fn printed_by(sequence: SequenceId) -> u8 {
     }
 }
 
-/// What a form says of one quantity.
+/// The form's own values of one quantity.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
-    /// Numbers that it types, with what makes them print.
+    /// Numbers in the form, with the events that print them.
     typed: Vec<(f64, u8)>,
-    /// Calculations with the job's value, as `[min(speed,800)]`, with the same.
+    /// Calculations from the job's value, such as `[min(speed,800)]`, with the events that print them.
     calculated: Vec<(Formula, u8)>,
-    /// Its properties as numbers, where nobody says otherwise.
+    /// The form's properties as numbers; the defaults unless given otherwise.
     properties: Vec<f64>,
 }
 
 impl Own {
-    /// Of a form that types and calculates nothing so far.
+    /// The values of a form before its sequences are read.
     pub(super) fn of(program: &Program) -> Own {
         let properties = program.settings.properties.iter().map(|property| number(&property.default)).collect();
         Own { properties, ..Own::default() }
     }
 
-    /// Somebody gives a property its value, which goes before the form's default.
+    /// Sets a property to a given value instead of the form's default.
     pub(super) fn given(&mut self, row: u16, value: &PropertyValue) {
         if let Some(own) = self.properties.get_mut(usize::from(row)) {
             *own = number(value);
         }
     }
 
-    /// The form types a number in a sequence that these print.
+    /// Adds a number of a sequence. `by`: the events that print the sequence.
     pub(super) fn types(&mut self, value: f64, by: u8) {
         match self.typed.iter_mut().find(|(own, _)| *own == value) {
             Some((_, bits)) => *bits |= by,
@@ -90,7 +91,7 @@ impl Own {
         }
     }
 
-    /// The form calculates a word; it counts where it is made of one of these variables alone, or of properties.
+    /// Adds a calculated word, if its formula uses only one of these variables or only properties.
     pub(super) fn calculates(&mut self, formula: &Formula, of: &[VarId], by: u8) {
         let vars = formula.vars();
         let counts = vars.is_empty() || of.iter().any(|&var| vars == VarSet::of(&[var]));
@@ -103,14 +104,14 @@ impl Own {
         }
     }
 
-    /// The number or code in the program of a work offset of the job.
+    /// The number or code that the program has for a work offset of the job.
     pub(super) fn work(&self, work: f64, words: &WorkWords, control: &Control) -> f64 {
         let values = OfJob { wanted: work, properties: &self.properties };
         words.name(&values, control).unwrap_or(work)
     }
 
-    /// Does the form say a value where the job wants this one, and near enough to it? `by`: what the job has had so far that
-    /// sequences print for; `is`: whether a number is the value.
+    /// Whether the form has a value of its own for this value of the job, near enough to it. `by`: the events that the
+    /// job has had so far. `is`: tests whether a number is the program's value.
     pub(super) fn says(&self, wanted: f64, by: u8, is: impl Fn(f64) -> bool) -> bool {
         let values = OfJob { wanted, properties: &self.properties };
         let near = |own: f64| (OWN[0] * wanted..=OWN[1] * wanted).contains(&own) && is(own);
@@ -128,7 +129,7 @@ fn number(value: &PropertyValue) -> f64 {
     }
 }
 
-/// The value that a job wants, for whichever variable is asked.
+/// The value of the job, for every variable.
 struct OfJob<'a> {
     wanted: f64,
     properties: &'a [f64],

@@ -1,4 +1,4 @@
-//! Holes in pecks: a control's cycle may make other pecks than the job, and the same hole.
+//! Holes in pecks. A control's cycle may make other pecks than the job and still the same hole.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
@@ -9,7 +9,7 @@ use super::strokes::Strokes;
 use super::tables::LONGER;
 use crate::diag::Code;
 
-/// The program's cuts in this hole, of which the first was met already.
+/// Compares the program's cuts in this hole. The first cut was met already.
 pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
@@ -17,16 +17,16 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let begins = begins(&pecks);
     // the longest dwell at the bottom before another cut, and the line of the last cut
     let (mut waited, mut line) = (0.0f64, 0);
-    // the control made the last cut by a cycle of its own
+    // whether a canned cycle of the control made the last cut
     let mut by_cycle = false;
     let mut identical = true;
     let mut count = 0;
     while let Some(found) = s.next()? {
         let wanted = pecks.get(count);
         let is_one = wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
-        // at the bottom, what is not of the same block's cycle is another hole, or another item of the job
+        // at the bottom, a cut that is not from the same block's cycle is another hole or another item of the job
         let same_block = found.by_cycle && found.line == line;
-        // up again at feed goes only a tap, and one that a cycle of the control makes is out by itself
+        // only a tap feeds up again, and a tap of the control's cycle leaves the hole by itself
         let other_item = found.end()[DEPTH] < found.from[DEPTH] || !hole.is_tap || by_cycle;
         let at_bottom = strokes.deepest <= hole.bottom + tolerance;
         if count > 0 && (!stays_in(s, hole, &found) || at_bottom && other_item && !same_block && !is_one) {
@@ -38,21 +38,21 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
             pauses::between_pecks(s, hole);
         }
         let lowest = s.program.passage.rapids.iter().map(|rapid| rapid.to[DEPTH]).fold(f64::INFINITY, f64::min);
-        // a rapid in the hole stays where it was cut
+        // a rapid in the hole must stay where material was already cut
         if count > 0 && lowest < strokes.deepest - tolerance {
             let deepest = strokes.deepest;
-            s.found(Code::PV009, found.line, "look at the clearance of the pecks", || {
+            s.found(Code::PV009, found.line, "check the clearance of the pecks", || {
                 let (low, cut) = (number(lowest), number(deepest));
-                format!("a rapid goes to Z{low} in the hole at {}, cut to Z{cut} so far", over(&hole.at))
+                format!("a rapid goes to Z{low} in the hole at {}, which is cut only to Z{cut}", over(&hole.at))
             });
         }
         let What::Line { to } = found.what else { break };
         if !same(&hole.at, &to, ACROSS, tolerance) {
             if hole.custom {
                 let why = format!("the custom cycle at {} leaves the axis of its hole", over(&hole.at));
-                return s.unproven(why, "what a custom cycle does, only its form knows", found.line);
+                return s.unproven(why, "the moves of a custom cycle are defined only in the form", found.line);
             }
-            s.found(Code::PV001, found.line, "look at X and Y of the pecks", || {
+            s.found(Code::PV001, found.line, "check X and Y of the pecks", || {
                 format!("a peck of the hole at {} goes to {}", over(&hole.at), shown(&to, 0b111))
             });
         }
@@ -78,22 +78,22 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
         let at = over(&hole.at);
         if hole.custom {
             let why = format!(
-                "the custom cycle at {at} goes to Z{} in its first hole, the job to Z{}",
+                "the custom cycle at {at} goes to Z{} in its first hole, but the job goes to Z{}",
                 number(deepest),
                 number(hole.bottom)
             );
-            return s.unproven(why, "what a custom cycle does, only its form knows", line);
+            return s.unproven(why, "the moves of a custom cycle are defined only in the form", line);
         }
         s.found(Code::PV004, line, "print Z[d] at every hole where it changes", || {
-            format!("the hole at {at} is cut to Z{}, the job's to Z{}", number(deepest), number(hole.bottom))
+            format!("the hole at {at} is cut to Z{}, but the job's hole to Z{}", number(deepest), number(hole.bottom))
         });
     }
-    // another cut comes after the dwell at the bottom of a tap alone
+    // only a tap has a cut after the dwell at the bottom
     if hole.is_tap {
         let wanted = hole.dwell.unwrap_or(0.0);
         if !same_dwell(wanted, waited) {
-            s.found(Code::PV010, line, "print P[dwell] in the cycle, or P0 where the job has none", || {
-                format!("the dwell at the bottom is {} s, the job's {} s", number(waited), number(wanted))
+            s.found(Code::PV010, line, "print P[dwell] in the cycle, or P0 if the job has no dwell", || {
+                format!("the dwell at the bottom is {} s, but {} s in the job", number(waited), number(wanted))
             });
         }
     }
@@ -104,7 +104,8 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     Ok(())
 }
 
-/// How deep the hole is before each of its pecks: below it a peck cuts new material, and no two pecks the same.
+/// The depth of the hole before each of its pecks. A peck cuts new material below this depth, and no two pecks cut the
+/// same.
 fn begins(pecks: &[Cut]) -> Vec<f64> {
     let depths = pecks.iter().scan(f64::INFINITY, |deepest, peck| {
         let before = *deepest;
@@ -114,7 +115,7 @@ fn begins(pecks: &[Cut]) -> Vec<f64> {
     depths.collect()
 }
 
-/// Spindle, registers and feed of a stroke: those of a peck of the job that cuts some of the same material.
+/// Compares the spindle, registers and feed of a stroke with those of a job's peck that cuts some of the same material.
 fn peck_state(
     s: &mut Sides<'_>,
     (pecks, begins): (&[Cut], &[f64]),
@@ -127,7 +128,7 @@ fn peck_state(
     let Some(first) = pecks.first() else { return };
     let up = to > found.from[DEPTH];
     let is_way = |peck: &Cut| (peck.end()[DEPTH] > peck.from[DEPTH]) == up;
-    // a stroke that cuts nothing new goes with any
+    // a stroke that cuts nothing new matches any peck
     let within = |peck: &Cut, begin: f64| {
         to >= deepest || (peck.end()[DEPTH] < deepest - tolerance && begin.min(peck.from[DEPTH]) > to + tolerance)
     };
@@ -137,7 +138,7 @@ fn peck_state(
     };
     let all = || pecks.iter().zip(begins).filter(|(peck, _)| is_way(peck));
     let cutting = || all().filter(|(peck, begin)| within(peck, **begin));
-    // the job's own peck of this number first: holes may have thousands
+    // try the job's peck with the same number first, because holes may have thousands
     let own = pecks.get(count).zip(begins.get(count)).filter(|(peck, begin)| {
         is_way(peck) && (is_same(peck, found, tolerance) || within(peck, **begin) && is_meant(peck))
     });
@@ -156,30 +157,33 @@ fn peck_state(
     }
 }
 
-/// Checks the pecks of a hole: other pecks are as good, but pecks they must be, and out of the hole as far apart as the
-/// job's.
+/// Checks the pecks of a hole. Other pecks are accepted, but the hole must be pecked, and the tool must leave the hole as
+/// often as in the job.
 fn check(s: &mut Sides<'_>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
-    let help = "print Q[vbite] with G83 or G73, as the job's kind is";
+    let help = "print Q[vbite] with G83 or G73, according to the kind of cycle in the job";
     let [count, outs] = wanted.counted(s.limits.tolerance);
     if count > 1 && (made.counts[0] < 2 || made.longest > LONGER * wanted.longest) {
         s.found(Code::PV023, line, help, || {
             let (is, by) = (number(made.longest), number(wanted.longest));
-            format!("the hole at {} is cut {is} at once, the job pecks by {by}", over(&hole.at))
+            format!("the hole at {} is cut by {is} in one peck, but the job pecks by {by}", over(&hole.at))
         });
     }
     if hole.comes_out && outs > 0 && (made.counts[1] == 0 || made.farthest > LONGER * wanted.farthest) {
         s.found(Code::PV023, line, help, || {
             let (is, by) = (number(made.farthest), number(wanted.farthest));
-            format!("the hole at {} is cut {is} before the tool comes out of it, the job's {by}", over(&hole.at))
+            format!(
+                "the hole at {} is cut by {is} before the tool retracts out of it, but by {by} in the job",
+                over(&hole.at)
+            )
         });
     }
 }
 
-/// Is the program's next cut in this hole too?
+/// Whether the program's next cut is also in this hole.
 fn stays_in(s: &Sides<'_>, hole: &Expected, found: &Cut) -> bool {
     let here = |place: &_| same(&hole.at, place, ACROSS, s.limits.tolerance);
     let passage = &s.program.passage;
-    // after a change of tool it is another hole at this place
+    // after a tool change it is another hole at the same position
     !passage.changed()
         && here(&found.from)
         && here(&found.end())

@@ -1,14 +1,14 @@
-//! Ways that lead to no cut: of a tool or a work offset that cuts nothing, and after the last cut of the program.
+//! Paths without a cut: those of a tool or a work offset that cuts nothing, and those after the last cut of the program.
 
 use super::cut::{ALL, Rapid, same};
 use super::passage::{Frame, Passage};
 use super::rapid_path::RapidPath;
 use super::ways::{Compared, compare as compare_way};
 
-/// How many such ways of the job the program does not make. `at_end`: the last way of both leads to no cut, either. `tools`: the
-/// machine loads tools.
+/// The number of such paths of the job that the program does not make. `at_end`: the last path of both has no cut either.
+/// `tools`: the machine loads tools.
 pub(super) fn otherwise(job: &Passage, program: &Passage, at_end: bool, tools: bool, tolerance: f64) -> u64 {
-    // the first way leads away from a cut, if there was one
+    // the first path leads away from a cut, if there was one
     let leaves = usize::from(job.start.is_some());
     let mut made = ways(program, leaves, at_end);
     let wanted = ways(job, leaves, at_end).filter(|(_, rapids)| !rapids.is_empty());
@@ -22,7 +22,7 @@ pub(super) fn otherwise(job: &Passage, program: &Passage, at_end: bool, tools: b
     count
 }
 
-/// The ways to no cut, with their frames; of the rapids the last to a place of the machine is none of it.
+/// The paths without a cut, with their frames. Rapids at the end to a machine position are not included.
 fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = (Frame, &[Rapid])> {
     let count = passage.legs().count().saturating_sub(leaves + usize::from(!at_end));
     passage.legs().skip(leaves).take(count).map(|(leg, rapids)| {
@@ -31,7 +31,7 @@ fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = 
     })
 }
 
-/// Does the program go where the job goes, no lower, and end there?
+/// Whether the program goes to the job's positions, not lower, and ends at the job's end.
 fn is_made(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let (mut own, mut other) = (RapidPath::default(), RapidPath::default());
     own.set(None, job, tolerance);

@@ -1,4 +1,4 @@
-//! The job's side: events as intended cuts and ways.
+//! The job's side: converts events to intended cuts and paths.
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
@@ -20,12 +20,12 @@ use crate::toolpath::{
 /// An open cycle.
 pub(super) struct Open {
     pub spec: CycleSpec,
-    /// The height of the last point.
+    /// Height of the last point.
     pub point: Option<f64>,
     pub first_return: Option<f64>,
 }
 
-/// Where the job stands.
+/// Current state of the job.
 pub(super) struct Job {
     pub(super) expectation: Expectation,
     control: &'static Control,
@@ -41,11 +41,11 @@ pub(super) struct Job {
     pub(super) steps: Steps,
     compensation: bool,
     machine: Machine,
-    /// The tool by the job's number.
+    /// The tool's number in the job.
     tool: Option<f64>,
-    /// What sequences print for that it has had; the cutting ones since its last spindle word.
+    /// Kinds of sequences that the job has used so far; those that cut are counted since its last spindle event.
     by: u8,
-    /// What prints the cut that is made.
+    /// The kind of sequence that prints the current cut.
     cuts_by: u8,
     pub(super) subprograms: Subprograms,
 }
@@ -76,16 +76,16 @@ impl Job {
         }
     }
 
-    /// Takes an event and hands its motions on.
+    /// Takes an event and passes its motions on.
     ///
     /// # Errors
-    /// What can't be proven; what the intent found.
+    /// The event can't be proven, or the intent has a finding.
     pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         self.order.follow(&event)?;
         if self.subprograms.hold(&event, to.place())? { Ok(()) } else { self.act(event, to) }
     }
 
-    /// Does what an event asks for.
+    /// Runs an event.
     pub(super) fn act(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         self.cuts_by = made_by(&event);
         self.by |= self.cuts_by;
@@ -214,7 +214,7 @@ impl Job {
             self.changed(true, to);
         }
         if let Some(spindle) = &change.spindle {
-            // a speed of an operation counts revolutions unless it says otherwise
+            // the speed of an operation is in revolutions unless given otherwise
             if spindle.speed.is_some() && spindle.css.is_none() {
                 self.counts_speed(false);
             }
@@ -235,7 +235,7 @@ impl Job {
         self.work_is(self.expectation.work_of(work), to);
     }
 
-    /// The work offset by its code.
+    /// Sets the work offset by its code.
     pub(super) fn work_is(&mut self, work: Option<f64>, to: &mut impl Intent) {
         if std::mem::replace(&mut self.state.work, work) != work {
             self.changed(false, to);
@@ -246,7 +246,7 @@ impl Job {
         to.changed(Frame { tool: self.state.tool, work: self.state.work }, self.state.length, tool);
     }
 
-    /// Text goes into the program as it stands: what its codes switch is what the program switches.
+    /// Handles text that goes into the program unchanged. Its codes switch the job's state as they switch the program's.
     fn text(&mut self, text: &str, to: &mut impl Intent) -> Done {
         let mut axes = false;
         for token in tokens(text.as_bytes()) {
@@ -278,7 +278,7 @@ impl Job {
         if axes { unproven(Unmodelled::Text) } else { Ok(()) }
     }
 
-    /// What speeds count from here on: at the surface, or revolutions. Another count has no speed yet.
+    /// Sets whether speeds are surface speeds or revolutions. After a change there is no speed yet.
     fn counts_speed(&mut self, at_surface: bool) {
         if at_surface != self.css {
             self.state.speed = None;
@@ -287,7 +287,7 @@ impl Job {
     }
 
     fn spindle(&mut self, spindle: &Spindle) {
-        // what M3, M4 and M5 are for a torch or a laser is the form's own; S is the power of a laser
+        // for a torch or a laser, the form defines M3, M4 and M5; S is the power of a laser
         if let Some(beam) = self.expectation.beam {
             if beam == Beam::Laser {
                 self.state.speed = spindle.speed.or(self.state.speed);
@@ -303,7 +303,7 @@ impl Job {
         self.by &= !by::CUTS;
     }
 
-    /// A place of the job: a lathe's are Z and radius.
+    /// Converts a position of the job. A lathe's positions are Z and radius.
     pub(super) fn place(&self, to: &Axes) -> Axes {
         if !self.is_lathe() {
             return *to;
@@ -313,7 +313,7 @@ impl Job {
         Axes { values: [x, y, z, a, b, c], given: to.given & !0b111 | moved }
     }
 
-    /// Axes whose place nobody said.
+    /// Axes whose position is not given yet.
     fn unknown(&self) -> u8 {
         !self.at.given
             & match self.machine {
@@ -334,7 +334,7 @@ impl Job {
         target
     }
 
-    /// A place as both sides compare it.
+    /// A position in the form in which both sides are compared.
     pub(super) fn whole(&self, at: &Axes) -> Place {
         let [x, y, u, v, ..] = at.values;
         let guide = |axis: usize, value: f64| if at.given & 1 << axis == 0 { UNSAID } else { value };
@@ -427,7 +427,8 @@ impl Job {
         self.cut_to(target, What::Arc(turn), to)
     }
 
-    /// The wire is threaded or cut, its start hole drilled, the tank filled: by the codes of the form's sequence.
+    /// Handles an action of the wire: threading, cutting, drilling its start hole, filling the tank. The codes are those
+    /// of the form's sequence.
     fn wire(&mut self, action: EdmAction, to: &mut impl Intent) -> Done {
         if self.expectation.wire.is_none() {
             return unproven(Unmodelled::Wire);
@@ -437,7 +438,7 @@ impl Job {
     }
 }
 
-/// What an event has sequences print for.
+/// The kind of sequence that prints an event.
 fn made_by(event: &Event<'_>) -> u8 {
     match event {
         Event::Hole(_) => by::HOLE,
@@ -450,7 +451,7 @@ fn made_by(event: &Event<'_>) -> u8 {
     }
 }
 
-/// A dwell of no length is none.
+/// Passes a dwell on, unless its time is zero.
 pub(super) fn wait(seconds: f64, to: &mut impl Intent) {
     if seconds > 0.0 {
         to.wait(seconds);
@@ -465,7 +466,7 @@ pub(super) fn rotation(turn: SpindleTurn) -> Rotation {
     }
 }
 
-/// A lathe's tool as T names it: its place in the turret, and its register in the last two digits.
+/// A lathe's tool as in its T word: its station in the turret, and its register in the last two digits.
 fn turret(tool: &Tool, register: Option<f64>) -> [Option<f64>; 2] {
     const STATIONS: f64 = 100.0;
     let whole = tool.number >= STATIONS;

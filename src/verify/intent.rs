@@ -1,4 +1,4 @@
-//! What the job's side tells: its cuts, holes, threads and ways.
+//! The output of the job's side: its cuts, holes, threads and paths.
 
 use super::cut::{Cut, Place, Rapid};
 use super::passage::Frame;
@@ -7,31 +7,32 @@ use super::wire_codes::Coded;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{self, StopKind, Units};
 
-/// What the job's side tells, in the order of its motions.
+/// The receiver of the job's motions, in their order.
 pub(super) trait Intent {
-    /// Units of the job, how far lines may leave an arc in them, and one digit of the form along a hole.
+    /// Units of the job; in these units, how far lines may deviate from an arc, and the smallest digit of the form along
+    /// a hole.
     fn units(&mut self, units: Units, chord: f64, increment: f64);
     /// A rapid.
     fn rapid(&mut self, rapid: Rapid) -> Done;
     /// A cut.
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
-    /// A rapid that may feed, as it turns compensation on or off.
+    /// A rapid that may also be a feed move, because it turns compensation on or off.
     fn rapid_or_feed(&mut self, cut: &Cut) -> Done;
-    /// A dwell in seconds; not a number: of any length.
+    /// A dwell in seconds. Not a number means any length.
     fn wait(&mut self, seconds: f64);
     /// A stop.
     fn stop(&mut self, kind: StopKind);
-    /// A thread, all its passes; with what holds there.
+    /// A thread with all its passes, and the state in force.
     fn thread(&mut self, cut: &Cut, thread: &Threaded) -> Done;
-    /// The job is for a lathe, whose X the program counts by diameter or by radius.
+    /// The job is for a lathe. X in the program is a diameter or a radius.
     fn is_of_lathe(&mut self, by_diameter: bool);
     /// The moves of a hole begin.
     fn hole_begins(&mut self, hole: &Expected);
     /// The moves of a hole end.
     fn hole_ends(&mut self, hole: &Expected) -> Done;
-    /// The tool or the work offset changes: places are others from here on. `length`: the tool's register.
+    /// The tool or the work offset changes. From here on, positions are in another frame. `length`: the tool's register.
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
-    /// The tool goes to the machine's own place: from there on its place is unknown. `length`: the tool's register.
+    /// The tool goes home. From there on its position is unknown. `length`: the tool's register.
     fn home(&mut self, length: Option<f64>);
     /// The job is over.
     fn finish(&mut self) -> Done;
@@ -39,61 +40,61 @@ pub(super) trait Intent {
     fn is_of_wire(&mut self);
     /// A code that threads or cuts the wire, drills its start hole or fills the tank.
     fn wire(&mut self, code: Coded);
-    /// The item of the job that is looked at.
+    /// The current item of the job.
     fn place(&self) -> toolpath::Place;
-    /// What comes now is this item's.
+    /// Sets the item that the next motions belong to.
     fn comes_from(&mut self, place: toolpath::Place);
 }
 
-/// What goes well, or a finding that ends the comparison.
+/// Success, or a finding that ends the comparison.
 pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
 
-/// What a hole must be.
+/// The requirements for a hole.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Expected {
-    /// The place over the hole.
+    /// The position above the hole.
     pub at: Place,
-    /// Where the feed begins.
+    /// The height where the feed begins.
     pub plane: f64,
     pub bottom: f64,
     pub dwell: Option<f64>,
-    /// The hole may be made in other pecks.
+    /// Whether the hole may be made in other pecks.
     pub pecks: bool,
-    /// The tool comes out of the hole between pecks; how a tap does that is the control's own setting.
+    /// Whether the tool leaves the hole between pecks. For taps this is a setting of the control.
     pub comes_out: bool,
-    /// The job drills it in one, and it may be made in pecks.
+    /// Whether the job drills the hole without pecks. The program may still peck it.
     pub drilled_in_one: bool,
-    /// A tap: feed and speed are its pitch.
+    /// Whether the hole is tapped: its feed and speed define the pitch.
     pub is_tap: bool,
-    /// The hole may be left at feed farther up than the job does.
+    /// Whether the tool may leave the hole at feed to a higher position than in the job.
     pub feeds_out: bool,
-    /// The moves of the hole are known to the form alone.
+    /// Whether the moves of the hole are defined only by the form.
     pub custom: bool,
 }
 
-/// What one start of a thread must be; radii.
+/// The requirements for one start of a thread. X is a radius.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Threaded {
-    /// Where its passes begin: beside it.
+    /// The position where its passes begin, beside the thread.
     pub begin: Place,
     /// Its end along the axis.
     pub end: f64,
     /// Radius of its crest at the end.
     pub crest: f64,
-    /// Radius where a pass begins, less that at its end.
+    /// Radius at the start of a pass minus the radius at its end.
     pub taper: f64,
-    /// -1 where it is cut towards the axis, 1 away from it.
+    /// -1 if it is cut towards the axis, 1 if away from it.
     pub inward: f64,
-    /// How deep the job's passes go below the crest.
+    /// Depths of the job's passes below the crest.
     pub passes: Vec<f64>,
-    /// From turn to turn.
+    /// Distance between two turns.
     pub lead: f64,
 }
 
-/// Something whose motions are not known well enough to prove them.
+/// Fails because the motions are not known well enough for a proof.
 pub(super) fn unproven<T>(what: Unmodelled) -> Done<T> {
     Err(Box::new(
         Diag::new(Code::PV020, what.why())
-            .help("docs/verify.md lists what is not proven; prove the rest as a job of its own"),
+            .help("docs/verify.md lists the cases that can't be proven; prove the rest as a separate job"),
     ))
 }

@@ -1,4 +1,4 @@
-//! Straight cuts, which a program may make in parts.
+//! Straight cuts. A program may make them in parts.
 
 use super::cut::{
     ACROSS, ALL, Cut, DEPTH, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
@@ -9,10 +9,10 @@ use super::sides::Sides;
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-/// After so many cuts that end elsewhere, one after the other, the program is another one.
+/// After more consecutive cuts with a wrong end than this, the comparison ends.
 const MOST_SLIPS: u32 = 3;
 
-/// A straight cut, as one or in parts that lie on it.
+/// Compares a straight cut, made as one cut or in parts that lie on it.
 pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let end = cut.end();
@@ -29,7 +29,7 @@ pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expe
         let next = s.next()?.filter(|next| {
             let is_line = match &next.what {
                 What::Line { .. } => true,
-                What::Arc(turn) => is_straight(next, turn, tolerance), // a part of a helix whose circle no digits show
+                What::Arc(turn) => is_straight(next, turn, tolerance), // part of a helix whose circle is smaller than the digits
             };
             is_line
                 && s.program.passage.is_plain()
@@ -47,7 +47,7 @@ pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expe
     Ok(())
 }
 
-/// Checks that both straight cuts end at one place.
+/// Checks that both straight cuts end at the same position.
 fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let (from, end, is, line) = (&cut.from, cut.end(), found.end(), found.line);
@@ -56,35 +56,41 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
             s.slips = 0;
             return Ok(());
         }
-        let message = format!("the part turns the other way, or more often, on the way to {}", shown(&end, ALL));
-        return s.differs(Code::PV001, line, message, "look at the travel of the rotary axis (`Limits`)");
+        let message =
+            format!("the part turns in the opposite direction, or by more turns, in the move to {}", shown(&end, ALL));
+        return s.differs(Code::PV001, line, message, "check the travel of the rotary axis (`Limits`)");
     }
     s.slipped = Some([end, is]);
     if let Some(hole) = hole
         && same(&end, &is, ACROSS, tolerance)
     {
-        // out of the hole at feed, and farther than the job, but not above where the job goes at all
+        // the tool leaves the hole at feed, farther up than in the job, but not above the job's greatest height
         let upward = is[DEPTH] > end[DEPTH] && end[DEPTH] > from[DEPTH];
         if hole.feeds_out && upward && s.hole.highest.is_some_and(|highest| is[DEPTH] <= highest + tolerance) {
             s.report.allowed.outs += 1;
             return Ok(());
         }
         s.found(Code::PV004, line, "print Z[d] at every hole where it changes", || {
-            format!("the hole at {} is cut to Z{}, the job's to Z{}", over(&end), number(is[DEPTH]), number(end[DEPTH]))
+            format!(
+                "the hole at {} is cut to Z{}, but the job's hole to Z{}",
+                over(&end),
+                number(is[DEPTH]),
+                number(end[DEPTH])
+            )
         });
         return Ok(());
     }
-    let message = || format!("a cut goes to {}, the job's to {}", shown(&is, 0b111), shown(&end, 0b111));
-    let help = "look at what the form prints for this move";
+    let message = || format!("a cut goes to {}, but the job's cut goes to {}", shown(&is, 0b111), shown(&end, 0b111));
+    let help = "check the words that the form prints for this move";
     s.slips += 1;
     if s.slips > MOST_SLIPS {
-        return s.differs(Code::PV001, line, message(), help); // no longer the same cuts
+        return s.differs(Code::PV001, line, message(), help); // the cuts no longer correspond
     }
     s.found(Code::PV001, line, help, message);
     Ok(())
 }
 
-/// The cut as one of its parts must be: in inverse time a part has a part of the time.
+/// The required values for one part of a cut. In inverse time, a part has a share of the time.
 fn in_parts(cut: &Cut, part: &Cut) -> Cut {
     let length = |cut: &Cut| apart(&cut.from, &cut.end());
     let share = length(part) / length(cut);

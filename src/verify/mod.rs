@@ -1,7 +1,7 @@
-//! Does a program make the motions that its job asked for?
+//! Verifies that a program makes the motions that its job requests.
 //!
-//! The job's events become intended cuts, each with the way that leads to it; the program is run block by block and
-//! gives its cuts and ways. They are compared one by one, so that memory does not grow with either.
+//! The job's events become intended cuts, each with the path that leads to it. The program is run block by block and
+//! returns its cuts and paths. They are compared one by one, so memory does not grow with either side.
 
 mod align;
 mod arcs;

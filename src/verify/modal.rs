@@ -1,4 +1,4 @@
-//! What is in force at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
+//! The modal state at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
 use super::cut::{Cut, State, number};
 use super::sides::Sides;
@@ -7,15 +7,15 @@ use crate::diag::Code;
 use crate::nc::{Cooling, Rotation};
 use crate::toolpath::{self, FeedMode, Plane};
 
-/// A difference of two states: code, what to do, what differs.
+/// A difference of two states: the code, the correction, and the message.
 type Differs = (Code, &'static str, String);
 
-/// Tool, work offset, spindle, coolant, compensation. `tap`: feed and speed are its pitch.
+/// Compares tool, work offset, spindle, coolant and compensation. `tap`: feed and speed define the pitch.
 pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let both = [cut.state.clone(), found.state.clone()];
     s.before = found.state.clone();
     if s.agreed.as_ref() == Some(&both) {
-        s.agreed = Some(both); // alike at a glance the next time
+        s.agreed = Some(both); // the next comparison needs only the pointers
         return;
     }
     let states = both.each_ref().map(|state| &**state);
@@ -42,8 +42,8 @@ fn tool([wanted, is]: [&State; 2], tools: bool) -> Option<Differs> {
     let wanted = wanted.tool.filter(|_| tools)?;
     let message = match is.tool {
         Some(is) if is == wanted => return None,
-        Some(is) => format!("tool {} cuts, the job has tool {} here", number(is), number(wanted)),
-        None => format!("no tool was loaded, the job has tool {} here", number(wanted)),
+        Some(is) => format!("tool {} cuts, but the job has tool {} here", number(is), number(wanted)),
+        None => format!("no tool is loaded, but the job has tool {} here", number(wanted)),
     };
     Some((Code::PV012, "print T[tool] M6 in the tool change", message))
 }
@@ -52,12 +52,12 @@ fn offsets([wanted, is]: [&State; 2]) -> Option<Differs> {
     if let (Some(a), Some(b)) = (wanted.length, is.length)
         && a != b
     {
-        let message = format!("the length offset is H{}, the job's tool has H{}", number(b), number(a));
+        let message = format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a));
         return Some((Code::PV014, "print G43 H[lcomp] in the tool change", message));
     }
     let a = wanted.work.filter(|_| wanted.work != is.work)?;
-    let is = is.work.map_or("none that the program says".to_owned(), |b| b.to_string());
-    let message = format!("the work offset is {is}, the job's is {a}");
+    let is = is.work.map_or("not printed".to_owned(), |b| b.to_string());
+    let message = format!("the work offset is {is}, but {a} in the job");
     Some((Code::PV012, "print G[work] in the tool change, or in `Upon [work]`", message))
 }
 
@@ -65,17 +65,17 @@ fn turning([wanted, is]: [&State; 2]) -> Option<Differs> {
     if let (Some(a), Some(b)) = (wanted.rotation, is.rotation)
         && a != b
     {
-        let message = format!("the spindle is {}, the job wants {}", b.name(), a.name());
+        let message = format!("the spindle is {}, but {} in the job", b.name(), a.name());
         return Some((Code::PV011, "print M[direct] with the speed", message));
     }
     if wanted.speed.is_none() || wanted.css == is.css {
         let limit = wanted.limit.filter(|limit| wanted.css && is.limit != Some(*limit))?;
         let said = is.limit.map_or("none".to_owned(), |is| number(is).to_string());
-        let message = format!("the highest speed of the spindle is {said}, the job's {}", number(limit));
+        let message = format!("the speed limit of the spindle is {said}, but {} in the job", number(limit));
         return Some((Code::PV011, "print G50 S[maxrpm] before the surface speed", message));
     }
-    let counts = if is.css { "at the surface (G96)" } else { "turns" };
-    Some((Code::PV011, "print G[speedtype]", format!("the speed counts {counts}, the job's does not")))
+    let counts = if is.css { "a surface speed (G96)" } else { "in revolutions" };
+    Some((Code::PV011, "print G[speedtype]", format!("the spindle speed is {counts}, but not in the job")))
 }
 
 fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
@@ -84,31 +84,31 @@ fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
     if (a - b).abs() <= (if tap { PITCH } else { ROUNDED } * a).max(0.5) {
         return true;
     }
-    // a tap whose feed stays cuts another thread
+    // a tap with the same feed and another speed cuts another thread
     if !tap && s.own[1].says(a, cut.by[0], |own| (own - b).abs() <= 0.5) {
         s.report.allowed.speeds += 1;
-        return false; // each cut is counted
+        return false; // count each cut
     }
     s.found(Code::PV011, found.line, "print S[speed]", || {
-        format!("the spindle turns S{}, the job wants {}", number(b), number(a))
+        format!("the spindle speed is S{}, but {} in the job", number(b), number(a))
     });
     false
 }
 
 fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
     let (a, b) = (wanted.coolant?, is.coolant?);
-    // what a job does not ask for may be on: it is only wet
+    // coolant that the job does not request may be on, because it does no harm
     if a == b || a == Cooling::Off {
         return None;
     }
-    let message = format!("the coolant is {}, the job wants {}", b.name(), a.name());
+    let message = format!("the coolant is {}, but {} in the job", b.name(), a.name());
     Some((Code::PV024, "print M[cool] in the tool change, and after a stop", message))
 }
 
-/// A floating tap goes in as the spindle turns already.
+/// Compares the spindle before a floating tap. Such a tap goes in with the rotation that is already on.
 fn into_tap([wanted, is]: [&State; 2]) -> Option<Differs> {
     let (a, b) = (wanted.into_tap?, is.into_tap?);
-    let message = format!("the spindle is {} before the floating tap, the job wants {}", b.name(), a.name());
+    let message = format!("the spindle is {} before the floating tap, but {} in the job", b.name(), a.name());
     (a != b).then_some((Code::PV011, "print M[direct] before the tap, and no M5 after it", message))
 }
 
@@ -116,7 +116,7 @@ fn rigid([wanted, is]: [&State; 2], tap: bool) -> Option<Differs> {
     if !tap || wanted.rigid != Some(true) || is.rigid != Some(false) {
         return None;
     }
-    let message = "the job's tap is rigid, and no M29 keeps feed and spindle in step".to_owned();
+    let message = "the job's tap is rigid, but the program has no M29 to synchronize feed and spindle".to_owned();
     Some((Code::PV011, "print M29 S[speed] before the tap", message))
 }
 
@@ -129,8 +129,8 @@ fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {
             Some(toolpath::Side::Left) => "left",
             Some(toolpath::Side::Right) => "right",
         };
-        let message = format!("cutter compensation is {}, the job wants {}", name(b), name(a));
-        return Some((Code::PV018, "look at InFeed and OutFeed", message));
+        let message = format!("cutter compensation is {}, but {} in the job", name(b), name(a));
+        return Some((Code::PV018, "check InFeed and OutFeed", message));
     }
     if wanted.side.flatten().is_some() && is.plane != wanted.plane {
         let (help, name) = match wanted.plane {
@@ -141,15 +141,15 @@ fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {
     }
     let a = wanted.diameter.filter(|_| wanted.diameter != is.diameter)?;
     let b = is.diameter.map_or("none".to_owned(), |b| format!("D{}", number(b)));
-    let message = format!("cutter compensation takes register {b}, the job's tool has D{}", number(a));
+    let message = format!("cutter compensation uses register {b}, but the job's tool has D{}", number(a));
     Some((Code::PV018, "print D[dcomp] in InFeed", message))
 }
 
-/// The feed, within what its digits are rounded off.
+/// Compares the feeds, within their rounding.
 pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let (Some(wanted), Some(mut is)) = (cut.feed, found.feed) else { return };
     let typed = is;
-    // a tap's feed is its pitch, however it counts
+    // the feed of a tap defines its pitch in either feed mode
     let speed = found.state.speed.filter(|speed| tap && !found.state.css && *speed > 0.0);
     if cut.mode != found.mode {
         match (cut.mode, found.mode, speed) {
@@ -157,7 +157,7 @@ pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
             (FeedMode::PerRev, FeedMode::PerMinute, Some(speed)) => is /= speed,
             _ => {
                 s.found(Code::PV006, found.line, "print G[feedtype]", || {
-                    "feeds count otherwise: per minute, per turn or inverse time".to_owned()
+                    "another feed mode: per minute, per revolution or inverse time".to_owned()
                 });
                 return;
             }
@@ -171,11 +171,11 @@ pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
         return;
     }
     s.found(Code::PV006, found.line, "print F[frate] where the feed changes", || {
-        format!("the feed is {}, the job's {}", number(is), number(wanted))
+        format!("the feed is {}, but {} in the job", number(is), number(wanted))
     });
 }
 
-/// Is the feed of a cut the job's, as far as both count it alike?
+/// Whether a cut has the job's feed, if both are in the same feed mode.
 pub(super) fn has_feed(cut: &Cut, found: &Cut) -> bool {
     match (cut.feed, found.feed) {
         (Some(wanted), Some(is)) => cut.mode != found.mode || is_feed(wanted, is, false),
@@ -183,7 +183,7 @@ pub(super) fn has_feed(cut: &Cut, found: &Cut) -> bool {
     }
 }
 
-/// Is a feed the wanted one, but for its digits?
+/// Whether a feed is the required one, within its rounding.
 pub(super) fn is_feed(wanted: f64, is: f64, tap: bool) -> bool {
     (wanted - is).abs() <= (if tap { PITCH } else { ROUNDED } * wanted).max(1e-9)
 }

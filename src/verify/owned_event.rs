@@ -1,12 +1,12 @@
-//! Events that outlive their reader.
+//! Events that live longer than their reader.
 
 use crate::toolpath::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread, ToolChange};
 
-/// An event that outlives its reader, so that it can go to another thread.
+/// An event that lives longer than its reader, so that it can be sent to another thread.
 #[derive(Clone, Debug)]
 pub struct Kept(Own);
 
-/// What is larger than a straight move, as most events are, lies elsewhere.
+/// Data that is larger than a straight move is boxed, because most events are straight moves.
 #[derive(Clone, Debug)]
 enum Own {
     Start(Box<Start>),
@@ -59,7 +59,7 @@ impl From<&Event<'_>> for Kept {
 }
 
 impl Kept {
-    /// The event as it was.
+    /// The event as it was before.
     pub fn event(&self) -> Event<'_> {
         match &self.0 {
             Own::Start(start) => Event::Start(start),

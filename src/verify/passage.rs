@@ -1,11 +1,12 @@
-//! What lies between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program have one each.
+//! Everything between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program each have one
+//! passage.
 
 use super::cut::{ALL, DEPTH, Place, Rapid, same};
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
 
-/// The coordinates in which places are said.
+/// The coordinate frame of positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Frame {
     pub tool: Option<f64>,
@@ -16,76 +17,76 @@ pub(super) struct Frame {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Leg {
     pub frame: Frame,
-    /// How many rapids come before the leg.
+    /// Number of rapids before the leg.
     from: usize,
-    /// It begins at the machine's own place, to which the job sends the tool.
+    /// Whether the leg begins at home, where the job sends the tool.
     home: bool,
-    /// Length registers in force while the tool moved to heights that are known; of the job, the tool's.
+    /// Length registers in force while the tool moved to known heights. For a job: the tool's register.
     pub lengths: Vec<Option<f64>>,
 }
 
-/// Something that is done on the way.
+/// An action between two cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark<T> {
     pub what: T,
-    /// How many rapids come before the mark.
+    /// Number of rapids before the mark.
     at: usize,
-    /// How often the frame was changed before the mark, since the cut.
+    /// Number of frame changes before the mark, since the cut.
     leg: usize,
-    /// The spindle was started from standing before it, since the cut.
+    /// Whether the spindle was started from a stop before the mark, since the cut.
     pub started: bool,
-    /// A torch or a laser is off there: it is in no cut.
+    /// Whether a torch or a laser is off at the mark. Then the tool is in no cut.
     pub is_off: bool,
-    /// The program's line; 0 of a job.
+    /// The program's line; 0 for a job.
     pub line: u64,
     /// The job's item.
     pub place: toolpath::Place,
 }
 
-/// What lies between the last cut and the next.
+/// Everything between the last cut and the next.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
-    /// Where the passage begins; `None`: only the machine knows.
+    /// The start of the passage; `None`: known only at the machine.
     pub start: Option<Rapid>,
-    /// It begins where a cut ended, and not where the program begins.
+    /// Whether the passage begins at the end of a cut, and not at the start of the program.
     after_cut: bool,
     pub rapids: Vec<Rapid>,
-    /// The way in pieces, one a frame; at least one.
+    /// The parts of the path, one for each frame. There is at least one.
     legs: Vec<Leg>,
     pub stops: Vec<Mark<StopKind>>,
-    /// Dwells in seconds; not a number: of any length.
+    /// Dwells in seconds. Not a number means any length.
     pub waits: Vec<Mark<f64>>,
-    /// How the spindle was switched.
+    /// The switches of the spindle, in order.
     pub turns: Vec<Rotation>,
-    /// The spindle was started from standing.
+    /// Whether the spindle was started from a stop.
     pub started: bool,
-    /// A torch or a laser is off now.
+    /// Whether a torch or a laser is off now.
     pub is_off: bool,
-    /// Codes of the program that are not simulated: letter, and ten times the number.
+    /// Codes of the program that are not simulated: the letter, and ten times the number.
     pub codes: Vec<(u8, u16)>,
-    /// Codes that thread and cut a wire.
+    /// Codes for threading and cutting a wire.
     pub does: Vec<Mark<Coded>>,
-    /// The tool was changed.
+    /// Whether the tool was changed.
     pub new_tool: bool,
-    /// For each change of a lathe's tool, the axes at a place of the machine.
+    /// For each tool change of a lathe, the axes at a machine position.
     pub turrets: Vec<u8>,
-    /// Axes that went to a place of the machine which the program says.
+    /// Axes that went to a machine position that is given in the program.
     pub homes: u8,
-    /// The job's way leaves the axis of its hole.
+    /// Whether the job's path leaves the axis of its hole.
     pub aside: bool,
-    /// The job's way left the axis of its hole before the last change of the frame.
+    /// Whether the job's path left the axis of its hole before the last change of the frame.
     pub left_aside: bool,
-    /// Where increments from a place of the machine led, with their lines.
+    /// Targets of increments from a machine position, with their lines.
     pub astray: Vec<(u64, Place)>,
 }
 
-/// Why nothing is proven where a passage is too long.
-pub(super) const TOO_LONG: &str = "more rapids, stops and dwells between two cuts than are held";
-/// More rapids between two cuts than any job has: they would have to be held.
+/// The reason why nothing is proven if a passage is too long.
+pub(super) const TOO_LONG: &str = "too many rapids, stops and dwells between two cuts";
+/// The largest number of rapids between two cuts. No job has more, and all must be kept in memory.
 const MOST: usize = 1 << 16;
-/// More stops and dwells between two cuts than any job has: each is compared with each.
+/// The largest number of stops and dwells between two cuts. No job has more, and each is compared with each.
 const MOST_MARKS: usize = 1 << 12;
-/// More changes of the tool or the work offset between two cuts than any job has: the same.
+/// The largest number of changes of tool or work offset between two cuts. No job has more.
 const MOST_LEGS: usize = 1 << 11;
 
 impl Passage {
@@ -112,7 +113,7 @@ impl Passage {
         }
     }
 
-    /// A cut ended: the next passage begins there.
+    /// Begins the next passage at the end of a cut.
     pub fn begin(&mut self, start: Rapid) {
         (self.start, self.after_cut) = (Some(start), true);
         self.rapids.clear();
@@ -136,7 +137,7 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
-    /// A cut that counts for nothing was on the way.
+    /// Passes over a cut that does not matter.
     pub fn goes_on(&mut self, to: Place) {
         match &mut self.start {
             Some(start) if self.rapids.is_empty() && self.legs.len() == 1 => {
@@ -146,13 +147,13 @@ impl Passage {
         }
     }
 
-    /// The frame changes: places are in other coordinates from here on.
+    /// Changes the frame. From here on, positions are in other coordinates.
     pub fn change(&mut self, frame: Frame) {
         if let [.., before, last] = self.legs.as_slice()
             && last.from == self.rapids.len()
             && before.frame == frame
         {
-            // there and back again without a move
+            // the frame changed and changed back without a move
             self.legs.pop();
             if self.legs.len() == 1 {
                 self.aside = std::mem::take(&mut self.left_aside);
@@ -165,7 +166,7 @@ impl Passage {
         self.legs.push(Leg { frame, from: self.rapids.len(), ..Leg::default() });
     }
 
-    /// The tool goes to the machine's own place: the way from there is one of its own, in the same frame.
+    /// Sends the tool home. A separate leg begins there, in the same frame.
     pub fn goes_home(&mut self, length: Option<f64>) {
         if self.legs.len() == 1 {
             self.left_aside = std::mem::take(&mut self.aside);
@@ -174,12 +175,13 @@ impl Passage {
         self.legs.push(Leg { frame, from: self.rapids.len(), home: true, lengths: vec![length] });
     }
 
-    /// Was the tool sent home?
+    /// Whether the tool was sent home.
     pub fn was_sent_home(&self) -> bool {
         self.legs.iter().any(|leg| leg.home)
     }
 
-    /// Ways from places of the machine along one of these axes begin again, as the job's do where it goes home. Is there such a place?
+    /// Begins a new leg after each machine position along one of these axes, as the job does where it goes home. Returns
+    /// whether there is such a position.
     pub fn splits_at_home(&mut self, axes: u8) -> bool {
         let is_home = |rapid: &Rapid| rapid.unknown & axes != 0;
         let ends: Vec<usize> = (1..=self.rapids.len())
@@ -195,30 +197,30 @@ impl Passage {
         !ends.is_empty()
     }
 
-    /// The frame changes at a mark, as where the operator changes the tool.
+    /// Begins a new leg at a mark, for example where the operator changes the tool.
     pub fn split<T>(&mut self, mark: &Mark<T>) {
         let behind = self.legs.iter().rposition(|leg| leg.from <= mark.at).unwrap_or_default();
         let leg = Leg { from: mark.at, ..self.legs[behind].clone() };
         self.legs.insert(behind + 1, leg);
     }
 
-    /// How many stops come before a leg.
+    /// The number of stops before a leg.
     pub fn stops_before(&self, leg: usize, kind: StopKind) -> usize {
         self.stops.iter().filter(|stop| stop.what == kind && stop.leg < leg).count()
     }
 
-    /// The legs that begin with another tool, and whether it is the first of all.
+    /// The legs that begin with another tool, and whether that tool is the first of all.
     pub fn tool_changes(&self) -> Vec<(usize, bool)> {
         let pairs = self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.tool != pair[1].frame.tool);
         pairs.map(|(at, pair)| (at + 1, pair[0].frame.tool.is_none())).collect()
     }
 
-    /// The last leg, which goes on.
+    /// The last leg, which is in progress.
     pub fn leg(&mut self) -> Option<&mut Leg> {
         self.legs.last_mut()
     }
 
-    /// Is there more than can be held?
+    /// Whether the passage is too long to be kept in memory.
     #[inline]
     pub fn is_too_long(&self) -> bool {
         let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
@@ -227,7 +229,7 @@ impl Passage {
             || self.legs.len() > MOST_LEGS
     }
 
-    /// Was the frame changed?
+    /// Whether the frame was changed.
     pub fn changed(&self) -> bool {
         self.legs.len() > 1
     }
@@ -248,13 +250,13 @@ impl Passage {
         &self.rapids[self.legs.last().map_or(0, |leg| leg.from)..]
     }
 
-    /// Notes that something is done here.
+    /// A mark for an action at the current position.
     pub fn mark<T>(&self, what: T, line: u64, place: toolpath::Place) -> Mark<T> {
         let (at, leg) = (self.rapids.len(), self.legs.len() - 1);
         Mark { what, at, leg, started: self.started, is_off: self.is_off, line, place }
     }
 
-    /// Where the tool is at a mark; `None` before the first place that is known.
+    /// Position of the tool at a mark; `None` if no position is known yet.
     pub fn standing<T>(&self, mark: &Mark<T>) -> Option<Rapid> {
         let corner = match mark.at.checked_sub(1) {
             Some(last) => self.rapids.get(last).copied(),
@@ -264,14 +266,14 @@ impl Passage {
         corner.filter(|corner| corner.unknown == 0 && moved)
     }
 
-    /// Does the tool stand at a place of the machine along one of these axes, or where the job sent it home?
+    /// Whether the tool is at a machine position along one of these axes, or where the job sent it home.
     pub fn at_home<T>(&self, mark: &Mark<T>, axes: u8) -> bool {
         let sent = self.legs.get(mark.leg).is_some_and(|leg| leg.home && leg.from == mark.at);
         let last = mark.at.checked_sub(1).and_then(|last| self.rapids.get(last));
         sent || last.is_some_and(|rapid| rapid.unknown & axes != 0)
     }
 
-    /// Does the tool still stand where the cut ended?
+    /// Whether the tool is still at the end of the cut.
     pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
         let Some(start) = self.start.filter(|_| self.after_cut && mark.leg == 0 && !mark.is_off) else { return false };
         let stays = |rapid: &Rapid| {
@@ -280,19 +282,19 @@ impl Passage {
         self.rapids.iter().take(mark.at).all(stays)
     }
 
-    /// Is the tool below this height at a mark, and was it ever since the cut?
+    /// Whether the tool is below this height at a mark and has been since the cut.
     pub fn below_since<T>(&self, mark: &Mark<T>, height: f64) -> bool {
         let mut way = self.start.iter().chain(self.rapids.iter().take(mark.at));
         mark.leg == 0 && self.start.is_some() && way.all(|corner| is_below(corner, height))
     }
 
-    /// Is the tool below this height at a mark, and stays there until the next cut?
+    /// Whether the tool is below this height at a mark and stays there until the next cut.
     pub fn below_until<T>(&self, mark: &Mark<T>, height: f64) -> bool {
         let stands = self.standing(mark).is_some_and(|corner| is_below(&corner, height));
         stands && self.rapids.iter().skip(mark.at).all(|corner| is_below(corner, height))
     }
 
-    /// Does the tool stay where the last cut ended, but for rapids that no digits show?
+    /// Whether the tool stays at the end of the last cut, except for rapids smaller than the digits.
     pub fn stays(&self, tolerance: f64) -> bool {
         self.rapids.is_empty()
             || self.start.is_some_and(|start| {
@@ -301,14 +303,14 @@ impl Passage {
             })
     }
 
-    /// Where the tool is now, if that is known.
+    /// Position of the tool now, if known.
     pub fn here(&self) -> Option<Rapid> {
-        // in a new frame no position was given yet
+        // in a new frame, no position was given yet
         let fresh = self.changed() && self.legs.last().is_some_and(|leg| leg.from == self.rapids.len());
         if fresh { None } else { self.rapids.last().copied().or(self.start) }
     }
 
-    /// Does the next cut follow on the last without anything between?
+    /// Whether the next cut follows directly on the last, without anything between.
     pub fn is_plain(&self) -> bool {
         self.rapids.is_empty()
             && self.legs.len() == 1

@@ -1,4 +1,5 @@
-//! Stops and dwells between cuts: the job's are made, where the tool may stand, and others only outside cuts.
+//! Stops and dwells between cuts. The program must make those of the job where the tool may stop. Others are allowed only
+//! outside cuts.
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
 use super::intent::Expected;
@@ -9,7 +10,7 @@ use super::tables::STARTED;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
-/// Stops and dwells since the last cut.
+/// Compares stops and dwells since the last cut.
 pub(super) fn compare(s: &mut Sides<'_>) {
     let passage = &s.program.passage;
     let nothing = [&s.job, passage].into_iter().all(|side| side.stops.is_empty() && side.waits.is_empty());
@@ -24,7 +25,7 @@ fn kind_of(kind: StopKind) -> &'static str {
     if kind == StopKind::Program { "program" } else { "optional" }
 }
 
-/// The program makes the job's stops, in their order, and nowhere lower.
+/// Checks that the program makes the job's stops, in their order and not lower.
 fn stops(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut others = s.program.passage.stops.clone();
@@ -42,8 +43,8 @@ fn stops(s: &mut Sides<'_>) {
         from += at;
         let away = rapids::away(s.machine);
         if s.job.at_home(stop, away) && !s.program.passage.at_home(&made, away) {
-            told(s, stop, Code::PV019, made.line, "print the stop after the way home", || {
-                "the job stops with the tool at home, the program before".to_owned()
+            told(s, stop, Code::PV019, made.line, "print the stop after the move home", || {
+                "the job stops with the tool at home, but the program stops before".to_owned()
             });
         }
         s.report.allowed.pauses += u64::from(is_elsewhere(s, stop, &made));
@@ -52,7 +53,7 @@ fn stops(s: &mut Sides<'_>) {
         {
             let [a, b] = [a, b].map(|corner| number(corner.to[DEPTH]));
             told(s, stop, Code::PV019, made.line, "retract before the stop", || {
-                format!("the program stops with the tool at Z{b}, the job at Z{a}")
+                format!("the program stops with the tool at Z{b}, but the job at Z{a}")
             });
         }
     }
@@ -63,7 +64,7 @@ fn stops(s: &mut Sides<'_>) {
     }
 }
 
-/// Stops between two pecks of a hole, where no job has one: the hole is a cut, up to its clearance plane.
+/// Checks stops between two pecks of a hole, where no job has one. The hole is a cut up to its clearance plane.
 pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     for stop in s.program.passage.stops.clone() {
         let stands = s.program.passage.standing(&stop);
@@ -72,24 +73,24 @@ pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     }
 }
 
-/// A stop that the job does not have: wrong with the tool in the cut, and counted outside of it.
+/// Handles a stop that the job does not have. In a cut it is a finding; outside cuts it is counted.
 fn own_stop(s: &mut Sides<'_>, stop: &Mark<StopKind>, in_cut: bool) {
     if !in_cut {
         s.report.allowed.stops += 1;
         return;
     }
-    s.found(Code::PV019, stop.line, "retract before the stop, or take it out", || {
+    s.found(Code::PV019, stop.line, "retract before the stop, or remove the stop", || {
         "a stop that the job does not have, with the tool in the cut".to_owned()
     });
 }
 
-/// Does the tool stand at another place than the job's?
+/// Whether the tool is at another position than the job's.
 fn is_elsewhere<T>(s: &Sides<'_>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
     let stands = [s.job.standing(wanted), s.program.passage.standing(made)];
     matches!(stands, [Some(a), Some(b)] if !same(&a.to, &b.to, ALL, s.limits.tolerance))
 }
 
-/// A machine without tool changes stops for each next tool: after the job's stops with the one before.
+/// Handles a machine without tool changes. It stops for each next tool, after the job's stops with the previous tool.
 fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     if !s.job.new_tool || s.tools || s.switches {
         return;
@@ -99,7 +100,7 @@ fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     for (number, (leg, is_first)) in changes.iter().enumerate() {
         let later = changes.len() - number - 1;
         if *is_first && count(others) <= count(&s.job.stops) + later {
-            continue; // the first tool may be in the spindle already
+            continue; // the first tool may already be in the spindle
         }
         let before = s.job.stops_before(*leg, StopKind::Program);
         let mut stops = others.iter().enumerate().filter(|(_, stop)| stop.what == StopKind::Program);
@@ -109,28 +110,29 @@ fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
                 s.program.passage.split(&stop);
             }
             None if !is_first => s.found(Code::PV012, 0, "print M0 in the tool change", || {
-                "the program goes on without a stop for the next tool".to_owned()
+                "the program continues without a stop for the next tool".to_owned()
             }),
             None => {}
         }
     }
 }
 
-/// A difference about an item of the job that came some time ago.
+/// Reports a difference at an earlier item of the job.
 fn told<T>(s: &mut Sides<'_>, mark: &Mark<T>, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
     let here = std::mem::replace(&mut s.report.place, mark.place);
     s.found(code, line, help, message);
     s.report.place = here;
 }
 
-/// The job's dwells are made; others only where the tool does not stand in a cut, or while the spindle spins up.
+/// Checks that the program makes the job's dwells. Others are allowed only outside cuts, or while the spindle comes to
+/// speed.
 fn waits(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut wanted = std::mem::take(&mut s.job.waits);
-    // what may be of any length takes what is left
+    // dwells of any length are matched last
     wanted.sort_by_key(|wait| wait.what.is_nan());
     let mut others = s.program.passage.waits.clone();
-    // the next tool or work offset may have come since
+    // the next tool or work offset may have come since then
     let holes = [s.hole.last, s.hole.before];
     let fed_out = s.job.start.is_some_and(|start| {
         holes
@@ -153,7 +155,7 @@ fn waits(s: &mut Sides<'_>) {
             (true, true) => true,
             (false, is) if is || hole.holds(passage, other, tolerance) => {
                 match (s.job.standing(wait), passage.standing(other)) {
-                    // it stands in the job's place already
+                    // the tool is already at the job's position
                     (Some(a), Some(b)) => {
                         same(&a.to, &b.to, ACROSS, tolerance) && b.to[DEPTH] >= a.to[DEPTH] - tolerance
                     }
@@ -161,7 +163,7 @@ fn waits(s: &mut Sides<'_>) {
                 }
             }
             (false, _) => true,
-            // out of a hole at feed, the tool may wait farther up
+            // after leaving a hole at feed, the tool may wait farther up
             (true, false) => fed_out && passage.standing(other).is_some_and(|at| is_over(&at)),
         };
         let passage = &s.program.passage;
@@ -174,20 +176,20 @@ fn waits(s: &mut Sides<'_>) {
         if wait.what.is_nan() {
             continue;
         }
-        // what the spindle waits for is not the job's, but in a hole
+        // a dwell for the spindle to come to speed is not the job's, except in a hole
         let may_be = |other: &Mark<f64>| !other.started || hole.holds(passage, other, tolerance);
         let another = others.iter().position(|other| serves(passage, other) && may_be(other));
         let seconds = number(wait.what);
         match another.map(|at| others.remove(at)) {
-            Some(other) => told(s, wait, Code::PV010, other.line, "look at the unit of the dwell (`Dwell`)", || {
-                format!("the dwell is {} s, the job's {seconds} s", number(other.what))
+            Some(other) => told(s, wait, Code::PV010, other.line, "check the unit of the dwell (`Dwell`)", || {
+                format!("the dwell is {} s, but {seconds} s in the job", number(other.what))
             }),
-            None => told(s, wait, Code::PV010, 0, "look at the dwell of the cycle or block", || {
+            None => told(s, wait, Code::PV010, 0, "check the dwell of the cycle or block", || {
                 format!("the dwell of {seconds} s is missing")
             }),
         }
     }
-    // at the bottom of a hole that only the form knows
+    // at the bottom of a hole that only the form defines
     let own = holes.into_iter().flatten().any(|last| {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
@@ -195,9 +197,9 @@ fn waits(s: &mut Sides<'_>) {
     for other in &others {
         let passage = &s.program.passage;
         let in_hole = s.hole.holds(passage, other, tolerance);
-        // fed out of a hole, the tool is in no cut where it stands
+        // after leaving a hole at feed, the tool is not in a cut
         let in_cut = s.hole.inside.is_none() && passage.in_cut(other, tolerance);
-        // a torch waits until it is through, once; a spindle until it has its speed
+        // a torch may wait once to pierce, a spindle may wait to come to speed
         let burns = s.switches && !other.is_off;
         let once = other.what <= STARTED && !started;
         started |= burns || in_cut;
@@ -206,7 +208,7 @@ fn waits(s: &mut Sides<'_>) {
             continue;
         }
         let seconds = number(other.what);
-        let help = "take the dwell out, or go up first; a cycle keeps the P before it: print P0";
+        let help = "remove the dwell, or retract first; P is modal in a cycle: print P0";
         s.found(Code::PV010, other.line, help, || format!("a dwell of {seconds} s that the job does not have"));
     }
 }

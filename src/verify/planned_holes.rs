@@ -1,4 +1,4 @@
-//! The job's holes: the steps that its cycles plan.
+//! The job's holes, as the steps that its cycles plan.
 
 use super::cut::{DEPTH, Spin, What};
 use super::intended::{Job, rotation, wait};
@@ -10,7 +10,7 @@ use crate::nc::Rotation;
 use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, StopKind, Units, impossible};
 
 impl Job {
-    /// A hole of the open cycle.
+    /// Passes on a hole of the open cycle.
     pub(super) fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Done {
         let at = self.place(&hole.at);
         let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
@@ -30,7 +30,7 @@ impl Job {
         let mut steps = std::mem::take(&mut self.steps);
         let top = return_plane - point;
         if custom {
-            // whatever else it does, it goes down to the bottom and comes back
+            // a custom cycle may do more, but it goes down to the bottom and comes back
             steps.list.clear();
             let feed = Step::Feed(planes.bottom, planes.feed);
             steps.list.extend([Step::Rapid(planes.clear), feed, Step::Rapid(top)]);
@@ -66,12 +66,12 @@ impl Job {
         };
         let list = std::mem::take(&mut steps.list);
         let before = self.state.clone();
-        // else the holes share one state
+        // change the state only if needed, because the holes share one state
         if before.rigid != rigid {
             self.state.rigid = rigid;
         }
         if let (Some(inwards), Some(Rotation::Cw | Rotation::Ccw)) = (kind.inwards(), before.rotation) {
-            self.state.rotation = Some(rotation(inwards)); // whatever the spindle does else
+            self.state.rotation = Some(rotation(inwards)); // also if the spindle turned the other way before
             self.state.into_tap = Some(rotation(inwards)).filter(|_| floats);
         }
         let done = self.steps(&list, point, target, &expected, to);
@@ -83,7 +83,7 @@ impl Job {
 
     fn steps(&mut self, steps: &[Step], point: f64, target: Axes, hole: &Expected, to: &mut impl Intent) -> Done {
         let (feed, state) = (self.feed, self.state.clone());
-        // how a tap leaves the spindle outside its hole does not matter
+        // the rotation that a tap leaves outside its hole does not matter
         let mut spin = self.state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
         self.at = target;
         to.rapid(self.rapid_to(&target, None))?;

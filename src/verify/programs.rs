@@ -1,4 +1,4 @@
-//! Two programs by what a machine does: another way to write the same motions is no difference.
+//! Compares two programs by the motions of the machine. The same motions written in another way are no difference.
 
 use std::io::{Read, Seek};
 
@@ -14,40 +14,40 @@ use crate::lang::additional_work;
 use crate::nc::{Cooling, RunError, RunSettings, Threading, axes_of};
 use crate::toolpath::{StopKind, Units};
 
-/// The first difference of two programs' motions.
+/// The first difference between the motions of two programs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionDifference {
-    /// What differs.
+    /// Description of the difference.
     pub message: String,
-    /// Line and text of the blocks, old and new; line 0 where a program is over.
+    /// Line and text of the old and the new block; line 0 if a program is over.
     pub blocks: [(u64, String); 2],
 }
 
-/// How the motions of two programs compare.
+/// The result of comparing the motions of two programs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motions {
-    /// The first difference, after which nothing is compared.
+    /// The first difference. Nothing is compared after it.
     pub difference: Option<MotionDifference>,
-    /// Ways between cuts that go otherwise, and nowhere lower.
+    /// Number of paths between cuts that differ and are not lower.
     pub ways: u64,
-    /// Cuts before which other codes stand, of those that are not simulated.
+    /// Number of cuts that follow different codes, among the codes that are not simulated.
     pub codes: u64,
-    /// Holes with other pecks, of programs for different controls.
+    /// Number of holes with other pecks, in programs for different controls.
     pub pecks: u64,
-    /// Feeds that differ by their last digits, of programs for different controls.
+    /// Number of feeds that differ by rounding, in programs for different controls.
     pub feeds: u64,
-    /// Cuts that were compared.
+    /// Number of cuts compared.
     pub cuts: u64,
 }
 
-/// Why motions can't be compared: a program (0 old, 1 new) that can't be read or that its control refuses.
+/// The reason why motions can't be compared: a program (0 old, 1 new) can't be read, or its control refuses it.
 #[derive(Debug)]
 pub struct NoMotion(pub usize, pub RunError);
 
-/// What two programs do, cut by cut; units, order of words and canned cycles do not matter.
+/// Compares the motions of two programs, cut by cut. Units, the order of words and canned cycles do not matter.
 ///
 /// # Errors
-/// One of them can't be run.
+/// One of the programs can't be run.
 pub fn compare_motions(
     programs: [(impl Read + Seek, RunSettings); 2],
     units: Units,
@@ -79,11 +79,11 @@ pub fn compare_motions(
         }
         motions.codes += u64::from(a.passage.codes != b.passage.codes);
         let (Some(cut), Some(found)) = (&x, &y) else {
-            // in neither direction: going out higher is another motion, too
+            // check both directions, because going out higher is also another motion
             let low = |a: usize, b: usize| leaves_low(&ways[a], &ways[b], tolerance).is_some();
             let same_way = ways[0].is(&ways[1], tolerance);
             let leaves_well = same_way || !low(0, 1) && !low(1, 0);
-            // the end stops spindle and coolant, said or not
+            // the end stops spindle and coolant, with or without codes
             let besides = astray(&a, &b, tolerance)
                 .or_else(|| pauses(&a, &b, tolerance))
                 .or_else(|| turrets(&a, &b))
@@ -94,9 +94,9 @@ pub fn compare_motions(
                 return Ok(motions);
             }
             let message = match (x, y) {
-                (Some(cut), _) => format!("the new program is over, and a cut to {} is missing", end(&cut)),
-                (None, Some(cut)) => format!("the old program is over, and the new one cuts to {}", end(&cut)),
-                (None, None) => besides.unwrap_or_else(|| "the tool leaves the last cut on another way".to_owned()),
+                (Some(cut), _) => format!("the new program ends before a cut to {}", end(&cut)),
+                (None, Some(cut)) => format!("the new program cuts to {} after the end of the old program", end(&cut)),
+                (None, None) => besides.unwrap_or_else(|| "the path after the last cut is different".to_owned()),
             };
             let difference = Some(MotionDifference { message, blocks: blocks(&a, &b) });
             return Ok(Motions { difference, ..motions });
@@ -144,7 +144,7 @@ pub fn compare_motions(
         let now = hole(&mut b, found, tolerance).map_err(|error| NoMotion(1, error))?;
         let [old, new] = [&before, &now].map(|depths| depths.iter().copied().fold(f64::INFINITY, f64::min));
         if (old - new).abs() > tolerance {
-            let message = format!("a hole goes down to Z{}, before to Z{}", number(new), number(old));
+            let message = format!("a hole goes to Z{}, in the old program to Z{}", number(new), number(old));
             let blocks = [(lines[0], String::new()), (lines[1], String::new())];
             return Ok(Motions { difference: Some(MotionDifference { message, blocks }), ..motions });
         }
@@ -153,7 +153,7 @@ pub fn compare_motions(
     }
 }
 
-/// What the old way is to the new one, the other way round: where the old one is lower, the new one is elsewhere.
+/// Converts a comparison in the other direction: where the old path is lower, the new path is elsewhere.
 fn higher(other: Compared) -> Compared {
     match other {
         Compared::Lower(to, _) => Compared::Elsewhere(to),
@@ -170,44 +170,52 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     if cut.unknown != found.unknown {
         let [new, old] = [found, cut].map(|cut: &Cut| match cut.unknown {
             0 => shown(&cut.from, 0b111),
-            _ => "a position that only the machine knows".to_owned(),
+            _ => "an unknown machine position".to_owned(),
         });
-        return Some(format!("a cut begins at {new}, before at {old}"));
+        return Some(format!("a cut begins at {new}, in the old program at {old}"));
     }
     if cut.open != found.open {
-        return Some("a cut goes to a position that only the machine knows in one of them".to_owned());
+        return Some("in one program a cut goes to an unknown machine position".to_owned());
     }
     if cut.home != found.home {
-        return Some("a cut goes to a position of the machine in one of them".to_owned());
+        return Some("in one program a cut goes to a position in machine coordinates".to_owned());
     }
     if !same(&cut.from, &found.from, ALL, tolerance) {
-        return Some(format!("a cut begins at {}, before at {}", shown(&found.from, 0b111), shown(&cut.from, 0b111)));
+        return Some(format!(
+            "a cut begins at {}, in the old program at {}",
+            shown(&found.from, 0b111),
+            shown(&cut.from, 0b111)
+        ));
     }
     match way {
         Compared::Same | Compared::AsGood { .. } | Compared::Turning => {}
-        Compared::Lower(to, _) => return Some(format!("a rapid goes to {}, lower than before", shown(&to, 0b111))),
-        Compared::Elsewhere(to) => return Some(format!("the rapids about {} go another way", shown(&to, 0b111))),
+        Compared::Lower(to, _) => {
+            return Some(format!("a rapid goes to {}, lower than in the old program", shown(&to, 0b111)));
+        }
+        Compared::Elsewhere(to) => return Some(format!("the rapids near {} follow another path", shown(&to, 0b111))),
     }
     match (cut.what, found.what) {
         (What::Arc(a), What::Arc(b)) => {
             let [first, second, _] = axes_of(a.plane);
             let centre = near(a.center[first], b.center[first]) && near(a.center[second], b.center[second]);
             if (a.plane, a.direction, a.turns) != (b.plane, b.direction, b.turns) || !centre {
-                return Some(format!("another arc to {}", shown(&place(&b.to), 0b111)));
+                return Some(format!("a different arc to {}", shown(&place(&b.to), 0b111)));
             }
         }
         (What::Line { .. }, What::Line { .. }) => {}
-        _ => return Some("a straight cut became an arc, or the other way round".to_owned()),
+        _ => return Some("a straight cut became an arc, or an arc became a straight cut".to_owned()),
     }
     let (a, b) = (cut.end(), found.end());
     if !same(&a, &b, ALL, tolerance) {
-        return Some(format!("a cut goes to {}, before to {}", shown(&b, 0b111), shown(&a, 0b111)));
+        return Some(format!("a cut goes to {}, in the old program to {}", shown(&b, 0b111), shown(&a, 0b111)));
     }
     match (cut.lead, found.lead) {
         (None, None) => {}
         (Some(a), Some(b)) if (a - b).abs() <= 1e-6 * a.abs() + tolerance => {}
-        (Some(a), Some(b)) => return Some(format!("the lead of a thread is {}, before {}", number(b), number(a))),
-        _ => return Some("a cut follows the spindle, as a thread does, in one of them".to_owned()),
+        (Some(a), Some(b)) => {
+            return Some(format!("the lead of a thread is {}, in the old program {}", number(b), number(a)));
+        }
+        _ => return Some("in one program a cut is synchronized with the spindle, as for a thread".to_owned()),
     }
     if cut.lead.is_some() && cut.state.thread != found.state.thread {
         let text = |words: Threading| {
@@ -218,31 +226,33 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
                 number(words.pull_out)
             )
         };
-        return Some(format!("a thread begins {}, before {}", text(found.state.thread), text(cut.state.thread)));
+        return Some(format!(
+            "a thread begins {}, in the old program {}",
+            text(found.state.thread),
+            text(cut.state.thread)
+        ));
     }
     if cut.mode != found.mode {
-        return Some("feeds count otherwise: per minute, per turn or inverse time".to_owned());
+        return Some("another feed mode: per minute, per revolution or inverse time".to_owned());
     }
     if let (Some(a), Some(b)) = (cut.feed, found.feed)
         && (a - b).abs() > 1e-6 * a.abs() + tolerance
     {
-        return Some(format!("the feed is {}, before {}", number(b), number(a)));
+        return Some(format!("the feed is {}, in the old program {}", number(b), number(a)));
     }
     let taps = cut.by_cycle && found.by_cycle && !names.by_order;
     if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
-        return Some(
-            "a tap follows the spindle (M29), or goes in as the spindle turned before, in one of them".to_owned(),
-        );
+        return Some("in one program a tap is synchronized with the spindle (M29), in the other it is not".to_owned());
     }
     state(&cut.state, &found.state, names)
 }
 
-/// How two programs name registers and work offsets: those of one control by the same numbers.
+/// How two programs name registers and work offsets. Programs for the same control use the same numbers.
 #[derive(Clone, Copy)]
 struct Names {
-    /// Work offsets count by their order: G54, `G15 H1` and datum 1 are the first.
+    /// Whether work offsets are compared by their order: G54, `G15 H1` and datum 1 are the first.
     by_order: bool,
-    /// Both name registers of lengths and diameters. On some controls they are the tool's own.
+    /// Whether both programs name length and diameter registers. On some controls these belong to the tool.
     registers: bool,
 }
 
@@ -257,7 +267,7 @@ impl Names {
         let additional = additional_work(0.0);
         match work {
             work if !self.by_order => work,
-            // the first one, until a program says another
+            // the first offset, until the program selects another
             None => Some(1.0),
             Some(code) if code > additional => Some(code - additional + 6.0),
             Some(code) if code > 59.0 => Some((code - 59.0) * 10.0 + 6.0),
@@ -280,40 +290,44 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
         ("the spindle speed", before.speed, now.speed),
     ];
     let text = |value: Option<f64>| value.map_or("none".to_owned(), |value| number(value).to_string());
-    // a surface speed in other units has other last digits
+    // a surface speed in other units is rounded differently
     let differ = |a: Option<f64>, b: Option<f64>| match (a, b) {
         (Some(a), Some(b)) => (a - b).abs() > 1e-6 * a.abs(),
         (a, b) => a != b,
     };
     if let Some((name, a, b)) = pairs.into_iter().find(|(_, a, b)| differ(*a, *b)) {
-        return Some(format!("{name} is {}, before {}", text(b), text(a)));
+        return Some(format!("{name} is {}, in the old program {}", text(b), text(a)));
     }
     if before.css != now.css {
-        let counts = |css| if css { "at the surface (G96)" } else { "turns (G97)" };
-        return Some(format!("the speed of the spindle counts {}, before {}", counts(now.css), counts(before.css)));
+        let counts = |css| if css { "a surface speed (G96)" } else { "in revolutions (G97)" };
+        return Some(format!("the spindle speed is {}, in the old program {}", counts(now.css), counts(before.css)));
     }
     if before.limit != now.limit {
-        return Some(format!("the highest speed of the spindle is {}, before {}", text(now.limit), text(before.limit)));
+        return Some(format!(
+            "the speed limit of the spindle is {}, in the old program {}",
+            text(now.limit),
+            text(before.limit)
+        ));
     }
     if before.rotation != now.rotation {
-        return Some("the spindle turns otherwise".to_owned());
+        return Some("the spindle direction is different".to_owned());
     }
     if before.coolant != now.coolant {
         let text = |coolant: Option<Cooling>| coolant.map_or("unknown", Cooling::name);
-        return Some(format!("the coolant is {}, before {}", text(now.coolant), text(before.coolant)));
+        return Some(format!("the coolant is {}, in the old program {}", text(now.coolant), text(before.coolant)));
     }
-    (before.side != now.side).then(|| "cutter compensation is otherwise".to_owned())
+    (before.side != now.side).then(|| "cutter compensation is different".to_owned())
 }
 
-/// Where increments from places of the machine lead: both count from the same place.
+/// Compares the targets of increments from machine positions. Both count from the same position.
 fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let (a, b) = (&old.passage.astray, &new.passage.astray);
     let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
-    let message = "increments from a position that only the machine knows lead elsewhere on the way here";
+    let message = "before this cut, increments from an unknown machine position lead to another position";
     (!alike).then(|| message.to_owned())
 }
 
-/// Stops and dwells between two cuts.
+/// Compares stops and dwells between two cuts.
 fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let stop = |kind: StopKind| if kind == StopKind::Program { "M0" } else { "M1" };
     let stops = |program: &Program<'_>| -> Vec<String> {
@@ -326,42 +340,45 @@ fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     };
     let (before, now) = (stops(old), stops(new));
     if before != now {
-        return Some(format!("stops on the way here: {}, before {}", listed(&now), listed(&before)));
+        return Some(format!("stops before this cut: {}, in the old program {}", listed(&now), listed(&before)));
     }
     let pairs = || old.passage.waits.iter().zip(&new.passage.waits);
     let same = old.passage.waits.len() == new.passage.waits.len()
         && pairs().all(|(a, b)| same_dwell(a.what, b.what) && in_cut(old, a) == in_cut(new, b));
-    (!same).then(|| format!("dwells on the way here: {}, before {}", listed(&waits(new)), listed(&waits(old))))
+    (!same)
+        .then(|| format!("dwells before this cut: {}, in the old program {}", listed(&waits(new)), listed(&waits(old))))
 }
 
-/// What the spindle does on the ways.
+/// Compares the switches of the spindle between two cuts.
 fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let turns = |program: &Program<'_>| -> Vec<String> {
         program.passage.turns.iter().map(|turn| turn.name().to_owned()).collect()
     };
     let (before, now) = (turns(old), turns(new));
-    // how it turns at the cut is compared there: a cycle of one control stops it where another's goes on
+    // the rotation at the cut is compared elsewhere: some controls' cycles stop the spindle, others do not
     if names.by_order && before.last() == now.last() {
         return None;
     }
-    (before != now).then(|| format!("the spindle on the way here: {}, before {}", listed(&now), listed(&before)))
+    (before != now)
+        .then(|| format!("the spindle before this cut: {}, in the old program {}", listed(&now), listed(&before)))
 }
 
-/// Where the turret of a lathe turns: at home along X, Z, both or neither.
+/// Compares where a lathe's turret indexes: at home along X, Z, both or neither.
 fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let text = |axes: Option<&u8>| match axes {
         None => "at no tool change",
         Some(0) => "at a position of the program",
-        Some(0b001) => "at home along X alone",
-        Some(0b100) => "at home along Z alone",
+        Some(0b001) => "at home only along X",
+        Some(0b100) => "at home only along Z",
         Some(_) => "at home",
     };
     let (before, now) = (&old.passage.turrets, &new.passage.turrets);
     let differ = (0..before.len().max(now.len())).find(|at| before.get(*at) != now.get(*at))?;
-    Some(format!("the turret turns {}, before {}", text(now.get(differ)), text(before.get(differ))))
+    Some(format!("the turret turns {}, in the old program {}", text(now.get(differ)), text(before.get(differ))))
 }
 
-/// The tool goes home along fewer axes: a height, or a lathe's X and Z. Homes of controls of other languages are not compared.
+/// Checks that the tool does not go home along fewer axes: the height, or X and Z of a lathe. Programs for controls with
+/// different languages are not compared.
 fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
     let lost = old.passage.homes & !new.passage.homes & counts;
@@ -372,15 +389,15 @@ fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
         .map(|(_, name)| (*name).to_owned())
         .collect();
     (!axes.is_empty() && !names.by_order)
-        .then(|| format!("the tool no longer goes home along {} on the way here", axes.join(" and ")))
+        .then(|| format!("the tool no longer goes home along {} before this cut", axes.join(" and ")))
 }
 
-/// At which angles the spindle stands while the tool moves at rapid.
+/// Compares the angles of the stopped spindle during rapids.
 fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let angles = |program: &Program<'_>| -> Vec<String> {
         let stands = program.passage.rapids.iter().filter_map(|rapid| match rapid.spin? {
             Spin::At(angle) => Some(format!("{} degrees", number(angle))),
-            Spin::Oriented => Some("an angle of the control's".to_owned()),
+            Spin::Oriented => Some("the control's own angle".to_owned()),
             Spin::Turns(_) => None,
         });
         let mut list: Vec<String> = stands.collect();
@@ -390,7 +407,7 @@ fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let (before, now) = (angles(old), angles(new));
     let text = |list: &[String]| if list.is_empty() { "no angle".to_owned() } else { listed(list) };
     (before != now)
-        .then(|| format!("the spindle stands on the way here at {}, before at {}", text(&now), text(&before)))
+        .then(|| format!("the spindle angle before this cut is {}, in the old program {}", text(&now), text(&before)))
 }
 
 fn listed(names: &[String]) -> String {

@@ -1,26 +1,26 @@
-//! Ways: rapids from one cut to the next.
+//! Paths of rapids from one cut to the next.
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, distance, lies_between, same};
 
-/// So many tolerances long is a rapid whose direction its digits tell.
+/// Shortest length, in tolerances, of a rapid whose direction is exact enough in its digits.
 const LEG: f64 = 4.0;
 
-/// A way as corners: the start, if it is known, and the ends of its rapids.
+/// A path as corners: the start, if known, and the ends of its rapids.
 #[derive(Debug, Default)]
 pub(super) struct RapidPath {
     pub corners: Vec<Rapid>,
-    /// The first corner is the start.
+    /// Whether the first corner is the start.
     pub begun: bool,
 }
 
 impl RapidPath {
-    /// Makes the way from a start over these rapids, without those of no length.
+    /// Sets the path from a start over these rapids. Rapids without a move are left out.
     pub fn set(&mut self, start: Option<Rapid>, rapids: &[Rapid], tolerance: f64) {
         self.corners.clear();
         self.corners.extend(start);
         self.begun = start.is_some();
         for rapid in rapids {
-            // a whole turn is a move
+            // a full turn of an axis is a move
             let stays = |last: &Rapid| last.to.iter().zip(&rapid.to).all(|(a, b)| (a - b).abs() <= tolerance * 1e-3);
             if !self.corners.last().is_some_and(|last| stays(last) && last.unknown == rapid.unknown) {
                 self.corners.push(*rapid);
@@ -28,9 +28,9 @@ impl RapidPath {
         }
     }
 
-    /// Joins parts of one straight rapid, where nothing is asked of the spindle between them.
+    /// Joins parts of one straight rapid, if the spindle has no requirement between them.
     pub fn join(&mut self, tolerance: f64) {
-        // a leg as short as the tolerance may lead anywhere
+        // the direction of a leg as short as the tolerance is not known
         let leads = |a: &Rapid, b: &Rapid| distance(&a.to, &b.to) > LEG * tolerance;
         let mut kept = 0;
         for at in 0..self.corners.len() {
@@ -50,7 +50,7 @@ impl RapidPath {
         self.corners.truncate(kept);
     }
 
-    /// Do both ways have the same corners, known or not?
+    /// Whether both paths have the same corners, known or unknown.
     pub fn is(&self, other: &RapidPath, tolerance: f64) -> bool {
         self.corners.len() == other.corners.len()
             && self
@@ -60,16 +60,17 @@ impl RapidPath {
                 .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
     }
 
-    /// Makes the way from a start over these rapids, all of them.
+    /// Sets the path from a start over all of these rapids.
     pub fn set_all(&mut self, start: Option<Rapid>, rapids: &[Rapid]) {
         self.corners.clear();
         self.corners.extend(start.iter().chain(rapids));
         self.begun = start.is_some();
     }
 
-    /// Another way along this one, which may stop on it and go straight on over its corners: how often it goes round a corner of
-    /// a slanted rapid, at the greater of the two heights, where it may; or the first corners that differ, this way's and the
-    /// other's. A radius that is not a number is not known.
+    /// Checks that another path follows this one. It may stop on this path and pass straight over its corners. Returns
+    /// how often the other path goes round a corner of a slanted rapid, at the greater of the two heights, if that is
+    /// allowed. The error has the first corners that differ, of this path and of the other. A radius that is not a number
+    /// is unknown.
     pub fn is_followed(
         &self,
         other: &RapidPath,
@@ -94,7 +95,7 @@ impl RapidPath {
                 // a move of no length
                 (_, Some(b), Some(at)) if is(at, b) => made += 1,
                 (Some(a), _, Some(at)) if is(at, a) => own += 1,
-                // over the job's corner, or not as far
+                // beyond the job's corner, or not as far
                 (Some(a), Some(b), Some(at)) if between(at, a, b) => (own, here) = (own + 1, Some(a)),
                 (Some(a), Some(b), Some(at)) if between(at, b, a) => (made, here) = (made + 1, Some(b)),
                 (Some(a), Some(b), Some(at)) if may_round && round(at, b, a) => {
@@ -105,7 +106,7 @@ impl RapidPath {
         }
     }
 
-    /// Does nothing move across at this height or below?
+    /// Whether no rapid moves across at this height or below.
     pub fn stays_above(&self, height: f64) -> bool {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
         across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))
@@ -115,9 +116,9 @@ impl RapidPath {
 /// The moves across between corners.
 pub(super) fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &Rapid)> {
     let pairs = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
-    // a whole turn is a move, though it ends where it began
+    // a full turn is a move, although it ends where it began
     let turns = |a: &Rapid, b: &Rapid| (3..6).any(|axis| (a.to[axis] - b.to[axis]).abs() > 0.001);
-    // to a place of the machine, and from there
+    // a move to or from a machine position
     let home = |a: &Rapid, b: &Rapid| (a.unknown ^ b.unknown) & ACROSS != 0;
     pairs.filter(move |(a, b)| !same(&a.to, &b.to, ACROSS, tolerance) || turns(a, b) || home(a, b))
 }

@@ -1,4 +1,4 @@
-//! The ways between cuts: a program may go higher than the job, never lower or elsewhere.
+//! The paths between cuts. A program may go higher than the job, but not lower or elsewhere.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
@@ -8,7 +8,7 @@ use super::ways::{Compared, are_the_same, compare as compare_way, enters_hole, l
 use crate::diag::Code;
 use crate::lang::Machine;
 
-/// The ways to a cut.
+/// Compares the paths to a cut.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     if s.program.passage.rapids.is_empty() && s.job.rapids.is_empty() && !s.job.changed() {
@@ -20,7 +20,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         return beside_the_part(s, line);
     }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
-    // most ways are, and need no look at their corners
+    // most paths are equal and need no comparison of corners
     let starts = [s.job.start, s.program.passage.start];
     if let ([Some(a), Some(b)], false) = (starts, lost || changed)
         && are_the_same(&[a], &[b], tolerance)
@@ -40,7 +40,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     }
     let [job, program] = &mut s.ways;
     let passage = &s.program.passage;
-    // after a change the way begins anywhere
+    // after a change, the path may begin anywhere
     let both = lost && changed;
     job.set(if lost { None } else { s.job.start }, s.job.arriving(), tolerance);
     program.set(
@@ -64,12 +64,12 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         Compared::Turning => turns_otherwise(s, line),
         Compared::Lower(to, limit) => {
             s.found(Code::PV009, line, "print the height before the position, or return to [rplane]", || {
-                format!("a rapid goes to {}, lower than the job's ways here, Z{}", shown(&to, 0b111), number(limit))
+                format!("a rapid goes to {}, lower than the job's rapids here, Z{}", shown(&to, 0b111), number(limit))
             });
         }
         Compared::Elsewhere(to) => {
-            s.found(Code::PV001, line, "look at what the form prints for the rapids here", || {
-                format!("a rapid goes to {}, where the job does not go", shown(&to, 0b111))
+            s.found(Code::PV001, line, "check the words that the form prints for the rapids here", || {
+                format!("a rapid goes to {}, but the job does not go to this position", shown(&to, 0b111))
             });
         }
     }
@@ -77,18 +77,17 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
 
 fn stays_at_wall(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV001, line, "print the cycle's orientation and shift, as G76 Q[sleave]", || {
-        "the tool does not leave the wall of the hole as the job says".to_owned()
+        "the tool does not move off the wall of the hole as in the job".to_owned()
     });
 }
 
 fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
-    s.found(Code::PV011, line, "look at the spindle codes of the cycle", || {
-        "the spindle does not turn, or stand at its angle, as the job says while the tool leaves".to_owned()
+    s.found(Code::PV011, line, "check the spindle codes of the cycle", || {
+        "while the tool retracts, the spindle does not turn or is not at its angle as in the job".to_owned()
     });
 }
 
-/// Checks the frames of a way: on it the tool may be moved in the job's frames and with their registers, and in no
-/// others.
+/// Checks the frames of a path. The tool may be moved only in the job's frames and with their registers.
 pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;
@@ -103,7 +102,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;
     let count = s.job.legs().count();
-    // before a cut of a mill a rapid across counts, too, whose height is unknown; and the job moves where it has rapids
+    // before a cut of a mill, a rapid across at unknown height counts too; the job moves where it has rapids
     let by_rapids = s.machine == Machine::Mill && !s.switches && line != 0;
     let moves = |at: usize, leg: &Leg, rapids: &[Rapid]| {
         !leg.lengths.is_empty() || by_rapids && at > 0 && rapids.iter().any(|rapid| rapid.unknown & 0b11 != 0b11)
@@ -121,7 +120,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
             .filter(|(at, (own, rapids))| is_frame(&own.frame, &leg.frame) && is_own(*at, rapids));
         let known: Vec<Option<f64>> = own
             .flat_map(|(_, (own, _))| match own.lengths.is_empty() {
-                // with the tool that cut before, the job keeps its length
+                // with the tool of the last cut, the job keeps its length register
                 true if was => vec![before.1],
                 true => vec![None],
                 false => own.lengths.clone(),
@@ -143,43 +142,44 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let text = |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
     s.found(code, line, "print the offsets before the first height", || match length {
         Some(length) => {
-            format!("the tool comes to this cut with {} in {}", text("H", length), text("work offset ", frame.work))
+            format!("the tool moves to this cut with {} in {}", text("H", length), text("work offset ", frame.work))
         }
         None => {
             let tool = if tools { text("T", frame.tool) } else { "the tool".to_owned() };
-            let way = if line == 0 { "after the last cut" } else { "on the way to this cut" };
-            format!("{way} {tool} moves in {}, where the job moves nothing", text("work offset ", frame.work))
+            let way = if line == 0 { "after the last cut" } else { "before this cut" };
+            format!("{way} {tool} moves in {}, but the job has no move there", text("work offset ", frame.work))
         }
     });
 }
 
-/// The axes of which one goes home with the tool, as bits.
+/// The axes that are checked for the move home, as bits: one of them must go home.
 pub(super) fn away(machine: Machine) -> u8 {
     match machine {
         Machine::Mill => 1 << DEPTH,
         Machine::Lathe => 1 << RADIUS,
-        Machine::Edm => 0b11, // a wire goes nowhere else
+        Machine::Edm => 0b11, // a wire has no other axes
     }
 }
 
-/// Where the job goes home, so does the program, and both ways begin again there.
+/// Checks that the program goes home where the job does. Both paths begin again there.
 fn goes_home(s: &mut Sides<'_>, line: u64) {
     let away = away(s.machine);
     if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
         s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
-            "the job sends the tool home here, and the program does not".to_owned()
+            "the job sends the tool home here, but the program does not".to_owned()
         });
     }
 }
 
-/// The first position beside this one to which rapids go at a height that is known.
+/// The first position of rapids at a known height that is not above or below `from`.
 fn crosses(from: Option<&Rapid>, rapids: &[Rapid], tolerance: f64) -> Option<Place> {
     let from = from?;
     let beside = |rapid: &&Rapid| rapid.unknown & 0b111 == 0 && !same(&rapid.to, &from.to, ACROSS, tolerance);
     rapids.iter().take_while(|rapid| rapid.unknown & 1 << DEPTH == 0).find(beside).map(|rapid| rapid.to)
 }
 
-/// The way away from the last cut of a tool or work offset, or of the program: so many of the program's rapids.
+/// Checks the path away from the last cut of a tool, a work offset or the program. `until`: the number of the program's
+/// rapids.
 fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let tolerance = s.limits.tolerance;
     let [job, program] = &mut s.ways;
@@ -189,7 +189,7 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let aside = if s.job.changed() { s.job.left_aside } else { s.job.aside };
     let (own, other) = (s.job.leaving(), &s.program.passage.rapids[..until]);
     let as_job = goes_as(own, other, tolerance);
-    // where the job sends the tool home from the end of its way, nothing crosses the part before
+    // after the job's last position on its way home, no rapid may cross the part before the move home
     let beyond =
         other.split_at_checked(own.len()).filter(|(way, _)| s.job.was_sent_home() && goes_as(own, way, tolerance));
     let before_home = beyond.and_then(|(_, beyond)| crosses(own.last().or(s.job.start.as_ref()), beyond, tolerance));
@@ -198,15 +198,15 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     match leaves_hole(job, program, tolerance) {
         Some(Compared::Turning) => turns_otherwise(s, line),
         Some(_) if aside => stays_at_wall(s, line),
-        // the job's own way, and from its end to places of the machine
+        // the job's own path, and from its end to machine positions
         _ if as_job && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
         _ => {
             if let Some(to) = before_home {
-                s.found(Code::PV001, line, "print the way home before the next position", || {
+                s.found(Code::PV001, line, "print the move home before the next position", || {
                     format!("a rapid goes to {} before the tool goes home", shown(&to, 0b111))
                 });
             } else if let Some((to, limit)) = leaves_low(job, program, tolerance) {
-                s.found(Code::PV009, line, "go up first, as high as the job does", || {
+                s.found(Code::PV009, line, "retract first, as high as in the job", || {
                     format!("after the last cut a rapid goes to {}, not above Z{}", shown(&to, 0b111), number(limit))
                 });
             }
@@ -215,19 +215,20 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     as_job
 }
 
-/// Does the program go where the job goes, before it goes to places that only the machine knows?
+/// Whether the program goes to the job's positions before it goes to positions that are known only at the machine.
 fn goes_as(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let known = program.iter().take_while(|rapid| rapid.unknown == 0);
     let count = known.clone().count();
     count == job.len() && known.zip(job).all(|(a, b)| same(&a.to, &b.to, ALL, tolerance))
 }
 
-/// Frames between the first and the last, or after the first `at_end`: no rapid is lower there than the job's own.
+/// Checks frames between the first and the last, or all after the first `at_end`. No rapid may be lower than the job's
+/// own in that frame.
 fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let tolerance = s.limits.tolerance;
     let tools = s.tools;
     let legs: Vec<_> = s.program.passage.legs().collect();
-    // how a last cut is left is compared for itself
+    // the path away from the last cut is compared separately
     let first = usize::from(s.job.start.is_some());
     let inner = legs.get(first..legs.len() - usize::from(!at_end)).unwrap_or_default();
     let mut low = None;
@@ -240,7 +241,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             .map(|(_, rapids)| rapids)
             .collect();
         if own.is_empty() {
-            // the job moves nothing in this offset with this tool: no height there is its own
+            // the job has no move with this tool in this offset, so it has no height of its own
             let known = rapids.iter().find(|rapid| rapid.unknown & 0b100 == 0);
             low = low.or(known.map(|rapid| (rapid.to, leg.frame.work)));
             continue;
@@ -266,11 +267,11 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let Some((to, work)) = low else { return };
     let work = work.map_or(String::new(), |work| format!(" in work offset {}", number(work)));
     s.found(Code::PV009, line, "print the height before the position, or return to [rplane]", || {
-        format!("a rapid goes to {}{work}, lower than the job's ways there", shown(&to, 0b111))
+        format!("a rapid goes to {}{work}, lower than the job's rapids there", shown(&to, 0b111))
     });
 }
 
-/// The way after the last cut, to the end of the program.
+/// Compares the path after the last cut, to the end of the program.
 pub(super) fn end(s: &mut Sides<'_>) {
     moved_with(s, 0);
     goes_home(s, 0);
@@ -288,8 +289,9 @@ pub(super) fn end(s: &mut Sides<'_>) {
     s.report.allowed.tails += u64::from(!as_job || idle > 0);
 }
 
-/// On a lathe no side is free of the part, and no way is free of a wire: the tool goes where the job goes, in its order, and to places of the machine. A
-/// slanted rapid may go round its corner, farther from the chuck.
+/// Compares paths on lathes and wire EDM machines, where no side is free of the part or wire. The tool must go to the
+/// job's positions in their order, and to machine positions. On a lathe, a slanted rapid may go round its corner on the
+/// side away from the chuck.
 fn beside_the_part(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     let is_lathe = s.machine == Machine::Lathe;
@@ -315,7 +317,7 @@ fn beside_the_part(s: &mut Sides<'_>, line: u64) {
     };
     let axes = if is_lathe { 0b101 } else { 0b11 };
     let shown = |corner: Option<Rapid>| corner.map_or("nowhere".to_owned(), |corner| shown(&corner.to, axes));
-    s.found(Code::PV001, line, "look at what the form prints for the rapids here", || {
-        format!("a rapid goes to {}, the job's to {}", shown(is), shown(wanted))
+    s.found(Code::PV001, line, "check the words that the form prints for the rapids here", || {
+        format!("a rapid goes to {}, but the job's rapid goes to {}", shown(is), shown(wanted))
     });
 }

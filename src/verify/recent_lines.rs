@@ -1,9 +1,9 @@
-//! The last lines of a program as text: findings show blocks that were run a moment ago.
+//! The texts of the last lines of a program, for findings about blocks that were just run.
 
-/// How many lines are kept.
+/// Number of lines kept.
 const KEPT: usize = 16;
 
-/// A ring of lines.
+/// A ring buffer of lines.
 #[derive(Debug, Default)]
 pub(super) struct Recent {
     lines: Vec<(u64, Vec<u8>)>,
@@ -11,7 +11,7 @@ pub(super) struct Recent {
 }
 
 impl Recent {
-    /// A line that was run; its text is taken, for an older one.
+    /// Keeps a line that was run. Its text is swapped with that of an older line.
     #[inline]
     pub fn keep(&mut self, line: u64, text: &mut Vec<u8>) {
         if self.lines.len() < KEPT {
@@ -33,7 +33,7 @@ impl Recent {
         if digits.is_empty() { digits } else { format!("N{digits}") }
     }
 
-    /// Text of a line of the program, if it is still there.
+    /// Text of a line of the program, if it is still kept.
     pub fn text(&self, line: u64) -> Option<String> {
         let (_, text) = self.lines.iter().find(|(number, _)| *number == line)?;
         Some(String::from_utf8_lossy(text).trim().to_owned())

@@ -1,20 +1,20 @@
-//! What was found and counted so far.
+//! Findings and counts so far.
 
 use super::finding::Finding;
 use super::verdict::{Equivalences, Unproven};
 use crate::diag::{Code, Diag};
 use crate::toolpath;
 
-/// How much was compared.
+/// The amount that was compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Cuts of the job outside holes.
+    /// Number of cuts of the job outside holes.
     pub cuts: u64,
-    /// Holes.
+    /// Number of holes.
     pub holes: u64,
 }
 
-/// A difference before it is known whether it was told already.
+/// A difference that may have been reported already.
 pub(super) struct Difference<'a> {
     pub code: Code,
     pub help: &'static str,
@@ -25,7 +25,7 @@ pub(super) struct Difference<'a> {
     pub place: toolpath::Place,
 }
 
-/// Findings, allowances and counts.
+/// Findings, equivalences and counts.
 #[derive(Debug, Default)]
 pub(super) struct Report {
     pub findings: Vec<Finding>,
@@ -34,31 +34,31 @@ pub(super) struct Report {
     /// The job's item.
     pub place: toolpath::Place,
     pub unproven: Option<Unproven>,
-    /// What is wrong with the job, where that ended the comparison.
+    /// The fault of the job that ended the comparison.
     pub wrong: Option<Box<Diag>>,
-    /// The job was compared to its end.
+    /// Whether the job was compared to its end.
     pub finished: bool,
 }
 
 impl Report {
-    /// Is the verdict known before the end of the job?
+    /// Whether the verdict is known before the end of the job.
     pub fn is_decided(&self) -> bool {
         !self.findings.is_empty() || self.unproven.is_some()
     }
 
-    /// Why nothing is proven; a job that was not compared to its end never is.
+    /// The reason why nothing is proven. A job that was not compared to its end is never proven.
     pub fn unproven(&mut self) -> Option<Unproven> {
         if self.unproven.is_some() || self.finished {
             return self.unproven.take();
         }
         let (why, help) = match self.wrong.take() {
             Some(diag) => (diag.message, diag.help.unwrap_or_default()),
-            None => ("the job was not compared to its end".into(), String::new()),
+            None => ("the job was not compared as far as its end".into(), String::new()),
         };
         Some(Unproven { why, help, place: Some(self.place), ..Unproven::default() })
     }
 
-    /// Adds a difference; one of the same cause is counted with the first.
+    /// Adds a difference. Differences with the same cause are counted with the first.
     pub fn add(&mut self, difference: &Difference<'_>) {
         let known = self.findings.iter_mut();
         let Difference { code, help, line, place, .. } = *difference;

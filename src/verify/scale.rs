@@ -1,26 +1,26 @@
-//! How the numbers of a program become the job's: units, renamed axes, surface speeds.
+//! Converts the numbers of a program to those of the job: units, renamed axes, surface speeds.
 
 use super::cut::{Place, UNSAID, place, position};
 use crate::nc::Position;
 use crate::toolpath::Units;
 
-/// No axis has another name in the program.
+/// All axes have the same names in the program.
 const AS_WRITTEN: [u8; 6] = [0, 1, 2, 3, 4, 5];
 
-/// How the numbers of the program become the job's.
+/// Conversion of the program's numbers to the job's.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
-    /// Units that the program counts in.
+    /// Units of the program.
     pub units: Units,
-    /// Units that places are wanted in.
+    /// Units of the result.
     pub wanted: Units,
-    /// The axes as the form prints them: the job's first is the program's so-and-so-many-th.
+    /// The program's axis for each axis of the job, as the form prints it.
     pub axes: [u8; 6],
-    /// There is no Y.
+    /// Whether there is no Y.
     pub lathe: bool,
-    /// The depth axis counts for nothing.
+    /// Whether the depth axis is ignored.
     pub flat: bool,
-    /// The third and fourth axis are U and V; bits of those that nobody said.
+    /// For a wire: the third and fourth axis are U and V. The bits are the axes that are not given.
     pub wire: Option<u8>,
 }
 
@@ -34,7 +34,7 @@ impl Scale {
         }
     }
 
-    /// Surface speeds are feet or metres a minute.
+    /// The factor for surface speeds, which are in feet or metres per minute.
     pub fn surface(self) -> f64 {
         match (self.units, self.wanted) {
             (Units::Inch, Units::Mm) => 0.3048,
@@ -62,7 +62,7 @@ impl Scale {
         place(&at)
     }
 
-    /// Where an arc ends: a guide that goes along is told as a height.
+    /// The end of an arc. If the wire guide moves along, its position is returned in the other axes.
     pub fn end_of_arc(self, to: &Position) -> Position {
         let end = self.place(to);
         let mut at = position(&end);
@@ -74,7 +74,7 @@ impl Scale {
         at
     }
 
-    /// The axes whose positions are unknown, as bits: that along a depth that counts for nothing always is.
+    /// The axes whose positions are unknown, as bits. An ignored depth is always unknown.
     pub fn unknown(self, bits: u8) -> u8 {
         self.axes(bits) | u8::from(self.flat) << 2
     }

@@ -1,4 +1,4 @@
-//! What the two sides of a comparison are made of, and how a difference is told.
+//! The two sides of a comparison, and the reporting of differences.
 
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::form_values::Own;
@@ -15,40 +15,42 @@ use crate::lang::Machine;
 use crate::nc::RunError;
 use crate::toolpath;
 
-/// How near things must be, in the job's units.
+/// Tolerances in the job's units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Limits {
-    /// How far places may be from one another and be the same.
+    /// Distance up to which two positions are equal.
     pub tolerance: f64,
-    /// How far short lines may be from their arc.
+    /// Distance of short lines from their arc.
     pub chord: f64,
-    /// One digit of the form along a hole: what shows that the tool left the bottom.
+    /// The smallest digit of the form along a hole. A lift of that size shows that the tool left the bottom.
     pub increment: f64,
 }
 
-/// The hole that the job is in, and the last one.
+/// The current hole of the job, and the last one.
 #[derive(Debug, Default)]
 pub(super) struct Holes {
-    /// The hole over which the job is: its way aside from there must then be that way.
+    /// The hole where the job is now. Its moves aside must then be made as in the job.
     pub over: Option<Expected>,
     /// The tool's last hole.
     pub last: Option<Expected>,
-    /// The last hole of the tool before, while this one has none; or the last one that was cut, where the operator makes this.
+    /// The last hole of the previous tool, while this tool has none; or the last hole that was cut, if the operator makes
+    /// the current one.
     pub before: Option<Expected>,
-    /// The greatest height at which the job goes to this hole and those before it.
+    /// The greatest height of the job at this hole and the holes before it.
     pub highest: Option<f64>,
-    /// The hole is cut by the program.
+    /// Whether the program cuts the hole.
     pub cut: bool,
     /// Cuts of a hole in pecks.
     pub pecks: Vec<Cut>,
-    /// Where the feed of the hole began in which the last cut was; `None`: it was in none, or in one that only the form knows.
+    /// The height where the feed began in the hole of the last cut. `None`: the cut was in no hole, or in a hole that
+    /// only the form defines.
     pub inside: Option<f64>,
-    /// What the job's pecks of this hole come to.
+    /// The strokes of the job's pecks in this hole.
     pub strokes: Strokes,
 }
 
 impl Holes {
-    /// Does the tool stand in a hole at a mark: in the last one, and not out of it since, or on its way into this one?
+    /// Whether the tool is in a hole at a mark: still in the last hole, or on its way into the current one.
     pub fn holds<T>(&self, passage: &Passage, mark: &Mark<T>, tolerance: f64) -> bool {
         let next = self.over.filter(|hole| !hole.custom).map(|hole| hole.plane);
         self.inside.is_some_and(|plane| passage.below_since(mark, plane - tolerance))
@@ -56,39 +58,39 @@ impl Holes {
     }
 }
 
-/// The state of a comparison: the job's side and the program's.
+/// The state of a comparison: the side of the job and that of the program.
 pub(super) struct Sides<'a> {
     pub program: Program<'a>,
-    /// What the job does since its last cut, as a passage.
+    /// Everything that the job does since its last cut.
     pub job: Passage,
     pub hole: Holes,
     pub limits: Limits,
-    /// Kept from comparison to comparison, so that none allocates.
+    /// Buffers that are reused, so that no comparison allocates.
     pub ways: [RapidPath; 2],
-    /// What was in force at the program's last cut.
+    /// The state in force at the program's last cut.
     pub before: Shared,
-    /// States of job and program that were found to agree.
+    /// The last states of job and program that agreed.
     pub agreed: Option<[Shared; 2]>,
-    /// The last cuts ended at different places: the next begin there, and are in step.
+    /// The different ends of the last cuts. If the next cuts begin there, they correspond.
     pub slipped: Option<[Place; 2]>,
-    /// The last thread, while no other cut came: how many passes of it the program made beyond those of the job.
+    /// The last thread, until another cut comes, and the number of passes that the program made beyond the job's.
     pub threaded: Option<(Threaded, usize)>,
-    /// How many cuts ended at different places since the last that did not.
+    /// Number of consecutive cuts that ended at different positions.
     pub slips: u32,
-    /// The machine loads tools.
+    /// Whether the machine loads tools.
     pub tools: bool,
-    /// A torch or a laser: what it cuts with is no tool that someone changes.
+    /// Whether the machine is a torch or laser, whose tool nobody changes.
     pub switches: bool,
-    /// What it is.
+    /// The type of machine.
     pub machine: Machine,
-    /// Feeds and speeds that the form says itself.
+    /// Feeds and speeds that the form itself defines.
     pub own: [Own; 2],
     pub report: Report,
     pub failure: Option<std::io::Error>,
 }
 
 impl Sides<'_> {
-    /// A difference after which the two sides are in step still.
+    /// Reports a difference after which the two sides still correspond.
     pub fn found(&mut self, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
         let program = &self.program;
         let block = || program.text_of(line);
@@ -96,14 +98,14 @@ impl Sides<'_> {
         self.report.add(&Difference { code, help, message: &message, line, block: &block, place });
     }
 
-    /// A difference that ends the comparison: what comes after it is moved against each other anyway.
+    /// Reports a difference that ends the comparison, because the cuts after it do not correspond.
     pub fn differs<T>(&mut self, code: Code, line: u64, message: String, help: &'static str) -> Result<T, Box<Diag>> {
         let diag = Box::new(Diag::new(code, message.clone()).help(help));
         self.found(code, line, help, || message.clone());
         Err(diag)
     }
 
-    /// Says that nothing is proven from this line of the program on.
+    /// Records that nothing is proven from this line of the program on.
     pub fn unproven<T>(&mut self, why: String, help: &str, line: u64) -> Result<T, Box<Diag>> {
         let diag = Box::new(Diag::new(Code::PV020, why.clone()).help(help));
         let block = self.program.number_of(line);
@@ -128,18 +130,17 @@ impl Sides<'_> {
             },
             Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
                 let why = unknown_code(&diag, self.program.control());
-                let help = "describe the code in a file of the control, or see what it does at the machine";
+                let help = "describe the code in a control file, or check its effect at the machine";
                 self.unproven(why, help, line)
             }
             Err(RunError::Refused(diag, line)) => {
                 let control = self.program.control().name();
                 let message = format!("{control} refuses the program: {} ({})", diag.message, diag.code.name());
-                let help = "`postform simulate PROGRAM --control NAME` shows the block and what to write";
+                let help = "`postform simulate PROGRAM --control NAME` shows the block and the correction";
                 self.differs(Code::PV015, line, message, help)
             }
             Err(RunError::Io(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
-                let told =
-                    self.unproven(error.to_string(), "verify the program as a file, which can be gone back in", 0);
+                let told = self.unproven(error.to_string(), "verify the program as a file", 0);
                 if let Some(unproven) = &mut self.report.unproven {
                     unproven.in_a_file = true;
                 }
@@ -153,18 +154,18 @@ impl Sides<'_> {
         }
     }
 
-    /// The job's cut is dealt with: its next way begins where it ends.
+    /// Ends the job's cut. The next path of the job begins at its end.
     pub fn leave(&mut self, cut: &Cut, hole: Option<&Expected>) {
         self.hole.inside = hole.filter(|hole| !hole.custom).map(|hole| hole.plane);
         self.job.begin(Rapid { to: cut.end(), unknown: 0, spin: None });
     }
 
-    /// The frame in which the program's last cut was.
+    /// The frame of the program's last cut.
     pub fn frame_before(&self) -> Frame {
         Frame { tool: self.before.tool, work: self.before.work }
     }
 
-    /// Where the job is.
+    /// The current item of the job.
     pub fn at(&self) -> toolpath::Place {
         self.report.place
     }

@@ -1,49 +1,49 @@
-//! Strokes in a hole: what pecks come to, counted alike for job and program.
+//! Strokes in a hole, from the pecks of job and program, counted in the same way for both.
 
 use super::tables::LEFT;
 
-/// What the feeds in a hole come to so far. A stroke ends where the tool leaves the bottom, not where a block does.
+/// The strokes of a hole so far. A stroke ends when the tool leaves the bottom, not at the end of a block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Strokes {
-    /// Where the feed begins.
+    /// The height where the feed begins.
     plane: f64,
-    /// The deepest height so far.
+    /// The lowest height so far.
     pub deepest: f64,
-    /// The greatest height since then.
+    /// The greatest height since the lowest one.
     highest: f64,
-    /// Where the last stroke began to cut.
+    /// The height where the last stroke began to cut.
     begun: f64,
-    /// How deep the hole was when the tool was out of it last.
+    /// The depth of the hole when the tool was last out of it.
     out: f64,
-    /// Strokes, and how many of them came after the tool was out of the hole.
+    /// The number of strokes, and the number of those that began after the tool was out of the hole.
     pub counts: [u64; 2],
-    /// The same without the last stroke.
+    /// The counts without the last stroke.
     earlier: [u64; 2],
     /// The longest stroke.
     pub longest: f64,
-    /// The most that was cut without coming out of the hole.
+    /// The greatest depth that was cut without leaving the hole.
     pub farthest: f64,
 }
 
 impl Strokes {
-    /// None yet, in a hole whose feed begins at this height.
+    /// An empty state for a hole whose feed begins at this height.
     pub fn over(plane: f64) -> Strokes {
         Strokes { plane, deepest: plane, highest: plane, begun: plane, out: plane, ..Strokes::default() }
     }
 
-    /// The tool comes to a height.
+    /// Moves the tool to a height without cutting.
     pub fn comes_to(&mut self, height: f64) {
         self.highest = self.highest.max(height);
     }
 
-    /// A feed goes to a height. `increment`: one digit of the form along the hole, in the job's units.
+    /// Feeds to a height. `increment`: the smallest digit of the form along the hole, in the job's units.
     pub fn cut(&mut self, to: f64, increment: f64, tolerance: f64) {
         self.comes_to(to);
         if to >= self.deepest {
             return;
         }
         let [count, outs] = self.counts;
-        // a digit of the form, whatever binary numbers make of it
+        // half a digit of the form allows for binary rounding
         if count == 0 || self.highest - self.deepest > increment / 2.0 {
             let is_out = count > 0 && self.highest >= self.plane - tolerance;
             (self.earlier, self.counts) = (self.counts, [count + 1, outs + u64::from(is_out)]);
@@ -57,7 +57,7 @@ impl Strokes {
         (self.deepest, self.highest) = (to, to);
     }
 
-    /// The counts without a last stroke that is only what was left.
+    /// The counts. A last stroke that only cuts a small rest is left out.
     pub fn counted(&self, tolerance: f64) -> [u64; 2] {
         let last = self.begun - self.deepest;
         if last > (LEFT * self.longest).max(2.0 * tolerance) { self.counts } else { self.earlier }
@@ -68,7 +68,7 @@ impl Strokes {
 mod tests {
     use super::*;
 
-    /// Strokes of a hole from 2 down: heights to which the tool goes, `true` where it feeds.
+    /// The strokes of a hole from height 2 down. Each move is a height, with `true` for feed moves.
     fn strokes(moves: &[(bool, f64)]) -> Strokes {
         let mut strokes = Strokes::over(2.0);
         for &(feeds, to) in moves {
@@ -84,7 +84,7 @@ mod tests {
         assert_eq!((lifted(0.001).counts, lifted(0.001).longest), ([2, 0], 5.0));
         assert_eq!(lifted(4.99).counts, [2, 0]);
         assert_eq!((lifted(5.0).counts, lifted(5.0).farthest), ([2, 1], 5.0));
-        // up at feed, as a tap goes
+        // up at feed, as with a tap
         assert_eq!(strokes(&[(true, -3.0), (true, -2.0), (true, -8.0)]).counts, [2, 0]);
     }
 

@@ -1,14 +1,14 @@
-//! Subprograms of the job: held where they are defined, and done again at each call.
+//! Subprograms of the job. Their items are kept where they are defined, and repeated at each call.
 
 use super::intent::{Done, unproven};
 use super::owned_event::Kept;
 use super::tables::Unmodelled;
 use crate::toolpath::{Event, Place};
 
-/// Items of subprograms that are held.
+/// The largest number of kept items.
 const MOST: usize = 1 << 18;
 
-/// Those defined so far.
+/// The subprograms defined so far.
 #[derive(Debug, Default)]
 pub(super) struct Subprograms {
     pub(super) defined: Vec<Subprogram>,
@@ -25,12 +25,12 @@ pub(super) struct Subprogram {
 }
 
 impl Subprograms {
-    /// How many there are.
+    /// The number of subprograms.
     pub fn count(&self) -> usize {
         self.defined.len()
     }
 
-    /// Holds an item of the one that is being defined; `false`: none is.
+    /// Keeps an item of the subprogram that is being defined. Returns `false` outside of subprograms.
     pub fn hold(&mut self, event: &Event<'_>, place: Place) -> Done<bool> {
         match event {
             Event::SubStart(number) => {

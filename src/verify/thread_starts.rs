@@ -1,4 +1,4 @@
-//! Threads of a job for a lathe: start by start.
+//! Threads of a job for a lathe, one start at a time.
 
 use super::cut::{DEPTH, RADIUS, What};
 use super::intended::Job;
@@ -8,7 +8,7 @@ use crate::diag::Diag;
 use crate::toolpath::Thread;
 
 impl Job {
-    /// A thread: start by start.
+    /// Passes on a thread, one start at a time.
     pub(super) fn thread(&mut self, thread: &Thread, to: &mut impl Intent) -> Done {
         let (from, end) = (self.target(&thread.from), self.target(&thread.to));
         let begin = from.values[DEPTH];
@@ -22,7 +22,7 @@ impl Job {
             .map_err(Box::<Diag>::from)?;
         let starts = thread.starts.unwrap_or(1.0);
         for start in 0..starts as u32 {
-            // each start begins one pitch farther back
+            // each start begins one pitch farther from the thread
             let back = f64::from(start) * thread.pitch * if begin >= end.values[DEPTH] { 1.0 } else { -1.0 };
             let mut beside = self.at;
             beside.set(DEPTH, begin + back);

@@ -1,4 +1,4 @@
-//! Threads of a lathe: other passes make the same thread, if they are no coarser and end at its depth.
+//! Threads of a lathe. Other passes make the same thread if they are not coarser and end at the same depth.
 
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
@@ -10,7 +10,7 @@ use super::tables::{LONGER, PITCH};
 use crate::diag::Code;
 
 impl Threaded {
-    /// How deep a cut of the program goes; `None`: it is no pass of this thread.
+    /// The depth of a cut of the program; `None`: the cut is not a pass of this thread.
     fn depth(&self, found: &Cut, tolerance: f64) -> Option<f64> {
         let near = |a: f64, b: f64| (a - b).abs() <= 2.0 * tolerance;
         let to = found.end();
@@ -20,13 +20,13 @@ impl Threaded {
         is_one.then(|| (to[RADIUS] - self.crest) * self.inward)
     }
 
-    /// Is it another from the same height on, wherever the tool came from?
+    /// Whether the other thread is the same and begins at the same position along Z. The approach may differ.
     fn is_again(&self, other: &Threaded) -> bool {
         self.begin[DEPTH] == other.begin[DEPTH] && *self == Threaded { begin: self.begin, ..other.clone() }
     }
 
-    /// Does a rapid between passes go through what is not cut? Along the axis the tool goes beside the crest, and in it goes where
-    /// the passes begin.
+    /// Whether a rapid between passes crosses the uncut thread. The tool must move along the axis beside the crest, and
+    /// go in where the passes begin.
     fn is_crossed(&self, a: &Rapid, b: &Rapid, tolerance: f64) -> bool {
         let outermost = [self.crest, self.crest + self.taper].map(|crest| crest * self.inward).into_iter();
         let crest = outermost.fold(f64::INFINITY, f64::min);
@@ -38,16 +38,16 @@ impl Threaded {
     }
 }
 
-/// All passes of a thread.
+/// Compares all passes of a thread.
 pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     let tolerance = s.limits.tolerance;
     let whole = thread.passes.last().copied().unwrap_or(0.0);
-    let help = "look at what the form prints for the thread: AutoThread, CanThread, or Thread and ThreadPasses";
+    let help = "check the words that the form prints for the thread: AutoThread, CanThread, or Thread and ThreadPasses";
     let (mut reached, mut coarsest, mut count, mut line) = (0.0f64, 0.0f64, 0usize, 0);
     let mut as_job = true;
     while let Some(found) = s.next()? {
         let Some(depth) = thread.depth(&found, tolerance) else { break };
-        // after the last pass one of another depth or lead, or after a stop, is the next thread's
+        // after the last pass, a pass with another depth or lead, or after a stop, belongs to the next thread
         let is_cut = count > 0 && (reached - whole).abs() <= 2.0 * tolerance;
         let lead = found.lead.unwrap_or(0.0);
         let has_lead = (lead - thread.lead).abs() <= PITCH * thread.lead;
@@ -57,7 +57,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         }
         let from = Rapid { to: found.from, unknown: found.unknown, spin: None };
         if count == 0 {
-            // in from beside the thread
+            // the approach from beside the thread
             s.job.rapids.push(from);
             super::pauses::compare(s);
             super::rapids::compare(s, found.line);
@@ -67,16 +67,13 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         modal::compare(s, &cut_of(cut, &found), &found, false);
         if !has_lead {
             s.found(Code::PV006, found.line, "print F[frate] with the thread", || {
-                format!("the thread's lead is {}, the job's {}", number(lead), number(thread.lead))
+                format!("the lead of the thread is {}, but {} in the job", number(lead), number(thread.lead))
             });
         }
         if depth < -2.0 * tolerance {
             s.found(Code::PV023, found.line, help, || {
                 let crest = number(thread.crest);
-                format!(
-                    "a pass of the thread goes along X{}, beside the crest at X{crest}",
-                    number(found.end()[RADIUS])
-                )
+                format!("a pass of the thread at X{} does not reach the crest at X{crest}", number(found.end()[RADIUS]))
             });
         }
         as_job &= thread.passes.get(count).is_some_and(|pass| (pass - depth).abs() <= 2.0 * tolerance);
@@ -92,7 +89,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         && !is_parted(&s.job)
         && s.agreed.as_ref().is_some_and(|[wanted, _]| *wanted == cut.state);
     if again {
-        // the same once more: the passes of both came one after the other
+        // the same thread again: the program made the passes of both one after the other
         s.threaded = Some((thread.clone(), made - thread.passes.len()));
         leave(s, thread, whole);
         return Ok(());
@@ -101,13 +98,13 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         let found = s.next()?;
         let (line, is) = found.map_or((0, "nothing".into()), |found| {
             let from = match unsaid(found.unknown) {
-                Some(axes) => format!("a place that only the machine knows, where {axes} was not said,"),
+                Some(axes) => format!("an unknown position ({axes} is not printed)"),
                 None => shown(&found.from, 0b101),
             };
             (found.line, format!("a cut from {from} to {}", shown(&found.end(), 0b101)))
         });
         let message = format!(
-            "the job cuts a thread from Z{} to Z{}, the program {is}",
+            "the job cuts a thread from Z{} to Z{}, but the program {is}",
             number(thread.begin[DEPTH]),
             number(thread.end)
         );
@@ -115,14 +112,14 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     }
     if (reached - whole).abs() > 2.0 * tolerance {
         s.found(Code::PV004, line, help, || {
-            format!("the thread is cut {} deep, the job's is {}", number(reached), number(whole))
+            format!("the thread is {} deep, but {} in the job", number(reached), number(whole))
         });
     }
     let longest =
         thread.passes.iter().fold((0.0, 0.0f64), |(before, longest), pass| (*pass, longest.max(pass - before))).1;
     if coarsest > LONGER * longest + 2.0 * tolerance {
         s.found(Code::PV023, line, help, || {
-            format!("a pass of the thread cuts {}, the job's at most {}", number(coarsest), number(longest))
+            format!("a pass of the thread cuts {}, but at most {} in the job", number(coarsest), number(longest))
         });
     }
     s.report.allowed.threads += u64::from(!as_job || count != thread.passes.len());
@@ -131,11 +128,11 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     Ok(())
 }
 
-/// The thread is cut.
+/// Ends a thread.
 fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     s.hole.inside = None;
     s.report.counts.cuts += 1;
-    // out of the last pass, and back beside the beginning
+    // out of the last pass, then back to the position beside the beginning
     let mut out = thread.begin;
     out[DEPTH] = thread.end;
     let end = Rapid {
@@ -148,17 +145,17 @@ fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });
 }
 
-/// Is there more than rapids on the way from one pass to the next?
+/// Whether the path from one pass to the next has more than rapids.
 fn is_parted(passage: &Passage) -> bool {
     passage.changed() || !passage.stops.is_empty() || !passage.waits.is_empty()
 }
 
-/// What must hold at a pass: its lead is compared for itself.
+/// The requirements for a pass. Its lead is compared separately.
 fn cut_of(cut: &Cut, found: &Cut) -> Cut {
     Cut { feed: None, line: found.line, ..cut.clone() }
 }
 
-/// From pass to pass: out across, back along beside the crest, in again.
+/// Checks the path between two passes: out across, back along the crest, and in again.
 fn between(s: &mut Sides<'_>, thread: &Threaded, to: Rapid, line: u64) -> Done {
     let tolerance = s.limits.tolerance;
     let passage = &s.program.passage;
@@ -170,11 +167,11 @@ fn between(s: &mut Sides<'_>, thread: &Threaded, to: Rapid, line: u64) -> Done {
     }
     if is_parted(passage) || !same(&at.to, &to.to, super::cut::ALL, tolerance) {
         let message = "a stop, a dwell or another tool between the passes of a thread".to_owned();
-        return s.differs(Code::PV001, line, message, "look at what the form prints between the passes");
+        return s.differs(Code::PV001, line, message, "check the words that the form prints between the passes");
     }
     if let Some(to) = low {
         s.found(Code::PV009, line, "retract across the thread first", || {
-            format!("between passes of a thread a rapid goes to {} through its crest", shown(&to, 0b101))
+            format!("between passes a rapid goes to {} through the crest of the thread", shown(&to, 0b101))
         });
     }
     Ok(())

@@ -1,4 +1,5 @@
-//! A proof beside the renderer, in one pass: events and text come as they are made, and neither is held.
+//! A proof that runs beside the renderer, in one pass. Events and text are compared as they are made, and neither is kept
+//! in memory.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -15,14 +16,14 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{Event, Place, Sink};
 
-/// What a renderer took and what it made of it, as far as both had come.
+/// The events that a renderer took, and the text that it printed for them so far.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// Events, with their places in the job.
+    /// Events with their places in the job.
     pub events: Vec<(Kept, Place)>,
-    /// Bytes of the program; a block may be in two batches.
+    /// Bytes of the program. A block may extend over two batches.
     pub text: Vec<u8>,
-    /// Which form line and which item of the job printed each line that ends in this text; may be left out.
+    /// The form line and the item of the job for each line that ends in this text. May be empty.
     pub trace: Vec<TraceLine>,
 }
 
@@ -33,7 +34,7 @@ impl AsRef<Batch> for Batch {
 }
 
 impl Batch {
-    /// Empties it, to be filled again.
+    /// Empties the batch for reuse.
     pub(crate) fn clear(&mut self) {
         self.events.clear();
         self.text.clear();
@@ -41,27 +42,27 @@ impl Batch {
     }
 }
 
-/// How a proof came out.
+/// The result of a proof.
 #[derive(Clone, Debug)]
 #[must_use]
 pub struct Outcome {
-    /// Does the program do what its job asks for?
+    /// The verdict on the program.
     pub verdict: Verdict,
-    /// How much was compared.
+    /// Counts of what was compared.
     pub counts: Counts,
     /// Warnings of the control.
     pub warnings: Vec<Diag>,
 }
 
-/// Proves a program while it is made. `batches` may be the end of a channel: it is asked for no more than is compared next,
-/// and not at all once the verdict is known; each is dropped when it is compared. Before the program says its units they are
-/// the job's if `of_job`, else those of `settings`.
+/// Proves a program while it is made. `batches` may be the end of a channel. A batch is requested only when it is needed
+/// for the comparison, and none is requested after the verdict is known. Each batch is dropped after its comparison.
+/// Until the program sets its units, they are those of the job if `of_job`, else those of `settings`.
 ///
-/// A program that calls or repeats parts of itself is not proven: only a file can be gone back in
+/// A program that calls or repeats parts of itself is not proven, because only a file can seek back
 /// ([`Unproven::in_a_file`](super::Unproven::in_a_file)).
 ///
 /// # Errors
-/// None: text in memory can always be read.
+/// Never fails: text in memory can always be read.
 pub fn prove_beside<B: AsRef<Batch>>(
     batches: impl Iterator<Item = B>,
     settings: RunSettings,
@@ -96,7 +97,7 @@ pub fn prove_beside<B: AsRef<Batch>>(
                 break 'job;
             }
         }
-        // what stands between two cuts is run as it comes, not held until the job's next cut
+        // run the passage between two cuts as it comes, without waiting for the job's next cut
         comparer.run_on(&|| queue.borrow().texts.len() > MOST_TEXTS);
         if comparer.found() > found {
             found = locate(&mut comparer);
@@ -109,38 +110,38 @@ pub fn prove_beside<B: AsRef<Batch>>(
     Ok(Outcome { verdict: comparer.verdict()?, counts, warnings })
 }
 
-/// How many batches of text wait for the job's next cut.
+/// Number of text batches that may wait for the job's next cut.
 const MOST_TEXTS: usize = 4;
 
-/// How many events wait for the text that they came to.
+/// The largest number of events that wait for their text.
 const MOST_WAITING: usize = 1 << 16;
 
-/// Why a program is proven only where it can be gone back in, which has an end.
+/// The error for a program that can be proven only from an input that can seek and has an end.
 fn only_a_file(why: &'static str) -> io::Error {
     io::Error::new(io::ErrorKind::Unsupported, why)
 }
 
-/// What came and was not needed yet.
+/// Batches that were received and are still needed.
 struct Queue<I: Iterator> {
     batches: I,
-    /// Batches whose events wait.
+    /// Batches whose events are still to be compared.
     events: VecDeque<Rc<I::Item>>,
-    /// Batches whose text waits.
+    /// Batches whose text is still to be run.
     texts: VecDeque<Rc<I::Item>>,
-    /// Where the lines of the texts came from: of those that wait, of the one that is run and of the one before it.
+    /// Batches with the origins of lines: those still to be run, the current one and the one before.
     traces: VecDeque<Rc<I::Item>>,
-    /// No more text is read: the control refused a block, which is said at the job's next cut.
+    /// Whether no more text is read, because the control refused a block. This is reported at the job's next cut.
     unread: bool,
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
-    /// Text is not needed any more.
+    /// Drops all text: it is no longer needed.
     fn drop_texts(&mut self) {
         self.unread = true;
         self.texts.clear();
     }
 
-    /// Takes the next batch in; `false`: there is none.
+    /// Receives the next batch. Returns `false` if there is none.
     fn pull(&mut self) -> bool {
         let Some(batch) = self.batches.next().map(Rc::new) else { return false };
         let Batch { events, text, .. } = (*batch).as_ref();
@@ -164,7 +165,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
     fn text(&mut self) -> io::Result<Option<Rc<I::Item>>> {
         while self.texts.is_empty() && self.pull() {
             if self.events.iter().map(|batch| (**batch).as_ref().events.len()).sum::<usize>() > MOST_WAITING {
-                return Err(only_a_file("the program prints nothing for a long part of the job"));
+                return Err(only_a_file("a long part of the job prints nothing"));
             }
         }
         let Some(batch) = self.texts.pop_front() else { return Ok(None) };
@@ -174,7 +175,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
         Ok(Some(batch))
     }
 
-    /// Where a line came from that was run not long ago.
+    /// The origin of a line that was run recently.
     fn origin(&self, line: u64) -> Option<TraceLine> {
         let mut traces = self.traces.iter().map(|batch| &(**batch).as_ref().trace);
         let lines = traces.find(|lines| lines.last().is_some_and(|last| last.line >= line))?;
@@ -182,17 +183,17 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
     }
 }
 
-/// The program as it comes.
+/// The program's text as it arrives.
 struct Text<I: Iterator> {
     queue: Rc<RefCell<Queue<I>>>,
-    /// The batch that is read.
+    /// The batch that is being read.
     batch: Option<Rc<I::Item>>,
-    /// How much of its text was read.
+    /// Number of bytes of its text already read.
     at: usize,
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> Text<I> {
-    /// What is there of the text.
+    /// The unread rest of the batch.
     fn rest(&self) -> &[u8] {
         self.batch.as_ref().map_or(&[], |batch| &(**batch).as_ref().text[self.at..])
     }
@@ -213,6 +214,6 @@ impl<I: Iterator<Item: AsRef<Batch>>> Read for Text<I> {
 
 impl<I: Iterator> Seek for Text<I> {
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
-        Err(only_a_file("the program calls or repeats parts of itself"))
+        Err(only_a_file("the program contains calls or repeats"))
     }
 }

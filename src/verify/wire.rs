@@ -1,12 +1,12 @@
-//! What a wire EDM machine does between cuts: the codes by which a form threads and cuts the wire, in the job's order and at
-//! its places.
+//! Actions of a wire EDM machine between cuts. The form's codes for threading and cutting the wire must come in the job's
+//! order and at its positions.
 
 use super::cut::{ALL, same};
 use super::sides::Sides;
 use super::wire_codes::{self, Coded};
 use crate::diag::Code;
 
-/// The codes since the last cut: those of the job's actions, at their places.
+/// Compares the codes since the last cut with the job's actions and their positions.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     if s.job.does.is_empty() && s.program.passage.does.is_empty() {
         return;
@@ -17,7 +17,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         let [a_stands, b_stands] = [s.job.standing(a), s.program.passage.standing(b)];
         let apart = match (a_stands, b_stands) {
             (Some(a), Some(b)) => !same(&a.to, &b.to, ALL, s.limits.tolerance),
-            (a, _) => a.is_some(), // only the machine knows where
+            (a, _) => a.is_some(), // the position is known only at the machine
         };
         a.what != b.what || apart
     });
@@ -26,15 +26,15 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let (wanted, is) = (wanted.get(at).map(|mark| mark.what), is.get(at).map(|mark| (mark.what, mark.line)));
     let message = match (wanted, is) {
         (Some(wanted), Some((is, _))) if wanted == is => {
-            format!("{} {} at another place than the job's", name(is), what(is))
+            format!("{} {} at another position than in the job", name(is), what(is))
         }
         (Some(wanted), Some((is, _))) => {
-            format!("{} {}, where the job's {} {}", name(is), what(is), name(wanted), what(wanted))
+            format!("{} {}, but the job's {} {}", name(is), what(is), name(wanted), what(wanted))
         }
         (Some(wanted), None) => format!("{}, which {}, is missing", name(wanted), what(wanted)),
-        (None, Some((is, _))) => format!("{} {}, and the job does not", name(is), what(is)),
+        (None, Some((is, _))) => format!("{} {}, but the job does not", name(is), what(is)),
         (None, None) => return,
     };
     let line = is.map_or(line, |(_, line)| line);
-    s.found(Code::PV025, line, "look at EdmThread, EdmCut, EdmPreDrillThread and SubmergeTank", || message.clone());
+    s.found(Code::PV025, line, "check EdmThread, EdmCut, EdmPreDrillThread and SubmergeTank", || message.clone());
 }

@@ -1,4 +1,4 @@
-//! The codes by which a form threads and cuts a wire.
+//! The form's codes for threading and cutting a wire.
 
 use crate::compile::{Op, Program};
 use crate::lang::SequenceId;
@@ -10,7 +10,7 @@ pub(super) type Coded = (u8, u16);
 /// The codes of each action.
 pub(super) type Codes = Vec<(EdmAction, Vec<Coded>)>;
 
-/// All actions, with the sequence that prints each and what it does.
+/// All actions, each with the sequence that prints it and a description.
 const ACTIONS: [(EdmAction, SequenceId, &str); 4] = [
     (EdmAction::Thread, SequenceId::EdmThread, "threads the wire"),
     (EdmAction::Cut, SequenceId::EdmCut, "cuts the wire"),
@@ -18,7 +18,7 @@ const ACTIONS: [(EdmAction, SequenceId, &str); 4] = [
     (EdmAction::Submerge, SequenceId::SubmergeTank, "fills the tank"),
 ];
 
-/// The M codes that a form's sequences of these actions type.
+/// The M codes that the form's sequences for these actions print.
 pub(super) fn codes_of(program: &Program) -> Codes {
     let literal = |op: &Op| match op {
         Op::Literal { index, .. } => program.literals.get(*index as usize),
@@ -32,7 +32,7 @@ pub(super) fn codes_of(program: &Program) -> Codes {
     ACTIONS.iter().map(|(action, id, _)| (*action, codes(*id))).collect()
 }
 
-/// What a code does, in words.
+/// The description of a code.
 pub(super) fn what(codes: &Codes, code: Coded) -> &'static str {
     let action = codes.iter().find(|(_, codes)| codes.contains(&code)).map(|(action, _)| *action);
     ACTIONS.iter().find(|(own, ..)| Some(*own) == action).map_or("", |(_, _, what)| what)

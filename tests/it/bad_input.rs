@@ -92,7 +92,7 @@ fn forms() {
             "cut inside a word",
             good[..good.find("[tool]").unwrap() + 3].into(),
             1,
-            vec!["PF001", "a bracket without its partner"],
+            vec!["PF001", "an unmatched bracket"],
         ),
         (
             "no End",
@@ -104,7 +104,7 @@ fn forms() {
         ("no EndCode", replaced("EndCode\nM30\nEnd", "").into(), 1, vec!["PF005", "the form has no EndCode"]),
         ("unknown sequence", format!("{good}Dril\nG81 X[h]\nEnd\n").into(), 1, vec!["PF201", "did you mean `Drill`?"]),
         ("unknown command", mill("Rapids G0", "").into(), 1, vec!["PF201", "did you mean `Rapid`?", "form.pf:1:1"]),
-        ("unknown variable", replaced("X[h]", "X[hh]").into(), 1, vec!["PF202", "`hh` is no variable"]),
+        ("unknown variable", replaced("X[h]", "X[hh]").into(), 1, vec!["PF202", "`hh` is not a variable"]),
         ("misspelt variable", mill("", "Drill\nR[vlcear]\nEnd").into(), 1, vec!["PF202", "did you mean `vclear`?"]),
         ("variable of a lathe", replaced("X[h]", "X[taper]").into(), 1, vec!["PF604", "`taper` is for lathe"]),
         (
@@ -125,7 +125,7 @@ fn forms() {
             "a library of posts",
             format!("Name Post A\n{0}\nName Post B\n{0}", good.trim_start()).into(),
             1,
-            vec!["PF006", "the file holds 2 posts: `Post A`, `Post B`", "1 error, nothing was printed"],
+            vec!["PF006", "the file contains 2 posts: `Post A`, `Post B`", "1 error, nothing was printed"],
         ),
         ("letter format twice", mill("X->3.>4\nX->4.>3", "").into(), 1, vec!["PF006", "X has two formats"]),
         ("bad letter format", mill("X->3..>4", "").into(), 1, vec!["PF301"]),
@@ -133,19 +133,19 @@ fn forms() {
         ("format that loses its point", mill("P >3>4", "").into(), 1, vec!["PF301", "without a point"]),
         ("bad argument", mill("Helical? maybe", "").into(), 1, vec!["PF302", "Helical? is Y or N"]),
         ("no argument", mill("Rapid", "").into(), 1, vec!["PF302", "Rapid needs a code"]),
-        ("argument lost", mill("Rapid  G0", "").into(), 1, vec!["PF302", "two blanks"]),
+        ("argument lost", mill("Rapid  G0", "").into(), 1, vec!["PF302", "two spaces"]),
         ("too many arguments", mill("FeedCode F G H", "").into(), 1, vec!["PF302", "FeedCode takes 1 letter"]),
-        ("an arc that is an M code", mill("CW M3", "").into(), 1, vec!["PF302", "`M3` is no G code", "form.pf:1:"]),
-        ("a feed that is an M code", mill("Feed M8", "").into(), 1, vec!["PF302", "`M8` is no G code"]),
+        ("an arc that is an M code", mill("CW M3", "").into(), 1, vec!["PF302", "`M3` is not a G code", "form.pf:1:"]),
+        ("a feed that is an M code", mill("Feed M8", "").into(), 1, vec!["PF302", "`M8` is not a G code"]),
         ("Machine of no kind", mill("Machine Router", "").into(), 1, vec!["PF302", "Mill, Lathe, EDM"]),
         (
             "count too large",
             mill("", "Drill 3\nG81 X[h]\nEnd").into(),
             1,
-            vec!["PF401", "counts 3 lines, its body has 1"],
+            vec!["PF401", "is 3, but the number of lines in its body is 1"],
         ),
         ("count of zero", mill("", "Drill 0\nG81 X[h]\nEnd").into(), 1, vec!["PF401"]),
-        ("count on no cycle", mill("", "Index 1\nG0\nEnd").into(), 1, vec!["PF405", "Index is no canned cycle"]),
+        ("count on no cycle", mill("", "Index 1\nG0\nEnd").into(), 1, vec!["PF405", "Index is not a canned cycle"]),
         ("no Cancel", replaced("Cancel\nG80\nEnd", "Drill\nG81 X[h]\nEnd Cancel").into(), 1, vec!["PF402"]),
         ("a word after End", mill("", "Drill\nG81\nEnd Cancle").into(), 1, vec!["PF001", "`Cancle` after End"]),
         (
@@ -156,7 +156,7 @@ fn forms() {
         ),
         ("too many lines", mill("", &long_body).into(), 1, vec!["PF602", "the limit is 150"]),
         ("words outside a sequence", format!("{good}G0 X[h]\n").into(), 1, vec!["PF001", "outside a sequence"]),
-        ("stray point", mill("", "Drill\nX[h] Y[v].\nEnd").into(), 1, vec!["PF001", "stands directly after a word"]),
+        ("stray point", mill("", "Drill\nX[h] Y[v].\nEnd").into(), 1, vec!["PF001", "is directly after a word"]),
         ("sign before a variable", mill("", "Drill\nX-[h]\nEnd").into(), 1, vec!["PF001", "RevSigns"]),
         ("a call of nothing", mill("Call other.pf", "").into(), 1, vec!["PF009", "can't be found"]),
         ("a call of itself", mill("Call form.pf", "").into(), 1, vec!["PF"]),
@@ -225,7 +225,7 @@ fn jobs() {
         ("seven coordinates", with("{\"line\":[1,2,3,4,5,6,7]}"), 1, vec!["PJ003"]),
         ("nesting bomb", bomb.clone().into(), 1, vec!["PJ003"]),
         ("nesting bomb in a position", with(&format!("{{\"line\":{bomb}")), 1, vec!["PJ003"]),
-        ("key twice", head("\"program\":1,\"program\":2,"), 1, vec!["PJ010", "there twice"]),
+        ("key twice", head("\"program\":1,\"program\":2,"), 1, vec!["PJ010", "given twice"]),
         (
             "two tools with one number",
             good.replace("{\"number\":2}", "{\"number\":1}").into(),
@@ -250,8 +250,8 @@ fn jobs() {
             1,
             vec!["PJ004"],
         ),
-        ("empty item", with("{}"), 1, vec!["PJ004", "says nothing"]),
-        ("two things in an item", with("{\"line\":[1,2],\"rapid\":[1,2]}"), 1, vec!["PJ005", "more than one thing"]),
+        ("empty item", with("{}"), 1, vec!["PJ004", "is empty"]),
+        ("two things in an item", with("{\"line\":[1,2],\"rapid\":[1,2]}"), 1, vec!["PJ005", "more than one action"]),
         (
             "negative speed",
             good.replace("\"speed\":1000", "\"speed\":-1").into(),
@@ -308,7 +308,7 @@ fn jobs() {
         ("job for another machine", head("\"machine\":\"lathe\","), 1, vec!["PR008"]),
         ("more than one line of text", with("{\"text\":\"M0\\nM1\"}"), 1, vec!["PJ003"]),
         ("text that steers", with("{\"text\":\"A\\u001b\"},{\"line\":[1,1,0]}"), 1, vec!["PR035", "U+001B"]),
-        ("text that ends the program", with("{\"text\":\" % \"},{\"line\":[1,1,0]}"), 1, vec!["PR035", "lone"]),
+        ("text that ends the program", with("{\"text\":\" % \"},{\"line\":[1,1,0]}"), 1, vec!["PR035", "single"]),
         ("a number of 309 digits", with("{\"line\":[1e308,0]}"), 1, vec!["…"]),
         ("a name of 2 MB", head(&format!("\"name\":\"{}\",", "A".repeat(2 << 20))), 1, vec!["PJ003", "1 MB", "name"]),
         ("2 MB of quotes", head(&format!("\"name\":\"{}\",", "\\\"".repeat(1 << 20))), 1, vec!["PJ003", "1 MB"]),
@@ -352,7 +352,7 @@ fn json_lines() {
         ("no line end at the end", format!("{start}{operation}{moves}{{\"end\":true}}"), 0, vec![]),
         ("CRLF and empty lines", format!("{start}\n{operation}{moves}\n{end}\n").replace('\n', "\r\n"), 0, vec![]),
         ("empty", String::new(), 1, vec!["PJ007", "the job is empty"]),
-        ("without its end", format!("{start}{operation}{moves}"), 1, vec!["PJ007", "stops without its end"]),
+        ("without its end", format!("{start}{operation}{moves}"), 1, vec!["PJ007", "has no end"]),
         ("cut inside a line", format!("{start}{operation}{{\"line\":[1,"), 1, vec!["PJ007", "job.jsonl:3:"]),
         ("without a start", format!("{operation}{moves}{end}"), 1, vec!["PJ011", "job.jsonl:1:"]),
         ("two starts", format!("{start}{start}"), 1, vec!["PJ011", "starts twice"]),
@@ -491,7 +491,7 @@ fn outputs_do_not_replace_their_inputs() {
     for (arguments, redirect) in
         [("-o new.nc --trace ./new.nc", ""), ("-o link --trace new.nc", ""), ("--trace new.nc", "> new.nc")]
     {
-        expect(arguments, &run(&format!("job.json {arguments}"), redirect), 2, &["can't be one file"]);
+        expect(arguments, &run(&format!("job.json {arguments}"), redirect), 2, &["can't be the same file"]);
         _ = fs::remove_file(folder.0.join("new.nc"));
     }
     assert_eq!(texts(), before);
@@ -509,7 +509,7 @@ fn outputs_do_not_replace_their_inputs() {
 fn long_questions_are_answered() {
     for what in ["a ".repeat(50_000), "a".repeat(100_000)] {
         let output = Command::new(env!("CARGO_BIN_EXE_postform")).args(["explain", &what]).output().unwrap();
-        expect("a long question", &output, 2, &["there is no `a"]);
+        expect("a long question", &output, 2, &["`a"]);
         assert!(output.stderr.len() < 1000, "{} bytes", output.stderr.len());
     }
 }

@@ -42,7 +42,7 @@ fn the_standard_cases_see_a_change_of_the_form() {
     let said = out(&output);
     assert_eq!(output.status.code(), Some(1));
     for shown in [
-        "--- tests/drill/expected.haas.nc\n+++ what haas.pf prints of tests/drill/job.json\n",
+        "--- tests/drill/expected.haas.nc\n+++ the program of haas.pf for tests/drill/job.json\n",
         "-N90 G98 G81 X10. Y10. Z-15. R2. F120.\n",
         "+N90 G98 G81 X10. Y10. R2. Z-15. F120.\n",
         "    printed by haas.pf:",
@@ -154,8 +154,9 @@ fn what_can_be_no_case_is_a_problem_and_stops_no_other() {
     let said = out(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     for shown in [
-        "tests/drill/expected.mill.nc: there is no form called mill\n  help: add its file to forms under [test] in tests/postform.toml, or name it by --form",
-        "tests/alone/job.json has no expected program beside it",
+        "tests/drill/expected.mill.nc: there is no form called mill\n  help: add its file to forms under [test] in \
+         tests/postform.toml, or give it with --form",
+        "tests/alone/job.json has no expected program in its folder",
         "tests/cut-short/expected.haas.nc by haas.pf:\n",
         "--- tests/helix/expected.haas.nc\n",
     ] {
@@ -249,11 +250,11 @@ fn a_folder_without_cases_says_what_one_is() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(out(&output).is_empty() && err(&output).starts_with("error: "), "{arguments:?}: {}", err(&output));
     }
-    assert!(err(&folder.run(&["test"])).contains("`postform test --new FORM` writes the standard ones"));
+    assert!(err(&folder.run(&["test"])).contains("`postform test --new FORM` writes the standard cases"));
     folder.write("postform.toml", "[test]\nignore = [\"everything\"]\n");
     folder.write("job.json", "{\"postform\": 1}");
     let said = err(&folder.run(&["test", "."]));
-    assert!(said.contains("ignore under [test]: there is no `everything` to ignore"), "{said}");
+    assert!(said.contains("ignore under [test]: --ignore has no value `everything`"), "{said}");
     assert!(!folder.has("tests"));
 }
 
@@ -268,8 +269,8 @@ fn an_expected_program_without_its_job_is_a_problem() {
     let said = out(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     for shown in [
-        "tests/drill/expected.haas.nc has no job beside it",
-        "tests/lines/part.expected.haas.nc has no part beside it",
+        "tests/drill/expected.haas.nc has no job",
+        "tests/lines/part.expected.haas.nc has no job: there is no part in its folder",
         "tests/arcs/expected.haas.nc by haas.pf:\nPJ007",
         "tests/helix/expected.haas.nc by haas.pf:\nPJ",
     ] {
@@ -288,13 +289,13 @@ fn what_is_wrong_can_not_be_expected() {
     let said = out(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(
-        said.contains("lost.pf prints programs of these that do something else than the job:\n  arc-in-xz: PV014"),
+        said.contains("lost.pf prints programs of these jobs that are different from the job:\n  arc-in-xz: PV014"),
         "{said}"
     );
     assert!(!folder.has("tests/drill/expected.lost.refused") && !folder.has("tests/drill/expected.lost.nc"));
     folder.write("tests/drill/expected.lost.refused", "PV014\n");
     let output = folder.run(&["test", "tests/drill"]);
-    assert!(out(&output).contains("PV014 was expected, PV014 came"), "{}", out(&output));
+    assert!(out(&output).contains("PV014 was expected, but PV014 was reported"), "{}", out(&output));
     assert_eq!(output.status.code(), Some(1));
     folder.write("haas.pf", form);
     folder.write("cut/job.json", "{\"postform\": 1, ");
@@ -312,8 +313,8 @@ fn the_file_of_the_cases_says_day_post_and_proof() {
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\ndate = \"2026-03-31\"\n");
     assert!(out(&folder.run(&["test", "tests/drill"])).contains("(DATE 2026-03-31 )"));
     for (line, message) in [
-        ("date = \"tomorrow\"", "date = \"tomorrow\" under [test]: write a day"),
-        ("tolerance = -1.0", "tolerance = -1 under [test]: it is 0 or more"),
+        ("date = \"tomorrow\"", "date = \"tomorrow\" under [test]: write a date"),
+        ("tolerance = -1.0", "tolerance = -1 under [test]: it must be 0 or more"),
         ("post = \"Mill wet\"", "Mill wet"),
     ] {
         folder.write("tests/postform.toml", format!("[test]\nforms = [\"../haas.pf\"]\n{line}\n"));
@@ -346,13 +347,18 @@ fn a_second_form_is_added_by_hand() {
         fs::copy(root().join("postforms").join(form), folder.0.join(form)).unwrap();
     }
     let said = out(&folder.run(&["test", "--new", "siemens.pf"]));
-    assert!(said.contains("tests/postform.toml was there: add \"../siemens.pf\" to its forms under [test]"), "{said}");
+    assert!(
+        said.contains("tests/postform.toml existed already: add \"../siemens.pf\" to its forms under [test]"),
+        "{said}"
+    );
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\", \"../siemens.pf\"]\n");
     ends(&folder.run(&["test"]), 0, "56 cases, 2 forms: 112 programs, all as expected");
     // jobs of a lathe by the same names
     let said = out(&folder.run(&["test", "--new", "fanuc-lathe.pf"]));
     assert!(
-        said.contains("other jobs have these names, and stay; nothing was written beside them:\n  arcs\n"),
+        said.contains(
+            "other jobs with these names exist and are kept; no expected programs were written for them:\n  arcs\n"
+        ),
         "{said}"
     );
     assert!(!folder.has("tests/arcs/expected.fanuc-lathe.refused"));
@@ -364,7 +370,7 @@ fn what_differs_alone_is_said() {
     let path = folder.0.join("tests/drill/expected.haas.nc");
     let program = fs::read_to_string(&path).unwrap();
     fs::write(&path, program.replace('\n', "\r\n")).unwrap();
-    assert!(out(&folder.run(&["test", "tests/drill"])).contains("blanks or line ends alone differ\n"));
+    assert!(out(&folder.run(&["test", "tests/drill"])).contains("only spaces or line ends differ\n"));
     // a block less: the numbers of the blocks after it are not shown
     fs::write(&path, program).unwrap();
     change(&folder, "haas.pf", "G[unitmode] G17 G40 G49 G80 G90\n", "G[unitmode] G17 G40 G49 G80 G90\nG64\n");
@@ -374,5 +380,5 @@ fn what_differs_alone_is_said() {
     folder.write("haas.pf", "Machine Mill\nNonsense\n");
     let said = out(&folder.run(&["test"]));
     assert_eq!(said.matches("haas.pf has errors").count(), 1, "{said}");
-    assert!(said.contains("none of its 56 programs is printed\n") && said.contains("Nonsense"), "{said}");
+    assert!(said.contains("none of the 56 programs of this form is printed\n") && said.contains("Nonsense"), "{said}");
 }

@@ -65,10 +65,7 @@ fn statements_are_read_as_they_are_written() {
     assert_eq!(body("N27 , GOTO/1,0,10\n2,0,10\n3,0,10"), ["G1 X1. F100.", "X2.", "X3."]);
     assert_eq!(body("PPRINT/OPERATION: (face)\r\nGOTO/1,0,10\r"), ["(OPERATION: [FACE])", "G1 X1. F100."]);
     assert_eq!(body("INSERT/M88\nSYN/'A','$$*B'\nAUXFUN/8\nPREFUN/61"), ["M88", "M8", "G61"]);
-    assert_eq!(
-        body("SPINKL/5\nSPINKL/6\nGOTO/1,0,10")[1],
-        "PL003 `SPINKL` is not known and nothing is done for it, 2 times"
-    );
+    assert_eq!(body("SPINKL/5\nSPINKL/6\nGOTO/1,0,10")[1], "PL003 `SPINKL` is unknown and is ignored, 2 times");
 }
 
 #[test]
@@ -105,9 +102,10 @@ fn arcs_turn_as_their_system_means_them() {
     assert_eq!(by(Dialect::Makino), "G17 G2 X2. Y1. I0 J1.");
     // nobody says who wrote it: the arc leaves the line before it along its tangent
     assert_eq!(body(arc)[1], "G17 G3 X2. Y1. I0 J1.");
-    assert!(error("GOTO/1,0,10\nCIRCLE/2,0,10,0,0,1,1\nGOTO/3,0,10").starts_with("PL006 which way"));
+    assert!(error("GOTO/1,0,10\nCIRCLE/2,0,10,0,0,1,1\nGOTO/3,0,10").starts_with("PL006 the direction of this CIRCLE"));
     assert!(
-        error(&format!("{arc}\nGOTO/2,5,10\nCIRCLE/3,5,10,0,0,1,1\nGOTO/4,5,10")).starts_with("PL006 this arc turns")
+        error(&format!("{arc}\nGOTO/2,5,10\nCIRCLE/3,5,10,0,0,1,1\nGOTO/4,5,10"))
+            .starts_with("PL006 if this arc is tangent")
     );
     assert_eq!(body("GOTO/1,0,10\nMOVARC/1,1,10,0,0,1,1\nGOTO/2,1,10")[1], "G17 G3 X2. Y1. I0 J1.");
     let tlon = "GOTO/1,0,10\nINDIRV/1,0,0\nTLON,GOFWD/ (CIRCLE/ 1, 1, 10,$\n 1),ON,(LINE/1,1,10,$\n 2,1,10)";
@@ -154,9 +152,9 @@ fn cycles_of_other_systems_are_read_by_their_dialect() {
 fn what_moves_the_part_or_is_cut_off_is_refused() {
     assert!(error("TRACUT/1").starts_with("PL004 TRACUT"));
     assert!(error("GOTO/1,2").starts_with("PL001 GOTO with 2 numbers at 7:1"));
-    assert!(error("GOTO/1,2,1e999").starts_with("PL001 `1E999` is no number"));
+    assert!(error("GOTO/1,2,1e999").starts_with("PL001 `1E999` is not a number"));
     assert!(error("GOTO/1,2,3,.6,0,.8").starts_with("PR008 the tool is tilted"));
-    assert!(error("COOLNT/BEER").starts_with("PL002 COOLNT does not know `BEER`"));
+    assert!(error("COOLNT/BEER").starts_with("PL002 COOLNT can't take `BEER`"));
     assert!(error("MODE/INCR").starts_with("PL004"));
     assert!(error("CIRCLE/1,1,1,0,0,1").starts_with("PL007"));
     let whole = |text: &str| read(text, Options::default())[0].clone();
@@ -301,7 +299,7 @@ fn whatever_keeps_a_file_from_being_printed_is_said_at_once() {
     assert!(why("GOTO/1,1,1").is_empty());
     assert_eq!(
         why("GOTO/1,1,1,.6,0,.8\nGOTO/1,2,1,.8,0,.6"),
-        ["PR008 no form can print this, because the tool is tilted (2 places, the first here)"]
+        ["PR008 no form can print this, because the tool is tilted (2 moves, the first one here)"]
     );
     assert_eq!(
         why("GOTO/1,1,1\nLOADTL/2\nLOADTL/3\nSPINDL/9,CLW\nRAPID\nGOTO/1,1,9"),
@@ -390,14 +388,14 @@ fn bores_of_nx_come_out_as_they_are_named() {
 #[test]
 fn coordinate_systems_agree_with_the_tool() {
     let turned = "CSYS/1,0,0,0,0,0,-1,-40,0,1,0,-20";
-    assert!(error(&format!("{turned}\nGOTO/1,0,10")).starts_with("PL004 the CSYS of line 7"));
+    assert!(error(&format!("{turned}\nGOTO/1,0,10")).starts_with("PL004 the z axis of the CSYS of line 7"));
     // also where a hole is the first point, and where it is turned but a little
     let hole = format!("{turned}\nCYCLE/DRILL,DEPTH,1,MMPM,9,CLEAR,2\nGOTO/1,0,10\nCYCLE/OFF");
-    assert!(error(&hole).starts_with("PL004 the CSYS of line 7"));
+    assert!(error(&hole).starts_with("PL004 the z axis of the CSYS of line 7"));
     let little = "CSYS/1,0,.005,0,0,1,0,0,-.005,0,1,0";
-    assert!(error(&format!("{little}\nGOTO/1,0,10")).starts_with("PL004 the CSYS of line 7"));
+    assert!(error(&format!("{little}\nGOTO/1,0,10")).starts_with("PL004 the z axis of the CSYS of line 7"));
     let moved = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\nGOTO/1,0,10\nCSYS/1,0,0,5,0,1,0,0,0,0,1,0\nGOTO/2,0,10";
-    assert!(body(moved)[2].starts_with("PL008 this CSYS is not that of line 7"));
+    assert!(body(moved)[2].starts_with("PL008 this CSYS differs from the CSYS of line 7"));
 }
 
 /// Turning: z and the radius, feeds per revolution, constant surface speed.
@@ -488,10 +486,10 @@ fn nothing_is_lost_between_statements() {
     assert_eq!(body("N29 GOTO/6,0,10\n100 GOTO/5,0,10"), ["G1 X6. F100.", "X5."]);
     for (text, code) in [
         ("FEDRAT/60\n4,5,6", "PL001 numbers"),
-        ("L1) GOTO/1,1,1", "PL001 `L1` stands before GOTO"),
+        ("L1) GOTO/1,1,1", "PL001 the unknown word `L1` is in front of GOTO"),
         ("COOLNT/FLOOD,OFF", "PL002 COOLNT"),
         ("LOADTL/2,FOO,7", "PL002 LOADTL"),
-        ("LOADTL/1,OFSETNO,7\nGOTO/1,1,1", "PR039 tool 1 is in"),
+        ("LOADTL/1,OFSETNO,7\nGOTO/1,1,1", "PR039 the length offset register changes while tool 1 is in"),
         ("CUTCOM/LEFT,ZXPLAN", "PL002 CUTCOM"),
         ("SCALE/2", "PL004 SCALE"),
         ("MODE/INCREM", "PL004 MODE"),
@@ -534,7 +532,7 @@ fn what_is_said_once_holds() {
 #[test]
 fn units_and_dialect_are_known_before_they_are_needed() {
     let early = "LOADTL/1\nSPINDL/1,CLW\nFEDRAT/5,IPM\nUNITS/MM\nRAPID\nGOTO/0,0,1\nFINI\n";
-    assert!(read(early, Options::default())[0].starts_with("PL005 the file has not said its units yet at 3:1"));
+    assert!(read(early, Options::default())[0].starts_with("PL005 the units of the file are not known yet at 3:1"));
     // the file's own units go before those that were assumed
     let own =
         early.replace("LOADTL", "UNITS/INCHES\nLOADTL").replace("UNITS/MM\n", "").replace("FINI", "GOTO/1,0,1\nFINI");
@@ -608,7 +606,7 @@ fn tools_that_are_only_named_need_numbers() {
     let two = format!("UNITS/MM\n{}{}", path("MILL", 1), path("Face Mill", 2));
     assert!(read(&two, Options::default())[0].starts_with("PJ006"));
     let refused = by(&two, "1");
-    assert!(refused[0].starts_with("PJ006 the file names the tool FACEMILL and does not load it"), "{refused:?}");
+    assert!(refused[0].starts_with("PJ006 the file names the tool FACEMILL but does not load it"), "{refused:?}");
     let lines = by(&two, "MILL=1,face mill=7");
     assert!(lines.iter().any(|line| line.starts_with("T7 M6")), "{lines:?}");
     let same = by(&format!("UNITS/MM\n{}{}", path("MILL", 1), path("MILL", 2)), "1");
@@ -618,7 +616,7 @@ fn tools_that_are_only_named_need_numbers() {
     let msys = "MSYS/0,0,0,1,0,0,0,1,0\n";
     let other = msys.replace("/0,0,0", "/0,-40,-20");
     let setups = format!("UNITS/MM\n{msys}{}{other}{}", path("MILL", 1), path("MILL", 2));
-    assert!(by(&setups, "1")[0].starts_with("PL004 this MSYS is not that of line 2"));
+    assert!(by(&setups, "1")[0].starts_with("PL004 this MSYS differs from the MSYS of line 2"));
     assert!(by(&setups.replace(&other, msys), "1")[0].starts_with("G0"));
 }
 
@@ -762,7 +760,7 @@ fn a_setup_ends_where_a_csys_turns_back() {
     let up = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n";
     let text = TWO_SIDES.replace("RAPID\nGOTO/0,0,50,0,0,1", &format!("{up}RAPID\nGOTO/0,0,50"));
     let refused = front_of(&text, 2);
-    assert!(refused[0].starts_with("PL004 the CSYS of line 25 "), "{refused:?}");
+    assert!(refused[0].starts_with("PL004 the z axis of the CSYS of line 25 "), "{refused:?}");
     let said = text.replace(up, &format!("{up}TLAXIS/0,0,1\n"));
     assert_eq!(front_of(&said, 3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
 }
@@ -773,7 +771,13 @@ fn the_arcs_of_a_marked_file_agree_with_its_mark() {
     let csi = |k: i32| format!("CSI_TOOL_PATH/A\n{HEAD}GOTO/1,0,10\nCIRCLE/1,1,10,0,0,{k},1\nGOTO/2,1,10\nFINI\n");
     assert_eq!(read(&csi(1), Options::default())[2], "G17 G3 X2. Y1. I0 J1.");
     let other = read(&csi(-1), Options::default());
-    assert!(other[0].starts_with("PL006 this CIRCLE turns the other way than those of SolidWorks CAM"), "{other:?}");
+    assert!(
+        other[0].starts_with(
+            "PL006 if this CIRCLE is tangent to the path before it, it turns in the opposite \
+        direction to the circles of SolidWorks CAM"
+        ),
+        "{other:?}"
+    );
     let said = Options { dialect: Some(Dialect::Gener), ..Options::default() };
     assert_eq!(read(&csi(-1), said)[2], "G17 G3 X2. Y1. I0 J1.");
 }
@@ -781,10 +785,10 @@ fn the_arcs_of_a_marked_file_agree_with_its_mark() {
 /// A statement that chooses a work offset or a frame is no remark.
 #[test]
 fn work_offsets_and_frames_of_cl_files_are_not_passed_over() {
-    assert!(error("GOTO/1,0,10\nZERO/2").starts_with("PL004 ZERO chooses a work offset"));
+    assert!(error("GOTO/1,0,10\nZERO/2").starts_with("PL004 ZERO selects a work offset"));
     let upright = "MCS/1,0,0,$\n0,1,0,$\n0,0,1,$\n0,0,0";
     assert_eq!(body(&format!("{upright}\nGOTO/1,0,10")), ["G1 X1. F100."]);
     let other = format!("{upright}\nGOTO/1,0,10\n{}", upright.replace("0,0,0", "5,0,0"));
-    assert!(error(&other).starts_with("PL004 this MCS is not that of line 7"));
+    assert!(error(&other).starts_with("PL004 this MCS differs from the MCS of line 7"));
     assert!(error("MCS/1,0,0,0,0,-1,0,1,0,0,0,0").starts_with("PL004 an MCS that is turned"));
 }

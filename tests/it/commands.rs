@@ -205,7 +205,7 @@ fn dwells_stops_and_compensation() {
 fn prompted_variables_need_an_answer() {
     let form = mill("Ask val1 \"Fixture height\"\nAsk val2 \"Clearance\" 2.5", "BeginRow\nR[val1] Q[val2]\nEnd");
     let path = "{\"begin\":\"row\"},{\"end\":\"row\"}";
-    assert_eq!(program(&form, &job(path)), ["PR015 [val1] is asked for: Fixture height"]);
+    assert_eq!(program(&form, &job(path)), ["PR015 [val1] needs an answer: Fixture height"]);
     let answered = job(path).replacen("\"program\":100", "\"program\":100,\"set\":{\"val1\":3}", 1);
     assert_eq!(program(&form, &answered)[4], "R3. Q2.5");
     let changed = job(&format!("{{\"set\":{{\"val2\":7}}}},{path}")).replacen(

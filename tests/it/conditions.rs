@@ -402,7 +402,7 @@ fn counted_lines_are_counted_along_each_branch() {
 fn a_branch_that_does_not_say_the_hole_is_refused() {
     let drill = "Drill\n@if [depth] > 2\nG83 X[h] Y[v] R[vclear] Q.5 F[frate]\n@else\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel\n";
     let printed = path_lines("", drill, CYCLE);
-    assert_eq!(printed, ["PR017 this way through the sequence does not print the depth: [d]"]);
+    assert_eq!(printed, ["PR017 a branch of the sequence does not print the depth: [d]"]);
 }
 
 #[test]

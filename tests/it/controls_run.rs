@@ -30,29 +30,29 @@ const HEAD: &str = "G21 G90 G94 G17\nT1 M6\nS900 M3\nG0 X0 Y0 Z20.\n";
 fn mills_differ_by_their_files() {
     let cases = [
         // settings of the machine decide
-        ("mach3", "G4 P2", "the file of mach3 does not say what P of a dwell counts"),
-        ("mach3", "G1 F90.\nG2 X10. I5.", "the file of mach3 does not say from where I and J count"),
+        ("mach3", "G4 P2", "the control file of mach3 does not give the unit of P of a dwell"),
+        ("mach3", "G1 F90.\nG2 X10. I5.", "the control file of mach3 does not give the origin of I and J"),
         ("mach3", "G91.1\nG1 F90.\nG2 X10. I5.", ""),
         ("mach3", "G1 F90.\nG2 X10. R5.", ""),
-        ("mach3", "G84 X1. Z-5. R2. F90.", "G84 is no code"),
+        ("mach3", "G84 X1. Z-5. R2. F90.", "G84 is not a code"),
         ("mach3", "G71", ""),
-        ("mach3", "G59.1", "G59.1 is no code"),
+        ("mach3", "G59.1", "G59.1 is not a code"),
         ("pathpilot", "G84 X1. Z-5. R2. F900.", ""),
-        ("pathpilot", "G74 X1. Z-5. R2. F900.", "G74 is no code"),
+        ("pathpilot", "G74 X1. Z-5. R2. F900.", "G74 is not a code"),
         ("pathpilot", "G7", ""),
         ("pathpilot", "G8", ""),
         ("pathpilot", "G54.1 P2", "its P1 is G54 itself"),
         ("centroid", "E7", ""),
         ("centroid", "E19", "E19"),
-        ("centroid", "G86 X1. Z-5. R2. F90.", "G86 is no code"),
-        ("centroid", "G84 X1. Z-5. R2. Q1. F90.", "Q is there"),
-        ("centroid", "M25", "M25 is not run"),
+        ("centroid", "G86 X1. Z-5. R2. F90.", "G86 is not a code"),
+        ("centroid", "G84 X1. Z-5. R2. Q1. F90.", "the block has Q"),
+        ("centroid", "M25", "M25 is not supported"),
         ("grblhal", "G98 G81 X1. Z-5. R2. F90.", ""),
         ("grblhal", "G98 G82 X1. Z-5. R2. P.5 F90.", ""),
         ("grblhal", "G98 G82 X1. Z-5. R2. F90.", "G82 without P"),
-        ("grblhal", "G73 X1. Z-5. R2. Q1. F90.", "G73 is not run"),
-        ("grblhal", "G84 X1. Z-5. R2. F90.", "G84 is not run"),
-        ("grblhal", "G64 P.01", "G64 is no code"),
+        ("grblhal", "G73 X1. Z-5. R2. Q1. F90.", "G73 is not supported"),
+        ("grblhal", "G84 X1. Z-5. R2. F90.", "G84 is not supported"),
+        ("grblhal", "G64 P.01", "G64 is not a code"),
         ("grblhal", "G59.3", ""),
     ];
     blocks(HEAD, "M30\n", &cases);
@@ -65,13 +65,13 @@ fn fluidnc_counts_comments() {
     let (fits, longer) = (comment(127), comment(128));
     let cases = [
         ("fluidnc", fits.as_str(), ""),
-        ("fluidnc", longer.as_str(), "over 127 characters"),
+        ("fluidnc", longer.as_str(), "more than 127 characters"),
         ("grbl", longer.as_str(), ""),
         ("fluidnc", "T2 M6", ""),
-        ("grbl", "T2 M6", "no code or word of Grbl"),
+        ("grbl", "T2 M6", "not a code or word of Grbl"),
         ("fluidnc", "M64 P0", ""),
         ("fluidnc", "M7", ""),
-        ("fluidnc", "G81 X1 Z-5 R2 F90", "no code or word of Grbl"),
+        ("fluidnc", "G81 X1 Z-5 R2 F90", "not a code or word of Grbl"),
         ("fluidnc", "G59.1", "fraction"),
     ];
     blocks("G21 G90 G94 G17\nG0 X0 Y0 Z20\n", "M30\n", &cases);
@@ -113,7 +113,7 @@ fn a_program_may_have_comments_before_its_first_percent() {
     let program = format!("(SHAFT)\n; of the shop\n%\nO7\n{HEAD}M30\n%\n");
     assert_eq!(run("fanuc", &program).map(|_| ()), Ok(()));
     let cut = program.replace("; of the shop", "G0 X9.");
-    assert!(run("fanuc", &cut).unwrap_err().contains("the program is over at `%`"));
+    assert!(run("fanuc", &cut).unwrap_err().contains("the program ends at `%`"));
 }
 
 /// `C0.4` in a cut of a lathe is a chamfer on many machines and an axis on others, and `A30.` an angle: neither is run.

@@ -145,8 +145,11 @@ fn conditions_ask_whether_a_list_holds_a_kind() {
     assert_eq!(codes(&form(KINDS, lines), &several("[\"air\",\"through\"]")), ["M12", "M12", "M101", "M88", "M89"]);
     for (kinds, message) in [
         ("[\"on\",\"high\"]", "PR054 the form has no coolant `high`"),
-        ("[\"on\",\"off\"]", "PJ003 a list of coolants names what is on: write \"off\" alone"),
-        ("[\"air\",\"air\"]", "PJ003 the list names air twice"),
+        (
+            "[\"on\",\"off\"]",
+            "PJ003 a list of coolants contains only coolants that are on: write \"off\" without a list",
+        ),
+        ("[\"air\",\"air\"]", "PJ003 air is in the list twice"),
         ("[]", "PJ003 an empty list of coolants: write \"off\""),
         ("[\"foam\"]", "PJ003"),
         ("8", "PJ003"),
@@ -203,7 +206,7 @@ fn the_forms_own_coolant_stands() {
     assert!(rendered.text.contains("M8\n") && rendered.text.contains("\nM9\n"), "{}", rendered.text);
     let told: Vec<_> = rendered.notes.iter().map(|note| (note.code.name(), note.labels.len())).collect();
     assert_eq!(told, [("PR056", 1)]);
-    assert_eq!(rendered.notes[0].message, "the form prints M8, and the job asks for M9, which is printed after it");
+    assert_eq!(rendered.notes[0].message, "the form prints M8, but the job requests M9, which is printed after it");
 }
 
 /// A speed that the tool change prints stands until the job gives another one.

@@ -173,7 +173,7 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     assert_eq!(differs("M19 R90.", "M19 R90."), None);
     for (new, angle) in [("M19 R270.", "270 degrees"), ("M5", "no angle")] {
         let found = differs("M19 R90.", new).unwrap();
-        assert_eq!(found, format!("the spindle stands on the way here at {angle}, before at 90 degrees"));
+        assert_eq!(found, format!("the spindle angle before this cut is {angle}, in the old program 90 degrees"));
     }
 }
 
@@ -194,13 +194,13 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
     };
     assert_eq!(differs("G21", "G21"), "none");
     for (from, to, message) in [
-        ("G96 S150", "G97 S150", "the speed of the spindle counts turns (G97), before at the surface (G96)"),
-        ("S2500", "S500", "the highest speed of the spindle is 500, before 2500"),
-        ("G50 S2500\n", "", "the highest speed of the spindle is none, before 2500"),
-        ("G1 Z-20. F2.", "G32 Z-20. F2.", "a cut follows the spindle, as a thread does, in one of them"),
-        ("G28 U0 W0", "G58 U0 W0", "a cut goes to a position that only the machine knows in one of them"),
-        ("G28 U0 W0", "G28 W0", "the turret turns at home along Z alone, before at home"),
-        ("G28 U0 W0", "G28 U0", "the turret turns at home along X alone, before at home"),
+        ("G96 S150", "G97 S150", "the spindle speed is in revolutions (G97), in the old program a surface speed (G96)"),
+        ("S2500", "S500", "the speed limit of the spindle is 500, in the old program 2500"),
+        ("G50 S2500\n", "", "the speed limit of the spindle is none, in the old program 2500"),
+        ("G1 Z-20. F2.", "G32 Z-20. F2.", "in one program a cut is synchronized with the spindle, as for a thread"),
+        ("G28 U0 W0", "G58 U0 W0", "in one program a cut goes to an unknown machine position"),
+        ("G28 U0 W0", "G28 W0", "the turret turns at home only along Z, in the old program at home"),
+        ("G28 U0 W0", "G28 U0", "the turret turns at home only along X, in the old program at home"),
     ] {
         assert_eq!(differs(from, to), message, "{from} -> {to}");
     }
@@ -215,7 +215,8 @@ fn motions_of_threads_differ_in_their_words() {
     let twice = "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5 Q180000";
     let at = |angle: &str| {
         format!(
-            "a thread begins at {angle}, flanks of 0, 0 leads to leave, before at 180 degrees, flanks of 0, 0 leads to leave"
+            "a thread begins at {angle}, flanks of 0, 0 leads to leave, in the old program at 180 degrees, flanks of \
+             0, 0 leads to leave"
         )
     };
     assert_eq!(differs(twice, "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5"), Some(at("0 degrees")));
@@ -238,11 +239,11 @@ fn motions_differ_where_a_position_is_unknown_for_another_reason() {
     let home = "G0 Z2.\nG91 G28 Z0\nG90 G54\nG0 X90. Y50.\nG43 H1 Z2.\nG1 Z-5.";
     assert_eq!(
         differs(home, &home.replace("G28", "G58")),
-        Some("the tool no longer goes home along Z on the way here".to_owned())
+        Some("the tool no longer goes home along Z before this cut".to_owned())
     );
     assert_eq!(
         differs("G55\nG1 X50.", "G55\nG1 X50. Z-20."),
-        Some("a cut goes to a position that only the machine knows in one of them".to_owned())
+        Some("in one program a cut goes to an unknown machine position".to_owned())
     );
 }
 
@@ -254,7 +255,9 @@ fn motions_of_taps_differ_in_what_makes_them_rigid() {
     let settings = [RunSettings::new(control("fanuc")); 2];
     let [old, new] = ["M29 S500\n", ""].map(|ahead| Cursor::new(tap(ahead)));
     let found = compare_motions([(old, settings[0]), (new, settings[1])], Units::Mm, 1e-6).unwrap();
-    assert!(found.difference.unwrap().message.starts_with("a tap follows the spindle (M29)"));
+    assert!(
+        found.difference.unwrap().message.starts_with("in one program a tap is synchronized with the spindle (M29)")
+    );
 }
 
 /// A detour is no difference, and is said.
@@ -481,7 +484,8 @@ fn the_command_and_its_formats() {
     let motion = postform(&["diff", old, new, "--motion"]);
     assert_eq!(motion.status.code(), Some(1));
     assert!(
-        stdout(&motion).contains("the feed is 320, before 300") && stdout(&motion).contains("N70 X30. F300."),
+        stdout(&motion).contains("the feed is 320, in the old program 300")
+            && stdout(&motion).contains("N70 X30. F300."),
         "{}",
         stdout(&motion)
     );

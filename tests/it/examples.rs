@@ -168,7 +168,7 @@ fn options_are_checked() {
     let mut options = Options::default();
     options.set.push(("vall".into(), 1.0));
     let error = post().render(Job::json(JOB), &options).unwrap_err();
-    assert!(error.to_string().contains("`vall` is no variable"), "{error}");
+    assert!(error.to_string().contains("`vall` is not a variable"), "{error}");
 }
 
 #[test]

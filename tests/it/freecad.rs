@@ -401,10 +401,10 @@ fn a_custom_operation_prints_what_was_typed() {
         assert!(refused(&typed(code), none).starts_with("PD003"), "{code}");
     }
     // FreeCAD's own operations have no such commands
-    assert!(refused(&with_path("M64 P1"), none).starts_with("PD003 M64: a command that no job can say"));
+    assert!(refused(&with_path("M64 P1"), none).starts_with("PD003 M64: a command that a job can't contain"));
     assert!(refused(&with_path("G91 X1"), none).starts_with("PD003"));
     // a stop takes no words, and none is lost
-    assert!(refused(&with_path("M1 P5"), none).starts_with("PD003 M1: a word P that no job can say"));
+    assert!(refused(&with_path("M1 P5"), none).starts_with("PD003 M1: a word P that a job can't contain"));
     assert!(post("M1 P5", &[]).contains("M1 P5"), "{}", post("M1 P5", &[]));
     assert!(refused(&typed("G2 X3 Y3 I1 R1"), none).starts_with("PD003 G2: an arc with a radius and a centre"));
 }
@@ -446,11 +446,14 @@ fn broken_documents_are_refused() {
     starts(b"", "PD001 the file can't be unpacked");
     // over 1,000 times its packed size
     let bomb = with_path(&format!("G0 X0 Y0 Z5\n{}", "\n".repeat(16 << 20)));
-    starts(&bomb, "PD001 `Op.nc` can't be unpacked: it unpacks to too much");
+    starts(&bomb, "PD001 `Op.nc` can't be unpacked: its unpacked size is too large");
     starts(b"{\"postform\": 1}", "PD001 the file can't be unpacked");
     starts(&with_path("")[..200], "PD001 the file can't be unpacked");
     starts(&archive(&[("a", b"b")]), "PD001 the archive has no `Document.xml`");
-    starts(&archive(&[("Document.xml", b"")]), "PD001 Document.xml can't be read: it is cut short, or is another file");
+    starts(
+        &archive(&[("Document.xml", b"")]),
+        "PD001 Document.xml can't be read: the file is incomplete or not a FreeCAD document",
+    );
     starts(&archive(&[("Document.xml", b"<Document><Object")]), "PD001 Document.xml can't be read");
     starts(&archive(&[("Document.xml", b"\xff\xfe")]), "PD001 `Document.xml` can't be unpacked");
     let entities = b"<!DOCTYPE d [<!ENTITY a \"aaaa\">]><Document ProgramVersion=\"&a;\"/>";
@@ -458,7 +461,10 @@ fn broken_documents_are_refused() {
     starts(&archive(&[("Document.xml", b"<Document ProgramVersion=\"&a;\"/>")]), "PD001 Document.xml can't be read");
     // packed to a few kilobytes
     let large = vec![b' '; 65 << 20];
-    starts(&archive(&[("Document.xml", &large)]), "PD001 `Document.xml` can't be unpacked: it unpacks to too much");
+    starts(
+        &archive(&[("Document.xml", &large)]),
+        "PD001 `Document.xml` can't be unpacked: its unpacked size is too large",
+    );
     let text = document(&[("Job", JOB), ("Operations", OPERATIONS), ("Op", OPERATION), ("Tool", TOOL)]);
     starts(&archive(&[("Document.xml", text.as_bytes())]), "PD001 the archive has no `Op.nc`");
     // what is damaged inside is seen by its checksum
@@ -477,7 +483,7 @@ fn what_a_program_needs_must_be_there() {
             "Job",
             "Fixtures",
             "<StringList><String value=\"H1\"/></StringList>",
-            "PD003 a work offset that no job can say: H1 at ",
+            "PD003 a work offset that a job can't contain: H1 at ",
         ),
         ("Job", "Operations", "<Link value=\"\"/>", "PD001 the job Setup <1> has no list of operations at "),
         (
@@ -507,18 +513,18 @@ fn what_a_program_needs_must_be_there() {
 fn no_word_of_a_path_is_lost() {
     for (path, said) in [
         ("G1 X1 F0", "PD004 G1: a cut without a feed at line 1"),
-        ("G0 X1 Y1 Z5\nG1 X2 Q3", "PD003 G1: a word Q that no job can say at line 2"),
-        ("G10 L2 P1", "PD003 G10: a command that no job can say at line 1"),
-        ("M6 T5", "PD003 M6: a command that no job can say at line 1"),
+        ("G0 X1 Y1 Z5\nG1 X2 Q3", "PD003 G1: a word Q that a job can't contain at line 2"),
+        ("G10 L2 P1", "PD003 G10: a command that a job can't contain at line 1"),
+        ("M6 T5", "PD003 M6: a command that a job can't contain at line 1"),
         ("hello", "PD003 a line of a path that can't be read: hello at "),
         (
             "G0 X1 Y1 Z5\nG84 X1 Y1 Z-5 R2 F1.25",
             "PD003 G84: a tap without a speed S: its F may be a feed or a pitch at line 2",
         ),
         ("G0 X1 Y1 Z5\nG83 X1 Y1 Z-5 R2 F1.25", "PD003 G83: a peck cycle without its step Q at line 2"),
-        ("G98\nG81 X1 Y1 Z-5 R2 F1", "PD003 G81: a cycle with G98 and no height before it at line 2"),
+        ("G98\nG81 X1 Y1 Z-5 R2 F1", "PD003 G81: a cycle with G98, but the height before it is unknown at line 2"),
         ("G0 X1 Y1 Z5\nG81 X1 Y1 Z5 R2 F1", "PD003 G81: a cycle whose bottom Z5 is above its R2 at line 2"),
-        ("G2 X1 Y1 I1 F2", "PD003 G2: an arc from a place that the path does not say at line 1"),
+        ("G2 X1 Y1 I1 F2", "PD003 G2: an arc from an unknown position at line 1"),
         ("G0 X0 Y0 Z0\nG2 X1 Y1 F2", "PD003 G2: an arc whose centre is not in its plane at line 2"),
         ("G0 X0 Y0 Z0\nG41 D1\nG1 X1 F2", "PD003 the operation Holes ends under cutter compensation at "),
         ("M3", "read"),

@@ -118,7 +118,7 @@ fn a_header_keeps_nobody_from_streaming() {
         options.proof = None;
         let mut on = options.clone();
         on.properties.clear();
-        assert!(post.render(Job::json(JOB), &on).unwrap_err().to_string().contains("read once"), "{name}");
+        assert!(post.render(Job::json(JOB), &on).unwrap_err().to_string().contains("read only once"), "{name}");
         if name == "haas" {
             assert!(!post.render(Job::json(JOB), &options).unwrap().text().contains("DRILL"), "{name}");
         }

@@ -230,7 +230,7 @@ fn what_is_not_read_is_refused_by_name() {
     let table = [
         ("siemens", "G17 G54\nROT RPL=45\nM30", "ROT"),
         ("siemens", "CYCLE800(1,0,0,27)\nM30", "CYCLE800"),
-        ("heidenhain", "0 BEGIN PGM T MM\nL M140 MB50\nEND PGM T MM", "M140 is run with MB MAX alone"),
+        ("heidenhain", "0 BEGIN PGM T MM\nL M140 MB50\nEND PGM T MM", "M140 is supported only with MB MAX"),
         ("siemens", "G0 X=$AA_IM[X]\nM30", "$AA_IM"),
         ("siemens", "POCKET3(50,0,2)\nM30", "POCKET3"),
         ("siemens", "G500 G0 X0\nM30", "G500"),
@@ -290,10 +290,10 @@ fn bad_programs_are_refused() {
 fn what_is_not_run_is_named() {
     let refused = |block: &str| actions(&format!("G17 G54\n{block}\nG0 X1\nM30"), "siemens").1;
     for (block, message) in [
-        ("TRAORI", "`TRAORI`, a transformation of five axes, is not run"),
-        ("TRAORI(1)", "`TRAORI`, a transformation of five axes, is not run"),
-        ("ROT RPL=45", "`ROT`, a turned frame, is not run"),
-        ("LIMS=3000", "`LIMS`, the highest speed of the spindle under G96, is not run"),
+        ("TRAORI", "`TRAORI`, a transformation of five axes, is not supported"),
+        ("TRAORI(1)", "`TRAORI`, a transformation of five axes, is not supported"),
+        ("ROT RPL=45", "`ROT`, a turned frame, is not supported"),
+        ("LIMS=3000", "`LIMS`, the speed limit of the spindle under G96, is not supported"),
         ("POCKET7", "there is no subprogram POCKET7 in this file"),
     ] {
         assert!(refused(block).unwrap().contains(message), "{block}");
@@ -392,10 +392,10 @@ fn one_part_for_two_controls_is_compared_by_its_holes() {
     assert_eq!(same.difference, None);
     assert_eq!((same.cuts, same.pecks, same.feeds), (3, 2, 3));
     for (what, by, said) in [
-        ("Q201=-22", "Q201=-21", "a hole goes down to Z31, before to Z30"),
+        ("Q201=-22", "Q201=-21", "a hole goes to Z31, in the old program to Z30"),
         ("L X+20", "L X+21", "X21"),
-        ("Q206=636.62 Q202=12", "Q206=600 Q202=12", "the feed is 600, before 637"),
-        ("S295", "S300", "the spindle speed is 300, before 295"),
+        ("Q206=636.62 Q202=12", "Q206=600 Q202=12", "the feed is 600, in the old program 637"),
+        ("S295", "S300", "the spindle speed is 300, in the old program 295"),
         ("Q339=1", "Q339=2", "the work offset"),
     ] {
         let other = compared(&klartext.replace(what, by)).difference.map(|difference| difference.message);
@@ -414,7 +414,10 @@ fn a_program_is_printed_for_another_machine() {
             let printed = crate::program_commands::postform(&command);
             let (text, said) = (String::from_utf8(printed.stdout).unwrap(), String::from_utf8(printed.stderr).unwrap());
             assert_eq!(printed.status.code(), Some(0), "{from} to {to}: {said}");
-            assert!(said.contains("equivalent: the program cuts what samples/bracket"), "{from} to {to}: {said}");
+            assert!(
+                said.contains("equivalent: the program makes the cuts of samples/bracket"),
+                "{from} to {to}: {said}"
+            );
             assert!(said.contains("20 holes") || said.contains("16 holes"), "{from} to {to}: {said}");
             // nothing but pecks and the parts of arcs is another
             let verdict = said.lines().find(|line| line.starts_with("equivalent")).unwrap();

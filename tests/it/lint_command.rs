@@ -149,8 +149,8 @@ fn a_wrong_configuration_is_wrong_usage() {
     folder.write("form.pf", mill("", ""));
     let table = [
         ("[rules]\nPF303 = \"of\"\n", "a rule is off, note, warning or error"),
-        ("[rules]\nPF9 = \"off\"\n", "no family"),
-        ("[rules]\nPF001 = \"off\"\n", "PF001 is an error of the form"),
+        ("[rules]\nPF9 = \"off\"\n", "nor a family"),
+        ("[rules]\nPF001 = \"off\"\n", "PF001 is an error"),
         ("[rule]\nPF303 = \"off\"\n", "unknown field `rule`"),
         ("control = \"hurco\"\n", "linuxcnc"),
         ("limits = 3\n", "invalid type"),
@@ -177,7 +177,7 @@ fn a_configuration_is_a_file() {
     fs::create_dir_all(folder.0.join("folder/postform.toml")).unwrap();
     symlink("nowhere", folder.0.join("nothing/postform.toml")).unwrap();
     symlink("/dev/null", folder.0.join("device/postform.toml")).unwrap();
-    for (name, message) in [("folder", "is no file"), ("nothing", "can't read"), ("device", "is no file")] {
+    for (name, message) in [("folder", "is not a file"), ("nothing", "can't read"), ("device", "is not a file")] {
         let output = folder.run(&["lint", &format!("{name}/form.pf")]);
         assert_eq!(output.status.code(), Some(2), "{name}: {}", err(&output));
         let place = format!("{name}/postform.toml");
@@ -221,7 +221,9 @@ fn folders_are_not_left_through_links() {
     // a form that calls a pipe
     folder.write("calls.pf", mill("Call pipe", ""));
     pipe("pipe");
-    assert!(out(&folder.run(&["lint", "calls.pf", "--format", "github"])).contains("title=PF009::`pipe` is no file"));
+    assert!(
+        out(&folder.run(&["lint", "calls.pf", "--format", "github"])).contains("title=PF009::`pipe` is not a file")
+    );
 }
 
 #[test]
@@ -240,7 +242,7 @@ fn safe_fixes_are_made_in_the_files_and_keep_their_line_ends() {
     let again = folder.run(&["lint", "--fix", "form.pf"]);
     assert!(out(&again).contains("; 0 fixed"));
     let input = folder.run(&["lint", "--fix", "-"]);
-    assert_eq!((input.status.code(), err(&input).contains("standard input is none")), (Some(2), true));
+    assert_eq!((input.status.code(), err(&input).contains("standard input can't be fixed")), (Some(2), true));
 }
 
 #[test]
@@ -252,7 +254,7 @@ fn unsafe_fixes_show_the_program_before_and_after() {
     let shown = folder.run(&["lint", "--unsafe-fixes", "form.pf", "--job", "job.json"]);
     let story = out(&shown);
     for part in [
-        "form.pf: 1 unsafe fix that --fix --unsafe-fixes would make:\n",
+        "form.pf: 1 unsafe fix (made by --fix --unsafe-fixes):\n",
         "form.pf:22: write the digit (PF206)\n",
         "-G1 F10.\n-Gl X1. Y1. Z0 F10.\n+G1 X1. Y1. Z0 F10.\n",
     ] {
@@ -298,11 +300,11 @@ fn unsafe_fixes_that_nobody_can_see_are_not_made() {
     assert_eq!((missing.status.code(), folder.read("form.pf")), (Some(2), text.clone()));
     // places are those of the file, and safe fixes are not told as others
     let shown = out(&folder.run(&["lint", "--unsafe-fixes", "form.pf"]));
-    assert!(shown.starts_with("form.pf: 1 unsafe fix that --fix --unsafe-fixes would make:\n"), "{shown}");
+    assert!(shown.starts_with("form.pf: 1 unsafe fix (made by --fix --unsafe-fixes):\n"), "{shown}");
     let line = text.lines().position(|line| line.starts_with("Gl")).unwrap() + 1;
     assert!(shown.contains(&format!("  form.pf:{line}: write the digit (PF206)\n")), "{shown}");
     let broken = folder.run(&["lint", "--fix", "--unsafe-fixes", "form.pf", "--job", "broken.json"]);
-    assert!(out(&broken).contains("1 unsafe fix not made") && out(&broken).contains("broken.json is not printed"));
+    assert!(out(&broken).contains("unsafe fix") && out(&broken).contains("broken.json can't be printed"));
     assert_eq!(broken.status.code(), Some(1));
     assert_eq!(folder.read("form.pf"), text.replace("]F[", "] F[").replace("WindowSize 80\n", ""), "the safe ones");
 }
@@ -389,7 +391,7 @@ fn new_forms_are_clean_laid_out_and_print() {
         assert!(out(&output).lines().count() > 10);
         // somebody's work stays
         let again = folder.run(&["new", "--control", control, "-o", &name]);
-        assert_eq!((again.status.code(), err(&again).contains("is there already")), (Some(2), true));
+        assert_eq!((again.status.code(), err(&again).contains("exists already")), (Some(2), true));
     }
     let printed = folder.run(&["new", "--control", "haas"]);
     assert_eq!(out(&printed), folder.read("haas.pf"));

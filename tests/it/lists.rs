@@ -111,7 +111,7 @@ fn each_work_offset_has_extents_of_its_own() {
         lines("@for work\n(G[work] X[hmin] TO [hmax], [opcount])\n@end", &job),
         ["(G54 X0 TO 10, 1)", "(G55 X0 TO 20, 1)"]
     );
-    let error = "PR052 [hmin] in a job of several work offsets";
+    let error = "PR052 [hmin] in a job with several work offsets";
     assert_eq!(lines("(X[hmin])", &job), [error]);
     assert_eq!(lines("X[hmin]", &job), [error]);
     assert_eq!(lines("@if [hmin]\n(X[hmin])\n@else\n(TWO PARTS)\n@end", &job), ["(TWO PARTS)"]);
@@ -172,7 +172,7 @@ fn a_work_offset_that_a_subprogram_says_is_its_own() {
     let each = "@for work\n(G[work]: X[hmin] TO [hmax] Y[vmin] TO [vmax], [opcount])\n@end";
     let own = job_with(sub, path);
     assert_eq!(lines_with_subs(each, &own), ["(G54: X0 TO 100 Y0 TO 0, 1)", "(G56: X0 TO 7 Y0 TO 7, 1)"]);
-    assert_eq!(lines_with_subs("(X[hmin])", &own), ["PR052 [hmin] in a job of several work offsets"]);
+    assert_eq!(lines_with_subs("(X[hmin])", &own), ["PR052 [hmin] in a job with several work offsets"]);
     // of a subprogram that a subprogram calls, of a call, and of a call in a subprogram
     let plain = sub.replace("{\"work\":56},", "");
     let calls = |before: &str| format!("{{\"number\":6,\"path\":[{before}{{\"call\":{{\"sub\":5}}}}]}}");
@@ -345,7 +345,7 @@ fn tools_ahead_are_not_guessed() {
     let mut once = unproven();
     once.one_pass = true;
     let error = post.render(Job::json(&plain), &once).unwrap_err().to_string();
-    assert!(error.contains("the tools that come next are not known"), "{error}");
+    assert!(error.contains("the next tools are unknown"), "{error}");
     let listed = plain.replacen("\"tools\"", "\"tool_order\":[1,2],\"tools\"", 1);
     let printed = post.render(Job::json(&listed), &once).unwrap();
     assert_eq!(printed.text(), post.render(Job::json(&plain), &unproven()).unwrap().text());
@@ -387,5 +387,5 @@ fn fields_of_tools_are_those_of_the_tool() {
     assert_eq!(said, ["(AT ER32 OP 0)", "(AT ER32 OP 1)", "(AT  OP 2)"], "{printed:?}");
     // a name that is none is still said
     let wrong = crate::support::check("StartCode\n(X [tool.])\nEnd\n");
-    assert!(wrong.diags.iter().any(|diag| diag.message.contains("`tool.` is no variable")), "{:?}", wrong.diags);
+    assert!(wrong.diags.iter().any(|diag| diag.message.contains("`tool.` is not a variable")), "{:?}", wrong.diags);
 }

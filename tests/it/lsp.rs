@@ -82,7 +82,7 @@ fn a_form_is_linted_as_it_is_typed_with_the_levels_of_its_folder() {
     assert_eq!(codes(&desk.findings), ["PF102"]);
     let finding = &desk.findings[0];
     assert_eq!((desk.text_of(&finding["range"]), &finding["severity"]), ("G[work]", &json!(2)));
-    assert!(finding["message"].as_str().unwrap().contains("put one blank before it"));
+    assert!(finding["message"].as_str().unwrap().contains("put one space before it"));
     assert!(desk.editor.change("my.pf", HAAS).is_empty());
     let found = desk.editor.change("my.pf", &HAAS.replacen("X[h]", "X[hh]", 1));
     assert_eq!((codes(&found), &found[0]["severity"]), (vec!["PF202"], &json!(1)));
@@ -155,7 +155,7 @@ fn a_program_must_fit_into_the_machine_of_its_folder() {
     assert!(editor.change("part.nc", &program.replace("250", "150")).is_empty());
     folder.write("vf2.toml", "[axes.X]\ntravel = 7\n");
     let found = editor.change("part.nc", program);
-    assert!(found[0]["message"].as_str().unwrap().contains("the travel of X is two numbers"), "{found:?}");
+    assert!(found[0]["message"].as_str().unwrap().contains("the travel of X must be two numbers"), "{found:?}");
     editor.quit();
 }
 
@@ -215,7 +215,10 @@ fn variables_come_with_unit_meaning_and_value_in_the_current_job() {
     desk.cursor = place(&half, half.find("R[vc").unwrap() + 4);
     let list = desk.ask("textDocument/completion");
     let vclear = item(&list, "vclear").unwrap();
-    assert_eq!(vclear["detail"], "length = 0.1 in bracket: clearance plane (R plane): where the feed begins");
+    assert_eq!(
+        vclear["detail"],
+        "length = 0.1 in bracket: clearance plane (R plane): the height where the feed begins"
+    );
     assert_eq!(vclear["textEdit"]["newText"], "vclear]");
     assert!(item(&list, "h2").is_none(), "a variable of wire EDM");
     let known = desk.editor.ask("completionItem/resolve", vclear);
@@ -288,7 +291,10 @@ fn hover_explains_and_says_what_the_line_printed() {
     let mut desk = Desk::new("hover", "Z[d] R[vclear]", "Z[d] R[v|clear]");
     let hover = desk.ask("textDocument/hover");
     let text = hover["contents"]["value"].as_str().unwrap();
-    assert!(text.starts_with("**[vclear] (variable)**\n\nclearance plane (R plane): where the feed begins"), "{text}");
+    assert!(
+        text.starts_with("**[vclear] (variable)**\n\nclearance plane (R plane): the height where the feed begins"),
+        "{text}"
+    );
     assert!(
         text.contains("in bracket: **0.1**") && text.contains("in bracket this line prints 4 blocks\n```nc\n"),
         "{text}"
@@ -635,11 +641,11 @@ fn a_cut_off_message_and_a_lost_editor_end_the_server() {
         (status.code(), said)
     };
     let (code, said) = end(b"Content-Length: 500\r\n\r\n{\"jsonrpc\"", true);
-    assert_eq!((code, said.contains("cut off inside a message")), (Some(2), true), "{said}");
+    assert_eq!((code, said.contains("ended inside a message")), (Some(2), true), "{said}");
     let (code, said) = end(b"Content-Length: 99999999999999\r\n\r\n", true);
-    assert_eq!((code, said.contains("the longest has 64 MB")), (Some(2), true), "{said}");
+    assert_eq!((code, said.contains("the limit is 64 MB")), (Some(2), true), "{said}");
     let (code, said) = end(b"hello\r\n", false);
-    assert_eq!((code, said.contains("no header")), (Some(2), true), "{said}");
+    assert_eq!((code, said.contains("not a header")), (Some(2), true), "{said}");
     let (code, said) = end(b"", true);
     assert_eq!((code, said.contains("without `shutdown`")), (Some(1), true), "{said}");
     let mut editor = Editor::open(&folder.0, &able(), &Value::Null);

@@ -72,7 +72,7 @@ fn what_a_block_does_not_say_stays_or_moves_on() {
     for blocks in ["T1 M6\nG91 G0 Z2", "G43 H1\nG43.2 H2\nG0 Z1\nG91 Z1"] {
         let fitted = fitted(&format!("G21 G90 G54\nG0 X1 Y2 Z3\n{blocks}\nM2\n"), &machine);
         let said = fitted.fit.not_checked.join("; ");
-        assert!(said.contains("increments from a position that only the machine knows"), "{blocks}: {said}");
+        assert!(said.contains("increments from an unknown machine position"), "{blocks}: {said}");
     }
     // a helix in G19 whose frame is turned: the machine's X has its least within it, by LinuxCNC at -6.3332 inch
     let inch = "control = \"linuxcnc\"\nunits = \"inch\"\n[axes.X]\ntravel = [-100, 100]\n[offsets]\nG55 = [-4.12, -8.782, -3.94]\n";
@@ -91,16 +91,14 @@ fn an_axis_ends() {
     finds(
         "G1 Z-250.5 F100",
         "",
-        &[
-            "PM001 5 T5 needs Z-510.5 in machine coordinates, and the travel ends at Z-508: 2.5 mm short; a tool 2.5 longer, or G54 Z 2.5 higher, would do",
-        ],
+        &["PM001 5 T5 needs Z-510.5 in machine coordinates, but the travel ends at Z-508: 2.5 mm too short; it \
+             fits with a tool 2.5 longer, or with G54 Z 2.5 higher"],
     );
     finds(
         "X400.\nX401.\nX405.",
         "",
-        &[
-            "PM001 7 T5 needs X5 in machine coordinates, and the travel ends at X0: 5 mm short; G54 X 5 lower would do; beyond it from line 6 on",
-        ],
+        &["PM001 7 T5 needs X5 in machine coordinates, but the travel ends at X0: 5 mm too short; it fits with G54 \
+             X 5 lower; beyond the travel from line 6 on"],
     );
     // the middle of an arc: about 390, 0 with a radius of 20, from below to above
     finds("X390 Y-20 Z1\nG1 Z-1 F100\nG3 X390 Y20 J20", "", &["PM001 7 T5 needs X10 "]);
@@ -168,17 +166,17 @@ fn a_rapid_goes_through_a_clamp() {
 
 #[test]
 fn feeds_speeds_tools_coolant_and_memory() {
-    finds("G1 X10 F17000", "", &["PM010 5 X is to feed 17000 mm/min, and its fastest is 16500"]);
+    finds("G1 X10 F17000", "", &["PM010 5 X would feed at 17000 mm/min, but its maximum is 16500"]);
     finds("G1 X10 Y10 F17000", "", &[]);
     finds(
         "S9000 M3",
         "[spindle]\nspeed = [30, 8100]\n",
-        &["PM010 5 the spindle's speed is S9000, and the machine has 30 to 8100"],
+        &["PM010 5 the spindle's speed is S9000, but the range of the machine is 30 to 8100"],
     );
-    finds("M8\nM7", "[coolant]\nkinds = [\"flood\"]\n", &["PM013 6 the program wants mist"]);
+    finds("M8\nM7", "[coolant]\nkinds = [\"flood\"]\n", &["PM013 6 the program turns on mist"]);
     let tools = format!("{VF2}[tools]\nplaces = 1\n");
     let program = "O12345\nT1 M6\nT2 M6\nM30\n";
-    assert_eq!(found(program, &tools), ["PM012 3 the program uses more tools than the magazine holds: 1"]);
+    assert_eq!(found(program, &tools), ["PM012 3 the program uses more tools than the magazine has places: 1"]);
     let memory = format!("{VF2}[memory]\nbytes = 10\nnumbers = [1, 9999]\n");
     let both = found(program, &memory);
     assert!(both[0].contains("23 bytes") && both[1].contains("12345"), "{both:?}");
@@ -190,21 +188,21 @@ fn a_wrong_file_is_named_by_line_and_column() {
         ("[axes.X]\ntravel = [0, -762]\n", 2, "goes from 0 to -762"),
         ("[axes.X]\ntravel = [0]\n", 2, "two numbers"),
         ("[axes.X]\ntravel = \"endless\"\n", 2, "two numbers"),
-        ("[axes.W]\ntravel = [0, 1]\n", 1, "no axis"),
-        ("[axes.X]\nfeed = 0\n", 2, "over 0"),
-        ("[axes.X]\nfeed = nan\n", 2, "over 0"),
+        ("[axes.W]\ntravel = [0, 1]\n", 1, "not an axis"),
+        ("[axes.X]\nfeed = 0\n", 2, "above 0"),
+        ("[axes.X]\nfeed = nan\n", 2, "above 0"),
         ("[axes.X]\ntravle = [0, 1]\n", 2, "unknown field"),
         ("control = \"hass\"\n", 1, "no control `hass`"),
-        ("[offsets]\nG99 = [0, 0, 0]\n", 2, "no work offset"),
+        ("[offsets]\nG99 = [0, 0, 0]\n", 2, "not a work offset"),
         ("[offsets]\nG54 = []\n", 2, "six numbers"),
         ("[tools]\nplaces = -1\n", 2, "places"),
         ("[tools]\nfile = \"t.csv\"\n", 2, "no t.csv"),
         ("[tools.5]\nlenght = 3\n", 1, "unknown field"),
-        ("[tools.x]\nlength = 3\n", 1, "`x` is nothing"),
-        ("[spindle]\nspeed = [8100, 30]\n", 2, "count up"),
+        ("[tools.x]\nlength = 3\n", 1, "no key `x`"),
+        ("[spindle]\nspeed = [8100, 30]\n", 2, "ascending order"),
         ("[axes.Z]\ntravel = [-500, 0]\n[reference]\nG28 = [0, 0, 5]\n", 4, "G28 goes to Z5"),
         ("[coolant]\nkinds = [\"oil\"]\n", 2, "unknown variant"),
-        ("[[fixtures]]\nwork = \"G54\"\nbox = [[0, 0, 0], [0, 1, 1]]\n", 3, "count up"),
+        ("[[fixtures]]\nwork = \"G54\"\nbox = [[0, 0, 0], [0, 1, 1]]\n", 3, "larger than the first"),
         ("x", 1, ""),
         ("\u{0}", 1, ""),
     ];
@@ -227,7 +225,7 @@ fn a_program_that_does_not_fit_is_not_printed() {
     let render = ["render", "job.json", "--form", "form.pf", "-o", "a.nc"];
     let stopped = folder.run(&render);
     assert_eq!(stopped.status.code(), Some(1), "{}", err(&stopped));
-    assert!(err(&stopped).contains("PM001") && err(&stopped).contains("25 inch short"), "{}", err(&stopped));
+    assert!(err(&stopped).contains("PM001") && err(&stopped).contains("25 inch too short"), "{}", err(&stopped));
     assert!(err(&stopped).contains("operations[0].path[1]"), "{}", err(&stopped));
     assert!(!folder.has("a.nc"));
     let all_the_same = folder.run(&[&render[..], &["--no-verify"]].concat());

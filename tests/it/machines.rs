@@ -173,7 +173,7 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     let lines = turned("Thread G33", "", &cone);
     assert_eq!(lines[1..], ["G33 X.6 Z-1. I.12 F.2", "G0 Z.3 X1.", "G33 X.6 Z-1. I.13 F.2"]);
     let both = taper.replace("\"pitch\"", "\"taper\":0.07,\"pitch\"");
-    assert!(turned("Thread G33", "", &both)[0].starts_with("PR031 the thread's ends differ"));
+    assert!(turned("Thread G33", "", &both)[0].starts_with("PR031 the ends of the thread differ"));
     let inner = THREAD.replace("0.08", "-0.08");
     assert_eq!(turned("Thread G33", "", &inner)[1..2], ["G33 X1.08 Z-1. I0 F.1"]);
 }

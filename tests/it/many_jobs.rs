@@ -60,7 +60,7 @@ fn alike_names_are_an_error_before_anything_is_written() {
     assert_eq!(output.status.code(), Some(2));
     let said = err(&output);
     assert!(
-        said.contains("error: nc/plate.nc would be the program of jobs/other/plate.json and jobs/plate/job.json"),
+        said.contains("error: nc/plate.nc would be the file of jobs/other/plate.json and jobs/plate/job.json"),
         "{said}"
     );
     assert!(!folder.has("nc"));
@@ -138,7 +138,7 @@ fn a_job_is_split_by_tool_operation_and_work_offset() {
     let output = split(&["--split", "tool", "--name", "{job}-{operation}"]);
     assert!(err(&output).contains("{operation} has no value here"), "{}", err(&output));
     let output = split(&["--split", "tool", "--name", "{job}"]);
-    assert!(err(&output).contains("would be the program of two parts of jobs/bracket/job.json"), "{}", err(&output));
+    assert!(err(&output).contains("would be the file of two parts of jobs/bracket/job.json"), "{}", err(&output));
     let output = split(&["--split", "tool", "--name", "{operation}"]);
     assert_eq!(output.status.code(), Some(2));
 }
@@ -175,7 +175,7 @@ fn verify_and_check_take_several_jobs() {
     let output = folder.run(&["verify", "jobs", "--nc", "x.nc"]);
     assert_eq!(output.status.code(), Some(2));
     let output = folder.run(&["check", "jobs", "-"]);
-    assert!(err(&output).contains("standard input is no job of several"), "{}", err(&output));
+    assert!(err(&output).contains("standard input can't be one of several jobs"), "{}", err(&output));
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(err(&output).matches("{tool} has no value here").count(), 1);
     let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "haas.pf"]);
-    assert_eq!((output.status.code(), err(&output).as_str()), (Some(2), "error: haas.pf is no folder\n"));
+    assert_eq!((output.status.code(), err(&output).as_str()), (Some(2), "error: haas.pf is not a folder\n"));
     // a folder, or a link, of a program's name
     fs::create_dir_all(folder.0.join("nc/plate.nc")).unwrap();
     let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "nc"]);
@@ -264,5 +264,5 @@ fn compressed_jobs_and_programs() {
     assert_eq!(err(&output), "error: can't read cut.nc.gz: the compressed file is cut off\n");
     folder.write("plain.json.gz", folder.read("jobs/plate/job.json"));
     let output = folder.run(&["check", "plain.json.gz"]);
-    assert!(err(&output).contains("it is no gzip file"), "{}", err(&output));
+    assert!(err(&output).contains("it is not a gzip file"), "{}", err(&output));
 }

@@ -120,19 +120,19 @@ fn what_is_refused_has_its_line() {
     };
     let table: Vec<(String, Code, &str)> = vec![
         (String::new(), Code::PI001, "the file is empty"),
-        ("G0 X1\n".into(), Code::PI001, "`G0 X1` is no number of a record"),
+        ("G0 X1\n".into(), Code::PI001, "`G0 X1` is not a record number"),
         ("1003\n0. 0. 0.\n".into(), Code::PI001, "does not begin with record 1050"),
         (change("1003\n0. 0. 0.\n", ""), Code::PI004, "ends without its last record"),
         (change("1003\n0. 0. 0.\n", "1003\n"), Code::PI004, "cut off after the number"),
         (text.clone() + "0\n0 0. 0. 0. -2. 0\n", Code::PI001, "a record after the end"),
-        (change("0 0. 0. 2. -2. 0", "0 0. 0. NaN -2. 0"), Code::PI001, "a value that is no number"),
-        (change("0 0. 0. 2. -2. 0", "0 0. 0."), Code::PI001, "record 0 has 3 values, and needs 5"),
+        (change("0 0. 0. 2. -2. 0", "0 0. 0. NaN -2. 0"), Code::PI001, "a value that is not a number"),
+        (change("0 0. 0. 2. -2. 0", "0 0. 0."), Code::PI001, "record 0 has 3 values, but needs 5"),
         (change("0 0. 0. 2. -2. 0", "10000 0. 0. 2. -2. 0"), Code::PI003, "canned text 10"),
         (change("0 0. 0. 2. -2. 0", "0 0. 0. 2. -0.1 0"), Code::PI003, "a feed of -0.1"),
         (
             change("0 0 20. 10. 10. 10. -5. -1. 0 0", "0 0 20. 10. 10. 11. -5. -1. 0 0"),
             Code::PI001,
-            "an arc that begins",
+            "the start of an arc",
         ),
         (
             change("0 0 20. 10. 10. 10. -5. -1. 0 0", "2 0 20. 10. 10. 10. -5. -1. 0 0"),
@@ -142,13 +142,13 @@ fn what_is_refused_has_its_line() {
         (
             change("0 0 20. 10. 10. 10. -5. -1. 0 0", "0 0 10. 0. 10. 10. -5. -1. 0 0"),
             Code::PI001,
-            "may be a full circle",
+            "not clearly a full circle",
         ),
         (change("1 10. 10. -20. 0.5 120.", "7 10. 10. -20. 0.5 120."), Code::PI003, "a cycle of type 7"),
         (
             change("50. 2. 0. 0. 10. 10. 50. 0 0", "50. -2. 0. 0. 10. 10. 50. 0 0"),
             Code::PI001,
-            "no heights one below the other",
+            "not in descending order",
         ),
         (change("50. 2. 0. 0. 10. 10. 50. 0 0", "50. 2. 0. 0. 10. 11. 50. 0 0"), Code::PI003, "not along Z"),
         (change("\n80\n\n", "\n1025\n0 1 0 0 0 0 0 0 0 0\n80\n\n"), Code::PI003, "canned text (1025)"),

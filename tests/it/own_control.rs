@@ -45,7 +45,7 @@ fn every_command_goes_by_the_file() {
     let lint = folder.run(&["lint", "own.pf"]);
     assert_eq!(out(&lint), "0 errors, 0 warnings, 0 notes\n", "{}", err(&lint));
     let lint = out(&folder.run(&["lint", "haas.pf", "--format", "github"]));
-    assert!(lint.contains("title=PF608::haas has no G201 that we know"), "{lint}");
+    assert!(lint.contains("title=PF608::G201 is unknown for haas"), "{lint}");
 
     let render = folder.run(&["render", "job.json", "--form", "own.pf", "-o", "own.nc"]);
     assert_eq!(render.status.code(), Some(0), "{}", err(&render));
@@ -76,11 +76,11 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     let rows = folder.read("new.toml").replace("# \"", "\"");
     assert_eq!(rows.matches("\n\"").count(), 4, "{rows}");
     // the tables besides codes, with their marks taken away
-    let (head, rest) = rows.split_once("away where it does.\n").unwrap();
+    let (head, rest) = rows.split_once("where your control differs.\n").unwrap();
     let (tables, codes) = rest.split_once("\n# The codes").unwrap();
     let tables: String = tables.lines().map(|line| format!("{}\n", line.strip_prefix("# ").unwrap())).collect();
     assert_eq!(tables.matches(" = ").count(), 8, "{tables}");
-    let rows = format!("{head}away where it does.\n{tables}\n# The codes{codes}");
+    let rows = format!("{head}where your control differs.\n{tables}\n# The codes{codes}");
     folder.write("vf2.toml", rows);
     let lint = folder.run(&["lint", "own.pf"]);
     assert_eq!(out(&lint), "0 errors, 0 warnings, 0 notes\n", "{}", err(&lint));
@@ -161,7 +161,7 @@ fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
         (
             "name = \"vf2\"\nlike = \"haas\"\n[arcs]\nmm = { least = nan, part = 0, most = 1, chord = 0 }\n",
             "4:6",
-            "from 0 on",
+            "0 or more",
         ),
         ("name = \"vf2\"\nlike = \"haas\"\n[codes]\nG81 = { is = \"cycle\" }\n", "4:14", "makes = \"drill\""),
         ("name = \"vf2\"\n", "1:8", "like = \"fanuc\""),
@@ -350,7 +350,8 @@ fn a_form_of_other_numbers_is_proven() {
     );
     let run = folder.run(&["render", job, "--form", "own.pf", "-o", "own.nc"]);
     assert!(
-        err(&run).contains("G783 is not run: the file of own does not say how it moves: `motions = \"peck\"`"),
+        err(&run)
+            .contains("G783 is not supported: the control file of own does not give its motions: `motions = \"peck\"`"),
         "{}",
         err(&run)
     );
@@ -361,11 +362,11 @@ fn a_form_of_other_numbers_is_proven() {
 fn a_row_that_lacks_something_is_not_run_and_says_what() {
     let folder = Folder::new("own_control_lacks");
     let rows = [
-        ("G185", "is = \"cycle\", words = \"R\", makes = \"bore\"", "how it moves: `motions = \"peck\"`"),
-        ("G505", "is = \"work\"", "which work offset: `work = \"G54\"`"),
-        ("G54", "is = \"work\"", "which work offset: `work = \"G54\"`"),
-        ("G128", "is = \"reference\"", "which reference point: `point = 1`"),
-        ("G110-G129", "is = \"work\", work = \"G54.1 P90\"", "which work offset"),
+        ("G185", "is = \"cycle\", words = \"R\", makes = \"bore\"", "its motions: `motions = \"peck\"`"),
+        ("G505", "is = \"work\"", "its work offset: `work = \"G54\"`"),
+        ("G54", "is = \"work\"", "its work offset: `work = \"G54\"`"),
+        ("G128", "is = \"reference\"", "its reference point: `point = 1`"),
+        ("G110-G129", "is = \"work\", work = \"G54.1 P90\"", "its work offset"),
     ];
     for (code, row, lacks) in rows {
         folder.write("own.toml", format!("name = \"own\"\nlike = \"haas\"\n[codes]\n\"{code}\" = {{ {row} }}\n"));
@@ -374,19 +375,23 @@ fn a_row_that_lacks_something_is_not_run_and_says_what() {
         let run = folder.run(&["simulate", "moves.nc", "--control", "own.toml"]);
         let said = err(&run);
         assert!(run.status.code() == Some(1) && said.contains("PN016") && said.contains(code), "{code}: {said}");
-        assert!(said.contains(lacks) && said.contains("the file of own"), "{code}: {said}");
+        assert!(said.contains(lacks) && said.contains("the control file of own"), "{code}: {said}");
     }
     for (row, at, why) in [
         (
             "\"G185\" = { is = \"cycle\", makes = \"bore\", motions = \"feed\" }",
             "\"feed\"",
-            "`feed` are no motions of a cycle",
+            "`feed` is not a kind of cycle motions",
         ),
-        ("\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = { I = \"inch\" } }", "{ I", "no letter of a word"),
-        ("\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = \"IJ\" }", "\"IJ\"", "no letter of a word"),
-        ("\"G54\" = { is = \"work\", work = \"G53\" }", "\"G53\"", "`G53` is no work offset"),
+        (
+            "\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = { I = \"inch\" } }",
+            "{ I",
+            "not a letter, and not letters",
+        ),
+        ("\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = \"IJ\" }", "\"IJ\"", "not a letter, and not letters"),
+        ("\"G54\" = { is = \"work\", work = \"G53\" }", "\"G53\"", "`G53` is not a work offset"),
         ("\"G28\" = { is = \"reference\", point = 3 }", "3 }", "there are two reference points"),
-        ("\"G28\" = { is = \"rapid\", point = 1 }", "1 }", "`point` is of reference points"),
+        ("\"G28\" = { is = \"rapid\", point = 1 }", "1 }", "`point` belongs to reference points"),
     ] {
         folder.write("own.toml", format!("name = \"own\"\nlike = \"haas\"\n[codes]\n{row}\n"));
         let at = row.find(at).unwrap() + 1;
@@ -551,10 +556,10 @@ fn a_brother_taps_by_its_pitch() {
     let tap = simulated(&folder, "brother", &inch).unwrap();
     assert!(tap.contains("\"feed\":[1,1,-9,0,0,0],\"f\":25}"), "{tap}");
     for (wrong, said) in [
-        (mm.replace("I1.25", "J20."), "G77 takes J in programs in inches alone"),
-        (inch.replace("J16.", "I1.25"), "G77 takes I in programs in millimetres alone"),
+        (mm.replace("I1.25", "J20."), "G77 takes J only in programs in inches"),
+        (inch.replace("J16.", "I1.25"), "G77 takes I only in programs in millimetres"),
         (mm.replace("I1.25 ", ""), "a canned cycle without a feed"),
-        (mm.replace("L3000", "K2"), "K is there, and no code that uses it"),
+        (mm.replace("L3000", "K2"), "the block has K, but no code that uses K"),
     ] {
         let refused = simulated(&folder, "brother", &wrong).unwrap_err();
         assert!(refused.contains(said), "{wrong}{refused}");
@@ -592,10 +597,10 @@ fn a_code_brings_in_a_tool_of_a_bank() {
     // such a code names its tool
     folder.write("router.toml", bank.replace(", tool = 101", ""));
     let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
-    assert!(err(&run).contains("the file of router does not say which tool"), "{}", err(&run));
+    assert!(err(&run).contains("the control file of router does not give its tool"), "{}", err(&run));
     folder.write("router.toml", bank.replace("tool-number", "harmless"));
     let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
-    assert!(err(&run).contains("`tool` is of codes that mean `tool-number`"), "{}", err(&run));
+    assert!(err(&run).contains("`tool` belongs to codes that mean `tool-number`"), "{}", err(&run));
 }
 
 /// `T3 T7 M6` of a Mazak changes to tool 3 and gets tool 7 ready; other controls take one T in a block.
@@ -609,10 +614,10 @@ fn a_second_t_names_the_next_tool() {
     assert!(mazak.contains("\"tool\":3") && mazak.contains("\"tool\":7"), "{mazak}");
     assert_eq!(tools(&mazak), tools(&apart));
     for (control, program, said) in [
-        ("fanuc", program.to_owned(), "T stands twice in the block"),
-        ("mazak", program.replace("T7 M6", "T7"), "T stands twice in a block without a tool change"),
-        ("mazak", program.replace("T7 M6", "T7 T8 M6"), "T stands twice in the block"),
-        ("mazak", program.replace("T7 M6", "T7.5 M6"), "T7.5 is no tool"),
+        ("fanuc", program.to_owned(), "T is twice in the block"),
+        ("mazak", program.replace("T7 M6", "T7"), "T is twice in a block without a tool change"),
+        ("mazak", program.replace("T7 M6", "T7 T8 M6"), "T is twice in the block"),
+        ("mazak", program.replace("T7 M6", "T7.5 M6"), "T7.5 is not a tool number"),
     ] {
         let refused = simulated(&folder, control, &program).unwrap_err();
         assert!(refused.contains(said), "{program}{refused}");
@@ -632,12 +637,12 @@ fn what_nothing_public_says_is_not_run() {
         assert_eq!(own.replace(control, "fanuc"), fanuc, "{control}");
     }
     for (control, block, said) in [
-        ("mazak", "G98 G83 X1. Y1. Z-9. R2. Q2. F100. K3", "K is there"),
-        ("mazak", "G84.2 X1. Y1. Z-9. R2. F1.25", "G84.2 is not run"),
-        ("mitsubishi", "G81 X1. Y1. Z-9. R2. F100. L2", "L is there"),
-        ("brother", "G81 X1. Y1. Z-9. R2. F100. L2", "L is there"),
-        ("brother", "G100 T2 X1. Y1. G43 Z5. H2", "G100 is not run"),
-        ("siemens-iso", "G290", "G290 is not run"),
+        ("mazak", "G98 G83 X1. Y1. Z-9. R2. Q2. F100. K3", "the block has K"),
+        ("mazak", "G84.2 X1. Y1. Z-9. R2. F1.25", "G84.2 is not supported"),
+        ("mitsubishi", "G81 X1. Y1. Z-9. R2. F100. L2", "the block has L"),
+        ("brother", "G81 X1. Y1. Z-9. R2. F100. L2", "the block has L"),
+        ("brother", "G100 T2 X1. Y1. G43 Z5. H2", "G100 is not supported"),
+        ("siemens-iso", "G290", "G290 is not supported"),
     ] {
         let refused = simulated(&folder, control, &program(block)).unwrap_err();
         assert!(refused.contains(said), "{control} {block}: {refused}");

@@ -33,7 +33,7 @@ fn a_program_for_a_lathe_asks_which_one() {
     let refused = fed(&["simulate", "-"], program);
     assert_eq!(refused.status.code(), Some(1));
     let message = text(&refused.stderr);
-    assert!(message.contains("the program is for a lathe, of which kind is not said"), "{message}");
+    assert!(message.contains("the program is for a lathe, but no lathe control is named"), "{message}");
     assert!(message.contains("`--control fanuc-lathe` or `haas-lathe`"), "{message}");
     // X as the program counts it
     let run = fed(&["simulate", "-", "--control", "fanuc-lathe"], program);
@@ -93,7 +93,7 @@ fn exit_status_and_streams_of_simulate() {
     }
     let empty = fed(&["simulate", "-"], b"");
     assert_eq!(empty.status.code(), Some(1));
-    assert!(text(&empty.stderr).contains("cut off"));
+    assert!(text(&empty.stderr).contains("incomplete"));
 }
 
 /// Control characters of a program never reach a terminal, and a comment may hold anything.
@@ -286,7 +286,7 @@ fn an_assumed_control_reads_no_word_of_another() {
     let klartext = b"0  BEGIN PGM T MM\n1  L X+10 R0 FMAX\n2 END PGM T MM\n";
     assert!(text(&fed(&["simulate", "-"], klartext).stdout).contains("X10"), "Klartext is found and read");
     let other = fed(&["simulate", "-", "--control", "fanuc"], klartext);
-    assert!(text(&other.stderr).contains("Klartext of a Heidenhain control, and fanuc reads another"));
+    assert!(text(&other.stderr).contains("Klartext of a Heidenhain control, but fanuc reads another"));
 }
 
 /// Each refused block is reported, and those after it are run.

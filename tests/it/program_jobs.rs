@@ -108,7 +108,7 @@ fn what_no_job_can_say_is_refused() {
     let cases = [
         ("G18 G81 X1. Z1. Y-1. R.1 F5.\nG80 G17", "a cycle along another axis"),
         ("G1 Z-.1 F5.\nG10 L2 P1 X2.\nX1.", "a frame that moves between moves"),
-        ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G92 Z5.\nG0 Z6.", "G92 where only the machine knows the place"),
+        ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G92 Z5.\nG0 Z6.", "G92 at an unknown machine position"),
         ("G18\nG1 Z-.1 F5.\nG41 D1 X1.\nX2.\nG40 X3.", "compensation in another plane"),
         ("G44 H1 Z2.\nG1 Z-.1 F5.", "an offset that is taken off"),
         ("G41 D1 G1 X1. F5.\nX2.\nD3 X3.\nG40 X4.", "two diameter registers of one tool"),
@@ -187,7 +187,7 @@ fn stops_before_the_first_move_of_a_tool_stay() {
     assert!(warnings.is_empty(), "{warnings:?}");
     let (text, warnings) = printed(&format!("{HEAD}G1 Z-.1 F5.\nG0 Z1.\nG91 G28 Z0\nT2 M6\nM0\nG90\nM30\n")).unwrap();
     assert!(
-        !text.contains(" M0\n") && warnings.iter().any(|w| w.contains("nothing moves after")),
+        !text.contains(" M0\n") && warnings.iter().any(|w| w.contains("without later moves")),
         "{text}{warnings:?}"
     );
 }
@@ -222,7 +222,7 @@ fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
     let program =
         "G21 G17 G90\nG53 G0 Z0\nT1 M6\nG54 S1000 M3\nG43 H1\nG1 X10. Y5. F500.\nX20.\nZ0 F50.\nX30.\nG0 Z5.\nM30\n";
     let refused = read(program, None).unwrap_err();
-    assert_eq!(refused, "a cut begins at a place that only the machine knows");
+    assert_eq!(refused, "a cut begins at an unknown machine position");
     let lines = read(program, Some([0.0, 0.0, 40.0])).unwrap();
     let from = lines.iter().position(|line| line.contains("X0 Y0")).unwrap_or_else(|| panic!("{lines:?}"));
     let cuts: Vec<&str> =

@@ -552,7 +552,7 @@ fn unknown_codes_are_not_proven() {
     let program = rendered(&form, &job, Cycles::Form);
     let changed = program.replacen("G1 Z-1.", "G201 P1\nG1 Z-1.", 1);
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
-    assert_eq!(unproven.why, "fanuc has no G201 that we know");
+    assert_eq!(unproven.why, "G201 is unknown for fanuc");
     assert!(unproven.from().starts_with(" from N") && unproven.line > 0, "{unproven:?}");
     // LinuxCNC has no other codes than those of its file, and refuses them itself
     let form = check(&post("linuxcnc.pf"));
@@ -571,7 +571,7 @@ fn forms_without_a_control_are_not_proven() {
         (output.status.code(), text(&output.stdout))
     };
     let (status, said) = run(&[]);
-    assert!(said.contains("not proven: ") && said.contains("the form names no `Control`"), "{said}");
+    assert!(said.contains("not proven: ") && said.contains("the form has no `Control`"), "{said}");
     assert_eq!(status, Some(1));
     assert!(run(&["--control", "fanuc"]).1.starts_with("different: "));
 }
@@ -760,7 +760,7 @@ fn a_proof_holds_no_long_way_of_the_program() {
     for block in ["M0\n", "G4 P500\n", "G0 Z50.\nG0 Z1.\n"] {
         let many = program.replacen("X9.\n", &format!("{}G1 X9.\n", block.repeat(300_000)), 1);
         let Verdict::NotProven(unproven) = verified(&form, &many, &job) else { panic!("{block}") };
-        assert_eq!(unproven.why, "more rapids, stops and dwells between two cuts than are held");
+        assert_eq!(unproven.why, "too many rapids, stops and dwells between two cuts");
     }
     // each change of the offset is compared with each
     let there = r#"{"work":55},{"rapid":[0,0,50]},{"work":54},{"rapid":[0,0,50]},"#.repeat(2000);

@@ -32,19 +32,29 @@ fn ways_to_no_cut_are_compared() {
     assert_eq!(after("haas.pf", &last, &[("G43 H2 Z25.", "G43 H2 Z-25.")]), "PV009 1");
     assert_eq!(after("haas.pf", &last, &[("T2 M6", "T3 M6")]), "PV012 1, PV009 1");
     assert_eq!(after("haas.pf", &last, &[("G43 H2", "G43 H3")]), "PV014 1");
-    assert_eq!(after("haas.pf", &last, &[("X10.", "X-10.")]), "equivalent: 1 tail that ends elsewhere");
+    assert_eq!(
+        after("haas.pf", &last, &[("X10.", "X-10.")]),
+        "equivalent: 1 path after the last cut to another position"
+    );
     let offsets = one(
         r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"work":55},{"rapid":[20,20,25]},{"rapid":[40,40,25]},{"work":56},{"rapid":[10,10,25]},{"line":[10,10,-1]},{"rapid":[10,10,25]}"#,
     );
     assert_eq!(after("haas.pf", &offsets, &[]), "identical");
     for (from, to) in [("X40. Y40.\n", "(none)\n"), ("X40. Y40.", "X40. Y-40."), ("G55", "G54")] {
-        assert_eq!(after("haas.pf", &offsets, &[(from, to)]), "equivalent: 1 way to no cut otherwise", "{from}");
+        assert_eq!(
+            after("haas.pf", &offsets, &[(from, to)]),
+            "equivalent: 1 path without a cut at other positions",
+            "{from}"
+        );
     }
     assert_eq!(after("haas.pf", &offsets, &[("G55", "G57")]), "PV012 1, PV009 1");
     let nothing = one(r#"{"rapid":[0,0,25]},{"rapid":[10,10,25]}"#);
     assert_eq!(after("haas.pf", &nothing, &[]), "identical");
     assert_eq!(after("haas.pf", &nothing, &[("G54", "G57")]), "PV012 1, PV009 1");
-    assert_eq!(after("haas.pf", &nothing, &[("X10. Y10.\n", "(none)\n")]), "equivalent: 1 tail that ends elsewhere");
+    assert_eq!(
+        after("haas.pf", &nothing, &[("X10. Y10.\n", "(none)\n")]),
+        "equivalent: 1 path after the last cut to another position"
+    );
 }
 
 /// Stops and dwells stand where the job has them: at home, or elsewhere on the way, which is counted.
@@ -59,7 +69,7 @@ fn pauses_keep_their_places() {
         r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"stop":"optional"},{"dwell":2},{"rapid":[10,10,25]},{"line":[10,10,-1]},{"rapid":[10,10,25]}"#,
     );
     assert_eq!(after("grbl.pf", &way, &[]), "identical");
-    let behind = "equivalent: 1 pause elsewhere on the way";
+    let behind = "equivalent: 1 pause elsewhere between the same cuts";
     assert_eq!(after("grbl.pf", &way, &[("G4 P2.\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nG4 P2.\n")]), behind);
     assert_eq!(after("grbl.pf", &way, &[("M1\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nM1\n")]), behind);
 }
@@ -88,7 +98,7 @@ fn stops_between_pecks_are_seen() {
     assert_eq!(pecks("", ""), "identical");
     for stop in ["M0\n", "M1\n"] {
         assert_eq!(pecks(stop, ""), "PV019 1", "{stop}");
-        assert_eq!(pecks("", stop), "equivalent: 1 stop of the form", "{stop}");
+        assert_eq!(pecks("", stop), "equivalent: 1 stop added by the form", "{stop}");
     }
 }
 
@@ -157,7 +167,8 @@ fn holes_are_left_at_feed_up_to_the_return_plane() {
     let job = one(&format!(r#"{{"rapid":[0,0,25]}},{two},{{"rapid":[8,4,25]}}"#));
     assert_eq!(after("haas.pf", &job, &[]), "identical");
     let left = |up: &str| after("haas.pf", &job, &[("N100 Z2.\n", &format!("N100 {up}\n"))]);
-    let farther = "equivalent: 1 way in another order of axes or higher, 1 hole left at feed farther up";
+    let farther =
+        "equivalent: 1 path between cuts in another order of axes or higher, 1 hole with a higher retract at feed";
     assert_eq!(left("Z2.003"), farther);
     assert_eq!(left("Z10."), farther);
     assert_eq!(left("Z10.003"), "PV004 1");
@@ -188,17 +199,23 @@ fn nothing_waits_in_a_hole() {
     );
     assert_eq!(after("linuxcnc.pf", &taps, &[]), "identical");
     assert_eq!(after("linuxcnc.pf", &taps, &[(" P0 ", " ")]), "PV010 2");
-    assert_eq!(after("linuxcnc.pf", &taps, &[("G80\nG0", "G80\nG4 P2.\nG0")]), "equivalent: 3 dwells of the form");
+    assert_eq!(
+        after("linuxcnc.pf", &taps, &[("G80\nG0", "G80\nG4 P2.\nG0")]),
+        "equivalent: 3 dwells added by the form"
+    );
     let tap = one(
         r#"{"rapid":[0,0,20]},{"cycle":{"kind":"tap","rigid":false,"emulate":true,"depth":10,"clear":5,"feed":500,"points":[[10,10,0]]}},{"rapid":[0,0,20]}"#,
     );
     assert_eq!(after("fanuc.pf", &tap, &[("M4\n", "M4\nG4 P9000\n")]), "PV010 1");
-    assert_eq!(after("fanuc.pf", &tap, &[("N100 M3\n", "N100 M3\nG4 P9000\n")]), "equivalent: 1 dwell of the form");
+    assert_eq!(
+        after("fanuc.pf", &tap, &[("N100 M3\n", "N100 M3\nG4 P9000\n")]),
+        "equivalent: 1 dwell added by the form"
+    );
     // a spindle that stood needs its time, one that is turned round in the cut does not
     let cuts =
         one(r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[40,0,-1]},{"line":[40,30,-1]},{"rapid":[40,30,25]}"#);
     let between = |what: &str| after("haas.pf", &cuts, &[("Y30.\n", &format!("{what}Y30.\n"))]);
-    assert_eq!(between("M5\nM3\nG4 P1.\n"), "equivalent: 1 dwell of the form");
+    assert_eq!(between("M5\nM3\nG4 P1.\n"), "equivalent: 1 dwell added by the form");
     assert_eq!(between("M4\nG4 P1.\nM3\n"), "PV010 1");
     // between webs, at the bottom of a bore, below a back bore; out of each it is counted
     let hole = |cycle: &str| {
@@ -216,7 +233,7 @@ fn nothing_waits_in_a_hole() {
     ] {
         for (what, code, one) in [("M1\n", "PV019 1", "stop"), ("G4 P1.\n", "PV010 1", "dwell")] {
             assert_eq!(after("haas.pf", job, &[(low, &format!("{low}{what}"))]), code, "{low}");
-            let counted = format!("equivalent: 1 {one} of the form");
+            let counted = format!("equivalent: 1 {one} added by the form");
             assert_eq!(after("haas.pf", job, &[(out, &format!("{out}{what}"))]), counted, "{out}");
         }
     }

@@ -275,7 +275,7 @@ fn a_number_that_does_not_fit_is_an_error() {
     assert!(path_lines("G 2", "", "{\"work\":59.1},{\"line\":[1,0,0]}")[0].starts_with("PR002"));
     // a speed that its format rounds to 0
     let slow = path_lines("S >5", "", "{\"spindle\":{\"speed\":0.4}},{\"line\":[1,0,0]}");
-    assert!(slow[0].starts_with("PR002 [speed] is 0.4 and prints as 0"), "{slow:?}");
+    assert!(slow[0].starts_with("PR002 [speed] is 0.4, but prints as 0"), "{slow:?}");
     let slow = program(&mill("S >5", ""), &job("{\"line\":[1,0,0]}").replace("\"speed\":1000", "\"speed\":0.4"));
     assert!(slow[0].starts_with("PR002 [speed]"), "{slow:?}");
 }
@@ -970,7 +970,7 @@ fn a_speed_does_not_vanish() {
     let slow = job("{\"line\":[1,0,1]}").replace("\"speed\":1000", "\"speed\":0.4");
     for form in [mill("", ""), mill("", "").replace("S[speed]", "S[speed*1]"), mill("", "").replace("S[speed] ", "")] {
         assert!(
-            program(&form, &slow)[0].starts_with("PR002 [speed] is 0.4 and prints as 0"),
+            program(&form, &slow)[0].starts_with("PR002 [speed] is 0.4, but prints as 0"),
             "{:?}",
             program(&form, &slow)
         );

@@ -33,7 +33,7 @@ fn a_sheet_has_offsets_tools_operations_and_stops() {
     let machine = path("samples/bracket/vf2.toml");
     let page = sheet(&folder, &["--form", &form, "--machine", &machine]);
     for part in
-        ["<h1>BRACKET</h1>", "VF-2 north", "G55 X lies between", "<svg", "1/2 END MILL", "M1, where you want it"]
+        ["<h1>BRACKET</h1>", "VF-2 north", "G55 X lies between", "<svg", "1/2 END MILL", "M1, if optional stop is on"]
     {
         assert!(page.contains(part), "{part}");
     }
@@ -113,7 +113,7 @@ fn what_a_sheet_cant_be_is_said() {
     let (code, said) = run(&["sheet", "job.json", "--form", &form, "-o", "a.pdf"]);
     assert!(code == Some(2) && said.contains(".html, .md or .json"), "{said}");
     let (code, said) = run(&["sheet", "job.json"]);
-    assert!(code == Some(2) && said.contains("which form"), "{said}");
+    assert!(code == Some(2) && said.contains("no form is given"), "{said}");
     let (code, _) = run(&["sheet", "job.json", "--form", &form, "-o", "job.json"]);
     assert!(code == Some(2) && folder.read("job.json") == "{", "an input stays");
 }

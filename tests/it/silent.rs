@@ -49,7 +49,7 @@ fn a_cut_is_no_rapid() {
     // an arc can't be a block of its own; a form without G codes has none to say
     let arc = "{\"arc\":{\"to\":[1,1],\"center\":[0,1],\"direction\":\"ccw\"}}";
     let lines = path_lines("", "CcwCode\nX[h] Y[v] I[ival] J[jval] F[frate]\nEnd", arc);
-    assert_eq!(lines, ["PR017 the sequence prints no G3, and the control is in another motion"]);
+    assert_eq!(lines, ["PR017 the sequence does not print G3, but another motion code is active"]);
     let klartext = mill("", &format!("{}\n{}", rapid.replace('X', "L X"), line.replace('X', "L X")));
     let lines = program(&klartext.replace("G0 G[work]", "G[work]"), &job("{\"line\":[1,0,1]}"));
     assert_eq!(lines[lines.len() - 2], "L X1. F10.");
@@ -116,7 +116,7 @@ fn work_offsets_are_counted_as_the_form_counts() {
     assert_eq!(line("\"work\":56"), "G15 H3");
     assert_eq!(line("\"work\":3"), "G15 H3");
     let error = program(&form, &job("{\"line\":[1,0,1]}").replace("\"work\":54", "\"work\":59.1"));
-    assert_eq!(error, ["PR037 the work offset 59.1 is a code, and this form counts its offsets from 1"]);
+    assert_eq!(error, ["PR037 the work offset 59.1 is a code, but this form counts its offsets from 1"]);
 }
 
 /// A call in another work offset uses it: what an Upon does before it is not left out.
@@ -147,7 +147,7 @@ fn feeds_that_lose_digits_are_said() {
         let notes = support::render(&mill(head, ""), &text).unwrap().notes;
         notes.iter().map(|note| format!("{} {}", note.code.name(), note.message)).collect::<Vec<_>>()
     };
-    assert_eq!(notes("F >4.>2", "0.0055"), ["PR025 [frate] is 0.00550 and prints as F0.01: +81.8 %"]);
+    assert_eq!(notes("F >4.>2", "0.0055"), ["PR025 [frate] is 0.00550, but prints as F0.01: +81.8 %"]);
     assert_eq!(notes("F >4.>4", "0.0055"), [""; 0]);
     assert_eq!(notes("F >4.>2", "1.004"), [""; 0]);
     // a sequence's own word too
@@ -158,7 +158,7 @@ fn feeds_that_lose_digits_are_said() {
     let hole =
         |kind: &str| format!("{{\"cycle\":{{\"kind\":\"{kind}\",\"depth\":1,\"feed\":0.01905,\"points\":[[1,1,0]]}}}}");
     let notes = |kind: &str| support::render(&mill("F >4.>3", ""), &job(&hole(kind))).unwrap().notes;
-    assert_eq!(notes("tap")[0].message, "[frate] is 0.01905 and prints as F0.019: -0.3 %");
+    assert_eq!(notes("tap")[0].message, "[frate] is 0.01905, but prints as F0.019: -0.3 %");
     assert!(notes("drill").iter().all(|note| note.code.name() != "PR025"));
 }
 
@@ -482,7 +482,7 @@ fn the_way_to_an_emulated_hole_is_a_rapid() {
 #[test]
 fn dwells_that_lose_digits_are_said() {
     let dwell = |head: &str, seconds: &str| path_lines(head, "", &format!("{{\"dwell\":{seconds}}}"));
-    assert!(dwell("P >4", "0.4")[0].starts_with("PR002 [dwell] is 0.4 and prints as 0"), "{:?}", dwell("P >4", "0.4"));
+    assert!(dwell("P >4", "0.4")[0].starts_with("PR002 [dwell] is 0.4, but prints as 0"), "{:?}", dwell("P >4", "0.4"));
     assert_eq!(dwell("P >4.>1", "0.4"), ["G4 P.4"]);
 }
 

@@ -36,18 +36,18 @@ fn slips_in_forms() {
             changed("\nStartCode", "\nAsk fixture \"Fixture\" 2\n\nStartCode"),
             ["PF302", "`Property fixture number 0 ..`"],
         ),
-        (changed("\nEndCode", "\nUpon [coolant]\nM[cool]\nEnd\n\nEndCode"), ["PF202", "it is called `cool`"]),
+        (changed("\nEndCode", "\nUpon [coolant]\nM[cool]\nEnd\n\nEndCode"), ["PF202", "the variable is called `cool`"]),
         (changed("X->4.>4", "X 1.4"), ["PF305", "`X->4.>4` has up to four digits before the point"]),
         (changed("End Cancel", "End; Cancel"), ["PF002", "write `End Cancel`"]),
-        (changed("Control haas", "Control hurco"), ["PF302", "much like `fanuc`"]),
+        (changed("Control haas", "Control hurco"), ["PF302", "similar to `fanuc`"]),
         (changed("M6\n", "M6 ; change\n"), ["PF110", "begins with ` #`"]),
         (changed("Z[d] M[cool]\n", "Z[d] M cool\n"), ["PF112", "write `M[cool]`"]),
         (changed("Z[d] M[cool]\n", "Z[d] [frate*0.5]\n"), ["PF112", "write the letter before it"]),
-        (changed("Z[d] M[cool]\n", "Z[d] M[cool]\nIF [#1 GT 2] GOTO 5\n"), ["PF001", "stands in backquotes"]),
+        (changed("Z[d] M[cool]\n", "Z[d] M[cool]\nIF [#1 GT 2] GOTO 5\n"), ["PF001", "in backquotes"]),
         (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n#500=1\n"), ["PF101", "`` `#500=1` ``"]),
-        (changed("\nM30\n", "\nM30\nEND PGM part MM\n"), ["PF405", "stands in backquotes"]),
+        (changed("\nM30\n", "\nM30\nEND PGM part MM\n"), ["PF405", "in backquotes"]),
         (changed("Z[d] M[cool]\n", "Z[d] M[cool]\n@ if [tool] = 1\nM8\n@end\n"), ["PF707", "did you mean `@if`?"]),
-        (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF010", "say `Machine Torch` or `Machine Laser`"]),
+        (changed("\nEndCode", "\nEndCut\nM5\nEnd\n\nEndCode"), ["PF010", "write `Machine Torch` or `Machine Laser`"]),
     ];
     let folder = folder("slips-forms");
     for (text, wanted) in table {
@@ -87,12 +87,12 @@ fn sequences_that_lose_what_the_job_says() {
         (
             plain_post("linuxcnc.pf").replacen("MoveHome\n", "MoveHome\nNone\nEnd\n#", 1),
             0,
-            "the job's way home is lost",
+            "the job's move home is lost",
         ),
         (
             plain_post("linuxcnc.pf").replacen("MoveHome\n", "MoveHome\n@if [tool] = 9\n  G53 G0 Z0\n@end\nEnd\n#", 1),
             1,
-            "a way through MoveHome prints nothing",
+            "a branch of MoveHome prints nothing",
         ),
     ];
     for (form, status, wanted) in table {
@@ -133,11 +133,11 @@ fn slips_on_the_command_line() {
     fs::write(folder.join("job.json"), job("{\"line\":[1,0,0]}")).unwrap();
     fs::write(folder.join("part.nc"), "%\nO1\nM30\n%\n").unwrap();
     let table: [(&[&str], &str); 6] = [
-        (&["lint", "job.json"], "job.json is a job, no form"),
-        (&["lint", "part.nc"], "part.nc is an NC program, no form"),
+        (&["lint", "job.json"], "job.json is a job, not a form"),
+        (&["lint", "part.nc"], "part.nc is an NC program, not a form"),
         (&["render", "job.json", "--form", "part.nc"], "`postform simulate part.nc` runs programs"),
-        (&["check", "haas.pf"], "`postform lint haas.pf` looks at forms"),
-        (&["render", "job.json", "--form", "has.pf"], "the forms there: haas.pf"),
+        (&["check", "haas.pf"], "`postform lint haas.pf` checks a form"),
+        (&["render", "job.json", "--form", "has.pf"], "forms in that folder: haas.pf"),
         (&["render", "haas.pf", "--form", "job.json"], "the job comes first"),
     ];
     for (arguments, wanted) in table {

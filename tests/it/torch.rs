@@ -78,9 +78,9 @@ fn a_torch_is_on_in_cuts_alone() {
     let cases = [
         (second("M3 S1\n", ""), "PV026", "the torch is off in this cut"),
         (second("M5\nG0 Z20.", "G0 Z20."), "PV027", "the torch is on in a rapid"),
-        (second("G0 Z20.\n", "G0\n"), "PV028", "the torch goes across at the height of its cuts"),
+        (second("G0 Z20.\n", "G0\n"), "PV028", "the torch moves across at cutting height"),
         (second("G92 Z0", "G92 X1. Z0"), "PV", "different"),
-        (second("G38.2 Z-50.", "G38.2 X1. Z-50."), "not proven", "only the machine knows"),
+        (second("G38.2 Z-50.", "G38.2 X1. Z-50."), "not proven", "an unknown machine position"),
         (right.replacen("X25.", "X26.", 1), "PV001", "different"),
         (right.replacen("F900.", "F950.", 1), "PV006", "different"),
         (right.replacen("M2\n", "", 1).replace('%', ""), "PV", "different"),
@@ -121,7 +121,7 @@ fn what_no_torch_cuts_is_refused() {
         (two, "the job cuts at Z-2 and at Z1"),
         (
             JOB.replace("{\"line\":[25,5]}", "{\"cycle\":{\"kind\":\"drill\",\"depth\":2,\"points\":[[1,1,0]]}}"),
-            "no holes by cycles",
+            "can't make holes with cycles",
         ),
         (
             JOB.replace(
@@ -141,7 +141,7 @@ fn what_no_torch_cuts_is_refused() {
     // a mill's form has the axis
     let text = std::fs::read_to_string(&form).unwrap();
     for (wrong, said) in [
-        (text.replace("Ignore Z", "Ignore X"), "the axis that may be ignored is the depth axis, Z"),
+        (text.replace("Ignore Z", "Ignore X"), "only the depth axis, Z, can be ignored"),
         (text.replace("Machine Torch", "Machine Mill"), "Ignore is for torches and lasers"),
         (text.replace("Machine Torch", "Machine Mill").replace("Ignore Z", "# none"), "BeginCut is never printed"),
     ] {

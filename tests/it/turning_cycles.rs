@@ -174,18 +174,18 @@ fn what_is_not_certain_is_refused() {
             "G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nG1 Z-5.\nX16. Z-10.\nN20 X40.",
             "PN016 6 G71: the profile goes back along X",
         ),
-        ("G71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN007 5 G71 does not say how deep a pass is"),
-        ("G71 U2.\nG71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN007 6 G71 does not say how far a pass goes back"),
-        (
-            "G71 U2. R1.\nG71 P10 Q30 F.2\nN10 G0 X20.\nN20 G1 Z-5.",
-            "PN018 6 the profile's block N30 does not stand after",
-        ),
+        ("G71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN007 5 G71 without the depth of a pass"),
+        ("G71 U2.\nG71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN007 6 G71 without the retract of a pass"),
+        ("G71 U2. R1.\nG71 P10 Q30 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN018 6 the profile's block N30 does not follow"),
         ("G71 U2. R1.\nG71 P10 Q20 R1. F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN016 6 G71 with R"),
         ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nG0 Z-3.\nN20 G1 Z-5.", "PN016 9 a cut after a rapid inside"),
-        ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nM8\nT0202\nN20 G1 Z-5.", "PN016 8 a profile holds moves alone"),
+        (
+            "G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nM8\nT0202\nN20 G1 Z-5.",
+            "PN016 8 a profile may contain only moves",
+        ),
         ("G71 U2 R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-5.", "PN017 5 U2 has no point"),
-        ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nG1 Z-5.\nN20 X51.", "PN018 6 G71: the profile ends farther out"),
-        ("G74 Z-6. Q3000 F.1", "PN007 5 G74 does not say how far it goes back"),
+        ("G71 U2. R1.\nG71 P10 Q20 F.2\nN10 G0 X20.\nG1 Z-5.\nN20 X51.", "PN018 6 G71: the profile goes farther out"),
+        ("G74 Z-6. Q3000 F.1", "PN007 5 G74 without the retract after a peck"),
         ("G74 R1.\nG74 X10. Z-6. Q3000 R.5 F.1", "PN016 6 G74 with a relief"),
         ("G70 P10 Q20", "PN018 5 the profile's block N10"),
     ];
@@ -367,17 +367,23 @@ fn corners_that_nothing_leaves_are_refused() {
         let text = moves("fanuc-lathe", &format!("G0 X20. Z2.\n{blocks}")).unwrap_err();
         assert!(text.contains(message), "{blocks}: {text}");
     };
-    refused("G1 Z-20. R3. F.2\nG0 X50.", "PN006 6 a chamfer or rounded corner, and the next block does not leave it");
-    refused("G1 Z-20. R3. F.2\nX50. Z-30.", "does not leave it");
-    refused("G1 Z-20. R3. F.2\nG4 P100", "does not leave it");
-    refused("G1 Z-20. R3. F.2", "does not leave it");
-    refused("G1 Z-20. R3. F.2\nX10.", "PN018 6 the block after a chamfer or rounded corner goes the other way");
-    refused("G1 Z-20. R3. F.2\nX24.", "or is shorter than it");
+    refused(
+        "G1 Z-20. R3. F.2\nG0 X50.",
+        "PN006 6 a chamfer or rounded corner, but the next block does not move along the other axis",
+    );
+    refused("G1 Z-20. R3. F.2\nX50. Z-30.", "does not move along the other axis");
+    refused("G1 Z-20. R3. F.2\nG4 P100", "does not move along the other axis");
+    refused("G1 Z-20. R3. F.2", "does not move along the other axis");
+    refused(
+        "G1 Z-20. R3. F.2\nX10.",
+        "PN018 6 the block after a chamfer or rounded corner moves in the opposite direction",
+    );
+    refused("G1 Z-20. R3. F.2\nX24.", "or is too short");
     refused("G1 Z0. R3. F.2\nX50.", "a cut of 2 is shorter than its chamfer or rounded corner of 3");
     refused("G1 Z-20. K3. F.2\nX50.", "PN009 5 K in a cut that is not along X");
     refused("G1 X30. Z-20. R3. F.2\nX50.", "R in a cut that is not along one axis");
     refused("G1 Z-20. R3. I3. F.2\nX50.", "PN004 5 a cut with two of I, K and R");
-    refused("G28 U0 W0\nG1 Z-20. R3. F.2\nX50.", "from a position that only the machine knows");
+    refused("G28 U0 W0\nG1 Z-20. R3. F.2\nX50.", "from an unknown machine position");
 }
 
 #[track_caller]
@@ -429,8 +435,12 @@ fn a_pass_keeps_what_its_code_written_again_does_not_say() {
     for end in ["G92 X39.", "G94 Z-3.", "G28 U0 W0\nX39.", "G0 X44. Z5.\nG90 X39."] {
         is_refused("fanuc-lathe", &format!("{head}{end}"), "PN007");
     }
-    is_refused("fanuc-lathe", "G0 X44. Z5.\nG92 X40. F2.", "G92 does not say its Z");
-    is_refused("fanuc-lathe", "G0 X44. Z5.\nG90 X40. Z-20. R-1. F.2\nG90 X39.", "G90 again after a tapered pass");
+    is_refused("fanuc-lathe", "G0 X44. Z5.\nG92 X40. F2.", "G92 has no Z");
+    is_refused(
+        "fanuc-lathe",
+        "G0 X44. Z5.\nG90 X40. Z-20. R-1. F.2\nG90 X39.",
+        "G90 is written again after a tapered pass",
+    );
     // a dwell ends nothing
     assert!(moves("fanuc-lathe", &format!("{head}G4 P500\nX39.")).is_ok());
 }
@@ -444,11 +454,7 @@ fn cycles_of_passes_begin_in_the_program() {
         "G75 R1.\nG75 X10. P3000 F.2",
         "G76 P010060 Q50 R.02\nG76 X38. Z-20. P1000 Q600 F2.",
     ] {
-        is_refused(
-            "fanuc-lathe",
-            &format!("G28 U0 W0\nG0 X40.\n{cycle}"),
-            "begins at a position that only the machine",
-        );
+        is_refused("fanuc-lathe", &format!("G28 U0 W0\nG0 X40.\n{cycle}"), "begins at an unknown machine position");
     }
 }
 
@@ -465,7 +471,7 @@ fn a_depth_that_divides_exactly_makes_no_pass_at_the_bottom() {
 fn what_manuals_leave_open_is_refused() {
     let cycle = "G0 X50. Z2.\nG71 U2. R1.\nG71 P10 Q20 F.2\n";
     let blocks = format!("{cycle}N10 G0 X20. Z1.\nN20 G1 Z-9.");
-    is_refused("fanuc-lathe", &blocks, "the first block of the profile goes along X and Z");
+    is_refused("fanuc-lathe", &blocks, "the first block of the profile moves along X and Z");
     is_refused("fanuc-lathe", &format!("{cycle}N10 G0 X20.\nN20 G1 Z-9.\nX60."), "PN006");
     let pattern = "G0 X50. Z2.\nG73 U5. W5. R1\nG73 P10 Q20 F.2\nN10 G0 X20.\nN20 G1 Z-9.";
     is_refused("fanuc-lathe", pattern, "G73 with one pass");
@@ -492,6 +498,6 @@ fn a_chamfer_may_be_as_long_as_its_cut() {
     makes("G0 X50. Z2.\nG1 X50.4 K-.2 F.2\nZ-9.", &["r 25 2", "f 25.2 1.8", "f 25.2 -9"]);
     makes("G0 X4.6 Z.3\nG1 X3.92 K-.02 F.15\nZ.28", &["r 2.3 0.3", "f 1.98 0.3", "f 1.96 0.28"]);
     // what leaves the corner leaves nothing else
-    is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nG55 X50.", "does not leave it");
-    is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nT0202 X50.", "does not leave it");
+    is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nG55 X50.", "does not move along the other axis");
+    is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nT0202 X50.", "does not move along the other axis");
 }

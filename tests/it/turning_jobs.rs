@@ -77,7 +77,7 @@ fn ways_home_and_the_turret() {
         text.contains("G1 Z-1. F.2\nG0 G53 X0\nG53 Z0\nM1\nS500 M3\nZ2. X40.\nM9\nG0 G53 X0\nG53 Z0\nT0212\n"),
         "{text}"
     );
-    let home = "a rapid without the tool's offset (T with 00 after the station) is a way home in the job";
+    let home = "a rapid without the tool's offset (T with 00 after the station) becomes a move home in the job";
     assert!(warnings.iter().any(|warning| warning == home), "{warnings:?}");
 }
 
@@ -90,29 +90,29 @@ fn ways_home_along_one_axis_after_the_other() {
     let text = lines.join("\n");
     assert!(text.contains("G1 Z-1. F.2\nM9\nG0 G53 X0\nG53 Z0\nT0202\n"), "{text}");
     assert!(text.contains("G0 Z5. X30.\nG0 G53 X0\nG53 Z0\nM1\n"), "{text}");
-    assert!(warnings.iter().any(|warning| warning.contains("along X or Z alone before a stop")), "{warnings:?}");
+    assert!(warnings.iter().any(|warning| warning.contains("along only X or Z before a stop")), "{warnings:?}");
 }
 
 /// What the job of a lathe does not have, by name.
 #[test]
 fn what_no_job_of_a_lathe_has_is_refused() {
     let cases = [
-        ("G92 X40. Z-20. F1.5", "PN036 a pass of a thread by itself"),
-        ("G32 Z-20. F1.5", "PN036 a pass of a thread by itself"),
-        ("G28 U0 W0\nG1 X40. F.2", "PN036 a cut begins at a position that only the machine knows"),
-        ("G28 U0 W0\nG0 X40.\nG1 X39. F.2", "PN036 a cut begins at a position that only the machine knows"),
-        ("G1 X40. F.2\nG28 U0\nG0 Z-50.", "PN036 the tool goes home along X or Z alone, and on from there"),
-        ("G1 X40. F.2\nG53 G0 X0\nM1\nG0 X50.", "PN036 the tool goes home along X or Z alone, and on from there"),
+        ("G92 X40. Z-20. F1.5", "PN036 a single pass of a thread"),
+        ("G32 Z-20. F1.5", "PN036 a single pass of a thread"),
+        ("G28 U0 W0\nG1 X40. F.2", "PN036 a cut begins at an unknown machine position"),
+        ("G28 U0 W0\nG0 X40.\nG1 X39. F.2", "PN036 a cut begins at an unknown machine position"),
+        ("G1 X40. F.2\nG28 U0\nG0 Z-50.", "PN036 the tool goes home along only X or Z, and then moves on"),
+        ("G1 X40. F.2\nG53 G0 X0\nM1\nG0 X50.", "PN036 the tool goes home along only X or Z, and then moves on"),
         ("G1 X40. Y5. F.2", "PN036 a move along Y"),
         ("G0 X40. Y5.", "PN036 a move along Y"),
-        ("T0100\nG1 X40. F.2", "PN036 a cut begins at a position that only the machine knows"),
-        ("G28 U0 W0\nG0 U2.", "PN036 an increment leads on from a position that only the machine knows"),
+        ("T0100\nG1 X40. F.2", "PN036 a cut begins at an unknown machine position"),
+        ("G28 U0 W0\nG0 U2.", "PN036 an increment from an unknown machine position"),
         ("G50 X10. Z10.", "PN036 a frame that moves"),
         ("G42 G1 Z1. F.2\nT0202", "PN036 the tool changes under compensation"),
         ("G42 G1 Z1. F.2\nG41 Z-1.", "PN036 compensation changes its side"),
         ("G42 G1 Z1. F.2\nG40\nG53 G0 X0 Z0", "PN036 the tool goes home under compensation"),
         ("G42 G1 Z1. F.2\nG40 G3 X44. Z2. R1.", "PN036 compensation is switched on an arc"),
-        ("G71 U1. R.5\nG71 P10 Q20 U.4 F.2", "PN018 the profile's block N10 does not stand after this one"),
+        ("G71 U1. R.5\nG71 P10 Q20 U.4 F.2", "PN018 the profile's block N10 does not follow this block"),
     ];
     for (blocks, refused) in cases {
         let outcome = printed(&format!("{HEAD}{blocks}\nM30\n%\n"));
@@ -120,5 +120,9 @@ fn what_no_job_of_a_lathe_has_is_refused() {
         assert!(message.starts_with(refused), "{blocks}: {outcome:?}");
     }
     assert!(printed("O1\nG21 G99\nM3 S100\nG0 X1. Z1.\nM30\n").unwrap_err().contains("before it loads a tool"));
-    assert!(printed("O1\nG99 T0101\nM3 S100\nG0 X1. Z1.\nM30\n").unwrap_err().contains("does not say its units"));
+    assert!(
+        printed("O1\nG99 T0101\nM3 S100\nG0 X1. Z1.\nM30\n")
+            .unwrap_err()
+            .contains("the units of the program are unknown")
+    );
 }

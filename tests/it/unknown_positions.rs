@@ -24,7 +24,7 @@ fn increments_from_an_unknown_position_end_the_proof() {
         let changed = program.replacen(from, to, 1);
         assert_ne!(changed, program);
         let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
-        assert!(unproven.why.starts_with("an increment leads on") && unproven.line > 0, "{unproven:?}");
+        assert!(unproven.why.starts_with("an increment from an unknown") && unproven.line > 0, "{unproven:?}");
     }
 }
 
@@ -74,7 +74,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let changed = program.replacen("\nZ0\n", "\nG53 Z0\n", 1);
     assert_ne!(changed, program);
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
-    assert_eq!(unproven.why, "a move at feed goes to a position that only the machine knows");
+    assert_eq!(unproven.why, "a feed move goes to an unknown machine position");
     // as a job and as another program, too
     let settings = RunSettings::new(control("linuxcnc"));
     let same = |old: &str, new: &str| {
@@ -88,7 +88,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let mut renderer = Renderer::new(&haas, Options { program: Some(1), ..Options::default() });
     let options = JobOptions { settings, units: None, tool: None, start: None };
     let read = read_program(Cursor::new(changed.as_str()), &options, &mut Vec::new(), &mut renderer);
-    assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("only the machine knows")));
+    assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("an unknown machine position")));
 }
 
 /// The program of a job that a program is, or the code of its refusal.

@@ -519,7 +519,7 @@ fn only_the_form_is_written_and_only_on_save() {
         assert_eq!(save(name, "x", "Name x").0, 404, "{name}");
     }
     // somebody else saved meanwhile
-    assert_eq!(save("my.pf", &form, &form), (409, "it was changed on the disk meanwhile".to_owned()));
+    assert_eq!(save("my.pf", &form, &form), (409, "the file has changed on the disk".to_owned()));
     assert_eq!(folder.read("my.pf"), new);
     // line ends and the mark at the beginning stay
     folder.write("my.pf", format!("\u{feff}{}", form.replace('\n', "\r\n")));
@@ -610,7 +610,7 @@ fn how_watch_ends() {
     let port = taken.local_addr().unwrap().port().to_string();
     for (arguments, says) in [
         (vec!["no-such.pf", "--job", "job.json"], "can't read no-such.pf"),
-        (vec!["my.pf", "--job", "-"], "- is none"),
+        (vec!["my.pf", "--job", "-"], "standard input (-)"),
         (vec!["my.pf", "--job", "job.json", "--against", "no-such.nc"], "can't read no-such.nc"),
         (vec!["my.pf", "--job", "job.json", "--port", &port], "can't listen on port"),
         (vec!["my.pf", "--job", "job.json", "--port", "99999"], "99999"),

@@ -1,4 +1,4 @@
-//! A program that is proven while it is printed, on a thread of its own.
+//! Proves a program while it is printed, on a separate thread.
 
 use std::io;
 use std::panic::resume_unwind;
@@ -9,10 +9,10 @@ use postform::internals::post::Part;
 use postform::internals::verify::Batch;
 use postform::{Error, Job, Options, Post, Proof, Proven, Rendered};
 
-/// How many batches wait for the proof, each of some 64 KB of program: the printer then waits, too.
+/// Number of batches that wait for the proof, each about 64 KB of program; if more are ready, the printer waits.
 const WAITING: usize = 4;
 
-/// A batch that goes back when it is compared, so that its memory is used again.
+/// A batch that is returned after comparison, so that its memory is used again.
 struct Lent {
     batch: Batch,
     back: Sender<Batch>,
@@ -26,25 +26,25 @@ impl AsRef<Batch> for Lent {
 
 impl Drop for Lent {
     fn drop(&mut self) {
-        // the printer has more to do than the proof
+        // clear it here, because the printer is busier than the proof
         self.batch.events.clear();
-        // it wants none when it is done
+        // an error only means that the printer has ended
         _ = self.back.send(std::mem::take(&mut self.batch));
     }
 }
 
-/// What came of a job.
+/// The results for a job.
 pub struct Printed {
-    /// Of printing it.
+    /// The result of printing.
     pub rendered: Result<Rendered, Error>,
-    /// Of its proof, as far as it was printed.
+    /// The result of the proof, up to the printed end.
     pub proven: Result<Proven, Error>,
 }
 
 /// Prints a job and proves its program, in one pass.
 ///
 /// # Errors
-/// A message: there is no thread to be had.
+/// A message: no thread is available.
 pub fn print(
     post: &Post,
     job: Job<'_>,
@@ -58,7 +58,10 @@ pub fn print(
         let proving =
             thread::Builder::new().spawn_scoped(scope, move || post.prove(receiver.into_iter(), options, proof));
         let proving = proving.map_err(|error| {
-            format!("error: no thread can be started for the proof: {error}\n  help: --no-verify prints without one")
+            format!(
+                "error: can't start a thread for the proof: {error}\n  help: --no-verify prints the program \
+                without a proof"
+            )
         })?;
         let rendered = post.render_beside(job, options, take, &mut |batch| {
             sender.send(Lent { batch, back: back.clone() }).ok()?;

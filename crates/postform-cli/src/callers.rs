@@ -1,4 +1,4 @@
-//! Which form calls a file, and so whether a file is a form at all.
+//! Finds the form that calls a file; this also decides whether a file is a form.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::config::Config;
 use super::files;
 
-/// How many forms of a folder are searched for calls.
+/// Maximum number of forms of a folder that are searched for calls.
 const MOST_FORMS: usize = 200;
 
 /// Is a file a form: by its name, because postform.toml names it, or because a form calls it?
@@ -14,7 +14,7 @@ const MOST_FORMS: usize = 200;
 /// # Errors
 /// A message: postform.toml makes no sense.
 pub fn is_form(path: &Path) -> Result<bool, String> {
-    // a file that is not there is reported when it is read
+    // a missing file is reported when it is read
     let Ok(real) = path.canonicalize() else { return Ok(true) };
     if files::is_form(path) {
         return Ok(true);
@@ -23,12 +23,12 @@ pub fn is_form(path: &Path) -> Result<bool, String> {
     Ok(named || caller(&real, &text).is_some())
 }
 
-/// A form as it is on the disk; empty where it can't be read.
+/// The text of a form on the disk; empty if it can't be read.
 pub fn text(path: &Path) -> String {
     files::read_form(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
 }
 
-/// The form that calls a file, of those in its folder and in the one above; `text` reads them. The path is a whole one.
+/// The form that calls a file, searched in the file's folder and in the folder above; `text` reads the forms. The path is absolute.
 pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
     let mut forms: Vec<PathBuf> = Vec::new();
     // a called form is in the folder of its caller or below
@@ -41,7 +41,7 @@ pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
     forms.into_iter().filter(|other| other != path).find(calls)
 }
 
-/// Is a line the call of a file?
+/// Does a line call a file?
 fn names(line: &str, folder: &Path, path: &Path) -> bool {
     let line = line.split('#').next().unwrap_or(line).trim();
     let Some((command, name)) = line.split_once([' ', '\t']) else { return false };

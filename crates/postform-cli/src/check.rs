@@ -16,7 +16,7 @@ use super::report::{Reporter, place_in, stopped};
 use super::say::say;
 use super::{Ending, many, output};
 
-/// Reads jobs and prints what is in them.
+/// Reads jobs and prints summaries of them.
 pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     if args.schema {
         return output::shown(|out| out.write_all(SCHEMA.as_bytes()));
@@ -31,11 +31,11 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     many::run(None, jobs, |job| files::name(job), "job", |job| checked(job, args, reporter))
 }
 
-/// What is in a job, as text for standard output.
+/// The summary of a job, as text for standard output.
 fn checked(path: &Path, args: &CheckArgs, reporter: &Reporter) -> Result<(String, Ending), String> {
     let mut summary = Summary::default();
     let mut job = files::job(path, &args.read, true)?;
-    // of a file that can't be read there is nothing to list
+    // a file that can't be read has no setups to list
     let setups = job.setups().unwrap_or_default();
     let read = job.read(&mut summary);
     let report = job.report();
@@ -56,10 +56,10 @@ fn checked(path: &Path, args: &CheckArgs, reporter: &Reporter) -> Result<(String
     }
 }
 
-/// Most setups that are listed.
+/// Maximum number of setups that are listed.
 const MOST_SETUPS: usize = 12;
 
-/// The setups of a file whose tool points several ways, or another way than up.
+/// The setups of a file with several tool directions, or with a tool direction other than up.
 fn listed(setups: &[Setup]) -> String {
     if setups.iter().all(|setup| setup.axis == [0.0, 0.0, 1.0]) {
         return String::new();
@@ -71,12 +71,12 @@ fn listed(setups: &[Setup]) -> String {
         .map(|(i, setup)| format!("  --setup {:<3} {setup}\n", i + 1))
         .collect();
     if setups.len() > MOST_SETUPS {
-        _ = writeln!(text, "              and more: the tool axis turns all the time");
+        _ = writeln!(text, "              and more: the tool axis changes continuously");
     }
     text
 }
 
-/// The summary as a machinist reads it.
+/// The summary as text for a machinist.
 fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> String {
     let mut text = String::new();
     let unit = summary.units.map_or("", Units::name);
@@ -89,7 +89,7 @@ fn describe(name: &str, format: Format, summary: &Summary, report: &Report) -> S
     }
     if format == Format::Cl && !(report.facts.is_empty() && report.dialect.is_none() && report.why.is_empty()) {
         let system = report.dialect.unwrap_or(Dialect::Gener).title();
-        let why = if report.why.is_empty() { "nothing says who wrote it" } else { &report.why };
+        let why = if report.why.is_empty() { "the file does not name its CAM system" } else { &report.why };
         _ = writeln!(text, "  written by  {system}: {}", postform::internals::terminal::escaped(why));
     }
     _ = writeln!(text, "  units       {unit}");

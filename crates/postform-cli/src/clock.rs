@@ -1,4 +1,4 @@
-//! Day and time of printing: those of --date, of SOURCE_DATE_EPOCH, else of the place where postform runs.
+//! Date and time of printing: from --date, from SOURCE_DATE_EPOCH, else the local time.
 
 use jiff::civil::DateTime;
 use jiff::{Timestamp, Zoned};
@@ -6,16 +6,18 @@ use postform::internals::render::Clock;
 
 /// Reads --date.
 pub fn parse(text: &str) -> Result<Clock, String> {
-    Clock::parse(text).ok_or_else(|| "write a day, as 2026-03-31, or with its time, as 2026-03-31T14:05".to_owned())
+    Clock::parse(text).ok_or_else(|| "write a date, as 2026-03-31, or a date and time, as 2026-03-31T14:05".to_owned())
 }
 
-/// The clock, without --date.
+/// The clock if --date is not given.
 pub fn now() -> Result<Clock, String> {
     const EPOCH: &str = "SOURCE_DATE_EPOCH";
     let Ok(seconds) = std::env::var(EPOCH) else { return Ok(of(Zoned::now().datetime())) };
     let seconds = seconds.trim().parse().ok().and_then(|seconds| Timestamp::from_second(seconds).ok());
     let Some(stamp) = seconds else {
-        return Err(format!("error: {EPOCH} is no number of seconds since 1970\n  help: give --date, or unset it"));
+        return Err(format!(
+            "error: {EPOCH} is not a number of seconds since 1970\n  help: give --date, or unset {EPOCH}"
+        ));
     };
     Ok(of(stamp.to_zoned(jiff::tz::TimeZone::UTC).datetime()))
 }

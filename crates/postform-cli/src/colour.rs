@@ -1,4 +1,4 @@
-//! When to use colour.
+//! The use of colour.
 
 use std::io::IsTerminal;
 

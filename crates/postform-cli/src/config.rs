@@ -1,4 +1,4 @@
-//! `postform.toml`: what a shop wants everywhere, found upwards from the file that it is about.
+//! `postform.toml`: a shop's settings, searched in the folder of a file and the folders above.
 
 use std::fs;
 use std::io;
@@ -12,28 +12,28 @@ use postform::{Control, ControlName, Levels, Limits, Property};
 use super::files::{self, io_message};
 use super::forms::FormFile;
 
-/// What holds for a file.
+/// The settings for a file.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
-    /// The file itself, where there is one.
+    /// The path of `postform.toml`, if there is one.
     pub path: Option<PathBuf>,
     /// The form of `render` and `verify`.
     pub form: Option<PathBuf>,
-    /// Whose rules programs are run by.
+    /// The control whose rules programs follow when they are run.
     pub control: Option<&'static Control>,
     /// The machine on which programs run.
     pub machine: Option<PathBuf>,
     /// Limits of forms.
     pub limits: Option<Limits>,
-    /// What editors print with the forms of the folder.
+    /// Jobs that editors print with the forms of the folder.
     pub jobs: Vec<PathBuf>,
-    /// Programs that are not proven are not printed.
+    /// A program that is not proven is not printed.
     pub require_proof: bool,
-    /// What rules count as.
+    /// Severities of rules.
     pub levels: Levels,
     /// Values of properties of forms, by their names.
     pub properties: Vec<(String, String)>,
-    /// What `postform test` does.
+    /// The settings of `postform test`.
     pub test: Tests,
 }
 
@@ -42,28 +42,27 @@ pub struct Config {
 pub struct Tests {
     /// The forms, or folders of forms.
     pub forms: Vec<PathBuf>,
-    /// The post of a form that holds several.
+    /// The post to use from a form that contains several.
     pub post: Option<String>,
-    /// Names of what is no difference, as `diff --ignore` takes them.
+    /// Names of ignored differences, as in `diff --ignore`.
     pub ignore: Vec<String>,
-    /// How near numbers must be.
+    /// Largest difference at which numbers are equal.
     pub tolerance: f64,
-    /// The day on which programs are printed.
+    /// The date with which programs are printed.
     pub date: Option<String>,
 }
 
 /// The name of the file.
 const NAME: &str = "postform.toml";
 
-/// Largest file that is read: a larger one is no configuration.
+/// Maximum size of the file: a larger one is no configuration.
 const LARGEST: u64 = 1 << 20;
 
 impl Config {
-    /// The configuration for a file: the first `postform.toml` in its folder or above. Standard input has that of the
-    /// working folder.
+    /// The configuration for a file: the first `postform.toml` in its folder or a folder above. Standard input uses the working folder.
     ///
     /// # Errors
-    /// A message: the file is there and can't be read, or says something that makes no sense.
+    /// A message: the file exists but can't be read, or contains a value that makes no sense.
     pub fn near(path: &Path) -> Result<Config, String> {
         let path = if path == Path::new("-") { Path::new("./-") } else { path };
         let Ok(mut folder) = files::folder(path).canonicalize() else { return Ok(Config::default()) };
@@ -75,10 +74,10 @@ impl Config {
             match fs::metadata(&candidate) {
                 Ok(meta) if meta.is_file() => return Config::read(&candidate, meta.len()),
                 Ok(_) => {
-                    let help = "a configuration is one; take it away, or write the file";
-                    return Err(format!("error: {} is no file\n  help: {help}", files::name(&candidate)));
+                    let help = "postform.toml must be a file: remove this one, or replace it by a file";
+                    return Err(format!("error: {} is not a file\n  help: {help}", files::name(&candidate)));
                 }
-                // a link to nothing is there, and says that somebody wanted a configuration
+                // a broken link counts as an existing file, because a configuration was intended
                 Err(error) if error.kind() != io::ErrorKind::NotFound || candidate.is_symlink() => {
                     return Err(io_message("read", &candidate, &error));
                 }
@@ -94,15 +93,15 @@ impl Config {
         super::inputs::note(path);
         let name = escaped(&path.to_string_lossy());
         if length > LARGEST {
-            return Err(format!("error: {name} is larger than 1 MB: it is no configuration"));
+            return Err(format!("error: {name} is larger than 1 MB: it is not a configuration"));
         }
         Config::from_text(path, &fs::read_to_string(path).map_err(|error| io_message("read", path, &error))?)
     }
 
-    /// What the text of the file says.
+    /// Reads the text of the file.
     ///
     /// # Errors
-    /// A message: it makes no sense.
+    /// A message: the text makes no sense.
     pub fn from_text(path: &Path, text: &str) -> Result<Config, String> {
         let name = escaped(&path.to_string_lossy());
         let said = postform::Config::parse(text).map_err(|error| format!("error: {name}: {error}"))?;
@@ -134,14 +133,14 @@ impl Config {
     }
 }
 
-/// Files that are searched for forms with a property.
+/// Maximum number of files that are searched for forms with a property.
 const MOST_FILES: usize = 2000;
 
 impl Config {
-    /// Refuses a name under `[properties]` that no form of the folder has; `own` are those of the form in question.
+    /// Refuses a name under `[properties]` that no form of the folder has; `own` are the properties of the current form.
     ///
     /// # Errors
-    /// A message with what was meant.
+    /// A message with the intended name.
     pub fn check_properties(&self, own: &[Property]) -> Result<(), String> {
         let Some(path) = &self.path else { return Ok(()) };
         let mut strange: Vec<&str> = self.properties.iter().map(|(name, _)| name.as_str()).collect();
@@ -152,15 +151,15 @@ impl Config {
         let Some(name) = strange.first() else { return Ok(()) };
         let names = own.iter().map(|property| property.name.as_str());
         let help = did_you_mean(name, names).unwrap_or_else(|| {
-            "`postform properties FORM` lists those of a form; take the line out, or fix its name".into()
+            "`postform properties FORM` lists the properties of a form; remove the line, or fix its name".into()
         });
         let file = files::name(path);
         Err(format!(
-            "error: {file}: `{name}` under [properties] is no property of a form of its folder\n  help: {help}"
+            "error: {file}: no form in this folder has the property `{name}` (under [properties])\n  help: {help}"
         ))
     }
 
-    /// Takes out the names that forms of the folder and below have. `false`: there are more files than are searched.
+    /// Removes the names that forms in the folder and its subfolders have. `false`: there are more files than the maximum.
     fn others(&self, folder: &Path, names: &mut Vec<&str>) -> bool {
         let (mut folders, mut left) = (vec![folder.to_path_buf()], MOST_FILES);
         while let (Some(folder), false) = (folders.pop(), names.is_empty()) {
@@ -187,7 +186,7 @@ fn has(properties: &[Property], name: &str) -> bool {
     properties.iter().any(|property| property.name.eq_ignore_ascii_case(name))
 }
 
-/// Is a folder the root, or one in which everybody may make files, as /tmp? A file there is not the shop's.
+/// Is the folder the root, or a folder in which every user may create files, such as /tmp? A file in it is not the shop's.
 fn is_common(folder: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -200,7 +199,7 @@ fn is_common(folder: &Path) -> bool {
     folder.parent().is_none()
 }
 
-/// A path as people would type it: from the working folder where it is below.
+/// A path as people type it: relative to the working folder if it is inside that.
 pub fn shortened(path: PathBuf) -> PathBuf {
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     here.ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf)).unwrap_or(path)

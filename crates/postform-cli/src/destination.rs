@@ -1,26 +1,26 @@
-//! Where the name of an output leads.
+//! Resolves the name of an output.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Where an output goes: links are followed.
+/// The destination of an output, with links resolved.
 pub struct Destination {
-    /// The last name.
+    /// The last name in the chain of links.
     pub path: PathBuf,
-    /// A device, a pipe or a file that a process has open, as /dev/stdout: it is written, and no file takes its place.
+    /// A device, a pipe or a file that a process has open, such as /dev/stdout: it is written to, and not replaced by a file.
     pub stays: bool,
 }
 
-/// The folder that a file is in.
+/// The folder of a file.
 pub fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Where a name leads, also by a link that leads to nothing yet.
+/// Resolves a name, also through a link whose target does not exist yet.
 ///
 /// # Errors
-/// As the system says; links that lead in a circle among them.
+/// As reported by the system, including circular links.
 pub fn destination(path: &Path) -> io::Result<Destination> {
     match fs::metadata(path) {
         Ok(meta) if meta.is_file() || meta.is_dir() => {}
@@ -35,7 +35,7 @@ pub fn destination(path: &Path) -> io::Result<Destination> {
     }
 }
 
-/// Is it the name of an open file, as /dev/fd/3 and /proc/self/fd/1 are?
+/// Is it the name of an open file, such as /dev/fd/3 and /proc/self/fd/1?
 fn is_open(path: &Path) -> bool {
     let place = folder(path).canonicalize().unwrap_or_default();
     place.ends_with("fd") && (place.starts_with("/proc") || place.starts_with("/dev"))

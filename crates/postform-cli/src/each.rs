@@ -1,23 +1,23 @@
-//! The same work for each of many things, on as many threads as there are to be had.
+//! Applies the same work to each of many items, on several threads.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// What the work makes of each item, in their order.
+/// The results of the work, in the order of the items.
 pub fn each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     each_on(None, items, work)
 }
 
-/// The same on so many threads; `None`: one a core.
+/// The same on this number of threads; `None`: one per core.
 pub fn each_on<T: Send, R: Send>(threads: Option<NonZeroUsize>, items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     let mut all = Vec::with_capacity(items.len());
     each_in_order(threads, items, work, |result| all.push(result));
     all
 }
 
-/// The same; `take` gets each result as soon as those of all items before it are there, one at a time.
+/// The same; `take` gets the results one at a time and in order, each as soon as it is ready.
 pub fn each_in_order<T: Send, R: Send>(
     threads: Option<NonZeroUsize>,
     items: Vec<T>,
@@ -42,7 +42,7 @@ pub fn each_in_order<T: Send, R: Send>(
     let run = &run;
     thread::scope(|scope| {
         for _ in 1..threads {
-            // where no thread is to be had, the others do the work
+            // if no further thread is available, the existing ones do the work
             if thread::Builder::new().spawn_scoped(scope, run).is_err() {
                 break;
             }

@@ -17,21 +17,21 @@ use super::inputs;
 use super::packed::{unpacked, unpacked_name};
 use super::spool::Spool;
 
-/// Largest form: a longer file is none.
+/// Maximum size of a form: a longer file is not a form.
 const LARGEST_FORM: u64 = MOST_TEXT as u64;
 
-/// A file that could not be read or written, as a message.
+/// The message about a file that can't be read or written.
 pub fn io_message(what: &str, path: &Path, error: &io::Error) -> String {
     let name = if what == "write" { output_name(path) } else { name(path) };
     format!("error: can't {what} {name}: {error}")
 }
 
-/// The name that messages use for an input.
+/// The name of an input in messages.
 pub fn name(path: &Path) -> String {
     if path == Path::new("-") { "standard input".into() } else { escaped(&path.to_string_lossy()) }
 }
 
-/// The name that messages use for an output.
+/// The name of an output in messages.
 pub fn output_name(path: &Path) -> String {
     if path == Path::new("-") { "standard output".into() } else { escaped(&path.to_string_lossy()) }
 }
@@ -49,12 +49,12 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
     }
 }
 
-/// An NC program, which must be a file that can be gone back in: others are copied into one.
+/// An NC program as a seekable file; any other input is copied into a file.
 pub fn open_program(path: &Path) -> Result<File, String> {
     Ok(Again::open(path)?.file)
 }
 
-/// An input that is read more than once: what can't be gone back in is copied into a file.
+/// An input that is read more than once; an input that is not seekable is copied into a file.
 pub struct Again {
     file: File,
 }
@@ -86,7 +86,7 @@ impl Again {
     }
 }
 
-/// A file that must stay as it is while it is read more than once.
+/// A file that must not change while it is read more than once.
 struct Steady {
     file: File,
     stamp: Option<(u64, SystemTime, (i64, i64))>,
@@ -98,7 +98,7 @@ impl Steady {
     }
 }
 
-/// Size and time of the last change, where the system says them; also that of its entry, which no program can put back.
+/// Size and time of the last change, if the system has them; also the change time of the file's entry, which no program can set back.
 fn stamp(file: &File) -> Option<(u64, SystemTime, (i64, i64))> {
     let meta = file.metadata().ok()?;
     #[cfg(unix)]
@@ -120,7 +120,7 @@ impl Read for Steady {
 impl Seek for Steady {
     fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
         if to == io::SeekFrom::Start(0) && stamp(&self.file) != self.stamp {
-            return Err(io::Error::other("it was changed while it was read: try again when it is whole"));
+            return Err(io::Error::other("the file changed while it was read: try again when it is complete"));
         }
         self.file.seek(to)
     }
@@ -131,7 +131,7 @@ pub fn is_form(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
 }
 
-/// The forms in the folder of one that is not there, as a help line.
+/// A help line with the forms in the folder of a missing form.
 fn forms_beside(path: &Path) -> String {
     const MOST: usize = 8;
     if path == Path::new("-") || path.exists() {
@@ -143,28 +143,29 @@ fn forms_beside(path: &Path) -> String {
     let mut forms: Vec<String> = names.collect();
     forms.sort();
     forms.truncate(MOST);
-    if forms.is_empty() { String::new() } else { format!("\n  help: the forms there: {}", forms.join(", ")) }
+    if forms.is_empty() { String::new() } else { format!("\n  help: forms in that folder: {}", forms.join(", ")) }
 }
 
-/// A whole form.
+/// Reads a complete form.
 pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let file = open(path).map_err(|message| format!("{message}{}", forms_beside(path)))?;
     match file.take(LARGEST_FORM + 1).read_to_end(&mut bytes) {
         Ok(_) if bytes.len() as u64 > LARGEST_FORM => {
-            Err(format!("error: {} is larger than {} KB: it is no form", name(path), LARGEST_FORM >> 10))
+            Err(format!("error: {} is larger than {} KB: it is not a form", name(path), LARGEST_FORM >> 10))
         }
         Ok(_) if bytes.trim_ascii_start().starts_with(b"{") => {
             let name = name(path);
             Err(format!(
-                "error: {name} is a job, no form\n  help: `postform check {name}` looks at jobs; of `postform render JOB --form FORM` the job comes first"
+                "error: {name} is a job, not a form\n  help: `postform check {name}` checks a job; in `postform \
+                 render JOB --form FORM` the job comes first"
             ))
         }
         Ok(_) if !is_form(path) && bytes.trim_ascii_start().starts_with(b"%") => {
             let name = name(path);
-            Err(format!("error: {name} is an NC program, no form\n  help: `postform simulate {name}` runs programs"))
+            Err(format!("error: {name} is an NC program, not a form\n  help: `postform simulate {name}` runs programs"))
         }
-        // what comes of it would be written back by a fix
+        // UTF-16 text would be damaged when a fix writes it
         Ok(_) if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") => {
             Err(format!("error: {} is UTF-16\n  help: save it as UTF-8: forms are plain text", name(path)))
         }
@@ -176,19 +177,20 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
 /// A shop's own control.
 ///
 /// # Errors
-/// A message: the file can't be read, or says something wrong, with line and column.
+/// A message: the file can't be read, or contains an error, with line and column.
 pub fn control(path: &Path) -> Result<&'static Control, String> {
     let bytes = read_form(path)?;
     let text = String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", name(path)))?;
     Control::own(&name(path), &text).map_err(|wrong| format!("error: {}", escaped_lines(&wrong.to_string())))
 }
 
-/// The format of a job: as said, else by its extension, else by how it begins.
+/// The format of a job: from the option, else by its extension, else by its first bytes.
 fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
     if args.from.is_none() && is_form(path) {
         let name = name(path);
         return Err(format!(
-            "error: {name} is a form, no job\n  help: `postform lint {name}` looks at forms; of `postform render JOB --form FORM` the job comes first"
+            "error: {name} is a form, not a job\n  help: `postform lint {name}` checks a form; in `postform render \
+             JOB --form FORM` the job comes first"
         ));
     }
     let from = format_of(path, args.from)?;
@@ -196,31 +198,38 @@ fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
     Ok(from)
 }
 
-/// Are the options for a job of this format?
+/// Are the options allowed for a job of this format?
 fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
     if from != Format::Cl && args.dialect.is_some() {
-        return Err(format!("error: --dialect is for CL files, which {} is not", name(path)));
+        return Err(format!("error: --dialect is for CL files only: {} is not a CL file", name(path)));
     }
     if from != Format::Freecad && args.job_name.is_some() {
-        return Err(format!("error: --job is for FreeCAD documents, which {} is not", name(path)));
+        return Err(format!("error: --job is for FreeCAD documents only: {} is not a FreeCAD document", name(path)));
     }
     let of_both = args.assume_tool.is_some() || args.assume_start.is_some();
     let has_units = !matches!(from, Format::Cl | Format::Nc | Format::Nci) && args.assume_units.is_some();
     if has_units || !matches!(from, Format::Cl | Format::Nc) && of_both {
         return Err(format!(
-            "error: --assume-.. is for CL files, NCI files and NC programs, which {} is not",
+            "error: this --assume- option is not for the format of {}: it is for CL files, NCI files and NC \
+             programs",
             name(path)
         ));
     }
     if from != Format::Cl && args.assumes_of_cl() {
         let options = "--assume-speed, -feed and -end and --setup are";
-        return Err(format!("error: {options} for CL files, which {} is not", name(path)));
+        return Err(format!("error: {options} for CL files only: {} is not a CL file", name(path)));
     }
     if from != Format::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
-        return Err(format!("error: --job-.. is for NC programs, which {} is not", name(path)));
+        return Err(format!(
+            "error: --job-control and --job-no-point are for NC programs only: {} is not an NC program",
+            name(path)
+        ));
     }
     if from == Format::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
-        return Err(format!("error: --assume-tool takes one number for an NC program, which {} is", name(path)));
+        return Err(format!(
+            "error: for an NC program --assume-tool takes one number: {} is an NC program",
+            name(path)
+        ));
     }
     Ok(())
 }
@@ -233,14 +242,12 @@ fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
         None if path == Path::new("-") => Ok(Format::Json),
         None => by_content(path)?.ok_or_else(|| {
             let name = name(path);
-            format!(
-                "error: can't tell what {name} is by its name or how it begins: say it with --from json, jsonl, cl, nc, nci or freecad"
-            )
+            format!("error: the format of {name} is unknown: give it with --from json, jsonl, cl, nc, nci or freecad")
         }),
     }
 }
 
-/// By how a file begins; what can't be gone back in is not looked at.
+/// The format by the first bytes of a file; an input that is not seekable is not examined.
 fn by_content(path: &Path) -> Result<Option<Format>, String> {
     let fail = |error: io::Error| io_message("read", path, &error);
     let file = File::open(path).map_err(fail)?;
@@ -256,18 +263,18 @@ fn by_content(path: &Path) -> Result<Option<Format>, String> {
     Ok(Format::of_content(&start))
 }
 
-/// So many bytes tell what a job is.
+/// Number of bytes that are examined to recognise a job.
 const LOOKED_AT: u64 = 4096;
 
-/// Is the format of a job known, and are the options for it?
+/// Checks that the format of a job is known and that the options are allowed for it.
 pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
     job_format(path, args).map(|_| ())
 }
 
-/// A job; `again`: it is read more than once, so what can't be gone back in is copied into a file.
+/// Opens a job; `again`: it is read more than once, so an input that is not seekable is copied into a file.
 pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
     let format = job_format(path, args)?;
-    // a program is run twice, and an archive is read from its end
+    // a program needs two runs, and an archive is read from its end
     let twice = again || matches!(format, Format::Nc | Format::Freecad);
     let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
     let mut job = match twice || is_file {
@@ -290,7 +297,7 @@ mod tests {
 
     use super::*;
 
-    /// Writes to the job while it is read.
+    /// A reader that changes the job during a read.
     struct Writes(File);
 
     impl Sink for Writes {
@@ -311,7 +318,7 @@ mod tests {
         assert!(error.io().is_some_and(|error| error.to_string().contains("changed while it was read")), "{error}");
     }
 
-    /// As `touch -r` does after a change in place: size and time are those of before.
+    /// As with `touch -r` after a change in place: size and time are set back to the old values.
     #[cfg(unix)]
     #[test]
     fn a_time_that_is_put_back_hides_no_change() {
@@ -320,7 +327,7 @@ mod tests {
         let before = file.metadata().unwrap().modified().unwrap();
         let mut steady = Steady::new(file.try_clone().unwrap());
         assert!(steady.seek(io::SeekFrom::Start(0)).is_ok());
-        // the clock of a file system ticks by milliseconds
+        // file times may have a resolution of milliseconds
         std::thread::sleep(std::time::Duration::from_millis(20));
         file.seek(io::SeekFrom::Start(0)).unwrap();
         file.write_all(b"behind").unwrap();

@@ -20,7 +20,7 @@ use super::report::count;
 use super::say::message;
 use super::{Ending, forms};
 
-/// Lays out forms in place; `-` is a filter.
+/// Formats forms in place; `-` filters standard input.
 pub fn run(args: &FmtArgs) -> Result<Ending, String> {
     let paths = forms::named(&args.forms)?;
     if let [path] = paths.as_slice()
@@ -29,7 +29,7 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
         return filter(path, args.check);
     }
     if paths.iter().any(|path| path == Path::new("-")) {
-        return Err("error: standard input is laid out alone: postform fmt -".into());
+        return Err("error: `-` (standard input) must be the only argument: postform fmt -".into());
     }
     let results = each(paths.iter().collect(), |path| one(path, args));
     let (mut changed, mut left_out, mut failed) = (0, 0, false);
@@ -42,7 +42,7 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
             }
             Ok(Laid::Otherwise) => {
                 changed += 1;
-                let word = if args.check { "would be laid out otherwise" } else { "laid out" };
+                let word = if args.check { "would be formatted" } else { "formatted" };
                 message(&format!("{}: {word}", files::name(path)));
             }
             Err(text) => {
@@ -53,7 +53,7 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
     }
     if args.check && changed > 0 {
         let all = count(paths.len(), "form");
-        message(&format!("{changed} of {all}; `postform fmt` without --check lays them out"));
+        message(&format!("{changed} of {all} would change; `postform fmt` without --check formats them"));
     }
     Ok(match (failed, left_out > 0 || args.check && changed > 0) {
         (true, _) => Ending::Failed,
@@ -62,30 +62,30 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
     })
 }
 
-/// What came of a file.
+/// The result for a file.
 enum Laid {
     AsItWas,
     Otherwise,
-    /// It stays as it is, and why.
+    /// The file stays unchanged, for this reason.
     LeftOut(String),
 }
 
-/// Codes of lines that make no sense: a file with such a line may be no form at all.
+/// Codes of lines that make no sense: a file with such a line may not be a form at all.
 const UNREAD: [Code; 5] = [Code::PF001, Code::PF002, Code::PF007, Code::PF201, Code::PF301];
 
-/// Lays out one file.
+/// Formats one file.
 fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
     let name = files::name(path);
     if !args.force && !callers::is_form(path)? {
-        let help = format!("forms end in .pf; to lay it out all the same: postform fmt --force {name}");
-        let why = format!("error: {name} is no form by its name, and no form calls it: it stays as it is");
+        let help = format!("the names of forms end in .pf; to format the file anyway: postform fmt --force {name}");
+        let why = format!("error: {name} does not end in .pf, and no form calls it: it is not changed");
         return Ok(Laid::LeftOut(format!("{why}\n  help: {help}")));
     }
     let file = FormFile::read(path, Limits::Extended)?;
     let checked = file.analyse(&Changed::new());
     if let Some(unread) = unread(&checked).filter(|_| !args.force) {
         let line = unread.line(&checked.files);
-        return Ok(Laid::LeftOut(format!("{line}\n  help: {name} stays as it is until every line of it makes sense")));
+        return Ok(Laid::LeftOut(format!("{line}\n  help: {name} is not changed until every line of it can be read")));
     }
     let after = format(&file.source());
     if file.bytes() == after.as_bytes() {
@@ -97,7 +97,7 @@ fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
     Ok(Laid::Otherwise)
 }
 
-/// The first line of the file itself that makes no sense.
+/// The first line in the file itself that makes no sense.
 fn unread(checked: &Checked) -> Option<&Diag> {
     let own = |diag: &&Diag| diag.labels.first().is_some_and(|label| label.span.file == 0);
     checked.diags.iter().filter(own).find(|diag| diag.is_error() && UNREAD.contains(&diag.code))
@@ -112,7 +112,7 @@ fn filter(path: &Path, check: bool) -> Result<Ending, String> {
     }
 }
 
-/// A form before and after.
+/// A form before and after formatting.
 fn laid_out(path: &Path) -> Result<(Vec<u8>, String), String> {
     let bytes = files::read_form(path)?;
     let text = format(&Source::from_bytes(files::name(path), &bytes));

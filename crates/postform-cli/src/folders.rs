@@ -1,4 +1,4 @@
-//! Which files of a folder are jobs.
+//! Finds the jobs in a folder.
 
 use std::collections::HashSet;
 use std::fs;
@@ -10,12 +10,12 @@ use postform::Format;
 use super::files::io_message;
 use super::packed::unpacked_name;
 
-/// Folders below one another; deeper ones are left alone.
+/// Maximum depth of subfolders; deeper ones are skipped.
 pub const DEEPEST: usize = 32;
-/// So much of a JSON document tells whether it is a job.
+/// Number of bytes of a JSON document that are examined to recognise a job.
 const HEAD: u64 = 4096;
 
-/// The jobs in a folder and in those below it, in the order of their paths; and the JSON files that do not begin as jobs do.
+/// The jobs in a folder and its subfolders, in the order of their paths; and the JSON files that do not begin like a job.
 ///
 /// # Errors
 /// A message: a folder can't be read.
@@ -29,9 +29,9 @@ fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut V
     let entries = listed(folder)?;
     let expected = jobs_expected(&entries);
     for path in &entries {
-        // a link to nothing is a job that can't be read
+        // a broken link counts as a job that can't be read
         let is_there = path.is_file() || path.is_symlink() && !path.exists();
-        // into a compressed job is not looked
+        // the contents of a compressed job are not examined
         let is_job = match unpacked_name(path) {
             Some(name) => is_there && is_named_as_job(&name),
             None => is_job(path, &expected),
@@ -48,7 +48,7 @@ fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut V
     Ok(())
 }
 
-/// Is it called as jobs are? A program is one by its name `job` alone.
+/// Is it the name of a job? A program is a job only if it is called `job`.
 fn is_named_as_job(name: &Path) -> bool {
     match Format::of_name(&name.to_string_lossy()) {
         Some(Format::Nc) => name.file_stem().is_some_and(|stem| stem == "job"),
@@ -56,11 +56,11 @@ fn is_named_as_job(name: &Path) -> bool {
     }
 }
 
-/// The folders among the entries of one.
+/// The folders among these entries.
 pub fn below(entries: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
     entries.iter().filter(|path| {
         let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-        // a link to a folder could lead back
+        // a link to a folder could lead back to a folder above
         !is_hidden && path.symlink_metadata().is_ok_and(|meta| meta.is_dir())
     })
 }
@@ -68,7 +68,7 @@ pub fn below(entries: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
 /// The entries of a folder, in the order of their names.
 ///
 /// # Errors
-/// A message: it can't be read.
+/// A message: the folder can't be read.
 pub fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let fail = |error: std::io::Error| io_message("read", folder, &error);
     let entries: Result<Vec<PathBuf>, _> =
@@ -78,24 +78,24 @@ pub fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
     Ok(entries)
 }
 
-/// Is it the program, or the error, that is expected of a job?
+/// Is the file an expected result: a program or an error?
 pub fn is_expected(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name.starts_with("expected.") || name.contains(".expected.")
 }
 
-/// The name of the job to which an expected program belongs, without its ending.
+/// The name of the job of an expected program, without its extension.
 pub fn stem_of_expected(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     name.split_once(".expected.").map_or("job".to_owned(), |(stem, _)| stem.to_owned())
 }
 
-/// The names of the jobs of which a folder has expected programs, without their endings.
+/// The names of the jobs with expected programs in a folder, without their extensions.
 pub fn jobs_expected(entries: &[PathBuf]) -> HashSet<String> {
     entries.iter().filter(|path| is_expected(path)).map(|path| stem_of_expected(path)).collect()
 }
 
-/// Is the file a job? JSON must look like one, unless it is called `job` or has expected programs; an NC program is one if it is
+/// Is the file a job? A JSON file must look like a job, be called `job`, or have an expected program. An NC program must be
 /// called `job`.
 pub fn is_job(path: &Path, expected: &HashSet<String>) -> bool {
     if !path.is_file() || is_expected(path) {
@@ -114,6 +114,6 @@ pub fn is_job(path: &Path, expected: &HashSet<String>) -> bool {
 fn looks_like_a_job(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    // what can't be read is said where it is read
+    // a read error is reported when the job is read
     read.is_err() || String::from_utf8_lossy(&head).contains("\"postform\"")
 }

@@ -1,4 +1,4 @@
-//! Forms from files, with those that they call.
+//! Forms from files, with the forms that they call.
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
@@ -12,15 +12,15 @@ use postform::{Files, Source};
 use super::files::{self, io_message};
 use super::say::message;
 
-/// A form's file, with those that it calls.
+/// A form's file, with the files that it calls.
 pub struct FormFile {
-    /// Where the form is.
+    /// The path of the form.
     pub path: PathBuf,
     bytes: Vec<u8>,
-    /// Which post of a file that holds several.
+    /// The name of the post, if the file contains several.
     post: Option<String>,
     limits: Limits,
-    /// Where the called files are, by their names in messages.
+    /// The paths of the called files, by their names in messages.
     called: RefCell<HashMap<String, PathBuf>>,
 }
 
@@ -31,7 +31,7 @@ impl FormFile {
         Ok(FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() })
     }
 
-    /// One of the posts that the file holds, by its name. `Err` is a message: it holds none of that name.
+    /// Selects one post of the file by its name. `Err` is a message: the file contains no post with this name.
     pub fn of_post(self, post: Option<&str>) -> Result<FormFile, String> {
         let Some(name) = post else { return Ok(self) };
         if let Err(names) = one_post(self.source(), name) {
@@ -40,18 +40,18 @@ impl FormFile {
             } else {
                 format!("there are {}", names.join(", "))
             };
-            return Err(format!("error: {} holds no post `{name}`\n  help: {held}", files::name(&self.path)));
+            return Err(format!("error: {} has no post `{name}`\n  help: {held}", files::name(&self.path)));
         }
         Ok(FormFile { post: Some(name.to_owned()), ..self })
     }
 
-    /// A form whose text is in an editor: it comes with the changed texts.
+    /// A form whose text is in an editor: the text comes with the changed texts.
     pub fn open_in_editor(path: &Path, limits: Limits) -> FormFile {
         let bytes = files::read_form(path).unwrap_or_default();
         FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() }
     }
 
-    /// The file as it is.
+    /// The bytes of the file.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
@@ -65,7 +65,7 @@ impl FormFile {
         }
     }
 
-    /// Analyses the form, with other text for the files that were changed.
+    /// Analyses the form, with the changed texts in place of their files.
     pub fn analyse(&self, changed: &Changed) -> Checked {
         let form = self.source();
         let source = match changed.get(&form.name) {
@@ -81,19 +81,19 @@ impl FormFile {
         })
     }
 
-    /// Where a file of the form is, by its name in messages.
+    /// The path of a file of the form, by its name in messages.
     pub fn place(&self, name: &str) -> PathBuf {
         self.called.borrow().get(name).unwrap_or(&self.path).clone()
     }
 
-    /// The form and the files that it calls, as far as they were read.
+    /// The form and the files that it calls, as far as they have been read.
     pub fn paths(&self) -> Vec<PathBuf> {
         std::iter::once(&self.path).chain(self.called.borrow().values()).cloned().collect()
     }
 
-    /// The files that the form calls, as far as they were read, whatever links lead to them.
+    /// The files that the form calls, as far as they have been read, with links resolved.
     fn calls(&self) -> Vec<PathBuf> {
-        // most forms call none, and need not be read twice for that
+        // most forms call no other form; they are not read twice
         let calls =
             |line: &[u8]| line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"Call"));
         if self.bytes.split(|&byte| byte == b'\n').any(calls) {
@@ -106,7 +106,7 @@ impl FormFile {
 impl Files for FormFile {
     fn read(&self, name: &str) -> Result<Source, String> {
         let (place, bytes) = called(&self.path, name).inspect_err(|_| {
-            // one that is made later is a change
+            // a missing file counts as called, so that its creation is noticed as a change
             let place = self.path.parent().unwrap_or(Path::new("")).join(name);
             let is_below = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
             if is_below && !place.exists() {
@@ -119,8 +119,8 @@ impl Files for FormFile {
     }
 }
 
-/// A form that another one calls: in its folder or below, also when links are followed. Its name is its path, so that
-/// whoever reads a message finds it.
+/// Reads a form that another form calls. It must be in the caller's folder or below, also after links are followed. Its name is
+/// its path, so that the reader of a message finds the file.
 fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
     let folder = form.parent().unwrap_or(Path::new(""));
     let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -132,7 +132,7 @@ fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
         return Err("is outside the form's folder".into());
     }
     if !real.is_file() {
-        return Err("is no file".into());
+        return Err("is not a file".into());
     }
     if form.canonicalize().is_ok_and(|form| form == real) {
         return Err("is this form itself".into());
@@ -141,8 +141,8 @@ fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
     Ok((folder.join(name), bytes))
 }
 
-/// Forms without those that another of them calls: a part is looked at where it is called, by the settings that hold
-/// there. Where two call each other the first stays. A form that is named twice is looked at once.
+/// Removes the forms that another of these forms calls: a called form is checked with its caller, with the settings of the
+/// caller. If two forms call each other, the first one stays. Duplicates are removed.
 pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     let real = |file: &FormFile| file.path.canonicalize().unwrap_or_else(|_| file.path.clone());
     let mut seen = HashSet::new();
@@ -152,7 +152,7 @@ pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     files.into_iter().zip(parts).filter(|(_, is_part)| !is_part).map(|(file, _)| file).collect()
 }
 
-/// The forms that arguments name: a folder is all `.pf` files in it and below, in the order of their names.
+/// The forms for these arguments: a folder means all `.pf` files in it and below, in the order of their names.
 pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     let mut forms = Vec::new();
     for path in paths {
@@ -177,16 +177,16 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            // a link to a folder may lead back to where it is
+            // a link to a folder may lead back to a folder above
             if !path.is_symlink() {
                 in_folder(&path, root, forms)?;
             }
         } else if files::is_form(&path) {
             match path.canonicalize() {
-                // found by its own name
+                // the target is found under its own name
                 Ok(real) if path.is_symlink() && real.starts_with(root) && files::is_form(&real) => {}
-                Ok(_) if path.is_symlink() => left_out(&path, "a link to what is no form of this folder"),
-                Ok(real) if !real.is_file() => left_out(&path, "no file"),
+                Ok(_) if path.is_symlink() => left_out(&path, "a link to a file that is not a form in this folder"),
+                Ok(real) if !real.is_file() => left_out(&path, "not a file"),
                 _ => forms.push(path),
             }
         }
@@ -194,7 +194,7 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// A fix must reach only what the folder holds, and a pipe has no end.
+/// Reports a skipped file: a fix must only change files of the folder, and reading a pipe would never end.
 fn left_out(path: &Path, why: &str) {
-    message(&format!("{}: {why}, left out; name it to have it looked at", files::name(path)));
+    message(&format!("{}: {why}, left out; to check it, give its name", files::name(path)));
 }

@@ -1,4 +1,4 @@
-//! Which file a name means: other names, links and folders may lead to the same one.
+//! The identity of a file: different names, links and folders may lead to the same file.
 
 use std::ffi::{OsStr, OsString};
 use std::io;
@@ -6,16 +6,16 @@ use std::path::Path;
 
 use super::destination::{destination, folder};
 
-/// A regular file, or the place of one that is still to be made.
+/// A regular file, or the location of a file that does not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Identity {
-    /// The file; before it is made, its folder.
+    /// The file; if it does not exist yet, its folder.
     node: Node,
-    /// The name of a file that is not made yet.
+    /// The name of a file that does not exist yet.
     name: Option<OsString>,
 }
 
-/// Device and number.
+/// Device and inode number.
 #[cfg(unix)]
 type Node = (u64, u64);
 /// The path without links.
@@ -23,7 +23,7 @@ type Node = (u64, u64);
 type Node = std::path::PathBuf;
 
 impl Identity {
-    /// The identity of an input. `None`: no regular file, so nothing can replace it.
+    /// The identity of an input. `None`: it is no regular file, so no output can replace it.
     pub fn of_input(path: &Path) -> Option<Identity> {
         if path == Path::new("-") {
             return of_stream(&io::stdin());
@@ -31,7 +31,7 @@ impl Identity {
         path.metadata().is_ok_and(|meta| meta.is_file()).then(|| of_path(path, None))?
     }
 
-    /// The identity of an output, which may not be there yet.
+    /// The identity of an output, which may not exist yet.
     pub fn of_output(path: &Path) -> Option<Identity> {
         if path == Path::new("-") {
             return of_stream(&io::stdout());
@@ -56,7 +56,7 @@ fn of_path(path: &Path, name: Option<&OsStr>) -> Option<Identity> {
     Some(Identity { node: path.canonicalize().ok()?, name: name.map(OsStr::to_owned) })
 }
 
-/// A file that a shell has put in the place of standard input or output.
+/// A file to which the shell has redirected standard input or output.
 #[cfg(unix)]
 fn of_stream(stream: &impl std::os::fd::AsFd) -> Option<Identity> {
     use std::os::unix::fs::MetadataExt;

@@ -1,4 +1,4 @@
-//! The files that were read: no output may replace one.
+//! The files that have been read: no output may replace one of them.
 
 use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
@@ -10,13 +10,13 @@ use super::identity::Identity;
 static READ: Mutex<Inputs> = Mutex::new(Inputs { names: BTreeSet::new(), files: None });
 
 struct Inputs {
-    /// By their names: a file that is written again is another one under the same name.
+    /// The paths of the files: a rewritten file is another file under the same path.
     names: BTreeSet<PathBuf>,
-    /// The files themselves, where they are many and none is written again.
+    /// The identities of the files, if there are many and none is rewritten.
     files: Option<HashSet<Identity>>,
 }
 
-/// A file is read.
+/// Records that a file is read.
 pub fn note(path: &Path) {
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(files) = &mut read.files {
@@ -26,14 +26,14 @@ pub fn note(path: &Path) {
     }
 }
 
-/// When one of the files that were read so far was changed last; `None`: one is not there any more.
+/// The time of the last change of all files read so far; `None`: one of them no longer exists.
 pub fn newest() -> Option<SystemTime> {
     let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     let changed = read.names.iter().map(|path| path.metadata().and_then(|meta| meta.modified()).ok());
     changed.collect::<Option<Vec<_>>>()?.into_iter().max()
 }
 
-/// Many files will be read, which nobody writes again while the command runs: each is looked at once.
+/// Many files will be read and none will be rewritten during the command: each is identified only once.
 pub fn are_many() {
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     read.files = Some(read.names.iter().filter_map(|path| Identity::of_input(path)).collect());

@@ -1,4 +1,4 @@
-//! Machines: their files, and programs that must fit into them.
+//! Machine files, and the check whether programs fit into a machine.
 
 use std::fs;
 use std::io::{Read, Seek, Write as _};
@@ -20,13 +20,13 @@ use super::report::{Reporter, count, place_in};
 use super::say::{message, say};
 use super::{Ending, inputs, output};
 
-/// Largest file of a machine or of its tools, in bytes.
+/// Maximum size of a machine's file or of its tool table, in bytes.
 const LARGEST: u64 = 1 << 20;
 
 /// Reads the file of a machine, and the files that it names.
 ///
 /// # Errors
-/// A message: a file can't be read, or says something wrong, with line and column.
+/// A message: a file can't be read, or contains an error, with line and column.
 pub fn read(path: &Path) -> Result<Machine, String> {
     let folder = files::folder(path).to_owned();
     let beside = |name: &str| text(&folder.join(name)).map_err(|why| why.trim_start_matches("error: ").to_owned());
@@ -39,26 +39,26 @@ fn text(path: &Path) -> Result<String, String> {
     let fail = |error: std::io::Error| io_message("read", path, &error);
     let meta = fs::metadata(path).map_err(fail)?;
     if meta.len() > LARGEST {
-        return Err(format!("error: {} is larger than 1 MB: it is no file of a machine", files::name(path)));
+        return Err(format!("error: {} is larger than 1 MB: it is not a machine file", files::name(path)));
     }
     let bytes = fs::read(path).map_err(fail)?;
     String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", files::name(path)))
 }
 
-/// The machine that is named: by an option, by the form, or in postform.toml.
+/// The machine from an option, the form, or postform.toml.
 ///
 /// # Errors
-/// Its file can't be read, or is wrong.
+/// Its file can't be read, or contains an error.
 pub fn named(arg: &MachineArg, form: Option<(&Path, &Post)>, config: &Config) -> Result<Option<Machine>, String> {
     let of_form = form.and_then(|(form, post)| Some(files::folder(form).join(post.machine_file()?)));
     let path = arg.machine.clone().or(of_form).or(config.machine.clone());
     path.as_deref().map(read).transpose()
 }
 
-/// The machine of a form that is to print; its accelerations count in the times that programs say.
+/// The machine of a form that prints; its accelerations are used for times that programs print.
 ///
 /// # Errors
-/// Its file can't be read, or is wrong.
+/// Its file can't be read, or contains an error.
 pub fn of_prepared(
     arg: &MachineArg,
     form: &Path,
@@ -73,11 +73,11 @@ pub fn of_prepared(
 /// A program and the machine into which it must fit.
 pub struct Fitting<'a> {
     pub machine: &'a Machine,
-    /// How the program is run.
+    /// The settings for running the program.
     pub settings: RunSettings,
-    /// The job's tools, where a job is known.
+    /// The job's tools, if there is a job.
     pub tools: Vec<JobTool>,
-    /// What the program is called.
+    /// The name of the program.
     pub program: &'a str,
 }
 
@@ -85,18 +85,18 @@ impl Fitting<'_> {
     /// Runs the program on the machine.
     ///
     /// # Errors
-    /// It can't be read.
+    /// The program can't be read.
     pub fn fitted(&self, program: impl Read + Seek) -> Result<Fitted, String> {
         let fitted = preflight(program, self.settings, self.machine, &self.tools);
         fitted.map_err(|error| io_message("read", Path::new(self.program), &error))
     }
 
-    /// The control by which offsets have their names.
+    /// The control that determines the names of offsets.
     pub fn control(&self) -> &'static Control {
         self.settings.control
     }
 
-    /// Shows what was found, with what is not checked.
+    /// Shows the findings, and everything that is not checked.
     pub fn show(&self, fitted: &Fitted, (job, sources): (Option<&Path>, &[Source]), reporter: &Reporter) {
         let diags: Vec<Diag> = fitted.findings.iter().map(|finding| self.diag(finding, job)).collect();
         say(&reporter.text(&diags, sources));
@@ -105,7 +105,7 @@ impl Fitting<'_> {
         }
     }
 
-    /// A finding with its place in the job, or in the program where no job is known.
+    /// A finding with its location in the job, or in the program if there is no job.
     fn diag(&self, finding: &Finding, job: Option<&Path>) -> Diag {
         let Some(job) = job else {
             let text = match finding.block.as_str() {
@@ -124,32 +124,32 @@ impl Fitting<'_> {
         diag
     }
 
-    /// What would do for each offset and length that is not known, a sentence each.
+    /// The allowed range for each unknown offset and length, one sentence each.
     pub fn sentences(&self, fitted: &Fitted) -> String {
         let sentences = fitted.fit.sentences(self.machine, self.control());
         sentences.iter().map(|sentence| format!("{sentence}\n")).collect()
     }
 
-    /// How long the program takes on it, in a line.
+    /// The time of the program on the machine, in one line.
     pub fn time(&self, times: &Times) -> String {
         format!("time on {} {}\n", escaped(&self.machine.name), times.sentence())
     }
 
-    /// How it came out, in a sentence.
+    /// The result in a sentence.
     pub fn sentence(&self, fitted: &Fitted) -> String {
         let (program, machine) = (self.program, escaped(&self.machine.name));
         let sentences = fitted.fit.sentences(self.machine, self.control());
         let errors = fitted.findings.iter().filter(|finding| finding.code.row().severity == Severity::Error).count();
         match (errors, fitted.findings.len()) {
-            (0, 0) if fitted.refused.is_some() => format!("{program} was not run to its end on {machine}\n"),
+            (0, 0) if fitted.refused.is_some() => format!("{program} could not be run to its end for {machine}\n"),
             (0, 0) if sentences.is_empty() => format!("{program} fits into {machine}\n"),
-            (0, 0) => format!("{program} fits into {machine} where the offsets and lengths lie as above\n"),
+            (0, 0) => format!("{program} fits into {machine} if the offsets and lengths are in the intervals above\n"),
             (0, warnings) => format!("{program} fits into {machine}, with {}\n", count(warnings, "warning")),
             (errors, _) => format!("{program} does not fit into {machine}: {}\n", count(errors, "error")),
         }
     }
 
-    /// The same for programs.
+    /// The result as JSON for other programs.
     pub fn document(&self, fitted: &Fitted) -> serde_json::Value {
         let mut document = fitted.fit.json(self.machine, self.control());
         let findings: Vec<serde_json::Value> = fitted
@@ -172,7 +172,7 @@ impl Fitting<'_> {
     }
 }
 
-/// A program that a form printed, on a machine: with the lines of the form and the items of the job, if the job can be read again.
+/// A form's program on a machine; findings have form lines and job items if the job can be read again.
 ///
 /// # Errors
 /// The program can't be read.
@@ -190,7 +190,7 @@ pub fn of_post<'a>(
     let fitting = Fitting { machine, settings, tools, program: name };
     let mut fitted = fitting.fitted(program)?;
     if again {
-        // without them the findings stand all the same
+        // if this fails, the findings stay without locations
         _ = post.locate(&mut fitted.findings, job.again(), options);
     }
     Ok((fitted, fitting))
@@ -200,8 +200,9 @@ pub fn of_post<'a>(
 pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
     let config = Config::near(&args.program)?;
     let Some(machine) = named(&args.machine, None, &config)? else {
-        let help = "give --machine, or name one in a postform.toml in the folder of the program or above: machine = \"vf2.toml\"";
-        return Err(format!("error: which machine?\n  help: {help}"));
+        let help = "give --machine, or name a machine in a postform.toml in the folder of the program or above: \
+            machine = \"vf2.toml\"";
+        return Err(format!("error: no machine is given\n  help: {help}"));
     };
     let control =
         ControlArgs { control: args.control.control.or(machine.control).or(config.control), ..args.control.clone() };

@@ -1,4 +1,4 @@
-//! The command line of postform: arguments, files, the terminal. Everything that decides is in the library.
+//! The command line of postform: arguments, files, the terminal. The library makes all decisions.
 #![forbid(unsafe_code)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
@@ -59,7 +59,7 @@ use args::{Arguments, Command};
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// Done and clean.
+    /// Success without findings.
     Clean,
     /// Findings, differences, or an error in a job or form.
     Findings,
@@ -70,7 +70,7 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// How a command ends that an error stopped.
+    /// The end of a command after an error.
     pub fn of(error: &Diag) -> Ending {
         if error.code == Code::PX001 { Ending::Broken } else { Ending::Findings }
     }
@@ -87,11 +87,10 @@ impl From<Ending> for ExitCode {
     }
 }
 
-/// Shows what is wrong with the arguments. Where they hold characters that steer a terminal, it is shown without colour, and
-/// these are escaped.
+/// Shows an error in the arguments. If they contain control characters, these are escaped and the error is shown without colour.
 fn refused(error: &clap::Error) {
     if !std::env::args_os().any(|arg| arg.to_string_lossy().chars().any(steers)) {
-        _ = error.print(); // a closed terminal is no reason to fail differently
+        _ = error.print(); // an error of the terminal does not matter here
         return;
     }
     let plain = Arguments::command().styles(clap::builder::Styles::plain());

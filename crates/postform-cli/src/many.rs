@@ -1,4 +1,4 @@
-//! The same for each of many jobs: which jobs they are, and what is shown of them.
+//! Runs a command for each of many jobs: the list of jobs, and the output about them.
 
 use std::io::Write as _;
 use std::num::NonZeroUsize;
@@ -12,10 +12,10 @@ use super::report::count;
 use super::say::{kept, message, say};
 use super::{Ending, files, output};
 
-/// Failed jobs that the last line names.
+/// Maximum number of failed jobs named in the last line.
 const MOST_NAMED: usize = 10;
 
-/// The job that arguments name, where it is one and no folder.
+/// The job in the arguments, if it is a single file.
 pub fn single(paths: &[PathBuf]) -> Option<&Path> {
     match paths {
         [path] if !path.is_dir() => Some(path),
@@ -23,15 +23,15 @@ pub fn single(paths: &[PathBuf]) -> Option<&Path> {
     }
 }
 
-/// The jobs that arguments name: files, and in folders all jobs in them and below.
+/// The jobs in the arguments: files, and all jobs in folders and their subfolders.
 ///
 /// # Errors
-/// A message: a folder can't be read, or has no job; or one of several is standard input.
+/// A message: a folder can't be read or contains no job, or one of several jobs is standard input.
 pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     let mut jobs = Vec::new();
     for path in paths {
         if path == Path::new("-") {
-            return Err("error: standard input is no job of several".into());
+            return Err("error: standard input can't be one of several jobs".into());
         }
         if !path.is_dir() {
             jobs.push(path.clone());
@@ -39,7 +39,7 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
         }
         let (found, others) = jobs_in(path)?;
         for other in others.iter().take(MOST_NAMED) {
-            message(&format!("left out: {} has no \"postform\" at its beginning, as jobs have", files::name(other)));
+            message(&format!("left out: {} does not begin with \"postform\", as a job does", files::name(other)));
         }
         if others.len() > MOST_NAMED {
             message(&format!("left out: {} more", others.len() - MOST_NAMED));
@@ -52,8 +52,8 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     Ok(jobs)
 }
 
-/// Works on each item, several at a time. What `work` returns as text is written to standard output, its messages to standard
-/// error, in the order of the items. An item that fails stops no other; `name` is what the last line calls it.
+/// Works on each item, several at a time. The text that `work` returns goes to standard output and its messages to standard
+/// error, in the order of the items. A failing item does not stop the others; the last line contains its `name`.
 ///
 /// # Errors
 /// Standard output can't be written.

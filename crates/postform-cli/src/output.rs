@@ -1,4 +1,4 @@
-//! Where programs go. A program appears under its name, or on standard output, only when it is complete.
+//! Outputs. A program appears under its name, or on standard output, only after it is complete.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -15,15 +15,15 @@ use super::packed::{pack, packing, unpacked_name};
 use super::spool::Spool;
 use super::unnamed::Unnamed;
 
-/// A file that is being written and not there yet.
+/// An output that is being written and is not visible yet.
 pub enum Target {
-    /// A file without a name in the folder of its target, to appear there.
+    /// An unnamed file in the folder of its target, which gets the target's name at the end.
     Beside(Unnamed),
     /// A device, a pipe or standard output: spooled, then copied.
     Spooled(Spool, Option<PathBuf>),
-    /// Standard output, written as text comes.
+    /// Standard output, written without a spool.
     Stream,
-    /// One of these, by a name that ends with `.gz`.
+    /// One of these, compressed because its name ends with `.gz`.
     Packed(Box<(Target, GzEncoder<Vec<u8>>)>),
 }
 
@@ -31,7 +31,7 @@ impl Target {
     /// Prepares the output `path`; `-` is standard output.
     ///
     /// # Errors
-    /// A message: the file can't be made, or it is one that was read.
+    /// A message: the file can't be created, or it is also an input.
     pub fn open(path: &Path, stream: bool) -> Result<Target, String> {
         if inputs::holds(path) {
             return Err(format!("error: {} is an input: choose another output", output_name(path)));
@@ -43,7 +43,7 @@ impl Target {
         })
     }
 
-    /// The same for a file that is read and written.
+    /// Prepares the output without these checks, for a file that is read and written.
     fn place(path: &Path, stream: bool) -> Result<Target, String> {
         let fail = |error: io::Error| io_message("write", path, &error);
         if path == Path::new("-") {
@@ -67,8 +67,8 @@ impl Target {
         Ok(Target::Beside(Unnamed::beside(to, mode).map_err(fail)?))
     }
 
-    /// Prepares an output in a folder, which gets its name when it is complete: see [`Target::named`]. `name` is that name where it is
-    /// known before: one that ends with `.gz` is compressed.
+    /// Prepares an output in a folder; it gets its name when it is complete: see [`Target::named`]. `name` is its final name if
+    /// that is already known; a name that ends with `.gz` means compressed.
     ///
     /// # Errors
     /// As [`Target::open`].
@@ -81,10 +81,10 @@ impl Target {
         })
     }
 
-    /// Gives an output of a folder its name.
+    /// Sets the name of an output in a folder.
     ///
     /// # Errors
-    /// A message: what has that name must not be replaced.
+    /// A message: the existing file with that name must not be replaced.
     pub fn named(self, path: &Path) -> Result<Target, String> {
         let unnamed = match self {
             Target::Beside(unnamed) => unnamed,
@@ -97,13 +97,10 @@ impl Target {
         if inputs::holds(path) {
             return Err(format!("error: {} is an input: choose another folder", output_name(path)));
         }
-        // a link is no file that may be replaced
+        // a link must not be replaced
         let mode = fs::symlink_metadata(path).ok().map(|meta| (meta.is_file(), meta.permissions()));
         if mode.as_ref().is_some_and(|(is_file, mode)| !is_file || mode.readonly()) {
-            return Err(format!(
-                "error: can't write {}: it is no file that may be replaced",
-                escaped(&path.to_string_lossy())
-            ));
+            return Err(format!("error: can't write {}: it is not a regular file", escaped(&path.to_string_lossy())));
         }
         let renamed = unnamed.renamed(path.to_path_buf(), mode.map(|(_, mode)| mode));
         Ok(Target::Beside(renamed.map_err(|error| io_message("write", path, &error))?))
@@ -112,7 +109,7 @@ impl Target {
     /// Writes a part.
     ///
     /// # Errors
-    /// As the system says; a closed pipe among them.
+    /// As reported by the system, including a closed pipe.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         match self {
             Target::Beside(unnamed) => unnamed.file().write_all(bytes),
@@ -125,10 +122,10 @@ impl Target {
         }
     }
 
-    /// The program is complete: lets it appear.
+    /// Makes the complete program visible under its name.
     ///
     /// # Errors
-    /// As the system says; nothing of the program is then under the target's name.
+    /// As reported by the system; no part of the program is then under the target's name.
     pub fn complete(self) -> io::Result<()> {
         match self {
             Target::Beside(unnamed) => unnamed.replace(),
@@ -157,8 +154,8 @@ impl Target {
     }
 }
 
-/// What is written and not replaced. Where it is this process' own standard output or error it is that stream, so that the
-/// text comes after what was written to it.
+/// Opens an output that is written to but not replaced. If it is the process' own standard output or error, that stream is
+/// used, so that the text follows the earlier output.
 fn opened(path: &Path) -> io::Result<File> {
     let is = fs::metadata(path)?;
     #[cfg(unix)]
@@ -174,14 +171,14 @@ fn opened(path: &Path) -> io::Result<File> {
             }
         }
     }
-    // after what is there
+    // append to the existing text
     File::options().write(true).append(is.is_file()).open(path)
 }
 
-/// Writes a file, whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// A message; what was there is there still.
+/// A message; the old contents are unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let fail = |error| io_message("write", path, &error);
     let mut target = Target::place(path, false)?;
@@ -189,22 +186,22 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
     target.complete().map_err(fail)
 }
 
-/// Writes a file that must not be there yet.
+/// Writes a file that must not exist yet.
 ///
 /// # Errors
-/// `AlreadyExists`, or as the system says; nothing is then made.
+/// `AlreadyExists`, or as reported by the system; no file is created.
 pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut target = Unnamed::beside(path.to_path_buf(), None)?;
     target.file().write_all(bytes)?;
     target.create()
 }
 
-/// A JSON document for people's terminals, too: what would steer one is escaped, and reads back as it was.
+/// A JSON document that is safe for terminals: control characters are escaped and can be read back.
 pub fn json(document: &serde_json::Value) -> String {
     safe(&format!("{document:#}"))
 }
 
-/// The same on one line.
+/// The same document on one line.
 pub fn json_line(document: &serde_json::Value) -> String {
     safe(&document.to_string())
 }
@@ -212,7 +209,7 @@ pub fn json_line(document: &serde_json::Value) -> String {
 fn safe(document: &str) -> String {
     let mut text = String::with_capacity(document.len() + 1);
     for c in document.chars() {
-        // line ends are the layout: in strings they are escaped already
+        // line ends belong to the layout; those in strings are already escaped
         if c != '\n' && steers(c) {
             text += &format!("\\u{:04x}", u32::from(c));
         } else {
@@ -234,7 +231,7 @@ pub fn standard_output(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>
     }
 }
 
-/// Writes to standard output and ends the command with it.
+/// Writes to standard output as the last step of a command.
 pub fn shown(write: impl FnOnce(&mut io::StdoutLock) -> io::Result<()>) -> Result<Ending, String> {
     standard_output(write).map(|()| Ending::Clean)
 }

@@ -1,4 +1,4 @@
-//! Files whose names end with `.gz`: read and written as if they were not compressed.
+//! Files whose names end with `.gz`: they are read and written like uncompressed files.
 
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use flate2::Compression;
 use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 
-/// The name without its `.gz`. `None`: it has none.
+/// The name without its `.gz`. `None`: it does not end with `.gz`.
 pub fn unpacked_name(path: &Path) -> Option<PathBuf> {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz")).then(|| path.with_extension(""))
 }
@@ -17,15 +17,15 @@ pub fn unpacked(file: impl Read) -> impl Read {
     Named(MultiGzDecoder::new(file))
 }
 
-/// What is written to it comes out compressed, the same bytes each time: no day and no name is in them.
+/// An encoder whose output is always the same for the same text, because it contains no date and no name.
 pub fn packing() -> GzEncoder<Vec<u8>> {
     GzEncoder::new(Vec::new(), Compression::default())
 }
 
-/// Compresses a part and passes on what is ready.
+/// Compresses a part and passes on the finished bytes.
 ///
 /// # Errors
-/// As `write` reports them.
+/// As reported by `write`.
 pub fn pack(
     encoder: &mut GzEncoder<Vec<u8>>,
     bytes: &[u8],
@@ -35,7 +35,7 @@ pub fn pack(
     write(&std::mem::take(encoder.get_mut()))
 }
 
-/// Errors that say what is wrong with the file.
+/// A reader with error messages about the compressed file.
 struct Named<R>(R);
 
 impl<R: Read> Read for Named<R> {
@@ -43,7 +43,7 @@ impl<R: Read> Read for Named<R> {
         self.0.read(out).map_err(|error| match error.kind() {
             io::ErrorKind::UnexpectedEof => io::Error::new(error.kind(), "the compressed file is cut off"),
             io::ErrorKind::InvalidInput | io::ErrorKind::InvalidData => {
-                io::Error::new(error.kind(), format!("it is no gzip file, or it is damaged: {error}"))
+                io::Error::new(error.kind(), format!("it is not a gzip file, or it is damaged: {error}"))
             }
             _ => error,
         })
@@ -75,7 +75,7 @@ mod tests {
         let error = unpacked(&file[..file.len() / 2]).read_to_end(&mut Vec::new()).unwrap_err();
         assert_eq!(error.to_string(), "the compressed file is cut off");
         let error = unpacked(&b"G0 X1\nG1 X2 F100\n"[..]).read_to_end(&mut Vec::new()).unwrap_err();
-        assert!(error.to_string().starts_with("it is no gzip file"), "{error}");
+        assert!(error.to_string().starts_with("it is not a gzip file"), "{error}");
     }
 
     #[test]

@@ -28,7 +28,7 @@ pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
     let is_page = has_extension(&args.output, "html");
     if !is_page && args.output != Path::new("-") && !has_extension(&args.output, "svg") {
         let name = files::output_name(&args.output);
-        return Err(format!("error: can't tell what {name} is to be\n  help: call it .svg or .html"));
+        return Err(format!("error: the format of {name} is unknown\n  help: end the name in .svg or .html"));
     }
     let Some((mut picture, mut program)) = picture(args, &reporter)? else { return Ok(Ending::Findings) };
     let name = files::name(&args.file);
@@ -54,7 +54,7 @@ pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe && args.output == Path::new("-") => {}
         done => done.map_err(fail)?,
     }
-    // what was drawn until then is worth a look
+    // the picture up to the refused block is still useful
     let Some((mut diag, _)) = picture.refused.take() else { return Ok(Ending::Clean) };
     place_in(&name, &mut diag);
     say(&reporter.text(&[*diag], &[]));
@@ -66,7 +66,7 @@ fn still(picture: &Picture, title: String, args: &PlotArgs) -> String {
     picture::svg(picture, &Sheet { title, view, width: f64::from(args.width) })
 }
 
-/// A page that stands alone, with a scene in it.
+/// A self-contained page with a scene in it.
 fn page(scene: &[u8]) -> String {
     PLOT_PAGE.replacen(">SCENE<", &format!(">{}<", BASE64.encode(scene)), 1)
 }
@@ -75,7 +75,7 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
-/// The program that was meant, run, and its text. `None`: there is none, which was shown.
+/// The requested program, its picture and its text. `None`: there is none; the reason has been shown.
 fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File)>, String> {
     let config = Config::near(&args.file)?;
     let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from.format() == Format::Nc) && {
@@ -93,7 +93,10 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File
     files::check_format(&args.file, &args.read)?;
     let Some(form) = args.form.clone().or(config.form) else {
         let help = "give --form, or name one in a postform.toml: form = \"fanuc.pf\"";
-        return Err(format!("error: {} is a job: which form prints it?\n  help: {help}", files::name(&args.file)));
+        return Err(format!(
+            "error: {} is a job, and no form is given to print it\n  help: {help}",
+            files::name(&args.file)
+        ));
     };
     let Some(prepared) = prepare(&form, &args.options, &args.file, reporter)? else { return Ok(None) };
     let mut job = files::job(&args.file, &args.read, true)?;
@@ -112,7 +115,7 @@ fn drawn(mut input: File, settings: RunSettings, path: &Path) -> Result<(Picture
     Ok((picture, input))
 }
 
-/// The units that a job counts in.
+/// The units of a job.
 fn units_of(job: &mut Job<'_>, path: &Path) -> Result<Units, String> {
     let units = job.units().map_err(|error| match error.io() {
         Some(error) => io_message("read", path, error),

@@ -1,7 +1,7 @@
-//! Files looked at again and again: whether one was changed.
+//! Checks repeatedly whether one of some files was changed.
 //!
-//! Asking for a few files five times a second costs nothing, works on network drives, and sees what editors do that write beside a
-//! file and rename.
+//! Checking a few files five times per second costs almost nothing and works on network drives. It also detects editors that
+//! write a second file and rename it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,10 +11,10 @@ use std::time::{Duration, SystemTime};
 use super::Ending;
 use super::say::message;
 
-/// Between two looks.
+/// Pause between two checks.
 const PAUSE: Duration = Duration::from_millis(150);
 
-/// When a file was written, and its length; `None`: it is not there.
+/// The time of the last change of a file, and its length; `None`: the file does not exist.
 type Stamp = Option<(SystemTime, u64)>;
 
 fn stamp(path: &Path) -> Stamp {
@@ -22,11 +22,11 @@ fn stamp(path: &Path) -> Stamp {
     Some((meta.modified().ok()?, meta.len()))
 }
 
-/// How files were when they were looked at.
+/// The state of files at the last check.
 pub struct Watched(Vec<(PathBuf, Stamp)>);
 
 impl Watched {
-    /// Files as they are now.
+    /// The current state of files.
     pub fn new(paths: impl IntoIterator<Item = PathBuf>) -> Watched {
         Watched(paths.into_iter().map(|path| (path.clone(), stamp(&path))).collect())
     }
@@ -35,12 +35,12 @@ impl Watched {
         Watched::new(self.0.iter().map(|(path, _)| path.clone()))
     }
 
-    /// Waits until one was changed and none changes any more.
+    /// Waits until a file has changed and no file changes any more.
     pub fn wait(&self) {
         self.wait_while(|| true);
     }
 
-    /// Waits so as long as the files are those to be watched. `false`: they are others now, and none was changed.
+    /// The same, but returns `false` without a change as soon as `watches` returns `false`, because other files must be watched.
     pub fn wait_while(&self, watches: impl Fn() -> bool) -> bool {
         loop {
             sleep(PAUSE);
@@ -51,7 +51,7 @@ impl Watched {
                 }
                 continue;
             }
-            // who writes in parts is left to end
+            // a file that is written in parts must be complete first
             loop {
                 sleep(PAUSE / 3);
                 let next = seen.look();
@@ -64,13 +64,14 @@ impl Watched {
     }
 }
 
-/// Does a command again whenever one of its files changes, until it is ended. What is wrong is said, and waited for to be fixed.
+/// Runs a command again whenever one of its files changes, until the user ends it. Errors are printed, and the command waits
+/// for a change.
 pub fn repeat(
     paths: impl Fn() -> Vec<PathBuf>,
     mut command: impl FnMut() -> Result<Ending, String>,
 ) -> Result<Ending, String> {
     if paths().iter().any(|path| path == Path::new("-")) {
-        return Err("error: --watch reads files that can be read again: - is none".into());
+        return Err("error: --watch needs files: standard input (-) can't be read again".into());
     }
     loop {
         let watched = Watched::new(paths());

@@ -1,4 +1,4 @@
-//! A form made ready for jobs.
+//! Prepares a form for jobs.
 
 use std::path::Path;
 
@@ -13,17 +13,17 @@ use super::report::Reporter;
 use super::say::{message, say};
 use super::{clock, prompt, report};
 
-/// A form that prints, with the answers to its prompts.
+/// A form without errors, with the answers to its prompts.
 pub struct Prepared {
-    /// What prints.
+    /// The compiled form.
     pub post: Post,
-    /// How jobs are printed.
+    /// The options for printing jobs.
     pub options: Options,
-    /// Warnings keep a program from being printed.
+    /// Warnings are errors: no program is printed.
     pub denies: bool,
 }
 
-/// Reads a form, shows its findings and asks its prompts. `None`: it has errors, which were shown.
+/// Reads a form, shows its findings and prompts for its variables. `None`: the form has errors, which have been shown.
 pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporter) -> Result<Option<Prepared>, String> {
     let mut options = args.options();
     let standard_input = Path::new("-");
@@ -37,7 +37,7 @@ pub fn prepare(form: &Path, args: &RenderOptions, job: &Path, reporter: &Reporte
         Ok(post) => (Some(post.clone()), post.findings().clone()),
         Err(error) => (None, error.into_findings()),
     };
-    // notes are for lint
+    // only lint shows notes
     let (files, found) = (found.files, found.diags.into_iter().filter(|diag| diag.severity > Severity::Note));
     let (errors, warnings): (Vec<Diag>, Vec<Diag>) = found.partition(Diag::is_error);
     say(&reporter.text(&errors, &files));

@@ -1,4 +1,4 @@
-//! Progress of long work, on a terminal only.
+//! Progress of long operations, on a terminal only.
 
 use std::io::{IsTerminal, stderr};
 use std::sync::Mutex;
@@ -8,25 +8,25 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::say::is_kept;
 
-/// Work shorter than this shows nothing.
+/// Shorter operations show no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How often the line is drawn in a second.
+/// Number of updates of the line per second.
 const DRAWN: u8 = 4;
 
-/// A line on standard error that says how far the work is. It is taken away at the end, so that messages begin at their margin.
+/// A line on standard error with the progress of the work. It is removed at the end, so that messages begin at the left margin.
 pub struct Progress {
     bar: ProgressBar,
-    /// When the line is shown; `None`: it is, or never will be.
+    /// The time from which the line is shown; `None`: it is already shown, or never will be.
     begins: Mutex<Option<Instant>>,
 }
 
 impl Progress {
-    /// Work of unknown length begins, which counts program lines.
+    /// Begins work of unknown length, counted in program lines.
     pub fn new() -> Progress {
         Progress::with(ProgressBar::hidden(), "{human_pos} lines")
     }
 
-    /// Work on so many items begins.
+    /// Begins work on this number of items.
     pub fn of(count: u64) -> Progress {
         let bar = ProgressBar::hidden();
         bar.set_length(count);
@@ -37,24 +37,24 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        // work of many shows how far all of it is
+        // a thread of many shows no line of its own, because the line of the whole work is shown
         let begins = (stderr().is_terminal() && !is_kept()).then(|| Instant::now() + PATIENCE);
         Progress { bar, begins: Mutex::new(begins) }
     }
 
-    /// Shows how many program lines are done.
+    /// Shows the number of finished program lines.
     pub fn lines(&self, lines: u64) {
         self.show();
         self.bar.set_position(lines);
     }
 
-    /// One more item is done.
+    /// Counts one more finished item.
     pub fn one(&self) {
         self.show();
         self.bar.inc(1);
     }
 
-    /// Does some work that writes to the terminal, with the line taken away.
+    /// Removes the line during work that writes to the terminal.
     pub fn hidden<R>(&self, work: impl FnOnce() -> R) -> R {
         self.bar.suspend(work)
     }

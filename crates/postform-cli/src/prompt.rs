@@ -1,4 +1,4 @@
-//! Prompted variables and properties: answers from the command line, else asked for on a terminal.
+//! Prompted variables and properties: the answers come from the command line, else from a prompt on a terminal.
 
 use std::io::{self, BufRead, IsTerminal};
 
@@ -8,7 +8,7 @@ use postform::{Options, Post, Property};
 
 use super::say::{message, say};
 
-/// Takes `NAME=VALUE` options.
+/// Reads the `NAME=VALUE` options.
 pub fn answers(given: &[String], properties: &[Property], options: &mut Options) -> Result<(), String> {
     given.iter().try_for_each(|option| {
         answer(option, properties, options).map_err(|why| format!("error: `--set {}`: {why}", escaped(option)))
@@ -29,15 +29,15 @@ fn answer(option: &str, properties: &[Property], options: &mut Options) -> Resul
     options.set_value(name, number.unwrap_or_default()).map_err(|error| {
         let names: Vec<&str> = properties.iter().map(|property| property.name.as_str()).collect();
         match did_you_mean(own, names.iter().copied()) {
-            Some(help) => format!("`{own}` is no property; {help}"),
+            Some(help) => format!("`{own}` is not a property; {help}"),
             None if names.is_empty() => error.to_string(),
             None => format!("{error}; the form's properties are {}", names.join(", ")),
         }
     })?;
-    number.map(|_| ()).ok_or_else(|| format!("`{value}` is no number"))
+    number.map(|_| ()).ok_or_else(|| format!("`{value}` is not a number"))
 }
 
-/// Asks for what has no answer yet, when there is someone to ask; `all`: for properties too. `busy`: standard input is the job.
+/// Prompts for missing answers if input and output are a terminal; `all`: for properties too. `busy`: standard input is the job.
 pub fn ask(post: &Post, options: &mut Options, all: bool, busy: bool) -> io::Result<()> {
     if busy || !io::stdin().is_terminal() || !io::stderr().is_terminal() {
         return Ok(());
@@ -68,7 +68,7 @@ pub fn ask(post: &Post, options: &mut Options, all: bool, busy: bool) -> io::Res
     Ok(())
 }
 
-/// Asks until the answer makes sense. `None`: the default, which is empty where there is none, or nobody answers.
+/// Prompts until the answer makes sense. `None`: the default, chosen by an empty answer or by the end of input.
 fn answered<T>(question: &str, default: &str, read: &dyn Fn(&str) -> Result<T, String>) -> io::Result<Option<T>> {
     loop {
         let shown = if default.is_empty() { String::new() } else { format!(" [{}]", escaped(default)) };

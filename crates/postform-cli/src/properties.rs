@@ -1,4 +1,4 @@
-//! `postform properties`: what a form leaves to the shop, for a CAM system's dialog.
+//! `postform properties`: the settings that a form offers to the shop, for a CAM system's dialog.
 
 use std::io::Write;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! A program in a file that nobody sees: to be compared with another, or gone back in.
+//! A program in an unnamed temporary file, for a comparison or for random access.
 
 use std::fs::File;
 use std::io::Write;
@@ -15,8 +15,8 @@ use super::report::{Reporter, place_in, stopped};
 use super::say::say;
 use super::spool::Spool;
 
-/// The job rendered into a file that nobody sees; `trace`: with where each line came from. `Err` within: it can't be, which was
-/// shown.
+/// Renders the job into an unnamed temporary file; `trace`: with the origin of each line. The inner `Err`: rendering failed,
+/// and the reason has been shown.
 pub fn rendered(
     job: &mut Job<'_>,
     path: &Path,
@@ -48,7 +48,7 @@ pub fn rendered(
     Ok(Ok((file.into_file().map_err(|error| fail(&error))?, lines)))
 }
 
-/// Are there warnings of job and renderer, and may there be none? Then they are shown.
+/// Shows the warnings of job and renderer if warnings are denied. Returns whether there are any.
 pub fn denied(notes: &[Diag], job: &Path, prepared: &Prepared, reporter: &Reporter) -> bool {
     let warnings = notes.iter().filter(|diag| diag.severity == Severity::Warning);
     let mut notes: Vec<Diag> = warnings.cloned().collect();

@@ -1,4 +1,4 @@
-//! Findings for people: the line of the form with what is wrong under it.
+//! Findings for people: the line of the form with the error marked below it.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -18,12 +18,12 @@ use super::Ending;
 use super::files::{io_message, name};
 use super::say::say;
 
-/// A form file as miette asks for it: found by our line index, so that thousands of findings cost no more each.
+/// A form file in the interface of miette. Locations are found with our line index, so that thousands of findings stay fast.
 struct Text<'a> {
     source: &'a Source,
-    /// The text as a terminal may get it, with the same lines.
+    /// The text made safe for a terminal, with the same lines.
     shown: Cow<'a, Source>,
-    /// After which bytes of the file the shown text is longer, and by how many bytes.
+    /// Positions in the file after which the safe text is longer, and the number of additional bytes.
     longer: Vec<(usize, usize)>,
 }
 
@@ -31,7 +31,7 @@ impl<'a> Text<'a> {
     fn new(source: &'a Source) -> Text<'a> {
         let escapes = |at: usize, c: char| match c {
             '\n' | '\t' => false,
-            '\r' => !source.text[at + 1..].starts_with('\n'), // alone it would write over the line
+            '\r' => !source.text[at + 1..].starts_with('\n'), // alone it would move the cursor to the start of the line
             c => steers(c),
         };
         let mut longer = Vec::new();
@@ -51,7 +51,7 @@ impl<'a> Text<'a> {
         Text { source, shown: Cow::Owned(Source::from_text(source.name.clone(), text)), longer }
     }
 
-    /// Where a byte of the file is in what is shown.
+    /// The position in the safe text for a byte of the file.
     fn place(&self, at: usize) -> usize {
         let before = self.longer.partition_point(|(end, _)| *end <= at);
         at + before.checked_sub(1).map_or(0, |last| self.longer[last].1)
@@ -78,7 +78,7 @@ impl SourceCode for Text<'_> {
     }
 }
 
-/// A finding with the text it is about.
+/// A finding with its text.
 struct Shown<'a> {
     diag: &'a Diag,
     place: Option<String>,
@@ -102,7 +102,7 @@ impl std::error::Error for Shown<'_> {}
 
 impl Diagnostic for Shown<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        // the header line is never wrapped, so a place in the job stays in one piece there
+        // the header line is never wrapped, so a location in the job stays in one piece
         Some(match &self.place {
             Some(place) => Box::new(format!("{} at {place}", self.diag.code.title())),
             None => Box::new(self.diag.code.title()),
@@ -165,7 +165,7 @@ impl Reporter {
             }
             let start = all.len();
             if self.handler.render_report(&mut all, &Shown { diag, place, source, file }).is_err() {
-                // a place that can't be drawn must not hide what was found
+                // a location that can't be drawn must not hide the finding
                 all.truncate(start);
                 all += &format!("{} {}\n", diag.code.title(), diag.message);
             }
@@ -177,10 +177,10 @@ impl Reporter {
     }
 }
 
-/// Findings that are drawn: nobody reads more of them at once.
+/// Maximum number of findings that are drawn: nobody reads more at once.
 const MOST_DRAWN: usize = 1000;
 
-/// The findings that are drawn, in their order: all of them, or of too many the errors first.
+/// The findings that are drawn, in their order. If there are too many, errors are selected first.
 fn drawn(diags: &[Diag]) -> impl Iterator<Item = &Diag> {
     let mut errors = diags.iter().filter(|diag| diag.is_error()).count().min(MOST_DRAWN);
     let mut others = MOST_DRAWN - errors;
@@ -195,7 +195,7 @@ fn drawn(diags: &[Diag]) -> impl Iterator<Item = &Diag> {
 /// Longest line that is drawn.
 const LONGEST_LINE: usize = 400;
 
-/// Is one of the lines around the labels no line for a terminal?
+/// Is a line around the labels too long for a terminal?
 fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
     let starts = source.line_starts();
     diag.labels.iter().filter(|label| label.span.file == file).any(|label| {
@@ -206,10 +206,10 @@ fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
     })
 }
 
-/// Shows why a job was not read or printed to its end. `files` are those of the form.
+/// Shows the reason why a job was not read or printed to its end. `files` are those of the form.
 ///
 /// # Errors
-/// A message: the job can't be read, or what was asked for makes no sense.
+/// A message: the job can't be read, or the request makes no sense.
 pub fn stopped(error: Error, job: &Path, reporter: &Reporter, files: &[Source]) -> Result<Ending, String> {
     if let Some(error) = error.io() {
         return Err(io_message("read", job, error));
@@ -225,15 +225,15 @@ pub fn stopped(error: Error, job: &Path, reporter: &Reporter, files: &[Source]) 
     Ok(ending)
 }
 
-/// The name of the job or program in a place of it.
+/// Adds the name of the job or program to the location of a finding.
 pub fn place_in(file: &str, diag: &mut Diag) {
     diag.place.get_or_insert_default().file = Some(file.to_owned());
 }
 
-/// Findings of a form that a run shows.
+/// Maximum number of a form's findings that a run shows.
 const MOST: usize = 10;
 
-/// Findings in a line each, the first ten; `command` shows the others.
+/// The first ten findings, one line each; the rest can be shown with `command`.
 pub fn brief(diags: &[Diag], files: &[Source], command: &str) -> String {
     let mut text: String = diags.iter().take(MOST).map(|diag| diag.line(files) + "\n").collect();
     if diags.len() > MOST {

@@ -24,7 +24,7 @@ pub fn run(args: &RestartArgs) -> Result<Ending, String> {
         (_, Some(number), ..) => Target::Block(number),
         (_, _, Some(line), _) => Target::Line(line),
         (.., Some(name)) => Target::Operation(name.clone()),
-        _ => return Err("error: where? give --tool, --at, --line or --operation".into()),
+        _ => return Err("error: no entry point is given: use --tool, --at, --line or --operation".into()),
     };
     let mut output = Output::open(&args.output, false)?;
     let asked = Asked { target, clear: args.clear_z, exactly: args.exactly };
@@ -39,14 +39,15 @@ pub fn run(args: &RestartArgs) -> Result<Ending, String> {
     };
     let name = files::name(&args.program);
     message(&format!(
-        "begins at line {} of {name}; proven: from there on it makes the same {} with the same tool, offsets, spindle and coolant",
+        "the new program begins at line {} of {name}; proven: from there it makes the same {} with the same tool, \
+         offsets, spindle and coolant",
         made.line,
         count(made.moves as usize, "step")
     ));
     for note in &made.notes {
         message(&escaped_lines(note));
     }
-    message("look at the first blocks before it runs: what holds the part, which tool is in the spindle, the coolant");
+    message("before you run it, check its first blocks, the clamping, the tool in the spindle and the coolant");
     output
         .write(&made.text)
         .and_then(|()| output.complete())

@@ -35,14 +35,14 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         (None, "json") => SheetFormat::Json,
         _ => {
             let name = files::output_name(&args.output);
-            return Err(format!("error: can't tell what {name} is to be\n  help: call it .html, .md or .json"));
+            return Err(format!("error: the format of {name} is unknown\n  help: end the name in .html, .md or .json"));
         }
     };
     files::check_format(&args.job, &args.read)?;
     let config = Config::near(&args.job)?;
     let Some(form) = args.form.clone().or(config.form.clone()) else {
         let help = "give --form, or name one in a postform.toml: form = \"fanuc.pf\"";
-        return Err(format!("error: which form prints {}?\n  help: {help}", files::name(&args.job)));
+        return Err(format!("error: no form is given to print {}\n  help: {help}", files::name(&args.job)));
     };
     let Some(mut prepared) = prepare(&form, &args.options, &args.job, reporter)? else { return Ok(Ending::Findings) };
     let named = machine::of_prepared(&args.machine, &form, &mut prepared, &config)?;
@@ -70,7 +70,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         let copy = program.try_clone().map_err(fail)?;
         let made = (&mut job, options);
         let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (copy, "the program"))?;
-        // they are in the sheet too
+        // they are also in the sheet
         if !args.options.quiet {
             fitting.show(&fitted, (Some(&args.job), post.files()), reporter);
         }
@@ -110,7 +110,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     }
     if let Verdict::Different(findings) = &proven.verdict {
         sides.show(findings, postform::diag::Severity::Error, reporter);
-        message("the sheet is written; the program is different from its job, and the sheet says so");
+        message("the sheet is written; it reports that the program is different from its job");
         return Ok(Ending::Findings);
     }
     if !args.options.quiet {
@@ -119,7 +119,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     Ok(Ending::Clean)
 }
 
-/// SHA-256 of what the sheet is about.
+/// The SHA-256 hashes of the files from which the sheet is made.
 fn hashes(sheet: &mut SetupSheet, args: &SheetArgs, form: &Path, program: &[u8]) -> Result<(), String> {
     for path in [Some(args.job.as_path()), Some(form), args.machine.machine.as_deref()].into_iter().flatten() {
         if path != Path::new("-") {

@@ -1,4 +1,4 @@
-//! `postform completions` and `postform man`, from the definitions that `--help` shows.
+//! `postform completions` and `postform man`, from the same definitions as `--help`.
 
 use std::io::Write as _;
 
@@ -18,7 +18,7 @@ pub fn completions(args: &CompletionsArgs) -> Result<Ending, String> {
 pub fn man() -> Result<Ending, String> {
     output::shown(|out| {
         let mut command = Arguments::command();
-        command.build(); // names of the commands in full
+        command.build(); // full names of the commands
         clap_mangen::Man::new(command.clone()).render(out)?;
         for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
             writeln!(out, ".SH \"postform {}\"", sub.get_name())?;

@@ -1,18 +1,18 @@
-//! What waits until it is whole, in a file that nobody sees, in the folder for such files.
+//! Output that is kept in an unnamed temporary file until it is complete.
 
 use std::fs::File;
 use std::io::{self, Seek, Write};
 
 use postform::internals::terminal::escaped;
 
-/// A file without a name, to be written and then read. Its errors name the folder.
+/// A file without a name that is written and then read. Its errors name the folder.
 pub struct Spool(File);
 
 impl Spool {
-    /// An empty one.
+    /// An empty spool.
     ///
     /// # Errors
-    /// The folder is not there, or takes no file.
+    /// The folder does not exist, or no file can be created in it.
     pub fn new() -> io::Result<Spool> {
         tempfile::tempfile().map(Spool).map_err(named)
     }
@@ -34,7 +34,7 @@ impl Write for Spool {
     }
 }
 
-/// The kind stays: an interrupted call is made again.
+/// Adds the folder to an error. Its kind stays, because an interrupted call is repeated.
 fn named(error: io::Error) -> io::Error {
     let folder = escaped(&std::env::temp_dir().to_string_lossy());
     io::Error::new(error.kind(), format!("a temporary file in {folder} (TMPDIR): {error}"))

@@ -1,4 +1,4 @@
-//! A file without a name until it is complete: whatever ends this process before, nothing of it is left behind.
+//! A file without a name until it is complete: if the process ends before, no part of the file is left behind.
 
 use std::fs::{File, Permissions};
 use std::io::{self, Seek};
@@ -17,10 +17,10 @@ pub struct Unnamed {
 }
 
 impl Unnamed {
-    /// Makes a file that is to become `path`, with the permissions of the file that it replaces.
+    /// Creates a file that will become `path`, with the permissions of the file that it replaces.
     ///
     /// # Errors
-    /// The folder is not there, or takes no file.
+    /// The folder does not exist, or no file can be created in it.
     pub fn beside(path: PathBuf, mode: Option<Permissions>) -> io::Result<Unnamed> {
         let place = folder(&path);
         let name = escaped(&place.to_string_lossy());
@@ -29,15 +29,15 @@ impl Unnamed {
             return Err(io::Error::new(io::ErrorKind::NotFound, message));
         }
         let file = tempfile::tempfile_in(place)
-            .map_err(|error| io::Error::new(error.kind(), format!("no file can be made in {name}: {error}")))?;
+            .map_err(|error| io::Error::new(error.kind(), format!("can't make a file in {name}: {error}")))?;
         if let Some(mode) = &mode {
-            // a file that is replaced keeps who may read and run it
+            // the new file keeps the permissions of the old one
             file.set_permissions(mode.clone())?;
         }
         Ok(Unnamed { file, path, mode })
     }
 
-    /// Another path of the same folder, which the file is to become.
+    /// Sets another path in the same folder for the finished file.
     pub fn renamed(self, path: PathBuf, mode: Option<Permissions>) -> io::Result<Unnamed> {
         if let Some(mode) = &mode {
             self.file.set_permissions(mode.clone())?;
@@ -45,15 +45,15 @@ impl Unnamed {
         Ok(Unnamed { path, mode, ..self })
     }
 
-    /// What is written so far and what is still to come.
+    /// The file, for writing.
     pub fn file(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// Lets the file appear, in the place of what has its name.
+    /// Makes the file visible under its name, and replaces a file with the same name.
     ///
     /// # Errors
-    /// As the system says; what was there is there still.
+    /// As reported by the system; the old file is unchanged.
     pub fn replace(mut self) -> io::Result<()> {
         if self.appears()? {
             return Ok(());
@@ -62,10 +62,10 @@ impl Unnamed {
         path.persist(&self.path).map_err(|error| error.error)
     }
 
-    /// Lets the file appear where nothing has its name.
+    /// Makes the file visible under its name, if no file has that name.
     ///
     /// # Errors
-    /// `AlreadyExists`: something has.
+    /// `AlreadyExists`: a file has this name.
     pub fn create(mut self) -> io::Result<()> {
         if self.appears()? {
             return Ok(());
@@ -74,13 +74,13 @@ impl Unnamed {
         path.persist_noclobber(&self.path).map_err(|error| error.error)
     }
 
-    /// Gives the file its name if nothing has that; otherwise the file never had another.
+    /// Gives the file its name if no file has it. Otherwise the file stays unnamed.
     fn appears(&self) -> io::Result<bool> {
-        self.file.sync_all()?; // the name must not come before the contents
+        self.file.sync_all()?; // the contents must be on the disk before the name
         Ok(link(&self.file, &self.path).is_ok())
     }
 
-    /// Under a name that nobody knows, for as long as a rename takes.
+    /// Gives the file a temporary hidden name for the rename.
     fn hidden(&mut self) -> io::Result<TempPath> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".postform-");
@@ -88,14 +88,14 @@ impl Unnamed {
         if let Ok(linked) = builder.make_in(place, |name| link(&self.file, name)) {
             return Ok(linked.into_temp_path());
         }
-        // where a file must have a name from its beginning, the contents are copied
+        // the contents are copied if the system has no unnamed files
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // what any new file gets; the umask still applies
+            // the permissions of any new file; the umask still applies
             builder.permissions(Permissions::from_mode(0o666));
         }
-        // the kind alone: the whole error tells the hidden name
+        // only the kind, because the whole error contains the hidden name
         let mut copy = builder.tempfile_in(place).map_err(|error| io::Error::from(error.kind()))?;
         self.file.rewind()?;
         io::copy(&mut self.file, copy.as_file_mut())?;
@@ -107,7 +107,7 @@ impl Unnamed {
     }
 }
 
-/// Gives the file a name that nothing has.
+/// Links the file to a name that must be free.
 #[cfg(target_os = "linux")]
 fn link(file: &File, name: &Path) -> io::Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};

@@ -1,4 +1,4 @@
-//! What a proof says, for people.
+//! The result of a proof, as text for people.
 
 use std::path::Path;
 
@@ -12,18 +12,18 @@ use super::files;
 use super::report::{self, Reporter, place_in, stopped};
 use super::say::say;
 
-/// Between whom a proof is.
+/// The two sides of a proof.
 pub struct Sides<'a> {
     /// The job.
     pub job: &'a Path,
-    /// What the program is called.
+    /// The name of the program.
     pub program: &'a str,
-    /// The form's files, where one is known.
+    /// The form's files, if there is a form.
     pub files: &'a [Source],
 }
 
 impl Sides<'_> {
-    /// How a proof came out, after its warnings; or how the command ends where there is none, which is shown.
+    /// Shows the warnings of a proof and returns the proof. If it failed, shows the error and returns the end of the command.
     ///
     /// # Errors
     /// A message: job or program can't be read.
@@ -50,13 +50,13 @@ impl Sides<'_> {
         }
     }
 
-    /// Findings from three sides: the job's item, the form's line, the program's block.
+    /// Shows findings with three locations: the job item, the form line, the program block.
     pub fn show(&self, findings: &[Finding], severity: Severity, reporter: &Reporter) {
         let diags: Vec<Diag> = findings.iter().map(|finding| self.diag(finding, severity)).collect();
         say(&reporter.text(&diags, self.files));
     }
 
-    /// Findings in a line each, as those of a form; `command` shows the others.
+    /// Shows findings in one line each, like those of a form; the rest can be shown with `command`.
     pub fn brief(&self, findings: &[Finding], command: &str) {
         let diags = findings.iter().map(|finding| {
             let mut diag = self.diag(finding, Severity::Note);
@@ -83,17 +83,17 @@ impl Sides<'_> {
         match &proven.verdict {
             Verdict::Identical => format!("identical: {program} makes the motions of {job} ({compared})\n"),
             Verdict::Equivalent(other) => {
-                format!("equivalent: {program} cuts what {job} asks for ({compared}): {other}\n")
+                format!("equivalent: {program} makes the cuts of {job} ({compared}): {other}\n")
             }
             Verdict::Different(findings) => {
                 let found = report::count(findings.len(), "finding");
-                format!("different: {program} does not do what {job} asks for: {found}\n")
+                format!("different: {program} does not make the motions of {job}: {found}\n")
             }
             other => format!("{other}\n"),
         }
     }
 
-    /// The same for programs.
+    /// The verdict as JSON for other programs.
     pub fn document(&self, proven: &Proven) -> serde_json::Value {
         postform::internals::report::proof(
             &proven.verdict,

@@ -24,7 +24,7 @@ use super::spool::Spool;
 use super::verdict::Sides;
 use super::{Ending, many, output};
 
-/// Compares a program with its job, or with each of several jobs the program that a form prints of it.
+/// Compares a program with its job; for several jobs, compares each with the program that a form prints.
 pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let reporter = &Reporter::new(colour);
     if let Some(job) = many::single(&args.jobs) {
@@ -71,16 +71,16 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     )
 }
 
-/// The form of a job's program. A program that is there is proven without a form, unless one is named.
+/// The form for a job's program. An existing program is proven without a form, unless one is given.
 fn form_of(args: &VerifyArgs, config: &Config) -> Option<PathBuf> {
     args.form.clone().or_else(|| config.form.clone().filter(|_| args.nc.is_none()))
 }
 
 fn no_form() -> String {
-    "error: give --form, --nc, or both; or name a form in postform.toml".into()
+    "error: give --form or --nc or both, or name a form in postform.toml".into()
 }
 
-/// The verdict about a job's program, as text for standard output.
+/// The verdict on a job's program, as text for standard output.
 fn tried(
     job_path: &Path,
     args: &VerifyArgs,
@@ -97,7 +97,7 @@ fn tried(
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);
-    // a program that is printed may need its job once more: for what lies ahead in it, or to be printed into a file
+    // a printed program may need its job twice: for the survey, or for printing it again into a file
     let mut job = files::job(job_path, &args.read, args.nc.is_none())?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
     let files = prepared.map_or(&[][..], |prepared| prepared.post.files());
@@ -164,15 +164,15 @@ fn tried(
     Ok((text, if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings }))
 }
 
-/// The program could not be kept.
+/// The message of an error while the program is stored.
 fn spooled(error: &io::Error) -> String {
     io_message("write", Path::new("the program"), error)
 }
 
-/// Takes the parts of a program as they are printed.
+/// Receives the parts of a program as they are printed.
 type Take<'a> = &'a mut dyn FnMut(Part<'_>) -> io::Result<()>;
 
-/// The program that a form prints of the job.
+/// The program that a form prints for the job.
 fn of_form(
     job: &mut Job<'_>,
     prepared: &Prepared,
@@ -193,7 +193,7 @@ fn of_form(
     }
 }
 
-/// A program that can't be proven without going back in it is printed once more, into a file, if the job can be read again.
+/// If a proof requires random access to the program, prints it again into a file, provided that the job can be read again.
 pub fn in_a_file(
     proven: Result<Proven, Error>,
     job: &mut Job<'_>,

@@ -1,34 +1,35 @@
-//! What commands take.
+//! Arguments of commands.
 
-/// What a command takes, and how much of it.
+/// Kind and number of a command's arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Args {
     /// The rest of the line.
     Text,
     /// `Y` or `N`.
     Switch,
-    /// From so many to so many codes, `G54`, `M19` or plain numbers, which have this letter.
+    /// Codes such as `G54`, `M19` or plain numbers. The letter is that of plain numbers; the numbers are the least and
+    /// greatest count.
     Codes(char, u8, u8),
-    /// From so many to so many codes of which the first moves the tool, and so must be a G code.
+    /// Codes, least and greatest count. The first one moves the tool, so it must be a G code.
     Motion(u8, u8),
-    /// From so many to so many letters, apart or together.
+    /// Letters, least and greatest count. They may be separate or together.
     Letters(u8, u8),
-    /// From so many to so many whole numbers.
+    /// Whole numbers, least and greatest count.
     Whole(u8, u8),
     /// A number.
     Number,
     /// A length or time that is not negative.
     Length,
-    /// A length that is not zero either.
+    /// A length above zero.
     LengthAboveZero,
     /// One of these words.
     Choice(&'static [&'static str]),
-    /// From so many to so many words that the command reads itself, as described.
+    /// Words that the command reads itself, least and greatest count, with a description.
     Words(u8, u8, &'static str),
 }
 
 impl Args {
-    /// How many arguments there may be, least and most. `None`: as many as there are.
+    /// The least and greatest number of arguments. `None`: any number.
     pub fn count(self) -> Option<(usize, usize)> {
         match self {
             Args::Text | Args::Letters(..) => None,

@@ -1,4 +1,4 @@
-//! Commands of forms: what each takes, what holds without it, what it does. The rows are in `table.rs`.
+//! Commands of forms: arguments, defaults, and effects. The rows are in `table.rs`.
 
 mod args;
 mod table;
@@ -12,51 +12,51 @@ pub(crate) use table::command_rows;
 pub use without::Without;
 use without::of;
 
-/// Where a command has something to change.
+/// The forms in which a command has an effect.
 #[derive(Clone, Copy, Debug)]
 pub enum Used {
     /// In every form.
     Always,
-    /// Where this variable is printed.
+    /// In forms that print this variable.
     Printed(V),
-    /// Where this variable is printed, or a canned cycle asks for it.
+    /// In forms that print this variable, or have a canned cycle that needs it.
     Cycles(V),
     /// In forms with one of these sequences.
     With(&'static [S]),
-    /// In forms with none of these sequences, because of what they do.
+    /// In forms with none of these sequences. The text is the reason.
     Unless(&'static [S], &'static str),
-    /// Where arcs are generated.
+    /// In forms that generate arcs.
     Arcs,
-    /// Where blocks are numbered.
+    /// In forms that number blocks.
     Numbered,
-    /// Where words that change nothing are dropped.
+    /// In forms that drop unchanged words.
     Modal,
-    /// With the command Thread.
+    /// In forms with the command Thread.
     Threads,
-    /// Where its letters are printed.
+    /// In forms that print its letters.
     Letter,
 }
 
 /// One row of the table.
 #[derive(Debug)]
 pub struct Command {
-    /// Which.
+    /// Id of the command.
     pub id: CommandId,
-    /// As forms write it.
+    /// Name in forms.
     pub name: &'static str,
-    /// What the command takes.
+    /// Arguments of the command.
     pub args: Args,
-    /// May it stand more than once?
+    /// Whether the command may occur more than once.
     pub repeats: bool,
-    /// What holds without it.
+    /// The default without the command.
     pub without: Without,
-    /// Where its meaning comes from.
+    /// Source of its meaning.
     pub standing: Standing,
-    /// Where the command has something to change.
+    /// The forms in which the command has an effect.
     pub used: Used,
-    /// An example of the command, where no form that ships gives it.
+    /// An example of the command, if no form of postform has one.
     pub example: Option<&'static str>,
-    /// What the command does.
+    /// Effect of the command.
     pub meaning: &'static str,
 }
 
@@ -97,12 +97,13 @@ impl CommandId {
         &COMMANDS[self as usize]
     }
 
-    /// As forms write it.
+    /// Name in forms.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Finds a name in any case; the question mark of a switch may be left out where no other command has that name.
+    /// Finds a command by its name, in any case. The question mark of a switch may be left out if no other command has
+    /// that name.
     pub fn parse(name: &str) -> Option<CommandId> {
         let find = |same: &dyn Fn(&str) -> bool| COMMANDS.iter().find(|c| same(c.name)).map(|c| c.id);
         find(&|own| own.eq_ignore_ascii_case(name))

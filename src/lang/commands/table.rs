@@ -1,12 +1,12 @@
-//! The rows of all commands. `lang` makes the vocabulary of them, `sema` the settings.
+//! The rows of all commands. `lang` makes the vocabulary from them, `sema` the settings.
 
-/// Hands the rows to a macro:
+/// Passes the rows to a macro:
 ///
-/// `Id "Name" (what it takes) once|many (what holds without it) Standing {field of the settings} "meaning";`
+/// `Id "Name" (arguments) once|many (default) Standing {field of the settings} "meaning";`
 ///
-/// The field is `{name: Type}`, which declares it, `{= place}`, a place in one that is there, `{=> method}`, a method of the
-/// settings that stores the arguments, or `{}`, nothing. After it may stand `if (where it is used)` and `eg "arguments"`,
-/// an example for a command that no form of the repository gives.
+/// The field is `{name: Type}`, which declares a field; `{= place}`, part of an existing field; `{=> method}`, a method
+/// of the settings that stores the arguments; or `{}`, no field. `if (where it is used)` and `eg "arguments"` may follow.
+/// `eg` is an example of a command that no form of the repository uses.
 macro_rules! command_rows {
     ($then:ident) => {
         $then! {
@@ -14,15 +14,15 @@ macro_rules! command_rows {
             Name "Name" (Text) once (of("")) Ours {name: String}
                 "the post's name";
             Machine "Machine" (Choice(&["Mill", "Lathe", "EDM", "Torch", "Laser"])) once (of("Mill")) Ours {=> machine_word}
-                "what the form is for; decides which sequences and variables it may use";
+                "the type of machine; it decides which sequences and variables the form may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
-                "units of the form's own lengths; a job in other units needs a printed [unitmode]";
+                "units of the lengths in the form; a job in other units needs a printed [unitmode]";
             Control "Control" (Words(1, 1, "a control's name, or a file that describes one, as `haas` or `my-vf2.toml`"))
                 once (of("").told("much like fanuc")) Ours {control: Option<&'static Control>}
-                "the control that the programs are checked for";
+                "the control for which the programs are checked";
             MachineFile "MachineFile" (Words(1, 1, "the file of a machine, as `vf2.toml`"))
                 once (of("")) Ours {machine_file: Option<String>} eg "vf2.toml"
-                "the machine into which the programs must fit: its file, from the form's folder";
+                "the machine whose limits the programs must keep: its file, relative to the form's folder";
             // codes
             Rapid "Rapid" (Motion(1, 1)) once (of("G0")) Doc {rapid: Code}
                 "motion word of generated rapids";
@@ -46,7 +46,7 @@ macro_rules! command_rows {
                 "values of [cool] and [coolantoff]: on, off, mist";
             CoolantKind "CoolantKind" (Words(2, 3, "a kind, its code and the code that ends it, as `through M88 M89`"))
                 many (of("")) Ours {coolant_kinds: Vec<CoolantKind>} eg "through M88 M89"
-                "values of [cool] and [coolantoff] for another kind of coolant: through, air, mist or high";
+                "values of [cool] and [coolantoff] for a further kind of coolant: through, air, mist or high";
             Flush "Flush" (Codes('M', 2, 3)) once (of("8 9 7")) Ours {flush: [f64; 3]} if (Printed(V::Flush))
                 "values of [flush]: on, off, mist";
             CDC "CDC" (Codes('G', 3, 3)) once (of("41 42 40")) Ours {cdc: [f64; 3]}
@@ -69,9 +69,9 @@ macro_rules! command_rows {
                 "[work] of fixture 1; later fixtures count up from it";
             WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
                 "[work] when a job names none";
-            MoreWork "MoreWork" (Words(2, 3, "the fixture from which on it holds, and the words of that fixture, as `7 G54.1 P1`"))
+            MoreWork "MoreWork" (Words(2, 3, "the first fixture of the range, and the words of that fixture, as `7 G54.1 P1`"))
                 many (of("")) Ours {more_work: Vec<MoreWork>} if (Printed(V::Work)) eg "7 G54.1 P1"
-                "words that `G[work]` prints from this fixture on; the last number counts up";
+                "words that `G[work]` prints from this fixture on; their last number counts up";
             IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}
                 "values of [incmode]";
             InchMm "Inch/MM" (Codes('G', 2, 2)) once (of("20 21")) Ours {inch_mm: [f64; 2]} if (Printed(V::Unitmode))
@@ -93,7 +93,7 @@ macro_rules! command_rows {
             DCode2 "DCode2" (Letters(1, 1)) once (of("W")) Ours {= axes2[2]}
                 "letter of the second depth axis";
             Ignore "Ignore" (Letters(1, 1)) once (of("")) Ours {=> ignored_axis} eg "Z"
-                "an axis that the form of a torch or a laser does not print: its positions are neither printed nor compared";
+                "an axis of a torch or a laser whose positions are neither printed nor compared";
             ByDiameter "ByDiameter?" (Switch) once (of("N").lathe("Y")) Ours {by_diameter: bool}
                 "X as a diameter";
             RevSigns "RevSigns" (Letters(1, 15)) many (of("")) Ours {rev_signs: Vec<u8>} if (Letter) eg "Z"
@@ -115,7 +115,7 @@ macro_rules! command_rows {
             ByQuadrants "ByQuadrants?" (Switch) once (of("N")) Doc {by_quadrants: bool}
                 "split arcs at the quadrant lines";
             ArcPlane "ArcPlane" (Motion(1, 3)) once (of("17 18 19")) Ours {planes: Vec<Code>}
-                "plane words; an arc outside the planes given is linearised";
+                "plane words; an arc in another plane is linearised";
             Helical "Helical?" (Switch) once (of("Y")) Ours {helical: bool}
                 "arcs may move along the tool axis, else they are linearised";
             MinRad "MinRad" (Length) once (of("0.0005").mm("0.01")) Ours {min_radius: f64}
@@ -123,7 +123,7 @@ macro_rules! command_rows {
             MaxRad "MaxRad" (Length) once (of("999").mm("25000")) Ours {max_radius: f64}
                 "larger arcs are linearised";
             Tolerance "Tolerance" (LengthAboveZero) once (of("0.0005").mm("0.01")) Ours {tolerance: f64}
-                "how far lines may leave a linearised arc";
+                "largest distance of lines from a linearised arc";
             ArcWithLine "ArcWithLine?" (Switch) once (of("Y")) Ours {arc_with_line: bool}
                 "an arc after a line need not restate its motion code";
             ArcWithSame "ArcWithSame?" (Switch) once (of("Y")) Ours {arc_with_same: bool}
@@ -133,16 +133,16 @@ macro_rules! command_rows {
                 "direction word at the end of an arc block";
             SecondCircle "2ndCircleCode" (Words(1, 9, "one word, as `M99`"))
                 once (of("")) Doc {second_circle: Option<String>} if (Arcs)
-                "word that opens a second arc line, which holds the centre";
-            // words that change nothing
+                "word that begins a second arc line with the centre";
+            // dropping unchanged words
             Modality "Modality?" (Switch) once (of("Y")) Ours {modality: bool}
                 "drop words that change nothing";
             ModalLetters "ModalLetters" (Letters(1, 26))
                 once (of("").told("axes, F and S")) Ours {modal_letters: Option<Vec<u8>>} if (Modal) eg "X Y Z F S"
-                "letters that may be dropped";
+                "modal letters, which may be dropped";
             ModalGs "ModalGs" (Codes('G', 1, 15))
                 once (of("0 1 2 3 17 18 19")) Ours {modal_codes: Vec<control::Code>} if (Modal)
-                "codes that may be dropped";
+                "modal codes, which may be dropped";
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";
             // blocks and their text
@@ -154,7 +154,7 @@ macro_rules! command_rows {
             Last "Last#?" (Switch) once (of("Y")) Ours {number_last: bool} if (Numbered)
                 "number the last block";
             SpacesSwitch "Spaces?" (Switch) once (of("Y")) Ours {blanks: bool}
-                "a blank between words";
+                "a space between words";
             Spaces "Spaces" (Whole(1, 15)) once (of("")) Ours {columns: Vec<usize>} eg "8"
                 "fixed columns: one width for all, or the column of each word";
             LeadingZeros "Leading0s?" (Switch) once (of("N")) Ours {leading_zeros: bool}
@@ -162,19 +162,19 @@ macro_rules! command_rows {
             Eob "EOB" (Text) once (of("")) Ours {eob: String}
                 "text at the end of every block";
             LineEnd "LineEnd" (Choice(&["lf", "crlf"])) once (of("lf")) Ours {line_end: LineEnd}
-                "what ends a line of the program";
+                "line end of the program";
             ProgramName "ProgramName" (Words(1, 1, "a name with variables, as `O[program#]` or `[progname]`"))
                 once (of("")) Ours {program_name: ProgramName} eg "O[program#]"
-                "what the file of a program is called where `--output` names a folder";
+                "file name of a program, if `--output` is a folder";
             Extension "Extension" (Words(1, 1, "letters and digits, as `mpf`"))
                 once (of("nc")) Ours {extension: Extension} eg "mpf"
-                "what the name of a program's file ends with where `--output` names a folder";
+                "extension of a program's file, if `--output` is a folder";
             Comment "Comment" (Words(1, 2, "opening mark and, unless empty, closing mark"))
                 once (of("( )")) Ours {comment: [String; 2]}
                 "comment marks";
             UpperComments "UpperCaseComments?" (Switch) once (of("Y")) Ours {upper_comments: bool}
                 "comments of the job in capitals";
-            Replace "Replace" (Words(2, 2, "old and new text, in quotes where they hold blanks"))
+            Replace "Replace" (Words(2, 2, "old and new text, in quotes if they contain spaces"))
                 many (of("")) Ours {replace: Vec<Replacement>} eg "\"M8 \" \"M88 \""
                 "text replacement in every output block";
             Rename "Rename" (Letters(2, 2)) many (of("")) Ours {rename: Vec<(u8, u8)>} if (Letter)
@@ -192,7 +192,7 @@ macro_rules! command_rows {
                 "a prompted variable";
             Property "Property" (Words(3, 60, "a name, a kind, a default and a question"))
                 many (of("")) Ours {properties: Vec<Property>} eg "through choice(off,on,high) off Coolant through the spindle"
-                "a value by a name of the form's own, which the shop, the job or `--set` may give";
+                "a value with a name of its own in the form; postform.toml, the job or `--set` can give it";
             Call "Call" (Text) many (of("")) Ours {} eg "common.inc"
                 "includes another form of the same folder";
             CallMe "CallMe" (Text) many (of("")) Ours {} eg "common.inc"
@@ -204,7 +204,7 @@ macro_rules! command_rows {
             RenumSubs "RenumSubs?" (Switch) once (of("Y")) Ours {renumber_subs: bool} if (With(&[S::SubStart]))
                 "number subprograms from 1";
             VRapid "VRapid" (Motion(1, 1)) once (of("")) Ours {depth_rapid: Option<Code>} eg "G0"
-                "motion word of the depth part of a rapid, which is then split";
+                "motion word of the depth part of a rapid; the rapid is then split";
             ZRestart "ZRestart?" (Switch) once (of("N")) Ours {restart_depth: bool}
                 "the move after a tool change prints the depth again";
             RevTurret2 "RevTurret2?" (Switch) once (of("N")) Ours {reverse_turret_2: bool}
@@ -217,7 +217,7 @@ macro_rules! command_rows {
                 "of the original desktop product: without effect";
             Limits "Limits" (Words(3, 3, "axis letter, least and greatest position, as `X -20 20`"))
                 many (of("")) Ours {limits: Vec<TravelLimit>}
-                "travel of an axis; a rotary one's drives Unwind";
+                "travel of an axis; the travel of a rotary axis controls Unwind";
             // threads and cycles
             Thread "Thread" (Motion(1, 1))
                 once (of(""))
@@ -225,22 +225,22 @@ macro_rules! command_rows {
                 if (Unless(&[S::AutoThread, S::CanThread], "a sequence serves all threads")) eg "G33"
                 "print each threading pass with this code";
             ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
-                "later passes print X alone, or approach, cut, clear and return";
+                "later passes print only X, or approach, cut, clear and return";
             CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
-                "clearance of a cycle that names none";
+                "clearance of a cycle without one";
             CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"
-                "peck of a cycle that names none";
+                "peck of a cycle without one";
             CycleMinStep "CycleMinStep" (Length) once (of("0")) Ours {cycle_min_step: f64}
                 "least peck";
             CycleBack "CycleBack" (Words(2, 2, "`deep`, `chipbreak` or `thru`, then a length"))
                 many (of("").by_units("deep 0.05, chipbreak 0.05, thru 0.05", "deep 1, chipbreak 1, thru 1"))
                 Ours {=> cycle_back} eg "deep 0.05"
-                "secondary clearance of a cycle that names none";
+                "secondary clearance of a cycle without one";
             CycleDwell "CycleDwell" (Length) once (of("0.5")) Ours {cycle_dwell: f64}
-                "dwell in seconds of a facing cycle that names none";
+                "dwell in seconds of a facing cycle without one";
             CycleDwellAt "CycleDwellAt" (Words(1, 2, "`steps`, `retracts` or both"))
                 once (of("")) Ours {=> cycle_dwell_at} eg "steps"
-                "where else than at the bottom a peck cycle dwells";
+                "where a peck cycle dwells besides the bottom";
             CycleOrient "CycleOrient" (Number) once (of("0")) Ours {cycle_orient: f64}
                 "spindle angle for boring, degrees";
             CycleJog "CycleJog" (Length) once (of("").by_units("0.02", "0.5")) Ours {cycle_jog: Option<f64>}

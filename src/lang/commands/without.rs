@@ -1,8 +1,8 @@
-//! What holds without a command.
+//! Defaults: the effect of leaving out a command.
 
 use crate::lang::{Machine, UnitChoice};
 
-/// What holds without a command: its arguments as a form would give them.
+/// The default of a command, as the arguments that a form would have.
 #[derive(Clone, Copy, Debug)]
 pub struct Without {
     usual: &'static str,
@@ -12,7 +12,7 @@ pub struct Without {
     told: &'static str,
 }
 
-/// In every form these arguments.
+/// These arguments for every form.
 pub(super) const fn of(usual: &'static str) -> Without {
     Without { usual, lathe: None, inch: None, mm: None, told: "" }
 }
@@ -26,18 +26,18 @@ impl Without {
         Without { mm: Some(mm), ..self }
     }
 
-    /// By the form's units, and for a form of both by the job's.
+    /// By the units of the form; for a form with both units, by those of the job.
     pub(super) const fn by_units(self, inch: &'static str, mm: &'static str) -> Without {
         Without { inch: Some(inch), mm: Some(mm), ..self }
     }
 
-    /// What other things say it, for readers.
+    /// A description of a default that arguments can't express.
     pub(super) const fn told(self, told: &'static str) -> Without {
         Without { told, ..self }
     }
 
-    /// The arguments for a form of this machine and these units; empty where there are none. A comma stands between those of
-    /// a command that is given several times.
+    /// The arguments for a form of this machine and these units; empty if there are none. For a command that occurs
+    /// several times, a comma separates its arguments.
     pub fn arguments(self, machine: Machine, units: UnitChoice) -> &'static str {
         let by_units = match units {
             UnitChoice::Inch => self.inch,
@@ -47,7 +47,7 @@ impl Without {
         self.lathe.filter(|_| machine == Machine::Lathe).or(by_units).unwrap_or(self.usual)
     }
 
-    /// Nothing holds: there is no default to tell.
+    /// Whether there is no default.
     pub fn is_nothing(self) -> bool {
         self.to_string().is_empty()
     }

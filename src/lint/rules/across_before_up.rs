@@ -1,4 +1,4 @@
-//! PF441: at the end, and before a tool is changed, the tool goes up first. `G91 G0 Z0` goes nowhere.
+//! PF441: at the end, and before a tool change, the tool must go up first. `G91 G0 Z0` does not move it.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -20,21 +20,22 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 (Some((_, NOTHING)), _) if lifts.is_some() => None,
                 (Some((word, what)), _) => Some((word, "does not lift the tool", what)),
                 (None, Some((word, _))) => {
-                    Some((*word, "goes across before the tool is up", "at the height of the last move"))
+                    Some((*word, "moves across before the tool retracts", "at the height of the last move"))
                 }
                 (None, None) => None,
             }
         });
         if let Some((word, how, what)) = fault {
             diags.push(Diag::new(Code::PF441, format!("{} {how}", body.name())).at(word.span, what).help(
-                "lift it first: to the reference point, `G91 G28 Z0` and `G90`; or in machine coordinates, `G0 G53 Z0`",
+                "retract first: to the reference point, `G91 G28 Z0` and `G90`; or in machine coordinates, `G0 G53 \
+                 Z0`",
             ));
         }
     }
 }
 
-/// Does a block say where the tool goes? Not a tool change, which takes the tool up; nor a macro, a code of the
-/// builder, or all axes home.
+/// Does the block give a target? Not counted are a tool change, which retracts by itself, a macro, a code of the machine's
+/// builder, and a return of all axes to home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
         calls(view.settings.codes(), word) || view.meaning(word).is_some_and(Meaning::changes_tool) || says_tool(word)
@@ -47,10 +48,10 @@ fn height<'a>(block: &Block<'a>) -> Option<&'a Word> {
     block.axis_words.iter().find(|(_, axis)| *axis == 2).map(|(word, _)| *word)
 }
 
-/// What `G91 G0 Z0` does.
-const NOTHING: &str = "an increment of nothing";
+/// Description of `G91 G0 Z0`.
+const NOTHING: &str = "an increment of 0";
 
-/// What a typed height does under G91, if it lifts nothing.
+/// Description of a typed height under G91 that does not lift the tool; `None` if it does.
 fn no_lift(block: &Block, word: &Word) -> Option<&'static str> {
     let value = word.letter().and_then(|letter| word.typed(letter))?;
     match (block.incremental && !block.machine, block.reference) {

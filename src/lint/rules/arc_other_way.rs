@@ -1,4 +1,4 @@
-//! PF432: CwCode with the code of a counter-clockwise arc, or the other way round.
+//! PF432: CwCode with the code of a counter-clockwise arc, or CcwCode with that of a clockwise one.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -12,8 +12,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some(word) = body.code(b'G', &[wrong.value()]) else { continue };
         let better = format!("G{}", right.value());
         diags.push(
-            Diag::new(Code::PF432, format!("{} prints an arc that turns the other way", body.name()))
-                .at(word.span, "the other direction")
+            Diag::new(Code::PF432, format!("{} prints an arc in the opposite direction", body.name()))
+                .at(word.span, "the opposite direction")
                 .help(format!("write `{better}`"))
                 .fix("turn the arc", false, vec![(word.span, better)]),
         );

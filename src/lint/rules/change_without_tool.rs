@@ -1,4 +1,4 @@
-//! PF429: a tool change that does not say which tool, or only gets it ready.
+//! PF429: a tool change without the tool number, or one that only preselects the tool.
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
@@ -15,7 +15,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
         let printed = body.words().find(|word| says_tool(word));
         let Some(word) = printed else {
-            // where a person changes the tool, a comment says which
+            // for a manual tool change, a comment with the tool is sufficient
             let named = |kind: &WordKind| match kind {
                 WordKind::TextVar(text) | WordKind::RemarkText(text) => text.id == TextId::Toolname,
                 _ => false,
@@ -24,20 +24,23 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             if !body.lines.is_empty() && !told {
                 let typed = body.words().find(|word| view.printed_letter(word) == Some(b'T'));
                 diags.push(
-                    Diag::new(Code::PF429, format!("{} does not say which tool", body.name()))
+                    Diag::new(Code::PF429, format!("{} does not print the tool number", body.name()))
                         .at(typed.map_or(body.span, |word| word.span), "the same for every tool of a job")
-                        .help("print `T[tool] M6`; where a person changes it, say which in a comment: `(TOOL [tool])`"),
+                        .help(
+                            "print `T[tool] M6`; for a manual tool change, print the tool in a comment: `(TOOL \
+                            [tool])`",
+                        ),
                 );
             }
             continue;
         };
         let selects =
             view.printed_letter(word) == Some(b'T') && view.is_mill() && !control.refuses(control::Code::m(6));
-        // a macro that changes it, as `G65 P9020 T[tool]`, or a code of the builder, as `G100 T[tool]`
+        // a macro that changes the tool, as `G65 P9020 T[tool]`, or a code of the machine's builder, as `G100 T[tool]`
         let by_macro = body.lines[body.line_of(word)].words.iter().any(|word| calls(view.settings.codes(), word));
         if selects && !by_macro && body.meaning(Meaning::changes_tool).is_none() {
             diags.push(
-                Diag::new(Code::PF429, format!("{} selects a tool and does not change it", body.name()))
+                Diag::new(Code::PF429, format!("{} selects a tool, but does not change it", body.name()))
                     .at(word.span, "no M6")
                     .help("print `M6` after it"),
             );

@@ -1,4 +1,4 @@
-//! PF308: where arc centres have fewer decimals than positions, both ends of an arc no longer lie on one circle.
+//! PF308: if arc centres have fewer decimals than positions, the two ends of an arc have different radii.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

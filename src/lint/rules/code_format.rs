@@ -1,4 +1,4 @@
-//! PF310: a code that a command gives and that the format of its letter can't print.
+//! PF310: a code in a command that does not fit the format of its letter.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -25,7 +25,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The values that commands give to a variable.
+/// The values that commands assign to a variable.
 fn codes(settings: &Settings, var: VarId) -> Vec<f64> {
     match var {
         VarId::Work => vec![settings.work, settings.work_default],

@@ -1,27 +1,28 @@
-//! PF316 and its like say what a command lacks; PF211 says when its codes are those of every control, in another order.
+//! PF211: a command has the usual codes of all controls, but in another order. Missing codes are reported by PF316 and similar
+//! rules.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{Args, CommandId};
 use crate::lint::view::View;
 
-/// Motion words: each of these is one of the others' in another command.
+/// Commands of motion codes: the code of one must not be used in another.
 const MOTION: [CommandId; 4] = [CommandId::Rapid, CommandId::Feed, CommandId::CW, CommandId::CCW];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
         let row = id.row();
-        // which plane is whose depends on the machine
+        // the plane of each code depends on the machine
         if !matches!(row.args, Args::Codes(..) | Args::Motion(..)) || id == CommandId::ArcPlane {
             continue;
         }
         let usual = row.without.arguments(view.settings.machine, view.settings.units);
         let usual_codes = codes(usual.split(' '));
-        // the spindle's code after an arc's is none of a motion
+        // the spindle code after an arc code is no motion code
         let motion = MOTION.contains(&id);
         let args = if motion { &statement.args[..statement.args.len().min(1)] } else { &statement.args[..] };
         let said = codes(args.iter().map(|arg| arg.text.as_str()));
         if said.len() != args.len() {
-            continue; // what is no code is told as such
+            continue; // an invalid code has a finding of its own
         }
         let swapped = match motion {
             true => said != usual_codes && said.iter().all(|code| (0.0..4.0).contains(code)),
@@ -31,15 +32,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let what = row.meaning.rsplit_once(": ").map_or("", |(_, order)| order);
             let order = if what.is_empty() { String::new() } else { format!(" ({what})") };
             diags.push(
-                Diag::new(Code::PF211, format!("{} has its codes in another order than any control", row.name))
-                    .at(statement.line.span, "each would do the work of another")
+                Diag::new(Code::PF211, format!("the codes of {} are in the wrong order", row.name))
+                    .at(statement.line.span, "each code would be used for the function of another")
                     .help(format!("write `{} {usual}`{order}", row.name)),
             );
         }
     }
 }
 
-/// The numbers of codes, with or without their letters.
+/// The values of the codes, with or without letters.
 fn codes<'a>(words: impl Iterator<Item = &'a str>) -> Vec<f64> {
     words.filter_map(|word| word.trim_start_matches(|c: char| c.is_ascii_alphabetic()).parse().ok()).collect()
 }

@@ -1,4 +1,4 @@
-//! PF715: CommentLine prints the comments of the job; without `[text]` all of them are lost.
+//! PF715: CommentLine without `[text]`: it prints the comments of the job, so that all of them are lost.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, TextId};

@@ -1,4 +1,4 @@
-//! PF434: compensation that is not turned on, not off, or without its register.
+//! PF434: cutter compensation is not turned on, not turned off, or lacks its offset register.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -23,12 +23,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let message = format!("{name} does not turn compensation on");
             say(body.span, message, "no G41, no G42", "print `G[side]`".into());
         } else if !register && view.is_mill() {
-            say(body.span, format!("{name} does not say which diameter"), "no D", "print `D[dcomp]`".into());
+            say(body.span, format!("{name} has no diameter register"), "no D", "print `D[dcomp]`".into());
         } else if let Some(word) = body.words().find(typed) {
-            let message = format!("{name} takes the same diameter for every tool");
+            let message = format!("{name} uses the same diameter register for every tool");
             say(word.span, message, "as typed", "write `D[dcomp]`".into());
         } else if let Some(word) = body.words().find(length) {
-            let message = format!("{name} takes the length of the tool for its diameter");
+            let message = format!("{name} uses the length register of the tool as its diameter register");
             say(word.span, message, "the register of the length", "write `D[dcomp]`".into());
         }
     }

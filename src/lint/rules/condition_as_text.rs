@@ -1,4 +1,4 @@
-//! PF713: `if [tool] = 1` and `val1 = 2` are text, which the control gets to read. What was meant begins with `@`.
+//! PF713: `if [tool] = 1` and `val1 = 2` are printed as text. Directives begin with `@`.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -10,13 +10,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some(meant) = meant(line, view) else { continue };
         diags.push(
             Diag::new(Code::PF713, "a directive without its `@` is printed as text")
-                .at(line.span, "printed as it stands")
-                .help(format!("write `{meant}`; text of the control stands in backquotes")),
+                .at(line.span, "printed as text")
+                .help(format!("write `{meant}`; put text of the control in backquotes")),
         );
     }
 }
 
-/// The directive that a line was to be.
+/// The directive that the line was probably meant to be.
 fn meant(line: &Line, view: &View) -> Option<String> {
     let text = |at: usize| match &line.words.get(at)?.kind {
         WordKind::Text(text) => Some(text.as_str()),

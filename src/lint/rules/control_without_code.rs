@@ -1,4 +1,4 @@
-//! PF607: a code that the form's control does not have, where all its codes are known.
+//! PF607: a code that the form's control does not have, if all its codes are known.
 
 use crate::control;
 use crate::diag::{Code, Diag};
@@ -21,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF607, format!("{} does not have this code", control.name()))
                     .at(word.span, "refused")
-                    .help("take it out; a cycle without its sequence is printed as moves"),
+                    .help("remove it; without its sequence a cycle is printed as moves"),
             );
         }
     }

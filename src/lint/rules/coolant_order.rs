@@ -1,4 +1,4 @@
-//! PF428: coolant that runs while the tool changes, or before the spindle turns.
+//! PF428: coolant is on while the tool changes, or before the spindle turns.
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
@@ -11,7 +11,7 @@ use super::spindle_before_change::{changes, starts_spindle};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
         let spindle = body.lines.iter().position(|line| line.words.iter().any(|word| starts_spindle(view, word)));
-        // the code of such a kind stops the spindle: it is printed first
+        // the code of such a kind stops the spindle, so that it prints first
         let first = view.settings.coolant_kinds.iter().any(|kind| {
             let row = control::Code::of(b'M', kind.on).and_then(|code| view.settings.control().row(code));
             row.is_some_and(|row| row.stops_spindle)
@@ -25,7 +25,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(word) = lines.find(on) {
             diags.push(
                 Diag::new(Code::PF428, format!("{} turns the coolant on too early", body.name()))
-                    .at(word.span, "the tool is not in, or does not turn yet")
+                    .at(word.span, "the tool is not in the spindle yet, or the spindle is off")
                     .help("print `M[cool]` last"),
             );
         }

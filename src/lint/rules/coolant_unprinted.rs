@@ -1,4 +1,4 @@
-//! PF712: a kind of coolant has a code, and the form types the codes of flood: the control is told both.
+//! PF712: the form defines a code for a kind of coolant, but types the codes of flood: both codes are printed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -16,8 +16,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let (name, code) = (kind.kind.name(), kind.on);
             diags.push(
                 Diag::new(Code::PF712, format!("no sequence prints M{code}, the coolant `{name}`"))
-                    .at(flood.span, format!("turns flood on, where the job asks for {name}"))
-                    .help("write `M[cool]`: it is the code of the coolant that the job asks for"),
+                    .at(flood.span, format!("turns flood on, but the job requests {name}"))
+                    .help("write `M[cool]`: it is the code of the coolant of the job"),
             );
         }
     }

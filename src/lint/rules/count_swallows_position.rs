@@ -1,4 +1,4 @@
-//! PF408: the lines that a count sets apart are printed once; a position among them is that of the first hole.
+//! PF408: the counted lines of a cycle print once; a position in them is that of the first hole.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -19,7 +19,7 @@ pub fn check<'a>(view: &View<'a>, diags: &mut Vec<Diag>) {
                 Diag::new(Code::PF408, format!("{} prints the position at the first hole only", body.name()))
                     .at(first.span, "printed once")
                     .at(sequence.span, format!("the first {count} lines are for the first hole"))
-                    .help("print `X[h] Y[v]` in the lines that are repeated, or take a smaller count"),
+                    .help("print `X[h] Y[v]` in the repeated lines, or use a smaller count"),
             );
         }
     }

@@ -1,4 +1,4 @@
-//! PF318: a number of something with a point: `M98 P1.`, `H3.`, which controls read as another number or refuse.
+//! PF318: an integer printed with a point, as `M98 P1.`, `H3.`: controls refuse it or read another number.
 
 use crate::diag::{Code, Diag};
 use crate::lang::Unit;
@@ -7,7 +7,7 @@ use crate::number::Point;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (&letter, (format, span)) in &view.form.formats {
-        // with an implied point it is another rule's, a G or M code has its own
+        // an implied point belongs to another rule, and G and M codes have their own rule
         if format.point != Point::Always || format.dec.count == 0 || b"GM".contains(&letter.to_ascii_uppercase()) {
             continue;
         }

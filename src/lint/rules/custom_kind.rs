@@ -1,4 +1,4 @@
-//! PF207: the remark of a Custom cycle names the kind of cycle that it serves.
+//! PF207: the comment of a Custom cycle names an unknown kind of cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lang::did_you_mean;
@@ -8,11 +8,11 @@ use crate::toolpath::CycleKind;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for sequence in view.form.sequences.values() {
         let Some(kind) = sequence.custom_kind().filter(|kind| CycleKind::parse(kind).is_none()) else { continue };
-        // a word that is like none is a remark
+        // a word that resembles no kind is an ordinary comment
         let Some(help) = did_you_mean(kind, CycleKind::NAMES.iter().map(|(name, _)| *name)) else { continue };
         diags.push(
-            Diag::new(Code::PF207, format!("`{kind}` is no kind of cycle"))
-                .at(sequence.span, format!("only `{}` of a job is printed by this", sequence.id.name().to_lowercase()))
+            Diag::new(Code::PF207, format!("`{kind}` is not a kind of cycle"))
+                .at(sequence.span, format!("this prints only `{}` of a job", sequence.id.name().to_lowercase()))
                 .help(help),
         );
     }

@@ -1,4 +1,4 @@
-//! PF208: a Custom cycle is asked last: a kind that has its sequence, or an earlier Custom, never comes to it.
+//! PF208: a Custom cycle that is never used. Its kind has a sequence of its own, or an earlier Custom, which come first.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -12,15 +12,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         .filter_map(|sequence| Some((sequence, CycleKind::parse(sequence.custom_kind()?)?)))
         .collect();
     for (sequence, kind) in &customs {
-        // Custom1 is asked before Custom2, wherever they stand
+        // Custom1 comes before Custom2, whatever their order in the form
         let earlier = customs.iter().find(|(other, same)| other.id < sequence.id && same == kind);
         let named = kind.sequence().and_then(|id| view.body(id)).filter(|body| body.span != sequence.span);
         let server = named.map(|body| body.span).or(earlier.map(|(other, _)| other.span));
         if let Some(server) = server {
             diags.push(
-                Diag::new(Code::PF208, format!("another sequence serves `{}`", kind.name()))
-                    .at(sequence.span, "this one is never asked for it")
-                    .at(server, "this one is printed")
+                Diag::new(Code::PF208, format!("`{}` is printed by another sequence", kind.name()))
+                    .at(sequence.span, "never printed for this kind")
+                    .at(server, "printed for this kind")
                     .help("keep one of them"),
             );
         }

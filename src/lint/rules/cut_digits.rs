@@ -1,4 +1,4 @@
-//! PF306: a format that rounds away what the machine can do.
+//! PF306: a format that rounds away digits that the machine can use.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, SequenceId, Unit, VarId};
@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             true => (length(view), "a position".to_owned()),
             false => (wanted, what),
         };
-        // a dwell between moves is printed by the letter of `Dwell`, whatever sequences print, but where DwellBlock prints it
+        // a dwell between moves prints the letter of `Dwell`, unless DwellBlock prints it
         let dwell = &view.settings.dwell;
         let generated = view.body(SequenceId::DwellBlock).is_none();
         let dwells = letter == dwell.letter && !dwell.milliseconds && generated && wanted < 2;
@@ -30,17 +30,18 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let name = char::from(letter);
         let decimals = format.dec.count;
-        // without decimals it had no point to print
+        // a format without decimals has no point to keep
         let point = if decimals == 0 { Point::Always } else { format.point };
         let fixed = decimals > 0 && format.dec.fixed;
         let better = LetterFormat { dec: Digits { count: wanted, fixed }, point, ..*format };
         let counts = counts(view, letter);
         let digits = format.int.count;
         let help = match (counts, name.to_ascii_lowercase()) {
-            // the letter of dwells is given: the others take another one
+            // the letter of dwells is fixed by the command; the other words take another letter
             (true, small) if small != name && dwells => {
                 format!(
-                    "write `{name}{better}`; print whole numbers as `{small}`, with `{small} >{digits}` and `Rename {small} {name}`"
+                    "write `{name}{better}`; print whole numbers as `{small}`, with the lines `{small} >{digits}` \
+                     and `Rename {small} {name}`"
                 )
             }
             (true, small) if small != name => {
@@ -59,13 +60,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     built_in(view, diags);
 }
 
-/// Does the letter print counts or codes, too? They would get a point with the others.
+/// Does the letter also print counts or codes? They would get a point too.
 fn counts(view: &View, letter: u8) -> bool {
     let whole = |word: &Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
     letter == view.settings.cdc_code || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(whole)
 }
 
-/// Letters without a format: the built-in ones of counters print whole numbers.
+/// Letters without a format: the built-in formats of counters are whole numbers.
 fn built_in(view: &View, diags: &mut Vec<Diag>) {
     let mut told = Vec::new();
     for word in view.words() {
@@ -95,19 +96,19 @@ fn built_in(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A tenth of a thousandth of an inch, a thousandth of a millimetre.
+/// Decimals of a length: 0.0001 inch or 0.001 mm.
 fn length(view: &View) -> u8 {
     if view.is_metric() { 3 } else { 4 }
 }
 
-/// Decimals that a value should keep.
+/// Decimals that a value needs.
 fn needed(view: &View, var: VarId) -> u8 {
     match var.row().unit {
         Unit::Length => length(view),
-        // the angle of a tip is a whole number on all of them
+        // tip angles are whole numbers on all controls
         Unit::Angle if var == VarId::Tipang => 0,
         Unit::Angle => 2,
-        // a feed per revolution is a chip: as fine as a length
+        // a feed per revolution is a chip thickness, as fine as a length
         Unit::Feed if view.settings.machine == Machine::Lathe => length(view),
         Unit::Feed if !view.is_metric() => 1,
         Unit::Time if !view.settings.dwell.milliseconds => 2,

@@ -1,4 +1,4 @@
-//! PF409: a cycle of the control stays in force until it is cancelled: the next move would be a hole.
+//! PF409: a cycle of the control that is never cancelled stays active, so that the next move would drill.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -10,7 +10,7 @@ use crate::syntax::Tail;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
-        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule's
+        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule reports these
         if view.works_once(code)
             || sequence.cancel.is_some()
             || uncounted
@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         {
             continue;
         }
-        let mut diag = Diag::new(Code::PF409, format!("{} leaves {code} in force", body.name()))
+        let mut diag = Diag::new(Code::PF409, format!("{} leaves {code} active", body.name()))
             .at(word.span, "the next position would be a hole, too")
             .help("end it with `End Cancel`, and print G80 in a sequence `Cancel`");
         let end = view.node(sequence.span).and_then(|node| node.end.as_ref());

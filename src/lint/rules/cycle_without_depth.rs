@@ -1,4 +1,4 @@
-//! PF407: a cycle that does not print the depth drills to wherever the last one drilled.
+//! PF407: a cycle that does not print the depth drills to the depth of the previous cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if !body.begins_with(&[VarId::D, VarId::Depth, VarId::Inidep, VarId::Ddist]) {
             diags.push(
                 Diag::new(Code::PF407, format!("{} does not print the depth", body.name()))
-                    .at(sequence.span, "the control would take the depth of the cycle before")
+                    .at(sequence.span, "the control would use the depth of the cycle before")
                     .help("print the bottom of the hole, as `Z[d]`"),
             );
         }

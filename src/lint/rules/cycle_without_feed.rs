@@ -1,4 +1,4 @@
-//! PF412: without its feed a cycle drills at whatever feed was last.
+//! PF412: a cycle without a feed drills with the last feed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

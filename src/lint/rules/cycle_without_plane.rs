@@ -1,4 +1,4 @@
-//! PF411: without its R plane a cycle rapids to that of the cycle before.
+//! PF411: a cycle without its R plane makes its rapid to the R plane of the previous cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -13,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if !body.begins_with(&[VarId::Vclear, VarId::Rplane]) {
             diags.push(
                 Diag::new(Code::PF411, format!("{code} has no R plane"))
-                    .at(word.span, "the control would take that of the cycle before")
+                    .at(word.span, "the control would use the R plane of the cycle before")
                     .help("print the clearance plane, as `R[vclear]`"),
             );
         }

@@ -1,4 +1,4 @@
-//! PF406: a cycle that does not print the position drills every hole at one place.
+//! PF406: a cycle that does not print the position drills every hole at the same position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -13,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let missing = [VarId::H, VarId::V].into_iter().filter(|&var| !body.prints(var));
         let names = missing.map(|var| format!("[{}]", var.name())).collect::<Vec<_>>().join(" and ");
         if names.is_empty() {
-            // K0 and L0 keep the cycle from drilling where it begins, and a code alone only names the cycle
+            // with K0 or L0 the cycle does not drill at its start; a line with only the code just selects the cycle
             let waits = |word: &Word| word.is_code(b'K', &[0.0]) || word.is_code(b'L', &[0.0]);
             let drills = |line: &&Line| {
                 let words = &line.words;
@@ -25,7 +25,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             if let (Some((word, code)), false) = (cycle, placed) {
                 diags.push(
                     Diag::new(Code::PF406, format!("{} starts {code} without the position", body.name()))
-                        .at(word.span, "a hole where the tool is, and the first one again")
+                        .at(word.span, "drills at the position of the tool, and the first hole twice")
                         .help("print `X[h] Y[v]` in the block of the cycle"),
                 );
             }
@@ -33,7 +33,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         diags.push(
             Diag::new(Code::PF406, format!("{} does not print {names}", body.name()))
-                .at(sequence.span, "the control would stay where it is for every hole")
+                .at(sequence.span, "the control would drill every hole at the same position")
                 .help("print the position, as `X[h] Y[v]`"),
         );
     }

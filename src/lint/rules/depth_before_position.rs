@@ -1,4 +1,4 @@
-//! PF416: the tool goes down where it stands, and then across.
+//! PF416: the tool moves down first, and then across.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             words.iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
         });
         let Some((down, word)) = down else { continue };
-        // the axes across that a block says, as a set
+        // the set of axes across that a block moves
         let across = |block: &Block| {
             let words = &block.axis_words;
             let words =
@@ -35,12 +35,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             words.fold(0, |set, (_, axis)| set | 1 << axis)
         };
         let before = blocks[..=down].iter().fold(0, |set, block| set | across(block));
-        // a tool change comes from anywhere
+        // before a tool change the tool may be at any position
         let changes = [S::FirstToolChange, S::ToolChange].map(Purpose::Sequence).contains(&body.purpose);
         if changes && before != 0b11 && blocks[down + 1..].iter().all(|block| across(block) == 0) {
             diags.push(
-                Diag::new(Code::PF416, format!("{} goes down and does not say where", body.name()))
-                    .at(word.span, "down where the tool was changed")
+                Diag::new(Code::PF416, format!("{} goes down without a position", body.name()))
+                    .at(word.span, "down at the tool change position")
                     .help("print `G0 X[h] Y[v]` before it"),
             );
             continue;
@@ -48,7 +48,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(late) = blocks[down + 1..].iter().find(|block| across(block) & !before != 0) {
             let there = late.line.span;
             diags.push(
-                Diag::new(Code::PF416, format!("{} goes down before it is over the place", body.name()))
+                Diag::new(Code::PF416, format!("{} goes down before it is above the position", body.name()))
                     .at(word.span, "down here")
                     .at(there, "across here")
                     .help("print `X[h] Y[v]` first, the depth after it"),
@@ -57,7 +57,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A canned cycle that moves by itself, without a cycle of the control.
+/// Is it a canned cycle that moves without a cycle of the control?
 fn is_emulated(body: &Body, id: SequenceId) -> bool {
     id.row().is_cycle && !body.moves_by_itself()
 }

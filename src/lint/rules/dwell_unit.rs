@@ -1,4 +1,4 @@
-//! PF311: P counts milliseconds on some controls and seconds on others.
+//! PF311: P of a dwell is in milliseconds on some controls, and in seconds on others.
 
 use crate::control::DwellUnit;
 use crate::diag::{Code, Diag};
@@ -30,7 +30,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let (unit, times) = if wanted { ("ms", "a thousandth of") } else { ("s", "a thousand times") };
     diags.push(
         Diag::new(Code::PF311, format!("P of a dwell is in {unit} on {}", settings.control().shown()))
-            .at(place, format!("this would dwell {times} the time"))
+            .at(place, format!("the dwell would be {times} the time"))
             .help(format!("write `Dwell G4 P {unit}`")),
     );
 }

@@ -1,5 +1,5 @@
-//! PF012: a sequence without a line prints nothing, and what it stands for is lost with it. `None` says so on purpose, where that
-//! makes sense.
+//! PF012: a sequence without lines prints nothing, so that its purpose is lost. Where an empty output makes sense, `None` states
+//! it explicitly.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -11,9 +11,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if body.sequence.is_some_and(|sequence| sequence.is_none) {
             let lost = body.sequence.and_then(without);
             diags.extend(lost.map(|what| {
-                Diag::new(Code::PF012, format!("{} says None", body.name()))
+                Diag::new(Code::PF012, format!("the body of {} is None", body.name()))
                     .at(body.span, what)
-                    .help("write what the machine needs, or take the sequence out")
+                    .help("write the blocks that the machine needs, or remove the sequence")
             }));
             continue;
         }
@@ -22,27 +22,30 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         diags.push(
             Diag::new(Code::PF012, format!("{} has no lines", body.name()))
-                .at(body.span, "nothing is printed where it is due")
+                .at(body.span, "nothing is printed for this event")
                 .help(match body.sequence.and_then(without) {
-                    Some(_) => "write its lines, or take it out, so that postform prints what is needed",
-                    None => "write its lines, or take it out, so that postform prints what is needed; `None` says that nothing is wanted",
+                    Some(_) => "write its lines, or remove it: then postform prints the block itself",
+                    None => {
+                        "write its lines, or remove it: then postform prints the block itself; write `None` to \
+                        print nothing"
+                    }
                 }),
         );
     }
 }
 
-/// Does a directive set a value? Another sequence prints it.
+/// Does the sequence contain a `@set`? Its purpose is then the value, which another sequence prints.
 fn sets(body: &Body) -> bool {
     let mut sets = false;
     each_step(body.steps.unwrap_or_default(), &mut |step| sets |= matches!(step, Step::Set(..)));
     sets
 }
 
-/// What comes of a sequence that says `None`, where that is not what anybody wants.
+/// The consequence of `None` in a sequence where it is probably not intended.
 fn without(sequence: &Sequence) -> Option<&'static str> {
     Some(match sequence.id {
         SequenceId::OptStop => "the job's optional stop is lost",
-        SequenceId::MoveHome => "the job's way home is lost",
+        SequenceId::MoveHome => "the job's move home is lost",
         SequenceId::WorkChange
         | SequenceId::SpindleChange
         | SequenceId::CoolantChange

@@ -1,4 +1,4 @@
-//! PF443: the end of the program in a sequence that stands before it.
+//! PF443: an end-of-program code in a sequence before the end of the program.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -6,7 +6,7 @@ use crate::lang::SequenceId;
 use crate::lint::view::{Purpose, View};
 use crate::sema::Word;
 
-/// Sequences with which a program or a part of it ends.
+/// Sequences that end a program or a part of it.
 const ENDS: [SequenceId; 3] = [SequenceId::EndCode, SequenceId::SubEnd, SequenceId::Between];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
@@ -15,9 +15,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let is_end = |word: &&Word| view.meaning(word) == Some(Meaning::End);
         if let Some(word) = body.words().find(is_end) {
             diags.push(
-                Diag::new(Code::PF443, format!("{} ends the program, and the job goes on", body.name()))
-                    .at(word.span, "nothing after it is done")
-                    .help("take it out; a stop is M0 or M1, the end belongs into EndCode"),
+                Diag::new(Code::PF443, format!("{} ends the program before the job ends", body.name()))
+                    .at(word.span, "nothing after this block is run")
+                    .help("remove it; write M0 or M1 for a stop, and put the end into EndCode"),
             );
         }
     }

@@ -1,4 +1,4 @@
-//! PF418: a feed move that does not say its feed goes at whatever feed was last.
+//! PF418: a feed move without a feed uses the last feed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let feed = view.settings.feed_code;
     for body in &view.bodies {
         let id = body.sequence.map(|sequence| sequence.id);
-        // a thread feeds by its pitch, a cycle of the control has its own rule
+        // the feed of a thread is its pitch, and a cycle of the control has its own rule
         if matches!(id, Some(S::AutoThread | S::CanThread)) || body.cycle_word().is_some() {
             continue;
         }
@@ -32,12 +32,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let letter = char::from(feed);
                 let own = matches!(id, Some(S::LineCode | S::CwCode | S::CcwCode | S::InFeed | S::OutFeed));
                 let what = if own {
-                    "each change of the feed gets a block of its own"
+                    "each change of the feed is printed as a separate block"
                 } else {
                     "at the feed of the move before"
                 };
                 diags.push(
-                    Diag::new(Code::PF418, format!("{} feeds without saying the feed", body.name()))
+                    Diag::new(Code::PF418, format!("{} feeds without a feed word", body.name()))
                         .at(word.span, what)
                         .help(format!("print the feed, as `{letter}[frate]`")),
                 );

@@ -1,4 +1,4 @@
-//! PF110: a comment in marks that the control does not have: round brackets, or a semicolon.
+//! PF110: a comment with marks that the control does not have: round brackets, or a semicolon.
 
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [open, _] = &view.settings.comment;
-    // on a Fanuc and its like a semicolon is how the end of a block is shown
+    // on a Fanuc and similar controls, a semicolon is displayed at the end of a block
     let ends_block = view.settings.control().rules() == Rules::Fanuc && open != ";" && view.settings.eob.is_empty();
     for piece in view.pieces() {
         let found = match &piece.kind {
@@ -17,9 +17,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 "take it out, or change the `Comment` command",
             )),
             PieceKind::Stray(text) if ends_block && text.starts_with(';') => Some((
-                "`;` begins no comment on this control".to_owned(),
-                "printed with what stands after it: there the control ends the block",
-                "a remark of the form begins with ` #`; write a comment of the program in brackets, `(CHANGE)`, or after `;` where the form has `Comment ;`",
+                "`;` does not begin a comment on this control".to_owned(),
+                "printed with the text after it: the control ends the block at `;`",
+                "a comment of the form begins with ` #`; write a comment of the program in brackets, `(CHANGE)`, or \
+                 after `;` if the form has `Comment ;`",
             )),
             _ => None,
         };

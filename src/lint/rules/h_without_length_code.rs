@@ -1,4 +1,4 @@
-//! PF426: H alone turns no length offset on. The tool goes deeper than the part by its length.
+//! PF426: H alone activates no length offset. The tool goes too deep by its length.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() || matches!(view.traits().tool_length, ToolLength::Register | ToolLength::None) {
-        return; // H alone is enough, or nothing is
+        return; // on these controls H alone activates the offset, or there are no length registers
     }
     for body in &view.bodies {
         let register = body

@@ -1,4 +1,4 @@
-//! PF106: a `#` begins a comment after a blank only; inside a word it is printed.
+//! PF106: a `#` inside a word is printed. It begins a comment only after a space.
 
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;
@@ -12,11 +12,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some(at) = text.find('#').filter(|&at| looks_like_a_code(&text[..at])) else { continue };
         let start = piece.span.start + at as u32;
         diags.push(
-            Diag::new(Code::PF106, format!("`{text}` is printed as it stands"))
-                .at(Span { start, ..piece.span }, "no comment: no blank is before it")
-                .help("put a blank before the `#`")
+            Diag::new(Code::PF106, format!("`{text}` is printed as text"))
+                .at(Span { start, ..piece.span }, "not a comment: there is no space before it")
+                .help("put a space before the `#`")
                 .fix(
-                    "put a blank before the comment",
+                    "put a space before the comment",
                     false,
                     vec![(Span { start, end: start, ..piece.span }, " ".into())],
                 ),

@@ -1,4 +1,4 @@
-//! PF503: a depth below its point is the same in a low hole as in a high one: the word does not change, and is dropped.
+//! PF503: a depth relative to its point is the same at every height, so that the word does not change and is left out.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -9,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         return;
     }
     for (_, body) in view.hole_cycles() {
-        // codes of a control that nobody knows here may want how deep
+        // codes of an unknown control may need a relative depth
         let own_codes = body.cycle_word().is_none() && body.moves_by_itself();
         if own_codes {
             continue;
@@ -21,9 +21,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::Depth | VarId::Inidep)));
             if let (Some((word, _)), false) = (depth, block.incremental) {
                 diags.push(
-                    Diag::new(Code::PF503, format!("{} prints how deep, the control wants where", body.name()))
-                        .at(word.span, "the same at holes of other heights, so later ones drop it")
-                        .help("print the bottom of the hole, as `Z[d]`"),
+                    Diag::new(
+                        Code::PF503,
+                        format!(
+                            "{} prints the depth of the hole, but the control needs the position of its bottom",
+                            body.name()
+                        ),
+                    )
+                    .at(word.span, "the same for holes at other heights, so it is not printed again")
+                    .help("print the bottom of the hole, as `Z[d]`"),
                 );
             }
         }

@@ -1,4 +1,4 @@
-//! PF317: a control counts ten-thousandths of an inch, but thousandths of a millimetre.
+//! PF317: an implied point is not the same in both units: a control counts 0.0001 inch, but 0.001 mm.
 
 use crate::control::WithoutPoint;
 use crate::diag::{Code, Diag};
@@ -22,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF317, format!("{name} prints 1 mm as 10000"))
                     .at(*span, "in millimetres the control counts thousandths: this is 10 mm")
-                    .help(format!("print a point, as `{name}->4.>4`; or take 3 decimals and `Units mm`")),
+                    .help(format!("print a point, as `{name}->4.>4`; or use 3 decimals and `Units mm`")),
             );
         }
     }

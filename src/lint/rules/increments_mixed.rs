@@ -1,4 +1,4 @@
-//! PF504: a motion sequence with positions, in a form whose moves are increments.
+//! PF504: a motion sequence prints positions in a form with incremental moves.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -17,9 +17,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         });
         if let Some(word) = absolute {
             diags.push(
-                Diag::new(Code::PF504, format!("{} prints a position, the other moves are increments", body.name()))
-                    .at(word.span, "the control adds it to where the tool stands")
-                    .help("print distances, as `X[hdist] Y[vdist] Z[ddist]`"),
+                Diag::new(
+                    Code::PF504,
+                    format!("{} prints a position, but the other moves are increments", body.name()),
+                )
+                .at(word.span, "the control adds it to the position of the tool")
+                .help("print distances, as `X[hdist] Y[vdist] Z[ddist]`"),
             );
         }
     }

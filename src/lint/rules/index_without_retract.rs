@@ -1,4 +1,4 @@
-//! PF420: a part that turns under a tool which is still down.
+//! PF420: the part turns while the tool is still down.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -18,13 +18,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                     Diag::new(Code::PF420, format!("{} turns the part while the tool comes down", body.name()))
                         .at(turn.span, "turns here")
                         .at(down.span, "in the same block")
-                        .help("turn in a block of its own, before the depth"),
+                        .help("turn the part in a separate block before the depth"),
                 );
                 break;
             }
             if let (false, Some(turn)) = (up, turn) {
                 diags.push(
-                    Diag::new(Code::PF420, format!("{} turns the part before the tool is up", body.name()))
+                    Diag::new(Code::PF420, format!("{} turns the part before the tool retracts", body.name()))
                         .at(turn.span, "turns here")
                         .help("lift the tool first, as `G0 G53 Z0` or `G91 G28 Z0`"),
                 );
@@ -35,7 +35,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A tool change that comes down before the angle is said: the part turns under the tool.
+/// Reports a tool change that goes down before it prints the angle: the part turns under the tool.
 fn down_to_a_turning_part(view: &View, diags: &mut Vec<Diag>) {
     let is_rotary = |word: &&Word| word.letter().is_some_and(|letter| view.is_rotary(letter)) && word.var().is_some();
     let Some(letter) = view.body(SequenceId::Index).and_then(|index| index.words().find(is_rotary)?.letter()) else {
@@ -48,8 +48,8 @@ fn down_to_a_turning_part(view: &View, diags: &mut Vec<Diag>) {
         };
         if let Some(word) = words.find(down) {
             diags.push(
-                Diag::new(Code::PF420, format!("{} brings the tool down before the part has its angle", body.name()))
-                    .at(word.span, "the part turns under it")
+                Diag::new(Code::PF420, format!("{} brings the tool down before it turns the part", body.name()))
+                    .at(word.span, "the part turns under the tool")
                     .help(format!("print `{}[rotangle]` with the position, before the depth", char::from(letter))),
             );
         }

@@ -1,4 +1,4 @@
-//! PF425: G43 without H takes no offset, or the last one.
+//! PF425: G43 without H activates no offset, or the last one.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if matches!(view.traits().tool_length, ToolLength::Code | ToolLength::None) {
-        return; // G43 alone is the tool in the spindle, or there are no registers
+        return; // on these controls G43 alone uses the tool in the spindle, or there are no length registers
     }
     let lines = view.bodies.iter().flat_map(|body| body.lines.iter().map(move |line| (body, line)));
     for (body, line) in lines {
@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let by_macro = |word: &Word| matches!(&word.kind, WordKind::Text(text) if text.starts_with("H#"));
         if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H') || by_macro(word)) {
             diags.push(
-                Diag::new(Code::PF425, format!("{} turns the length offset on and does not say which", body.name()))
+                Diag::new(Code::PF425, format!("{} turns the length offset on without a register", body.name()))
                     .at(word.span, "no H")
                     .help("print the register, as `G43 H[lcomp]`"),
             );

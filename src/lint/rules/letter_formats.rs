@@ -1,10 +1,10 @@
-//! PF303: a letter that prints values and has no format takes a built-in one. Said once for each letter.
+//! PF303: a letter without a format prints values in a built-in format. Reported once for each letter.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::sema::WordKind;
 
-/// Codes and counts look alike on all controls; only letters of measured values are worth a note.
+/// Letters of codes and counts, which look the same on all controls. Only letters of measured values are reported.
 const PLAIN: &[u8] = b"GMTNOHDLSP:%";
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
@@ -23,7 +23,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF303, format!("{letter_name} has no format and prints as `{letter_name}{format}`"))
                 .at(word.span, "first printed here")
-                .help(format!("add the line `{letter_name}{format}` to say that it is meant so")),
+                .help(format!("add the line `{letter_name}{format}` to confirm this format")),
         );
     }
 }

@@ -1,5 +1,5 @@
-//! PF506: a block with one letter twice: most controls alarm, the others take one of them. T may be there twice: the
-//! tool, and the one to get ready.
+//! PF506: a block with the same letter twice: most controls alarm, the others use one of them. T is allowed twice: the tool, and
+//! the preselected tool.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 continue;
             };
             diags.push(
-                Diag::new(Code::PF506, format!("{} is there twice in one block", char::from(letter)))
+                Diag::new(Code::PF506, format!("{} is twice in one block", char::from(letter)))
                     .at(word.span, "again here")
                     .at(first.span, "first here")
                     .help("keep one of them, or print two blocks"),

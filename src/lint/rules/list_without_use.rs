@@ -1,4 +1,4 @@
-//! PF711: lines of a list that say nothing of what the list goes through print the same each time.
+//! PF711: lines of a list that use no value of its items print the same each time.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::{Body, View};
@@ -17,15 +17,15 @@ fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
                 let each = each.name();
                 if inner.is_empty() {
                     diags.push(
-                        Diag::new(Code::PF711, format!("@for {each} has no lines")).at(*span, "nothing prints").help(
-                            format!("write the lines that print for each {each} above its @end, or take both out"),
-                        ),
+                        Diag::new(Code::PF711, format!("@for {each} has no lines"))
+                            .at(*span, "nothing prints")
+                            .help(format!("write the lines for each {each} above its @end, or remove @for and @end")),
                     );
                 } else if !says_anything(inner, body) {
                     diags.push(
                         Diag::new(Code::PF711, format!("the lines of @for {each} print the same for each {each}"))
-                            .at(*span, "nothing in it changes")
-                            .help("print a variable of it, as `(T[tool] [toolname])`, or take the list out"),
+                            .at(*span, "no line of the list changes")
+                            .help("print a variable of the item, as `(T[tool] [toolname])`, or remove the list"),
                     );
                 }
                 lists(inner, body, diags);
@@ -36,7 +36,7 @@ fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is there anything that may differ from one item to the next?
+/// Is there any value that may differ from one item to the next?
 fn says_anything(steps: &[Step], body: Body) -> bool {
     steps.iter().any(|step| match step {
         Step::Lines(lines) => body.lines[lines.clone()].iter().flat_map(|line| &line.words).any(|word| {

@@ -1,4 +1,4 @@
-//! PF101: words after two blanks or a tab are a comment, which looks like output and prints nothing.
+//! PF101: words after two spaces or a tab are a comment. They look like output, but are not printed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -13,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for item in &tree.items {
             match item {
                 Head::Sequence(node) => sequence(node, text, diags),
-                // a letter or number more is an argument
+                // another letter or number is a further argument
                 Head::Statement(statement) => {
                     let is_argument = |token: &str| token.parse::<f64>().is_ok() || is_letter(token);
                     lost(&statement.line, text, &|token| is_argument(token) || looks_like_a_word(token), diags);
@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 }
 
 fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
-    // after a name stands a remark; a number alone is a count
+    // a comment may follow a name; a number alone is a count
     let is_cycle = SequenceId::parse(&node.name.name.text).is_some_and(SequenceId::makes_holes);
     if is_cycle && node.name.args.is_empty() && count_is_lost(&node.name.line, text) {
         lost(&node.name.line, text, &|token| token.bytes().all(|b| b.is_ascii_digit()), diags);
@@ -36,7 +36,7 @@ fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
         let last = body.words.last().and_then(|word| word.pieces.last());
         match (&body.line.tail, last.map(|piece| &piece.kind)) {
             (Tail::Comment(comment), Some(PieceKind::Note { closed: false, .. })) => bracketed(*comment, text, diags),
-            // what is lost of a comment may be anything
+            // the lost end of a comment may be any text
             (_, Some(PieceKind::Note { closed: false, .. })) => lost(&body.line, text, &|_| true, diags),
             (Tail::Comment(comment), _) if body.words.is_empty() => macro_line(*comment, text, diags),
             _ => lost(&body.line, text, &looks_like_a_word, diags),
@@ -47,7 +47,7 @@ fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
     }
 }
 
-/// A number alone; where a remark can't begin, a number in front of one, too.
+/// Is the lost text a number, or does it begin with a number where no comment can begin?
 fn count_is_lost(line: &Line, text: &str) -> bool {
     let Tail::Lost(lost) = &line.tail else { return false };
     let is_number = |token: &str| token.bytes().all(|b| b.is_ascii_digit());
@@ -61,19 +61,19 @@ fn is_letter(token: &str) -> bool {
     token.len() == 1 && token.bytes().all(|b| b.is_ascii_uppercase())
 }
 
-/// `(P/N #1234)`: the rest of the comment, and its closing mark.
+/// Reports `(P/N #1234)`: the end of the comment and its closing mark are lost.
 fn bracketed(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let rest = &text[comment.range()];
     if rest.contains(')') {
         diags.push(
-            Diag::new(Code::PF101, format!("`{}` is lost of a comment of the program", rest.trim_end()))
-                .at(comment, "a `#` begins a comment of the form, here too")
-                .help("write another mark in its place, as `NO. 1234`"),
+            Diag::new(Code::PF101, format!("`{}` is lost from a comment of the program", rest.trim_end()))
+                .at(comment, "a `#` begins a comment of the form, also here")
+                .help("write something else instead of `#`, as `NO. 1234`"),
         );
     }
 }
 
-/// `#101=5` is a comment like any other.
+/// Reports `#101=5`, which is a comment like any other.
 fn macro_line(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let words = &text[comment.range()];
     let number = words.trim_start_matches('#').split('=').next().unwrap_or("").trim_end();
@@ -83,7 +83,7 @@ fn macro_line(comment: Span, text: &str, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF101, format!("`{words}` is lost: the line prints nothing"))
                 .at(comment, "a `#` begins a comment")
-                .help(format!("text of the control stands in backquotes: `` `{words}` ``"))
+                .help(format!("put text of the control in backquotes: `` `{words}` ``"))
                 .fix("put it in backquotes", false, vec![(whole, format!("`{words}`"))]),
         );
     }
@@ -100,16 +100,16 @@ fn lost(line: &Line, text: &str, is_word: &dyn Fn(&str) -> bool, diags: &mut Vec
     let words = lost.text.trim_end();
     let prints = match before.trim() {
         "" => "the line prints nothing".to_owned(),
-        words => format!("only `{words}` is left"),
+        words => format!("only `{words}` is printed"),
     };
     let joined = [before, words].join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
     let diag = Diag::new(Code::PF101, format!("`{words}` is lost: {prints}"))
-        .at(lost.span, "two blanks or a tab before this make it a comment")
+        .at(lost.span, "two spaces or a tab before this make it a comment")
         .help(format!("write `{joined}`, or begin the comment with `#`"));
-    // a sentence is a comment, whatever words are in it
+    // a sentence is a comment, even if it contains words of output
     let fix = if before.trim().is_empty() { "" } else { " " };
     diags.push(match tokens.all(is_word) {
-        true => diag.fix("join the words by one blank", false, vec![(gap, fix.to_owned())]),
+        true => diag.fix("join the words by one space", false, vec![(gap, fix.to_owned())]),
         false => diag,
     });
 }

@@ -1,4 +1,4 @@
-//! PF404: a cycle of the control in a sequence of several lines would drill each hole again with every line.
+//! PF404: a cycle of the control in a sequence of several lines drills each hole again with every line.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -15,16 +15,16 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let (what, help) = match (below.iter().any(|block| !block.axis_words.is_empty()), sequence.cancel) {
             (true, _) => {
                 let help = format!("write `{} 1`, if the first line is for the first hole only", body.name());
-                (format!("{code} drills again at each position below it"), help)
+                (format!("{code} drills again at each position in the lines below"), help)
             }
             (false, Some(_)) => continue, // Cancel ends it
             (false, None) => (
-                "the cycle stays in force: the next position would be a hole, too".to_owned(),
+                "the cycle stays active: the next position would also be drilled".to_owned(),
                 "write `End Cancel`, or print G80 in the last line".to_owned(),
             ),
         };
         diags.push(
-            Diag::new(Code::PF404, format!("{} starts a cycle of the control and has no count", body.name()))
+            Diag::new(Code::PF404, format!("{} starts a cycle of the control without a count", body.name()))
                 .at(word.span, what)
                 .at(sequence.span, "all lines are printed at every hole")
                 .help(help),

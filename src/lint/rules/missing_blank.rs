@@ -1,4 +1,4 @@
-//! PF102: `Z[d]F[plunge]` prints two words, but nobody should have to know.
+//! PF102: `Z[d]F[plunge]` prints two words; a space makes this visible.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -12,10 +12,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }
             let at = pair[1].span;
             diags.push(
-                Diag::new(Code::PF102, "a blank is missing between two words")
+                Diag::new(Code::PF102, "a space is missing between two words")
                     .at(at, "a new word begins here")
-                    .help("put one blank before it; the output stays the same")
-                    .fix("put a blank between the words", true, vec![(Span { end: at.start, ..at }, " ".into())]),
+                    .help("put one space before it; the output stays the same")
+                    .fix("put a space between the words", true, vec![(Span { end: at.start, ..at }, " ".into())]),
             );
         }
     }

@@ -1,4 +1,4 @@
-//! The rules: one a file, one row here.
+//! The rules: each has its own file and a row here.
 
 mod across_before_up;
 mod arc_other_way;
@@ -106,21 +106,21 @@ mod wrong_quantity;
 use super::view::View;
 use crate::diag::{Code, Diag};
 
-/// A rule: what its findings are called, and how they are found.
+/// A rule: the code of its findings, and its check.
 #[derive(Debug)]
 pub struct Rule {
     /// The code of the rule's findings.
     pub code: Code,
     /// The file of the rule in `src/lint/rules`.
     pub file: &'static str,
-    /// It looks at what codes mean, so that it has nothing to say of a language without G codes.
+    /// The rule depends on the meaning of codes, so that it does not apply to a language without G codes.
     pub of_codes: bool,
     pub(super) check: fn(&View, &mut Vec<Diag>),
 }
 
 macro_rules! rules {
     ($($code:ident $file:ident $(($codes:ident))?)*) => {
-        /// All rules; those marked `(codes)` look at what codes mean.
+        /// All rules; those marked `(codes)` depend on the meaning of codes.
         pub const RULES: &[Rule] =
             &[$(Rule {
                 code: Code::$code,
@@ -142,7 +142,7 @@ rules! {
     PF016 tape_mark (codes)
     PF017 sub_without_return (codes)
     PF018 sub_without_number
-    // blanks and comments
+    // spaces and comments
     PF101 lost_words
     PF102 missing_blank
     PF103 tab
@@ -235,7 +235,7 @@ rules! {
     PF607 control_without_code
     PF608 unknown_code (codes)
     PF609 second_m_code (codes)
-    // what posts say beyond the manual
+    // extensions beyond the manual
     PF710 property_unused
     PF711 list_without_use
     PF712 coolant_unprinted

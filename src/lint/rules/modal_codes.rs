@@ -1,4 +1,4 @@
-//! PF502: G4, G28, G53 and G92 act in their block only: dropped, they do nothing.
+//! PF502: G4, G28, G53 and G92 act only in their own block. If they are left out, they do nothing.
 
 use crate::control;
 use crate::diag::{Code, Diag};
@@ -14,8 +14,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if meaning.is_some_and(|meaning| meaning.group().is_none()) {
             diags.push(
                 Diag::new(Code::PF502, format!("{} acts once", arg.text))
-                    .at(arg.span, "the second one would be dropped, and be missed")
-                    .help("name codes that stay in force only: G0 to G3, G17 to G19"),
+                    .at(arg.span, "the second one would not be printed, although the control needs it")
+                    .help("name only modal codes: G0 to G3, G17 to G19"),
             );
         }
     }

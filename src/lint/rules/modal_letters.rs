@@ -1,4 +1,4 @@
-//! PF501: I, J, K, L and P mean something in their own block only; no control keeps them.
+//! PF501: I, J, K, L and P have a meaning only in their own block; no control keeps them.
 
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
@@ -10,9 +10,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let wrong: String = arg.text.chars().filter(|c| "IJKLP".contains(*c)).collect();
         if !wrong.is_empty() && arg.text.bytes().all(|b| b.is_ascii_alphabetic()) {
             diags.push(
-                Diag::new(Code::PF501, format!("no control keeps {wrong}"))
-                    .at(arg.span, "dropped, it would be gone")
-                    .help("name axes, F and S only"),
+                Diag::new(Code::PF501, format!("{wrong} is not modal on any control"))
+                    .at(arg.span, "a repeated value would not be printed")
+                    .help("name only axes, F and S"),
             );
         }
     }

@@ -1,4 +1,4 @@
-//! PF507: whether positions are absolute is what the control was last told, by another program or by hand.
+//! PF507: no G90 or G91 at the start: the control is still in the mode of another program, or of manual operation.
 
 use crate::control::Kept;
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
-    // other controls begin each program in a state of their own
+    // other controls start each program in a defined state
     if !view.is_mill() || view.settings.incremental || view.traits().modes_at_start != Kept::Yes {
         return;
     }
@@ -21,8 +21,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let place = |var| matches!(var, Some(VarId::H | VarId::V | VarId::D));
             if let Some((word, _)) = block.axis_words.iter().find(|(word, _)| place(word.printed_var())) {
                 diags.push(
-                    Diag::new(Code::PF507, "the program goes to a position and never said G90")
-                        .at(word.span, "an increment, if the program before left G91 on")
+                    Diag::new(Code::PF507, "the program goes to a position without G90")
+                        .at(word.span, "if the program before left G91 on, this is an increment")
                         .help(format!("print `G{positions}` in StartCode")),
                 );
                 return;

@@ -1,4 +1,4 @@
-//! PF433: a motion sequence that leaves out an axis can't print a move along it.
+//! PF433: a motion sequence that lacks an axis word can't print a move along that axis.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -12,14 +12,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let arc = body.purpose == Purpose::Sequence(S::CwCode) || body.purpose == Purpose::Sequence(S::CcwCode);
         let has_centre = body.prints_any(&[V::Ival, V::Hctr]) && body.prints_any(&[V::Jval, V::Vctr]);
         if arc && has_centre && body.prints_any(&[V::Endang, V::Sweep]) {
-            continue; // centre and angle say where it ends
+            continue; // centre and angle define the end of the arc
         }
         let axes: &[[V; 2]] = match (view.is_mill() && !arc, body.lines.is_empty()) {
             (_, true) => continue,
             (true, _) => &[[V::H, V::Hdist], [V::V, V::Vdist], [V::D, V::Ddist]],
             (false, _) => &[[V::H, V::Hdist], [V::V, V::Vdist]],
         };
-        // a table without a depth says so nowhere
+        // a flat form never prints the depth
         let axes = if flat { &axes[..2] } else { axes };
         let missing: Vec<String> =
             axes.iter().filter(|vars| !body.prints_any(*vars)).map(|vars| format!("[{}]", vars[0].name())).collect();
@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF433, format!("{} does not print {}", body.name(), missing.join(" and ")))
                     .at(body.span, "a move along that axis is an error")
-                    .help("print all axes; what does not change is dropped anyway"),
+                    .help("print all axes; unchanged words are left out anyway"),
             );
         }
     }

@@ -1,4 +1,4 @@
-//! PF107: a remark stands at least three blanks after the name of its sequence.
+//! PF107: a comment on a name line needs at least three spaces after the name.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -11,16 +11,16 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let Tail::Lost(remark) = &node.name.line.tail else { continue };
             let before = &source.text[node.name.line.span.start as usize..remark.span.start as usize];
             let gap = before.len() - before.trim_end().len();
-            let is_count = remark.text.trim_end().bytes().all(|b| b.is_ascii_digit()); // another rule's
+            let is_count = remark.text.trim_end().bytes().all(|b| b.is_ascii_digit()); // another rule reports a count
             if gap >= 3 || before.contains('\t') || is_count {
                 continue;
             }
             let at = Span { start: remark.span.start, end: remark.span.start, ..remark.span };
             diags.push(
-                Diag::new(Code::PF107, "the remark is too near to the name")
-                    .at(remark.span, "at least three blanks belong before it")
-                    .help("write three blanks: two look like a slip")
-                    .fix("put another blank before the remark", true, vec![(at, " ".repeat(3 - gap))]),
+                Diag::new(Code::PF107, "the comment is too close to the name")
+                    .at(remark.span, "it needs at least three spaces before it")
+                    .help("write three spaces: two look like a typing mistake")
+                    .fix("put another space before the comment", true, vec![(at, " ".repeat(3 - gap))]),
             );
         }
     }

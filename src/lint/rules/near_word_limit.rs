@@ -1,4 +1,4 @@
-//! PF605: a line with 14 or 15 words, of 15 that a line may have.
+//! PF605: a line with 14 or 15 of the 15 words allowed.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -9,9 +9,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let count = body.begins().count();
         if (MOST_WORDS - 1..=MOST_WORDS).contains(&count) {
             diags.push(
-                Diag::new(Code::PF605, format!("{count} words, a line may have {MOST_WORDS}"))
+                Diag::new(Code::PF605, format!("{count} words of at most {MOST_WORDS} in a line"))
                     .at(body.line.span, "almost full")
-                    .help("break the line in two before it is"),
+                    .help("break the line in two before it reaches the limit"),
             );
         }
     }

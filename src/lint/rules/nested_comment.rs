@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF111, "a comment inside a comment")
                     .at(inner.span, "the first `)` ends both")
-                    .help("take the inner brackets out"),
+                    .help("remove the inner brackets"),
             );
         }
     }

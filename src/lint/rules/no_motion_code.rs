@@ -1,4 +1,4 @@
-//! PF438: a position without a motion code is gone to as the last one was: at rapid, or at the feed of the last cut.
+//! PF438: a position without a motion code is approached with the last motion: at rapid, or with the feed of the last cut.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     let changes = [S::FirstToolChange, S::ToolChange, S::Index].map(Purpose::Sequence);
     for body in view.bodies.iter().filter(|body| view.is_mill() && changes.contains(&body.purpose)) {
-        // words of a conversational control say how it moves
+        // the text of a conversational control may contain the motion
         if body.words().any(|word| matches!(word.kind, WordKind::Text(_))) {
             continue;
         }
@@ -19,8 +19,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let word = moves.flat_map(|block| &block.axis_words).find(|(word, _)| place(word.printed_var()));
         if let Some((word, _)) = word {
             diags.push(
-                Diag::new(Code::PF438, format!("{} goes to a position and does not say how", body.name()))
-                    .at(word.span, "as the move before it: a rapid, or a cut at its feed")
+                Diag::new(Code::PF438, format!("{} goes to a position without a motion code", body.name()))
+                    .at(word.span, "it moves as the block before: at rapid, or at feed")
                     .help("print `G0` with it"),
             );
         }

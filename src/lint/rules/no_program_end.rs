@@ -1,4 +1,4 @@
-//! PF014: a program that does not end runs on into what lies after it.
+//! PF014: a program without an end code continues with the next program in the control's memory.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -1,4 +1,4 @@
-//! PF204: `<h>`, `G<0>` and `Rapid; G0` are how the first forms were written.
+//! PF204: `<h>`, `G<0>` and `Rapid; G0` are the spelling of the first forms.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId, VarId};
@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let edit = |at: u32, bracket: &str| (Span { start: at, end: at + 1, ..name.span }, bracket.to_owned());
                 diags.push(match letter {
                     Some(letter) => older(span, format!("write `{letter}{}`", name.text)).fix(
-                        "take the brackets out",
+                        "remove the brackets",
                         true,
                         vec![edit(open, ""), edit(close, "")],
                     ),
@@ -40,12 +40,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let name = &statement.name;
             let known = CommandId::parse(&name.text).is_some() || SequenceId::parse(&name.text).is_some();
             let at = name.span.end as usize;
-            // an argument directly after it may begin with anything, as no other can: it keeps its semicolon
+            // an argument that directly follows the semicolon could begin with any character, so the semicolon is kept
             let apart = text.get(at + 1).is_none_or(|b| b" \t\r\n".contains(b));
             if known && apart && text.get(at) == Some(&b';') {
                 let span = Span { start: name.span.end, end: name.span.end + 1, ..name.span };
                 diags.push(older(span, "write no `;` after the name".into()).fix(
-                    "take the semicolon out",
+                    "remove the semicolon",
                     true,
                     vec![(span, String::new())],
                 ));
@@ -58,7 +58,7 @@ fn older(span: Span, help: String) -> Diag {
     Diag::new(Code::PF204, "an older spelling").at(span, "still read").help(help)
 }
 
-/// A piece and, if it is a comment, what is in it.
+/// A piece, or the pieces inside a comment.
 fn parts(piece: &Piece) -> Vec<&Piece> {
     match &piece.kind {
         PieceKind::Note { parts, .. } => parts.iter().collect(),

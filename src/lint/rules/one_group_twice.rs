@@ -1,4 +1,4 @@
-//! PF505: of two codes of one group a control takes the last, or alarms.
+//! PF505: two codes of one group in a block: a control uses the last one, or alarms.
 
 use crate::control::{Group, Meaning};
 use crate::diag::{Code, Diag};
@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let mut firsts: Vec<(&Word, Group)> = Vec::new();
         for word in &line.words {
             let group = match word.kind {
-                // G80 with a motion code is common; with a cycle it ends that one
+                // G80 with a motion code is common; with a cycle code it ends that cycle
                 WordKind::Literal(..) if !in_cycle && view.meaning(word) == Some(Meaning::CycleEnd) => None,
                 WordKind::Literal(..) => view.meaning(word).and_then(Meaning::group),
                 _ => None,
@@ -24,11 +24,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             };
             let is_coolant = |word: &Word| matches!(view.meaning(word), Some(Meaning::Mist | Meaning::Flood));
             if is_coolant(word) && is_coolant(first) {
-                continue; // mist with flood is meant
+                continue; // mist and flood together are intended
             }
             diags.push(
                 Diag::new(Code::PF505, "two codes of one group in a block")
-                    .at(word.span, "excludes the other")
+                    .at(word.span, "excludes the other code")
                     .at(first.span, "the other")
                     .help("keep one of them, or print two blocks"),
             );

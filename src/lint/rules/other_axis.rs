@@ -1,4 +1,4 @@
-//! PF314: `X[v]`: the position of one axis under the letter of another.
+//! PF314: `X[v]`: the position of one axis with the letter of another.
 
 use crate::control::Centres;
 use crate::diag::{Code, Diag};
@@ -19,7 +19,7 @@ const CENTRES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
-        // the depth of a hole on a lathe is along its first axis, by a variable of its own
+        // on a lathe, holes are along the first axis and their depth has its own variable
         let own = OF_AXIS.iter().position(|vars| vars.contains(&var)).filter(|&own| own < 2 || view.is_mill());
         let (Some(axis), Some(own)) = (view.axis(letter), own) else { continue };
         if axis != own {
@@ -31,7 +31,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
-    // the centre along an axis has the letter of that axis: I for X, J for Y, K for Z
+    // the centre word of each axis has a fixed letter: I for X, J for Y, K for Z
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
         let letter = view.letters[letter].printed;
@@ -55,7 +55,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .help(format!("write `{}[{}]`", char::from(own), var.name())),
             );
         }
-        // where centres count from the start of the arc, a position is none
+        // if centres are relative to the start of the arc, a position is wrong
         let axis = [VarId::Hctr, VarId::Vctr].iter().position(|&own| own == var);
         let counts = view.settings.centre_incremental && view.traits().centres == Centres::Incremental;
         if let Some(axis) = axis.filter(|_| counts) {
@@ -63,14 +63,18 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(
                     Code::PF314,
-                    format!("[{}] is a position, {} counts from the start of the arc", var.name(), char::from(letter)),
+                    format!(
+                        "[{}] is a position, but {} is a distance from the start of the arc",
+                        var.name(),
+                        char::from(letter)
+                    ),
                 )
                 .at(word.span, "the arc would have another centre")
                 .help(format!("write `{}[{}]`", char::from(own), CENTRES[axis].name())),
             );
         }
     }
-    // R is the plane, the depth axis the bottom of a cycle of the control
+    // in a cycle of the control, R is the plane, and the depth axis is the bottom
     for line in view
         .bodies
         .iter()
@@ -86,7 +90,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             };
             diags.push(
                 Diag::new(Code::PF314, format!("[{}] under {}", var.name(), char::from(letter)))
-                    .at(word.span, "the plane and the bottom are in each other's place")
+                    .at(word.span, "the R plane and the bottom are exchanged")
                     .help(format!("write `{}{better}`", char::from(letter))),
             );
         }

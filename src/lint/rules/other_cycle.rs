@@ -1,11 +1,11 @@
-//! PF414: a sequence that starts the cycle of another one: a drill that taps, a back bore that comes from above.
+//! PF414: a sequence that starts another cycle: a drilling sequence that taps, a back bore that starts from above.
 
 use crate::control::{Hole, Row};
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::{View, serves};
 
-/// What the cycles of a control make for each sequence.
+/// The kind of hole that each sequence must make.
 const HOLES: &[(SequenceId, Hole)] = &[
     (SequenceId::Drill, Hole::Drill),
     (SequenceId::Peck, Hole::Peck),
@@ -32,12 +32,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let own = codes.rows().filter(|row| makes(row));
         let known = own.map(|row| row.code.to_string()).collect::<Vec<_>>().join(" or ");
         if known.is_empty() {
-            continue; // the control has no cycle for it
+            continue; // the control has no cycle for this kind
         }
         diags.push(
-            Diag::new(Code::PF414, format!("{code} is not the cycle of {}", body.name()))
+            Diag::new(Code::PF414, format!("{code} is not the code for {}", body.name()))
                 .at(word.span, format!("{} is {known}", body.name()))
-                .help("look at the control's manual; `# postform: allow PF414` says that it is meant so"),
+                .help("check the manual of the control; if the code is right, write `# postform: allow PF414`"),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! PF440: `G0 Z0` goes to the zero of the part, most often its upper face: no place to change a tool or turn a part.
+//! PF440: `G0 Z0` moves to the zero of the part, usually its upper face: not a safe height to change a tool or turn a part.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -10,22 +10,22 @@ use crate::sema::Word;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     if !view.is_mill() || view.traits().height_is_machine {
-        return; // without an offset Z0 is home
+        return; // without an offset, Z0 is the home position
     }
     for body in view.these(&[S::ToolChange, S::EndCode, S::Index, S::Unwind]) {
         let rapid = |motion| matches!(motion, Motion::Rapid | Motion::Unknown);
         let offset_off = |word: &Word| view.meaning(word) == Some(Meaning::LengthOff);
         let blocks = view.blocks(body).iter();
-        // with G49 it is the zero of the machine, or near it
+        // with G49, Z0 is at or near the zero of the machine
         let blocks = blocks.filter(|block| block.in_part() && !block.incremental && rapid(block.motion));
         let blocks = blocks.filter(|block| !block.line.words.iter().any(offset_off));
         let zero = |word: &Word, axis| axis == 2 && word.letter().is_some_and(|letter| word.typed(letter) == Some(0.0));
         let word = blocks.flat_map(|block| &block.axis_words).find(|(word, axis)| zero(word, *axis));
         if let Some((word, _)) = word {
             diags.push(
-                Diag::new(Code::PF440, format!("{} goes to the zero of the part", body.name()))
-                    .at(word.span, "on most parts that is where the tool touches")
-                    .help("lift to the machine's own zero: `G0 G53 Z0`, or `G91 G28 Z0` and `G90`"),
+                Diag::new(Code::PF440, format!("{} goes to the zero point of the part", body.name()))
+                    .at(word.span, "on most parts the tool touches the part at this height")
+                    .help("retract to the machine zero: `G0 G53 Z0`, or `G91 G28 Z0` and `G90`"),
             );
         }
     }

@@ -1,4 +1,4 @@
-//! PF714: `=` compares a text as it stands; a `*` in it stands for any text after `like` only.
+//! PF714: `=` compares a text literally; `*` matches any text only after `like`.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -22,10 +22,10 @@ fn branches(steps: &[Step], diags: &mut Vec<Diag>) {
                             if let Some((comparison, pattern)) = pattern(part) {
                                 let not = if comparison == Comparison::Unequal { "not " } else { "" };
                                 diags.push(
-                                    Diag::new(Code::PF714, format!("\"{pattern}\" is compared as it stands"))
-                                        .at(arm.span, "`*` is no other text here")
+                                    Diag::new(Code::PF714, format!("\"{pattern}\" is compared as plain text"))
+                                        .at(arm.span, "`*` is a plain character here")
                                         .help(format!(
-                                            "write `{not}[toolname] like \"{pattern}\"`, with the text that is asked"
+                                            "write `{not}[toolname] like \"{pattern}\"`, with the text to compare"
                                         )),
                                 );
                             }
@@ -39,7 +39,7 @@ fn branches(steps: &[Step], diags: &mut Vec<Diag>) {
     }
 }
 
-/// A text of the job compared with what looks like a pattern.
+/// Finds the comparison of a text of the job with a text that looks like a pattern.
 fn pattern(part: &Formula) -> Option<(Comparison, &str)> {
     let Formula::Compare(comparison, sides) = part else { return None };
     let of = |text: &Formula| matches!(text, Formula::TextVar(_) | Formula::PropertyText(_));

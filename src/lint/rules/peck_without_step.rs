@@ -1,4 +1,4 @@
-//! PF413: a peck cycle without its peck goes down in one.
+//! PF413: a peck cycle without its step drills to the bottom at once.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -10,13 +10,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if !body.prints_any(&[VarId::Vbite, VarId::Peck1, VarId::Inidep, VarId::Sbite]) {
             let typed = body.words().find(|word| word.typed(b'Q').is_some_and(|peck| peck > 0.0));
             let (at, message, what) = match typed {
-                Some(peck) => (peck, "a typed peck", "jobs have pecks of their own: each is printed as single moves"),
-                None => (word, "no peck", "the control would go down in one, or by the peck of the cycle before"),
+                Some(peck) => (peck, "a typed peck", "cycles with a peck in the job are printed as single moves"),
+                None => {
+                    (word, "no peck", "the control would drill in one stroke, or with the peck of the cycle before")
+                }
             };
             diags.push(
                 Diag::new(Code::PF413, format!("{code} has {message}"))
                     .at(at.span, what)
-                    .help("print the job's, as `Q[vbite]`"),
+                    .help("print the peck of the job, as `Q[vbite]`"),
             );
         }
     }

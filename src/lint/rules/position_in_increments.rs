@@ -1,4 +1,4 @@
-//! PF423: under G91 a control adds a position to where it stands.
+//! PF423: under G91 a control adds a position to the current one.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -21,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(word) = found {
             diags.push(
                 Diag::new(Code::PF423, format!("{} prints a position while G91 is on", body.name()))
-                    .at(word.span, "the control adds it to where the tool stands")
+                    .at(word.span, "the control adds it to the position of the tool")
                     .help("print `G90` before it"),
             );
         }

@@ -1,4 +1,4 @@
-//! PF710: a property that the form never asks does nothing, whatever it is set to.
+//! PF710: a property that the form never uses has no effect, whatever its value.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -33,8 +33,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     {
         diags.push(
             Diag::new(Code::PF710, format!("the property {} does nothing", property.name))
-                .at(property.span, "no line asks for it")
-                .help(format!("ask for it, as `@if [{}]`, or take it out", property.name)),
+                .at(property.span, "no line uses it")
+                .help(format!("use it, as `@if [{}]`, or remove it", property.name)),
         );
     }
 }

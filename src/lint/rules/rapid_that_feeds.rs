@@ -1,4 +1,4 @@
-//! PF435: RapidCode with G1 or a feed: every rapid would take the time of a cut.
+//! PF435: RapidCode with G1 or a feed: every rapid takes the time of a cut.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -16,7 +16,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let says = |word: &Word| view.meaning(word) == Some(Meaning::Rapid) || matches!(word.kind, WordKind::Text(_));
     let (span, label) = match (body.words().find(feeds), body.lines.first()) {
         (Some(word), _) => (word.span, "no rapid"),
-        (None, Some(line)) if !body.words().any(says) => (line.span, "no G0: after a cut this is a cut"),
+        (None, Some(line)) if !body.words().any(says) => (line.span, "no G0: after a cut this move is at feed"),
         _ => return,
     };
     diags.push(Diag::new(Code::PF435, "RapidCode feeds").at(span, label).help("print `G0 X[h] Y[v] Z[d]`"));

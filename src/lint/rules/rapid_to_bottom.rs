@@ -1,4 +1,4 @@
-//! PF415: `G0 Z[d]` in a cycle rapids to the bottom of a hole that is not there yet.
+//! PF415: `G0 Z[d]` in a cycle makes a rapid to the bottom of a hole that is not drilled yet.
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
@@ -9,14 +9,14 @@ use crate::lint::view::{View, serves};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         if serves(sequence) == SequenceId::Back || body.cycle_word().is_some() || !view.is_mill() {
-            continue; // a back bore goes down through the hole
+            continue; // a back bore moves down through an existing hole
         }
         for block in view.blocks(body) {
             let words = &block.axis_words;
             let down = words.iter().find(|(word, axis)| *axis == 2 && word.printed_var() == Some(VarId::D));
-            // what holds where the cycle begins is what its last line left: most often the way out, a rapid
+            // the cycle begins with the motion of its last line, usually the retract, which is a rapid
             let rapid = matches!(block.motion, Motion::Rapid | Motion::Unknown);
-            // a code that nobody here knows, with its plane: a cycle of this control
+            // an unknown code with its plane is a cycle of this control
             let codes = view.settings.codes();
             let unknown = |code: control::Code| {
                 let known = codes.meaning(code).is_some_and(|meaning| meaning != Meaning::Unsaid);
@@ -30,7 +30,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             if let (true, true, Some((word, _))) = (rapid, block.in_part(), down) {
                 diags.push(
                     Diag::new(Code::PF415, format!("{} rapids to the bottom of the hole", body.name()))
-                        .at(word.span, "no feed code holds here")
+                        .at(word.span, "no feed motion code is active here")
                         .help("go to `Z[vclear]` at rapid, then feed: `G1 Z[d] F[frate]`"),
                 );
             }

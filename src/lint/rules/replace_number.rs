@@ -1,4 +1,4 @@
-//! PF312: text is replaced wherever it stands, in the middle of numbers, too.
+//! PF312: Replace changes its text everywhere, also inside numbers.
 
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
@@ -17,9 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF312, format!("`{}` may be part of a longer word", old.text))
                 .at(statement.line.span, format!("`{example}` would be changed, too"))
-                .help(
-                    "print the right word where it comes from: in its sequence, or by the command that says the code",
-                ),
+                .help("print the right word directly: in its sequence, or by the command of the code"),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! PF422: the words of G28 are a point on the way. `G28 Z0` under G90 goes to the part's Z0 first.
+//! PF422: the axis words of G28 are an intermediate point: `G28 Z0` under G90 first moves to the part's Z0.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -9,8 +9,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let words = &block.axis_words;
             let Some((word, _)) = words.first().filter(|_| block.reference && !block.incremental) else { continue };
             diags.push(
-                Diag::new(Code::PF422, format!("{} goes home by way of a point of the part", body.name()))
-                    .at(word.span, "an absolute position, which the tool passes")
+                Diag::new(Code::PF422, format!("{} goes home through a point of the part", body.name()))
+                    .at(word.span, "an absolute position that the tool moves through")
                     .help(match view.is_mill() {
                         true => "write `G91 G28 Z0` and `G90` after it; or go in machine coordinates, `G0 G53 Z0`",
                         false => "write increments, `G28 U0 W0`",

@@ -1,4 +1,4 @@
-//! PF609: two M codes in a block of a control that takes one.
+//! PF609: two M codes in a block, on a control that allows one.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -15,9 +15,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for word in codes {
             diags.push(
                 Diag::new(Code::PF609, format!("{} takes one M code in a block", view.settings.control().name()))
-                    .at(word.span, "one too many")
+                    .at(word.span, "one M code too many")
                     .at(first.span, "the first")
-                    .help("print it in a line of its own"),
+                    .help("print it on a separate line"),
             );
         }
     }

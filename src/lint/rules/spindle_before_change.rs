@@ -1,4 +1,4 @@
-//! PF427: a spindle that is started before the tool changes.
+//! PF427: the spindle is started before the tool changes.
 
 use crate::control::{Kept, Meaning};
 use crate::diag::{Code, Diag};
@@ -17,20 +17,20 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(word) = so_far.too_early {
             diags.push(
                 Diag::new(Code::PF427, format!("{} starts the spindle before it changes the tool", body.name()))
-                    .at(word.span, "the old tool turns")
+                    .at(word.span, "the old tool is still in the spindle")
                     .help("print the spindle after the tool change"),
             );
         } else if let Some(word) = so_far.stopped {
             diags.push(
                 Diag::new(Code::PF427, format!("{} stops the spindle again after it is on", body.name()))
-                    .at(word.span, "the tool stands still in the first cut")
+                    .at(word.span, "the tool does not turn in the first cut")
                     .help("print the spindle after it: `S[speed] M[direct]`"),
             );
         }
     }
 }
 
-/// The spindle on a way through a tool change; where branches meet again, what holds after one of them.
+/// State of the spindle on a path through a tool change. After branches, the state of one of them.
 #[derive(Clone, Copy, Default)]
 struct Spindle<'a> {
     /// The word that starts it.
@@ -43,11 +43,11 @@ struct Spindle<'a> {
     too_early: Option<&'a Word>,
 }
 
-/// A tool change, line after line.
+/// Walks through a tool change line by line.
 struct Walk<'v, 'a> {
     view: &'v View<'a>,
     body: &'v Body<'a>,
-    /// The first line in which the tool changes.
+    /// The line with the tool change.
     change: usize,
 }
 
@@ -88,7 +88,7 @@ impl<'a> Walk<'_, 'a> {
     }
 }
 
-/// What holds after one of two branches.
+/// The state after one of two branches.
 fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
     Spindle {
         on: a.on.or(b.on),
@@ -98,7 +98,7 @@ fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
     }
 }
 
-/// A stop of the spindle, or of the program: some controls leave it turning at that.
+/// Does the word stop the spindle? A program stop does not count: some controls leave the spindle on.
 fn stops(view: &View, word: &Word) -> bool {
     let keeps = view.traits().spindle_at_stop == Kept::Yes;
     let own = |meaning: Meaning| meaning == Meaning::SpindleOff || meaning.changes_tool();
@@ -110,7 +110,7 @@ pub(super) fn starts_spindle(view: &View, word: &Word) -> bool {
     view.meaning(word).is_some_and(Meaning::starts_spindle) || word.printed_vars().has(VarId::Direct)
 }
 
-/// The tool changes with the line in which the tool changes.
+/// The tool change sequences, each with the line in which the tool changes.
 pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     let line = |body: &Body, is: &dyn Fn(&Word) -> bool| body.lines.iter().position(|line| line.words.iter().any(is));
     let bodies = view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]);

@@ -1,4 +1,5 @@
-//! PF112: `R [vclear]` and `M cool` print a letter and a number apart, `FF[frate]` a letter too many, `[frate]` a number without one.
+//! PF112: `R [vclear]` and `M cool` print letter and number separately; `FF[frate]` prints a letter too many; `[frate]` prints a
+//! number without a letter.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -12,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for (i, word) in words.iter().enumerate() {
             let before = i.checked_sub(1).map(|before| &words[before]);
             let Some((span, label, help, edit)) = split(before, word, words) else { continue };
-            let diag = Diag::new(Code::PF112, "a word that is not whole").at(span, label).help(help);
+            let diag = Diag::new(Code::PF112, "a malformed word").at(span, label).help(help);
             diags.push(match edit {
                 Some((title, span, text)) => diag.fix(title, false, vec![(span, text)]),
                 None => diag,
@@ -23,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 type Found = (Span, &'static str, String, Option<(&'static str, Span, String)>);
 
-/// What is wrong with a word: the place, what is said of it, what to type, and the edit.
+/// The fault of a word: its location, a label, the correct text, and the edit.
 fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
     let letter = before.and_then(letter_alone);
     match (word.pieces.as_slice(), letter, before) {
@@ -31,7 +32,7 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
         ([piece], Some(letter), Some(before)) if value(piece).is_some() => {
             let better = format!("{letter}{}", value(piece)?);
             let gap = Span { start: before.span.end, end: word.span.end, ..word.span };
-            let label = "printed apart from its letter";
+            let label = "printed without its letter";
             Some((
                 before.span.to(word.span),
                 label,
@@ -54,10 +55,10 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
                 None if zero => format!("O[{}]", name.text),
                 _ => return None,
             };
-            let (label, text) = if zero { ("a zero for the letter O", "O") } else { ("the letter is there twice", "") };
+            let (label, text) = if zero { ("a zero for the letter O", "O") } else { ("the letter is given twice", "") };
             Some((span.to(*end), label, format!("write `{better}`"), Some(("write the word", *span, text.to_owned()))))
         }
-        // [frate] among words with letters, and after no text
+        // [frate] among words with letters, but not after a text
         (
             [
                 Piece {
@@ -89,7 +90,7 @@ fn is_variable(text: &str) -> bool {
     VarId::parse(text).is_some() && text.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
 }
 
-/// A capital letter that stands alone.
+/// A capital letter alone.
 fn letter_alone(word: &Word) -> Option<char> {
     match word.pieces.as_slice() {
         [Piece { kind: PieceKind::Stray(text), .. }] if text.len() == 1 => {

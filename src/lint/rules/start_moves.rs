@@ -1,4 +1,4 @@
-//! PF013: the position of the tool is unknown here when a program starts.
+//! PF013: StartCode moves an axis, while the position of the tool is unknown.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -10,9 +10,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some((word, _)) = block.axis_words.first().copied().filter(|_| block.in_part()) else { continue };
         diags.push(
             Diag::new(Code::PF013, "StartCode moves an axis")
-                .at(word.span, "no tool is loaded, and no offset is in force")
+                .at(word.span, "no tool is loaded, and no offset is active")
                 .help(
-                    "move in 1stToolChange, after the tool and its offsets; or to the reference point, with G28 or G53",
+                    "make the move in 1stToolChange, after the tool and its offsets; or move to the reference point, \
+                     with G28 or G53",
                 ),
         );
     }

@@ -1,4 +1,4 @@
-//! PF018: a call that does not say which subprogram calls any.
+//! PF018: a subprogram call without its number calls an arbitrary subprogram.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -8,7 +8,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in view.these(&[SequenceId::SubStart, SequenceId::SubCall]) {
         if !body.prints_any(&[VarId::Sub, VarId::Subline]) {
             diags.push(
-                Diag::new(Code::PF018, format!("{} does not say which subprogram", body.name()))
+                Diag::new(Code::PF018, format!("{} does not print the subprogram number", body.name()))
                     .at(body.span, "[sub] is not printed")
                     .help("print `O[sub]` in SubStart and `P[sub]` in SubCall"),
             );

@@ -1,4 +1,4 @@
-//! PF017: a subprogram that does not return runs into the next program.
+//! PF017: a subprogram without a return continues with the next program.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -8,13 +8,13 @@ use crate::sema::WordKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::SubEnd) else { return };
-    // words that are no codes are the control's own, as `RET` or `endsub`
+    // text that is no code is a word of the control's own, as `RET` or `endsub`
     let own = end.words().any(|word| matches!(word.kind, WordKind::Text(_)));
     if end.meaning(|meaning| meaning == Meaning::Return).is_none() && !own {
         diags.push(
             Diag::new(Code::PF017, "SubEnd does not return")
                 .at(end.span, "no M99")
-                .help("print `M99`, or the word by which your control returns"),
+                .help("print `M99`, or the word of your control for the return"),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! PF104: words inside a comment that was not closed are read by nobody.
+//! PF104: words inside a comment that was not closed have no effect.
 
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;

@@ -1,4 +1,4 @@
-//! PF103: a tab looks like a blank and works like two: what follows is a comment.
+//! PF103: a tab looks like a space, but acts like two: the text after it is a comment.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -27,13 +27,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let span = Span::new(line.span.file, at, at + 1);
                 let text = texts.partition_point(|text| text.end <= span.start);
                 if texts.get(text).is_some_and(|text| text.start <= span.start) {
-                    continue; // in quotes
+                    continue; // inside quotes
                 }
                 diags.push(
                     Diag::new(Code::PF103, "a tab ends the words of its line")
                         .at(span, "here")
-                        .help("write blanks: one between words, three before a remark")
-                        .fix("write three blanks for the tab", true, vec![(span, "   ".into())]),
+                        .help("write spaces: one between words, three before a comment")
+                        .fix("replace the tab by three spaces", true, vec![(span, "   ".into())]),
                 );
             }
         }

@@ -1,4 +1,4 @@
-//! PF419: a tap that is fed out while the spindle still turns the way it cut tears the thread out.
+//! PF419: a tap that is retracted while the spindle still turns in the cutting direction tears the thread.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The move that tears the thread, if there is one: out at rapid, or before a code of `back` has turned the spindle.
+/// The move that tears the thread, if any: a retract by rapid, or one before a code of `back` has reversed the spindle.
 fn tears(view: &View, body: &Body, back: [Meaning; 2]) -> Option<Diag> {
     let (mut cut, mut reversed) = (false, false);
     for block in view.blocks(*body) {
@@ -35,11 +35,11 @@ fn tears(view: &View, body: &Body, back: [Meaning; 2]) -> Option<Diag> {
                 continue;
             }
             (Motion::Line | Motion::Rapid, _) if cut && !reversed => (
-                "with the spindle turning as it cut",
-                format!("reverse the spindle at the bottom: it {}", back[0].about()),
+                "with the spindle in the cutting direction",
+                format!("reverse the spindle at the bottom, with the code that {}", back[0].about()),
             ),
             (Motion::Rapid, _) if cut => ("at rapid", "feed out: `G1 Z[vclear]`".to_owned()),
-            // out of the thread
+            // the tap leaves the thread correctly
             _ if cut => return None,
             _ => continue,
         };

@@ -1,4 +1,4 @@
-//! PF016: a program that begins with `%` ends with one: the reader of the control waits for it.
+//! PF016: a program that begins with `%` must end with `%`, because the control waits for it.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;

@@ -1,4 +1,4 @@
-//! PF442: passes that print X alone leave the tool at the end of the thread, unless the code itself comes back.
+//! PF442: passes that print X alone leave the tool at the end of the thread, unless the code itself returns.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId};
@@ -9,8 +9,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(thread) = view.command(CommandId::Thread).filter(|_| !served) else { return };
     if view.command(CommandId::ThreadPasses).is_none() {
         diags.push(
-            Diag::new(Code::PF442, "later passes of a thread print X alone")
-                .at(thread.line.span, "the tool would plunge where the thread ends, unless this code returns by itself")
+            Diag::new(Code::PF442, "later passes of a thread print only X")
+                .at(
+                    thread.line.span,
+                    "the tool would plunge at the end of the thread, unless this code returns by itself",
+                )
                 .help("write `ThreadPasses full`: approach, cut, clear, return; or `ThreadPasses x`, if it returns"),
         );
     }

@@ -1,4 +1,4 @@
-//! PF309: on Fanuc and Haas `X1` is a ten-thousandth of an inch, or a micron.
+//! PF309: on Fanuc and Haas, `X1` without a point is 0.0001 inch or 0.001 mm.
 
 use crate::control::{self, Hole, Meaning, Row, WithoutPoint};
 use crate::diag::{Code, Diag};
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.traits().without_point != WithoutPoint::LeastIncrement {
         return;
     }
-    // in the block of a cycle K counts how often, J of a tap how much faster it comes out; G5.1 has a mode in R
+    // in a cycle, K is a count; in a tap, J is the factor of the retract speed; in G5.1, R is a mode
     let counting = |line: &Line| {
         let codes = view.settings.codes();
         let has = |asked: &dyn Fn(control::Code) -> bool| line.words.iter().filter_map(Word::code).any(asked);
@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         Some(b'J') => tap,
         _ => mode,
     };
-    // `R1 = 5`: a register, not a word
+    // `R1 = 5` sets a register and is no word
     let is_register = |line: &Line, at: usize| {
         line.words.get(at + 1).is_some_and(|next| matches!(&next.kind, WordKind::Text(text) if text.starts_with('=')))
     };
@@ -43,7 +43,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let end = Span { start: word.span.end, ..word.span };
         diags.push(
             Diag::new(Code::PF309, format!("`{text}` has no point"))
-                .at(word.span, "the control counts its smallest unit")
+                .at(word.span, "the control reads it in its smallest unit")
                 .help(format!("write `{text}.`"))
                 .fix("write the point", false, vec![(end, ".".into())]),
         );

@@ -1,4 +1,4 @@
-//! PF430: a work offset as typed is that of every job.
+//! PF430: a typed work offset is used for every job.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -13,9 +13,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let is_work = |word: &&Word| view.meaning(word) == Some(Meaning::Work);
         let (Some(word), false) = (body.words().find(is_work), body.prints(VarId::Work)) else { continue };
         diags.push(
-            Diag::new(Code::PF430, format!("{} goes by one work offset, whatever the job says", body.name()))
-                .at(word.span, "as typed")
-                .help("write `G[work]`: the job names its fixture"),
+            Diag::new(Code::PF430, format!("{} always uses the same work offset", body.name()))
+                .at(word.span, "a fixed work offset")
+                .help("write `G[work]`: then the job selects the work offset"),
         );
     }
 }

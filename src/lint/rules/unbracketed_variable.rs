@@ -1,4 +1,4 @@
-//! PF205: `Xh` and `X(h)` are text. What was meant is `X[h]`.
+//! PF205: `Xh` and `X(h)` are text, probably meant as `X[h]`.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -26,7 +26,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let better = format!("{letter}[{}]", var.name());
             diags.push(
                 Diag::new(Code::PF205, "a variable without its brackets is printed as text")
-                    .at(span, "printed as it stands")
+                    .at(span, "printed as text")
                     .help(format!("write `{better}`"))
                     .fix("put the variable in brackets", false, vec![(span, better)]),
             );

@@ -1,4 +1,4 @@
-//! PF315: a unit code as typed, in a form for other units.
+//! PF315: a typed unit code in a form for other units.
 
 use crate::diag::{Code, Diag};
 use crate::lang::UnitChoice;
@@ -22,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF315, format!("G{code} in a form for {units}"))
                     .at(word.span, "the machine would move 25.4 times as far, or as little")
-                    .help("write `G[unitmode]`, or say with `Units` what the form is for"),
+                    .help("write `G[unitmode]`, or give the units of the form with `Units`"),
             );
         }
     }

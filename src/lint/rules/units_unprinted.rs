@@ -1,4 +1,4 @@
-//! PF316: a form for both units whose programs do not say which.
+//! PF316: a form for both units whose programs print no unit code.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, UnitChoice, VarId};
@@ -10,8 +10,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     };
     if !view.printed().has(VarId::Unitmode) {
         diags.push(
-            Diag::new(Code::PF316, "the program never says its units")
-                .at(units.line.span, "jobs in inches and in millimetres look alike")
+            Diag::new(Code::PF316, "the program has no unit code")
+                .at(units.line.span, "programs in inches and in millimetres look the same")
                 .help("print `G[unitmode]` in StartCode"),
         );
     }

@@ -1,10 +1,10 @@
-//! PF608: a code that the file of the form's control does not know. What it does is unknown to everybody.
+//! PF608: a code that is not in the file of the form's control, so that its effect is unknown.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    // where the form names no control there is none to ask
+    // if the form names no control, there is no file to check
     let Some(control) = view.settings.control.filter(|_| view.is_mill()) else { return };
     for word in view.words() {
         let Some(code) = word.code() else { continue };
@@ -13,9 +13,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         diags.push(
-            Diag::new(Code::PF608, format!("{} has no {code} that we know", control.name()))
-                .at(word.span, "after it all positions are said again, and no program is proven from here")
-                .help("describe it in a control file, as `\"G201\" = { is = \"harmless\" }`, or allow it"),
+            Diag::new(Code::PF608, format!("{code} is unknown for {}", control.name()))
+                .at(word.span, "all positions are printed again after it, and no program is proven from here")
+                .help("describe it in a control file, as `\"G201\" = { is = \"harmless\" }`, or allow the finding"),
         );
     }
 }

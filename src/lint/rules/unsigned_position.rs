@@ -1,4 +1,4 @@
-//! PF305: a position may be negative, and a format without a sign refuses that.
+//! PF305: a position may be negative, but its format has no sign.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -42,15 +42,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let digits = format.to_string();
         let digits = digits.trim_start();
         let better = format!("{name}-{digits}");
-        // digits that are counted exactly come from other posts' habits
+        // exact counts of digits are a habit from other posts
         let wider = if digits.contains('>') {
             String::new()
         } else {
             format!("; `{name}->4.>4` has up to four digits before the point, and four after it")
         };
         diags.push(
-            Diag::new(Code::PF305, format!("{name} prints positions and has no sign"))
-                .at(*span, "a negative one would be an error")
+            Diag::new(Code::PF305, format!("{name} prints positions, but its format has no sign"))
+                .at(*span, "a negative position would be an error")
                 .help(format!("write `{better}`{wider}"))
                 .fix("let it print a minus", false, vec![(*span, better)]),
         );

@@ -1,4 +1,4 @@
-//! PF011: a command whose setting nothing in this form asks for.
+//! PF011: a command whose setting is used nowhere in this form.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId, Used, VarId};
@@ -12,12 +12,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF011, format!("{} changes nothing here", id.name()))
                 .at(statement.line.span, why)
-                .help("take it out, or add what it is for"),
+                .help("remove it, or add the sequence or word that uses it"),
         );
     }
 }
 
-/// Why a command changes nothing; `None`: it may change something.
+/// Reason why a command has no effect; `None` if it may have one.
 fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
     let settings = view.settings;
     let has = |id: &SequenceId| view.form.sequences.contains_key(id);
@@ -26,7 +26,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
         Used::Always => return None,
         Used::Printed(var) => (!prints(var), format!("nothing prints [{}]", var.name())),
         Used::Cycles(var) => {
-            let why = format!("nothing prints [{}], and no cycle asks for it", var.name());
+            let why = format!("nothing prints [{}], and no cycle uses it", var.name());
             (!prints(var) && !view.has_cycles(), why)
         }
         Used::With(ids) => {
@@ -45,7 +45,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
         Used::Threads => (settings.thread.is_none(), "there is no Thread command".to_owned()),
         Used::Letter => {
             let letters = statement.args.iter().flat_map(|arg| arg.text.bytes());
-            // the second letter of Rename is the one that is printed instead
+            // the second letter of Rename is the printed one
             let most = if id == CommandId::Rename { 1 } else { usize::MAX };
             let printed = letters.take(most).any(|letter| is_printed(view, letter));
             (!printed, "nothing prints this letter".to_owned())
@@ -54,7 +54,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
     unused.then_some(why)
 }
 
-/// Does anything print this letter: a word of a body, or a generated block?
+/// Is this letter printed anywhere, by a word of a body or by a generated block?
 fn is_printed(view: &View, letter: u8) -> bool {
     let settings = view.settings;
     let centres = match &settings.centre {

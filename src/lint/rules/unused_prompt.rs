@@ -1,4 +1,4 @@
-//! PF209: a question whose answer is printed nowhere.
+//! PF209: a prompt whose answer is never printed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -11,9 +11,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     };
     for prompt in view.settings.prompts.iter().filter(|prompt| !used(prompt.var)) {
         diags.push(
-            Diag::new(Code::PF209, format!("[{}] is asked for and printed nowhere", prompt.var.name()))
-                .at(prompt.span, "the answer is lost")
-                .help(format!("print `[{}]` where it belongs, or take the question out", prompt.var.name())),
+            Diag::new(
+                Code::PF209,
+                format!("the prompt asks for [{}], but the form does not print it", prompt.var.name()),
+            )
+            .at(prompt.span, "the answer is lost")
+            .help(format!("print `[{}]`, or remove the question", prompt.var.name())),
         );
     }
 }

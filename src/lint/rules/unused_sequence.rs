@@ -1,4 +1,4 @@
-//! PF010: a sequence that no job can reach.
+//! PF010: a sequence that no job can use.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -12,20 +12,30 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let no_beam = view.settings.beam.is_none();
     let table = [
         (S::Cancel, !cancels, "no cycle ends with `End Cancel`", "end the cycles of the control with `End Cancel`"),
-        (S::Between, !view.settings.subs_first, "subprograms come last under `Subs1st? N`", "take `Subs1st? N` out"),
+        (S::Between, !view.settings.subs_first, "with `Subs1st? N` the subprograms come last", "take `Subs1st? N` out"),
         (S::SubStart, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::SubEnd, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::CanThread, has(S::AutoThread), "AutoThread serves all threads", "keep one of the two"),
-        (S::BeginCut, no_beam, "a mill's tool is not switched on and off", "say `Machine Torch` or `Machine Laser`"),
-        (S::EndCut, no_beam, "a mill's tool is not switched on and off", "say `Machine Torch` or `Machine Laser`"),
-        (S::Unwind, !turns, "no rotary axis has an end", "say where it is, as `Limits A -360 360`"),
+        (
+            S::BeginCut,
+            no_beam,
+            "the tool of a mill is not switched on and off",
+            "write `Machine Torch` or `Machine Laser`",
+        ),
+        (
+            S::EndCut,
+            no_beam,
+            "the tool of a mill is not switched on and off",
+            "write `Machine Torch` or `Machine Laser`",
+        ),
+        (S::Unwind, !turns, "no rotary axis has a travel limit", "write its limits, as `Limits A -360 360`"),
     ];
     for (id, unused, why, help) in table {
         let Some(body) = view.body(id).filter(|_| unused) else { continue };
         diags.push(
             Diag::new(Code::PF010, format!("{} is never printed", id.name()))
                 .at(body.span, why)
-                .help(format!("{help}, or take the sequence out")),
+                .help(format!("{help}, or remove the sequence")),
         );
     }
 }

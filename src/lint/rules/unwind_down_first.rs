@@ -1,4 +1,4 @@
-//! PF421: Unwind interrupts a cut: the tool must be over the place where it stopped before it goes down.
+//! PF421: Unwind interrupts a cut: the tool must be over the point of interruption before it goes down.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -15,9 +15,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             words.iter().find(|(word, axis)| *axis == 2 && matches!(word.printed_var(), Some(VarId::D | VarId::Lastd)));
         if let (Some((over, _)), Some(down)) = (across, down) {
             diags.push(
-                Diag::new(Code::PF421, "Unwind goes down before it is over the place where it stopped")
+                Diag::new(Code::PF421, "Unwind goes down before it is above the position where it stopped")
                     .at(down.span, "down here")
-                    .at(over.span, "across here, in the part")
+                    .at(over.span, "moves across here, inside the part")
                     .help("print `X[lasth] Y[lastv]` first, the depth after it"),
             );
             return;

@@ -1,10 +1,10 @@
-//! PF210: an Upon is printed before its variable is used; where nothing uses it, it is never printed.
+//! PF210: an Upon whose variable is never used. It prints only before a use of its variable.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::{Purpose, View};
 
-/// Variables that generated blocks use, too.
+/// Variables that generated blocks also use.
 const GENERATED: &[VarId] = &[
     VarId::H,
     VarId::V,
@@ -41,7 +41,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF210, format!("nothing uses [{}]", var.name()))
                 .at(body.span, "so this is never printed")
-                .help(format!("print [{}] in the sequence before which this belongs, or take it out", var.name())),
+                .help(format!(
+                    "print [{}] in the sequence before which this must print, or remove this sequence",
+                    var.name()
+                )),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! PF203: commands of the original desktop product that do nothing here.
+//! PF203: a command of the original desktop product that has no effect here.
 
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
@@ -8,7 +8,7 @@ use crate::syntax::Tail;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
-        // without its argument it is an error, which nothing should hide
+        // a missing argument is an error of its own, which must not be hidden
         let lacks = statement.args.is_empty();
         if lacks || !matches!(id, CommandId::Tools | CommandId::Drive | CommandId::WindowSize) {
             continue;
@@ -18,8 +18,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF203, format!("{} has no effect", id.name()))
                 .at(statement.line.span, "of the original desktop product")
-                .help("it may stay or go")
-                .fix("take the line out", true, vec![(Span { end, ..line.span }, String::new())]),
+                .help("you may keep or remove it")
+                .fix("remove the line", true, vec![(Span { end, ..line.span }, String::new())]),
         );
     }
 }

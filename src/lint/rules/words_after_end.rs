@@ -1,4 +1,4 @@
-//! PF015: no control reads what stands after the end of the program.
+//! PF015: the control ignores text after the end of the program.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -8,7 +8,7 @@ use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::EndCode) else { return };
-    // the reader stops at a `%`, the control at M30
+    // reading stops at `%`, execution at M30
     let is_end = |word: &Word| {
         matches!(view.meaning(word), Some(Meaning::End | Meaning::Return))
             || matches!(&word.kind, WordKind::Text(text) if text == "%")

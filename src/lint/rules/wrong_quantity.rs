@@ -1,4 +1,4 @@
-//! PF313: a feed letter that prints a speed, a speed letter that prints a feed: `F[speed]`.
+//! PF313: a feed letter with a speed, or a speed letter with a feed: `F[speed]`.
 
 use crate::control::PitchUnit;
 use crate::diag::{Code, Diag};
@@ -11,12 +11,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     pitch_per_minute(view, diags);
     plunge_in_cuts(view, diags);
     for line in view.bodies.iter().flat_map(|body| body.lines) {
-        // asked once a line, and of few lines
+        // computed at most once per line
         let mut taps = None;
         for word in &line.words {
             let WordKind::Var(letter, var) = word.kind else { continue };
             let unit = var.row().unit;
-            // a tap whose pitch has a word of its own has its turns in F
+            // in a tap whose pitch has its own word, F is the spindle speed
             if var == VarId::Speed && *taps.get_or_insert_with(|| taps_by_pitch(view, line)) {
                 continue;
             }
@@ -38,16 +38,19 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let (what, right) =
                     if letter == settings.feed_code { ("feed", "[frate]") } else { ("speed", "[speed]") };
                 diags.push(
-                    Diag::new(Code::PF313, format!("{} is the {what}, [{}] is none", char::from(letter), var.name()))
-                        .at(word.span, "another value than the control expects")
-                        .help(format!("write `{}{right}`", char::from(letter))),
+                    Diag::new(
+                        Code::PF313,
+                        format!("{} is the {what}, but [{}] is not a {what}", char::from(letter), var.name()),
+                    )
+                    .at(word.span, "another value than the control expects")
+                    .help(format!("write `{}{right}`", char::from(letter))),
                 );
             }
         }
     }
 }
 
-/// Is a line the block of a tap whose pitch has a word of its own, with a pitch?
+/// Is the line the block of a tap with a separate pitch word, and does it print the pitch?
 fn taps_by_pitch(view: &View, line: &Line) -> bool {
     let words = &line.words;
     let codes = view.settings.codes();
@@ -64,7 +67,7 @@ fn pitch_per_minute(view: &View, diags: &mut Vec<Diag>) {
         if let (false, Some(word)) = (said, body.words().find(feed)) {
             let letter = char::from(view.settings.feed_code);
             diags.push(
-                Diag::new(Code::PF313, format!("{} feeds by the pitch, and feeds count per minute", body.name()))
+                Diag::new(Code::PF313, format!("{} feeds by the pitch, but feeds are per minute", body.name()))
                     .at(word.span, "a hundredth of the feed, or less: the tap breaks")
                     .help(format!(
                         "write `{letter}[frate]`; or print `G{per_turn}` with it, and G{} in Cancel",
@@ -75,16 +78,16 @@ fn pitch_per_minute(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// `F[plunge]` is the feed down, and cuts go across.
+/// Reports `F[plunge]` in cuts: it is the feed for moves down, but cuts move across.
 fn plunge_in_cuts(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     for body in view.these(&[S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed]) {
         let word = body.words().find(|word| word.printed_var() == Some(VarId::Plunge));
         if let Some(word) = word.filter(|_| !body.prints(VarId::Frate)) {
             diags.push(
-                Diag::new(Code::PF313, format!("{} feeds at the feed down", body.name()))
-                    .at(word.span, "this move goes across")
-                    .help("write `F[frate]`: it is the job's feed of each move"),
+                Diag::new(Code::PF313, format!("{} cuts at the plunge feed", body.name()))
+                    .at(word.span, "this move is not a plunge")
+                    .help("write `F[frate]`: the feed of each move"),
             );
         }
     }

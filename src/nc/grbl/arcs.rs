@@ -11,7 +11,7 @@ use crate::nc::state::State;
 use crate::toolpath::{Direction, Units};
 
 impl State {
-    /// An arc or helix. The centre is incremental, and a word across the plane counts for nothing.
+    /// An arc or helix. The centre is incremental. A centre word across the plane is ignored.
     pub(super) fn grbl_arc(&mut self, direction: Direction, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let [first, second, _] = axes_of(self.modes.plane);

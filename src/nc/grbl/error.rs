@@ -1,9 +1,9 @@
-//! What Grbl answers to a block that it refuses, by its own numbers.
+//! Grbl's error numbers for blocks that it refuses.
 
 use crate::diag::Code;
 use crate::nc::fault::Fault;
 
-/// A fault of Grbl: Grbl's number, our code, what is wrong, and what to write instead.
+/// An error of Grbl: Grbl's number, our code, the problem, and the correction.
 type Row = (u8, Code, &'static str, &'static str);
 
 #[rustfmt::skip]
@@ -11,30 +11,30 @@ const ERRORS: [Row; 24] = [
     (1, Code::PN001, "a word must begin with a letter", "take it out: Grbl has no `%`, no parameters and no expressions"),
     (2, Code::PN001, "a letter without its number", "write a plain number after it"),
     (4, Code::PN018, "F, N, P, S and T are not negative", "write it without the minus"),
-    (11, Code::PN001, "over 79 characters besides blanks, slashes and comments", "break it into several blocks"),
-    (20, Code::PN003, "no code or word of Grbl", "take it out, or print the program for the control that has it"),
+    (11, Code::PN001, "more than 79 characters, without spaces, slashes and comments", "break it into several blocks"),
+    (20, Code::PN003, "not a code or word of Grbl", "remove it, or print the program for a control that has it"),
     (21, Code::PN004, "two codes of one modal group", "write them in two blocks, or take one out"),
     (22, Code::PN008, "a cut without a feed", "write F with it; under G93 in every block that cuts"),
-    (23, Code::PN003, "a fraction that this code does not have in Grbl", "write the code without it"),
-    (24, Code::PN004, "two codes that both use the axis words", "write them in two blocks"),
-    (25, Code::PN002, "a word that stands twice in the block", "keep one of them"),
-    (26, Code::PN006, "the code needs axis words and has none", "write where, as X and Y; a full circle says its end, too"),
-    (27, Code::PN018, "a block number over 10000000", "number the blocks with less, or not at all"),
+    (23, Code::PN003, "a fraction that Grbl does not have for this code", "write the code without it"),
+    (24, Code::PN004, "two codes that both use axis words", "write them in two blocks"),
+    (25, Code::PN002, "a word that is twice in the block", "keep one of them"),
+    (26, Code::PN006, "the code needs axis words and has none", "write the position, as X and Y; a full circle needs its end too"),
+    (27, Code::PN018, "a block number over 10000000", "use smaller block numbers, or none"),
     (28, Code::PN007, "a word that the code needs is missing", "write P with G4, and P and L with G10"),
-    (29, Code::PN018, "no such work offset", "write P1 for G54 up to P6 for G59, or P0 for the one in force"),
+    (29, Code::PN018, "no such work offset", "write P1 for G54 up to P6 for G59, or P0 for the active one"),
     (30, Code::PN006, "G53 without G0 or G1", "write G0 with it"),
-    (31, Code::PN006, "axis words while G80 is in force", "write G0 or G1 first"),
-    (32, Code::PN009, "an arc without an axis word of its plane", "write its end, also where that is its start"),
-    (33, Code::PN009, "the end is not where the move could end", "look at its end and its centre; a circle by R has none"),
+    (31, Code::PN006, "axis words while G80 is active", "write G0 or G1 first"),
+    (32, Code::PN009, "an arc without an axis word of its plane", "write its end, even if the end is the start"),
+    (33, Code::PN009, "the end does not fit the move", "check the end and the centre; a full circle can't be given by R"),
     (34, Code::PN009, "R is too small for the end", "R must be at least half the distance to the end"),
     (35, Code::PN009, "an arc without a centre in its plane", "write R, or the centre as I J K of its plane"),
-    (36, Code::PN005, "a word that nothing in the block uses", "take it out, or write its code in this block"),
-    (37, Code::PN006, "G43.1 takes Z, and Z alone", "write G43.1 Z and the length"),
+    (36, Code::PN005, "a word that no code in the block uses", "remove it, or write its code in this block"),
+    (37, Code::PN006, "G43.1 takes Z and no other word", "write G43.1 Z and the length"),
     (38, Code::PN018, "a tool above 255", "tools are T0 to T255"),
-    (0, Code::PN016, "a command of Grbl itself is not simulated", "send it by hand: a program has none"),
+    (0, Code::PN016, "a command of Grbl itself is not simulated", "send it by hand: it can't be in a program"),
 ];
 
-/// Grbl's answer, about a part of the block where one is known: its text and its column.
+/// Grbl's error. `about`: the text and column of the part of the block, if known.
 #[cold]
 pub(super) fn error(number: u8, about: Option<(&str, usize)>) -> Box<Fault> {
     let row = ERRORS.iter().find(|(row, ..)| *row == number);

@@ -1,7 +1,7 @@
-//! Grbl 1.1: what it reads, what it refuses, and what it does otherwise than the interpreter that it comes from.
+//! Grbl 1.1: the blocks that it reads and refuses, and its differences from the interpreter that it derives from.
 //!
-//! Observed from outside, by programs and the answers of its own parser. It finds all that is wrong with a block before
-//! it does anything, so a refused block does nothing.
+//! Its behaviour was observed from outside, by programs and the answers of its own parser. Grbl checks the whole block
+//! before it runs any of it, so a refused block has no effect.
 
 mod arcs;
 mod check;

@@ -1,4 +1,4 @@
-//! A block in the order in which Grbl does it.
+//! Runs a block in the order that Grbl uses.
 
 use super::check::check;
 use super::error::refuse;
@@ -12,7 +12,7 @@ use crate::nc::state::State;
 use crate::toolpath::{Direction, FeedMode, Plane, StopKind, Units};
 
 impl State {
-    /// Runs a block. A refused one does nothing.
+    /// Runs a block. A refused block has no effect.
     pub(in crate::nc) fn grbl_block(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         let done = self.grbl_actions(block, out);
         if done.is_err() {
@@ -53,8 +53,8 @@ impl State {
         Ok(Next::On)
     }
 
-    /// Feed, and all that comes before the axis words. F is kept in millimetres, so that it counts in the units of its
-    /// block, and as millimetres in the block that comes back from G93.
+    /// Sets the feed and everything else that comes before the axis words. Grbl keeps F in millimetres: F is in the units
+    /// of its block, but is read as millimetres in the block that leaves G93.
     fn grbl_feed(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         let before = self.modes.feed_mode;
         if block.row(Group::FeedMode).is_some() {
@@ -70,7 +70,7 @@ impl State {
         Ok(())
     }
 
-    /// G38: as far as it goes where nothing is touched; where it touches, only the machine knows.
+    /// G38: the move goes to its end if nothing is touched. The contact position is known only at the machine.
     fn probe(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (from, to) = (self.place.position, self.target(block)?);
@@ -84,7 +84,8 @@ impl State {
         Ok(())
     }
 
-    /// M0, M2 and M30. Senders go on after the end, and so does Grbl, with some of its modes as switched on.
+    /// M0, M2 and M30. Senders send on after the end of the program. Grbl then continues, with some modes reset to those
+    /// at power-up.
     fn grbl_stops(&mut self, block: &Block, out: &mut Out<'_>) {
         for (_, row) in block.m() {
             match row.meaning {

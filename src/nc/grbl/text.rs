@@ -1,4 +1,4 @@
-//! A line as Grbl reads it: without blanks, slashes and comments, word by word, refused at the first wrong one.
+//! Reads a line as Grbl does: word by word, without spaces, slashes and comments. The first wrong word refuses the line.
 
 use super::error::error;
 use crate::control::{Code, Control, Meaning};
@@ -7,19 +7,19 @@ use crate::nc::codes::{bit, group, letters, m_code, m_group};
 use crate::nc::fault::{Done, Fault};
 use crate::nc::scan::{Kind, tokens};
 
-/// Letters of words that are not negative.
+/// Letters whose values must not be negative.
 const UNSIGNED: u32 = letters("FNPST");
-/// Highest tool.
+/// The highest tool number.
 const MOST_TOOL: f64 = 255.0;
-/// Digits of a number that are read.
+/// The number of digits that Grbl reads.
 const MOST_DIGITS: usize = 8;
-/// Numbers of codes whose unknown fractions it calls unknown codes.
+/// Codes whose unknown fractions Grbl reports as unknown codes.
 const WITH_FRACTIONS: [u16; 8] = [28, 30, 38, 43, 61, 90, 91, 92];
 
 /// Reads a line.
 ///
 /// # Errors
-/// What Grbl refuses while it reads.
+/// Grbl refuses the line while reading it.
 pub(in crate::nc) fn read(block: &mut Block, line: &[u8], control: &'static Control) -> Done {
     block.clear();
     let mut text = std::mem::take(&mut block.text);
@@ -60,14 +60,15 @@ fn words(block: &mut Block, line: &mut [u8], control: &'static Control) -> Done 
     Ok(())
 }
 
-/// A line that is too long: `whole` with comments, `kept` without blanks, slashes and comments, which do not count on all controls.
+/// Refuses a line that is too long. `whole`: length with comments. `kept`: length without spaces, slashes and comments,
+/// which some controls do not count.
 fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
     let Some(longest) = control.traits().longest_line else { return Ok(()) };
     if control.traits().bare_line {
         return if kept >= longest { Err(error(11, None)) } else { Ok(()) };
     }
     if whole >= longest {
-        let message = format!("over {} characters, comments and blanks included", longest - 1);
+        let message = format!("more than {} characters, including comments and spaces", longest - 1);
         return Err(Fault::new(
             crate::diag::Code::PN001,
             message,
@@ -77,14 +78,15 @@ fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
     Ok(())
 }
 
-/// Blanks out what does not reach the parser; how many characters are left, and where the first comment is.
+/// Replaces characters that do not reach the parser by spaces. Returns the number of remaining characters and the columns
+/// of the first comment.
 fn clear(line: &mut [u8]) -> Done<(usize, Option<(usize, usize)>)> {
     let (mut kept, mut comment, mut inside) = (0, None, None);
     let end = line.trim_ascii_end().len();
     for (at, byte) in line[..end].iter_mut().enumerate() {
         match (inside, *byte) {
             (_, b'!' | 0x18) => {
-                let help = "take it out, also from comments: senders hand it on before the blocks that wait";
+                let help = "remove it, even from comments: senders pass it to Grbl before the waiting blocks";
                 return Err(Fault::at(crate::diag::Code::PN001, at, "a character that stops Grbl at once", help));
             }
             (_, b'\r') => {
@@ -113,7 +115,8 @@ fn clear(line: &mut [u8]) -> Done<(usize, Option<(usize, usize)>)> {
     Ok((kept, comment))
 }
 
-/// The value of a word. Of its number Grbl reads eight digits, zeros before them included; others only hold their place.
+/// The value of a word. Grbl reads the first eight digits of a number, leading zeros included. Further digits count as
+/// zeros.
 fn value(word: &[u8], value: f64) -> f64 {
     let digits = || word.iter().filter(|byte| byte.is_ascii_digit());
     if digits().count() <= MOST_DIGITS {
@@ -129,7 +132,7 @@ fn g_word(block: &mut Block, value: f64, control: &'static Control) -> Result<()
     let hundredths = ((value - value.trunc()) * 100.0).round();
     let mut number = value.trunc();
     if number == 49.0 || hundredths < 0.0 {
-        // any fraction of G49 is G49
+        // G49 with any fraction is read as G49
     } else if hundredths % 10.0 == 0.0 {
         number += hundredths / 100.0;
     } else {
@@ -147,13 +150,13 @@ fn g_word(block: &mut Block, value: f64, control: &'static Control) -> Result<()
     if block.put_g(row, its_group, takes_axes) { Ok(()) } else { Err(21) }
 }
 
-/// The answer to a fraction that a number does not have.
+/// The error for a fraction that the code does not have.
 fn unknown_fraction(number: f64, control: &'static Control) -> u8 {
     let whole = Code::of(b'G', number).filter(|code| !WITH_FRACTIONS.contains(&(code.tenths / 10)));
     if whole.and_then(|code| control.row(code)).is_some() { 23 } else { 20 }
 }
 
-/// Does a code use the axis words of its block for itself? One that does may stand in a block.
+/// Whether a code uses the axis words of its block for itself. A block may contain only one such code.
 fn takes_axes(meaning: Meaning) -> bool {
     use Meaning as M;
     matches!(meaning, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::Probe)
@@ -188,7 +191,7 @@ fn word(block: &mut Block, letter: u8, value: f64, control: &'static Control) ->
     if UNSIGNED & at != 0 && value < 0.0 {
         return Err(4);
     }
-    // numbers of tools, blocks and data lose their fraction
+    // fractions of tool, block and data numbers are dropped
     block.put(letter, if matches!(letter, b'L' | b'N' | b'T') { value.trunc() } else { value });
     Ok(())
 }

@@ -1,15 +1,15 @@
-//! How a machine stands after a block.
+//! State of the machine after a block.
 
 use crate::nc::state::State;
 
-/// How the machine stands after a block.
+/// State of the machine after a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Behind {
-    /// Axes that stand at a place of the machine, as bits.
+    /// Axes that are at a machine position, as bits.
     pub unknown: u8,
-    /// What G52 and G92 add to positions.
+    /// The shift that G52 and G92 add to positions.
     pub shift: [f64; 3],
-    /// Axes whose frame G92 moved from a position that only the machine knew, as bits.
+    /// Axes whose frame G92 moved from a position that was known only at the machine, as bits.
     pub frame: u8,
 }
 

@@ -1,4 +1,5 @@
-//! A control's cycle as a cycle of a job. The point is the R plane: a program does not say where the part begins.
+//! Converts a control's cycle to a cycle of a job. The point of a hole is at the R plane, because a program does not
+//! contain the top of the part.
 
 use super::fault::unsaid;
 use crate::control::Motions;
@@ -6,7 +7,7 @@ use crate::diag::Diag;
 use crate::nc::action::Drilling;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
 
-/// Are two holes of one cycle?
+/// Whether two holes belong to the same cycle.
 pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
     let key = |d: &Drilling| (d.cycle.code, [d.r, d.clear, d.dwell, d.peck, d.level, d.feed], d.shift);
     key(a) == key(b)
@@ -15,7 +16,7 @@ pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
 /// The cycle of a hole.
 ///
 /// # Errors
-/// A cycle that a job can't say.
+/// A job has no such cycle.
 pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSpec, Box<Diag>> {
     let kind = match hole.cycle.motions {
         Motions::Drill if hole.cycle.dwells => CycleKind::Face,
@@ -29,11 +30,11 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
         Motions::ShiftOut => {
             let help = "write the bore by hand, with `orient`, `offset` and the side";
             let code = hole.cycle.code;
-            let message = format!("{code}: to which side it leaves the wall is a parameter of the control");
+            let message = format!("{code}: a parameter of the control sets the side to which it moves off the wall");
             return unsaid(line, message, help);
         }
         Motions::Back | Motions::ByHand => {
-            let message = format!("{} has no cycle of a job that does the same", hole.cycle.code);
+            let message = format!("a job has no cycle like {}", hole.cycle.code);
             return unsaid(line, message, "program its moves, or write the job by hand");
         }
     };
@@ -46,7 +47,7 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     if kind.is_tap() && hole.peck > 0.0 {
         (spec.step, spec.mode) = (Some(hole.peck), Some(CycleKind::Chipbreak));
     }
-    // a dwell of zero seconds is one that the cycle must say
+    // a dwell of zero seconds is left out, unless the kind of cycle requires one
     spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
     spec.rigid = (kind.is_tap() && rigid).then_some(true);
     Ok(spec)

@@ -1,4 +1,4 @@
-//! Holes of a program as cycles of a job: those of one pattern are one cycle, whatever leads from one to the next.
+//! Converts the holes of a program to cycles of a job. Holes of one pattern are one cycle, whichever rapids connect them.
 
 use super::cycles::{hole_of, is_same, spec_of};
 use super::fault::{Done, unsaid};
@@ -9,7 +9,7 @@ use crate::nc::action::{Action, Drilling, Heights, Position, Rotation};
 use crate::toolpath::{Event, First, Plane};
 
 impl Reader<'_> {
-    /// Takes a rapid that may only lead to the next hole.
+    /// Takes a rapid if it may be a move to the next hole. Returns whether it was taken.
     pub(super) fn leads_on(&mut self, to: &Position, machine: u8) -> bool {
         if self.operation || self.turning.is_some() {
             return false;
@@ -23,7 +23,7 @@ impl Reader<'_> {
         true
     }
 
-    /// What is switched after rapids that may lead to the next hole is switched after them.
+    /// Ends the cycle before an action that switches something, if rapids were taken that may be moves to the next hole.
     pub(super) fn settle_way(&mut self, action: &Action) -> Done {
         let leads = matches!(
             action,
@@ -47,13 +47,13 @@ impl Reader<'_> {
         }
         if hole.heights != Heights::Given {
             let message = match hole.heights {
-                Heights::Unknown => "the heights of a cycle count from a position that only the machine knows",
-                _ => "a cycle returns to a height that only the machine knows",
+                Heights::Unknown => "the heights of a cycle are relative to an unknown machine position",
+                _ => "a cycle returns to an unknown machine height",
             };
             return unsaid(self.place.line, message, "write a rapid with Z before it, or return to R by G99");
         }
         self.low_approach(hole)?;
-        // a rigid tap turns the spindle its own way
+        // a rigid tap starts the spindle in its own direction
         match hole.cycle.motions {
             Motions::Tap if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
             Motions::LeftTap if self.wanted.rotation != Some(Rotation::Ccw) => {
@@ -80,7 +80,7 @@ impl Reader<'_> {
 
     fn begin_cycle(&mut self, hole: &Drilling) -> Done {
         self.end_cycle()?;
-        // a new tool has been brought back by its change
+        // a tool change has already moved a new tool away from the reference point
         let new_tool = self.operation && self.tool_is_new();
         if let Some(line) = self.home.take().filter(|_| !new_tool) {
             return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before it");
@@ -96,7 +96,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A Fanuc goes across below the R plane, and up to it over the hole; a job's cycle goes up first.
+    /// A Fanuc moves across below the R plane and then up to it above the hole. A job's cycle goes up first.
     fn low_approach(&mut self, hole: &Drilling) -> Done {
         let begun = !self.operation && self.home.is_none() && self.known & 0b111 == 0b111;
         let across = self.at[..2] != hole.at[..2];
@@ -109,7 +109,7 @@ impl Reader<'_> {
         self.rapid(&to, 0)
     }
 
-    /// The cycle is over, and the rapids after its last hole are made.
+    /// Ends the cycle and makes the rapids that followed its last hole.
     pub(super) fn end_cycle(&mut self) -> Done {
         let Some(pattern) = self.cycle.take() else { return Ok(()) };
         self.place.point = 0;

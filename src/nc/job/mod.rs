@@ -1,4 +1,4 @@
-//! An NC program as a job: its motions, with its cycles kept as cycles, for another form to print.
+//! Reads an NC program as a job, for printing by another form. Its cycles remain cycles.
 
 mod behind;
 mod cycles;
@@ -29,12 +29,13 @@ use reader::Reader;
 use survey::survey;
 use turning::Turner;
 
-/// Reads a program as a job. It is run twice: once to see that the control takes it, and what its tools need.
+/// Reads a program as a job. The program is run twice. The first run checks that the control accepts it, and collects the
+/// data of its tools.
 ///
-/// `warnings` are what a job can't say.
+/// `warnings` are about parts that a job can't express.
 ///
 /// # Errors
-/// The input fails; the control refuses the program; the program does what no job can say.
+/// The input fails, the control refuses the program, or a job can't express the program.
 pub fn read_program(
     mut input: impl Read + Seek,
     options: &JobOptions,
@@ -44,7 +45,11 @@ pub fn read_program(
     let settings = settings_for(&mut input, Path::new(""), options.settings).map_err(ReadError::Io)?;
     let options = &JobOptions { settings, ..*options };
     if options.settings.control.is_wire() {
-        return unsaid(1, "the program is a wire EDM machine's", "programs of mills and lathes can be read as jobs");
+        return unsaid(
+            1,
+            "the program is for a wire EDM machine",
+            "only programs of mills and lathes can be read as jobs",
+        );
     }
     let mut said = Vec::new();
     let read = read_twice(input, options, &mut said, sink);
@@ -52,7 +57,7 @@ pub fn read_program(
     read
 }
 
-/// The same warning once, with its count.
+/// Merges equal warnings into one with a count.
 fn counted(warnings: Vec<Diag>) -> Vec<Diag> {
     let mut kinds: Vec<(Diag, u64)> = Vec::new();
     for warning in warnings {
@@ -76,7 +81,7 @@ fn read_twice(
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    // off the wall to the side that a job's bore has at angle zero
+    // move off the wall to the side where a job's bore at angle zero does
     let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..options.settings };
     let mut simulator = Simulator::new(input, settings);
     let survey = survey(&mut simulator, options, warnings)?;
@@ -91,7 +96,7 @@ fn read_twice(
     Ok(reader.finish()?)
 }
 
-/// Gives each action of the program, the text of its block, and how the machine stands after that block.
+/// Runs the program. Passes on each action, the text of its block, and the state of the machine after that block.
 fn run(simulator: &mut Simulator<'_>, mut take: impl FnMut(&Item, &[u8], Behind) -> Done) -> Result<(), ReadError> {
     let mut items = Vec::new();
     loop {

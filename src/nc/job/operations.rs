@@ -1,4 +1,5 @@
-//! Operations, one for each tool and one where the feed mode changes; and what is switched inside them.
+//! Operations of the job: a new one begins with each tool and where the feed mode changes. Also the switching inside
+//! operations.
 
 use super::fault::{Done, unsaid, warning};
 use super::reader::{Reader, Waiting};
@@ -12,7 +13,7 @@ impl Reader<'_> {
             return unsaid(
                 self.place.line,
                 "the program moves before it loads a tool",
-                "say which with `--assume-tool NUMBER`",
+                "give the tool with `--assume-tool NUMBER`",
             );
         };
         let registers = self.survey.registers.get(self.changes).copied().unwrap_or_default();
@@ -50,7 +51,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Does the operation that begins load another tool?
+    /// Whether the beginning operation loads another tool.
     pub(super) fn tool_is_new(&self) -> bool {
         self.place.operation == 0 || self.changes > 0 && self.said == Switches::default()
     }
@@ -71,7 +72,7 @@ impl Reader<'_> {
         self.wanted.rotation = Some(Rotation::Stop);
         self.said = Switches::default();
         if self.tool.replace(number) == Some(number) && self.place.operation > 0 {
-            // no form prints a change to the tool that is there
+            // a form prints no change to the tool that is already loaded
             self.said.rotation = Some(Rotation::Stop);
         } else {
             self.home = None;
@@ -81,12 +82,12 @@ impl Reader<'_> {
 
     pub(super) fn coolant(&mut self, cooling: Cooling) {
         if !self.wanted.cool(cooling) {
-            let message = "flood and mist at once: a job has one of them, the later";
-            self.warnings.push(warning(self.place.line, message, "print the other by the form"));
+            let message = "flood and mist at once: the job has only the later one";
+            self.warnings.push(warning(self.place.line, message, "let the form print the other one"));
         }
     }
 
-    /// Says what was switched since the last move.
+    /// Pushes events for everything that was switched since the last move.
     pub(super) fn switch(&mut self) -> Done {
         let said = std::mem::replace(&mut self.said, self.wanted);
         said.changes(self.wanted).try_for_each(|event| self.push(event))

@@ -1,17 +1,17 @@
-//! How a program is read as a job.
+//! Options for reading a program as a job.
 
 use crate::nc::settings::RunSettings;
 use crate::toolpath::Units;
 
-/// How a program is read as a job.
+/// Options for reading a program as a job.
 #[derive(Clone, Copy, Debug)]
 pub struct JobOptions {
-    /// Control of the program, and how it is run.
+    /// Control of the program, and settings of the run.
     pub settings: RunSettings,
-    /// Units of a program that says none.
+    /// Units for a program without a unit code.
     pub units: Option<Units>,
-    /// Number of the first tool, for a program that cuts before it loads one.
+    /// Number of the first tool, for a program that cuts before it loads a tool.
     pub tool: Option<f64>,
-    /// Where the tool is before a cut that begins at a place that only the machine knows.
+    /// Position of the tool before a cut that begins at a position known only at the machine.
     pub start: Option<[f64; 3]>,
 }

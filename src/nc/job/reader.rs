@@ -1,4 +1,4 @@
-//! The second run: actions become events.
+//! The second run: converts actions to events.
 
 use super::behind::Behind;
 use super::fault::{Done, unsaid, warning};
@@ -12,18 +12,18 @@ use crate::lang::{Machine, additional_work};
 use crate::nc::action::{Action, Item, Position, Turn};
 use crate::toolpath::{Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, StopKind};
 
-/// What stands before the first move of an operation.
+/// An item before the first move of an operation.
 pub(super) enum Waiting {
     Comment(String),
-    /// Seconds.
+    /// A dwell in seconds.
     Dwell(f64),
     Stop(StopKind),
 }
 
-/// Most that stands there: comments beyond are left out.
+/// The largest number of waiting items. Further comments are left out.
 pub(super) const MOST_WAITING: usize = 1000;
 
-/// Actions to events.
+/// Converts actions to events.
 pub(super) struct Reader<'a> {
     pub(super) survey: &'a Survey,
     pub(super) options: &'a JobOptions,
@@ -31,21 +31,21 @@ pub(super) struct Reader<'a> {
     sink: &'a mut dyn Sink,
     pub(super) place: Place,
     started: bool,
-    /// Tool changes so far.
+    /// Number of tool changes so far.
     pub(super) changes: usize,
     pub(super) tool: Option<f64>,
-    /// An operation that begins with the next move.
+    /// Whether an operation begins with the next move.
     pub(super) operation: bool,
     pub(super) wanted: Switches,
     pub(super) said: Switches,
     pub(super) mode: FeedMode,
     plane: Plane,
     pub(super) at: Position,
-    /// Where the simulator stands: it counts from 0 where only the machine knows the position.
+    /// Position of the simulator. Axes whose position is known only at the machine are counted from 0.
     counted: Position,
-    /// Axes whose position a job knows.
+    /// Axes whose position is known to the job, as bits.
     pub(super) known: u8,
-    /// The tool went to its reference point, at this line.
+    /// The line where the tool went to its reference point, until the next move.
     pub(super) home: Option<u64>,
     pub(super) cycle: Option<Pattern>,
     pub(super) side: Option<Side>,
@@ -54,24 +54,24 @@ pub(super) struct Reader<'a> {
     pub(super) framed: bool,
     /// The last comment and its line.
     pub(super) remark: (u64, String),
-    /// What stands after the tool's T word.
+    /// The comment after the tool's T word.
     pub(super) tool_name: Option<String>,
-    /// What G52 and G92 had added by the first move, and what they have added since.
+    /// The shift of G52 and G92 at the first move, and the shift that they have added since.
     pub(super) frame: [f64; 3],
-    /// Axes along which G92 had moved the frame by an unknown amount by the first move, as bits.
+    /// Axes along which G92 had moved the frame by an unknown amount at the first move, as bits.
     pub(super) lost: u8,
     pub(super) shift: [f64; 3],
-    /// What stands before the next operation, and is done in it.
+    /// Items before the next operation. They become part of it.
     pub(super) waiting: Vec<Waiting>,
 }
 
 impl<'a> Reader<'a> {
-    /// Are length and radius the tool's own, so that no register is named?
+    /// Whether length and radius belong to the tool itself, so that programs name no register.
     fn tool_is_its_own(&self) -> bool {
         self.options.settings.control.traits().tool_length == ToolLength::Tool
     }
 
-    /// Do its work offsets have numbers from 1 on, and no codes?
+    /// Whether work offsets are selected by numbers from 1 instead of by codes.
     fn counts_offsets(&self) -> bool {
         let row = self.options.settings.control.first(Meaning::Work);
         matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Takes an action of a block, whose text is `block`; `behind`: how the machine stands after it.
+    /// Takes an action of a block with the text `block`. `behind`: the state of the machine after the block.
     pub fn take(&mut self, item: &Item, block: &[u8], behind: Behind) -> Done {
         let shifted = self.shifted(&item.action).map(|action| Item { action, ..*item });
         let item = shifted.as_ref().unwrap_or(item);
@@ -130,7 +130,7 @@ impl<'a> Reader<'a> {
         self.place.line = item.line;
         self.place.column = 1;
         if item.by_cycle {
-            // the cycle says its moves; where it leaves the tool is where the next move begins
+            // the cycle contains its moves; the next move begins where the cycle leaves the tool
             if let Action::Rapid { to, .. } | Action::Feed { to, .. } = &item.action {
                 self.at = *to;
                 self.known |= 0b111;
@@ -142,19 +142,19 @@ impl<'a> Reader<'a> {
             Action::Rapid { to, machine, astray, .. } if astray & 0b111 == 0 => self.rapid(to, *machine),
             Action::Rapid { .. } => {
                 let help = "write the position under G90, or go there by G53";
-                unsaid(item.line, "an increment leads on from a position that only the machine knows", help)
+                unsaid(item.line, "an increment from an unknown machine position", help)
             }
             Action::Feed { lead: Some(_), .. } => {
-                unsaid(item.line, "a thread that follows the spindle", "a mill's job has no such move")
+                unsaid(item.line, "a thread that is synchronized with the spindle", "the job of a mill has no such move")
             }
             Action::Feed { home: 1.., .. } => {
-                let help = "write G0 with G53; what a probe touches is known at the machine alone";
-                unsaid(item.line, "a move at feed goes to a position that only the machine knows", help)
+                let help = "write G0 with G53; the position of a probe touch is known only at the machine";
+                unsaid(item.line, "a feed move goes to an unknown machine position", help)
             }
             Action::Feed { to, feed, .. } => self.feed(to, *feed, behind.unknown),
             Action::Arc(turn) => self.arc(turn, behind.unknown),
             Action::Hole(hole) => self.hole(hole),
-            Action::CycleOff => Ok(()), // what comes says whether the next hole is another cycle's
+            Action::CycleOff => Ok(()), // the next action shows whether the next hole belongs to another cycle
             Action::Dwell(seconds) => self.between(Event::Dwell(*seconds)),
             Action::Stop(kind) => self.between(Event::Stop(*kind)),
             Action::Tool(number) => self.tool_change(*number),
@@ -171,18 +171,18 @@ impl<'a> Reader<'a> {
                 self.coolant(*cooling);
                 Ok(())
             }
-            // G54.1 P1 is the seventh
+            // G54.1 P1 is the seventh work offset
             Action::Work(code) if additional_work(0.0) + 43.0 >= *code && *code > additional_work(0.0) => {
                 self.wanted.work = Some(*code - additional_work(0.0) + 6.0);
                 Ok(())
             }
             Action::Work(code) if *code > additional_work(0.0) => {
                 let message = format!("the work offset G54.1 P{}", code - additional_work(0.0));
-                unsaid(item.line, message, "a job counts work offsets from 1 to 49: G54.1 P1 is the seventh")
+                unsaid(item.line, message, "the work offsets of a job are 1 to 49: G54.1 P1 is 7")
             }
             Action::Work(number) if *number >= 50.0 && self.counts_offsets() => {
                 let message = format!("the work offset {number}");
-                unsaid(item.line, message, "a job counts work offsets from 1 to 49")
+                unsaid(item.line, message, "the work offsets of a job are 1 to 49")
             }
             Action::Work(code) => {
                 self.wanted.work = Some(*code);
@@ -190,11 +190,11 @@ impl<'a> Reader<'a> {
             }
             Action::FeedMode(mode) => {
                 self.mode = *mode;
-                self.operation = true; // a job's operation has one
+                self.operation = true; // a job's operation has one feed mode
                 Ok(())
             }
             Action::Compensation(Some((_, None))) if !self.tool_is_its_own() => {
-                let message = "compensation by a diameter in the block (G41.1, G42.1)";
+                let message = "compensation with a diameter in the block (G41.1, G42.1)";
                 unsaid(item.line, message, "use a register, D with G41 or G42")
             }
             Action::Compensation(Some(_)) if self.plane != Plane::Xy => {
@@ -211,7 +211,7 @@ impl<'a> Reader<'a> {
             }
             Action::Frame => self.frame(behind),
             Action::Orient(_) => {
-                unsaid(item.line, "M19, a stop of the spindle at an angle", "only a bore of a job does it")
+                unsaid(item.line, "M19, a stop of the spindle at an angle", "in a job only a boring cycle orients the spindle")
             }
             Action::Comment(start, end) => {
                 let text = block.get(*start..*end).unwrap_or_default();
@@ -246,7 +246,7 @@ impl<'a> Reader<'a> {
         self.end_cycle()?;
         self.start()?;
         if self.waiting.iter().any(|waiting| matches!(waiting, Waiting::Stop(_))) {
-            let message = "a stop after a tool change that nothing moves after is left out";
+            let message = "a stop after the last tool change, without later moves, is left out";
             self.warnings.push(warning(self.place.line, message, "print it in the form's EndCode"));
         }
         self.push(Event::Finish)
@@ -263,13 +263,13 @@ impl<'a> Reader<'a> {
         self.push(Event::Start(&self.survey.start(Machine::Mill)?))
     }
 
-    /// A target with the axes that a job knows.
+    /// A target with the axes that the job uses.
     pub(super) fn axes(&self, to: &Position) -> Axes {
         let rotary = self.survey.rotary & 0b11_1000;
         Axes { values: *to, given: 0b111 | rotary }
     }
 
-    /// What comes before a move: the operation that the move begins, and what was switched.
+    /// Pushes the events before a move: the beginning of an operation, and what was switched.
     pub(super) fn move_begins(&mut self, first: First) -> Done {
         self.start()?;
         if std::mem::take(&mut self.operation) {
@@ -284,7 +284,7 @@ impl<'a> Reader<'a> {
         }
         self.end_cycle()?;
         let machine = machine & 0b111;
-        // a place of the machine: a form goes there by itself, before a tool change and at the end
+        // a machine position: a form makes this move by itself, before a tool change and at the end
         self.at = *to;
         if machine & 0b100 != 0 {
             self.known = 0b111 & !machine;
@@ -293,7 +293,7 @@ impl<'a> Reader<'a> {
         }
         self.known = 0b111 & !machine;
         if machine != 0 {
-            return Ok(()); // the height is known, the place not yet
+            return Ok(()); // the height is known, but X or Y is still unknown
         }
         let axes = self.axes(to);
         let new_tool = self.operation && self.tool_is_new();
@@ -307,7 +307,8 @@ impl<'a> Reader<'a> {
         self.moves(axes, None)
     }
 
-    /// A straight move, a rapid without a feed; the first after G41, G42 or G40 turns compensation on or off.
+    /// Pushes a straight move. A move without a feed is a rapid. The first move after G41, G42 or G40 switches
+    /// compensation.
     fn moves(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
         match (self.turning.take(), feed) {
@@ -318,10 +319,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Goes to the reference point in the middle of a tool's work: as high as the program ever goes.
+    /// Replaces a move to the reference point during a tool's work by a rapid to the highest Z of the program.
     fn homeward(&mut self, line: u64, to: Position) -> Done {
-        let message = "the way to the reference point has no place in a job";
-        let help = "it becomes a rapid to the highest Z that the program says: look whether that clears the clamps";
+        let message = "a job can't contain a move to the reference point";
+        let help = "it becomes a rapid to the highest Z of the program: check that this clears the clamps";
         if !self.warnings.iter().any(|w| w.message == message) {
             self.warnings.push(warning(line, message, help));
         }
@@ -336,25 +337,27 @@ impl<'a> Reader<'a> {
         self.place.item += 1;
     }
 
-    /// Checks before a cut that the tool stands where a job knows it.
+    /// Checks before a cut that the tool is at a known position.
     fn cut_begins(&mut self) -> Done {
         self.end_cycle()?;
         if self.home.is_some() || self.known & 0b111 != 0b111 {
             if let Some(start) = self.options.start {
                 return self.cut_from(start);
             }
-            let help = "write a rapid with X, Y and Z before it, or say where the tool is with `--assume-start X,Y,Z`";
-            return unsaid(self.place.line, "a cut begins at a place that only the machine knows", help);
+            let help = "write a rapid with X, Y and Z before it, or give the position of the tool with \
+                `--assume-start X,Y,Z`";
+            return unsaid(self.place.line, "a cut begins at an unknown machine position", help);
         }
         self.move_begins(First::Cut)?;
         self.step();
         Ok(())
     }
 
-    /// Before a cut from a place of the machine: the tool is where the caller says, on the axes that the program does not.
+    /// Begins a cut from a machine position: the axes that the program has not positioned are at the start position of
+    /// the options.
     fn cut_from(&mut self, start: [f64; 3]) -> Done {
-        let message = "a cut begins at a place that only the machine knows";
-        let help = "it begins at the place of `--assume-start`: look whether the tool comes there past the clamps";
+        let message = "a cut begins at an unknown machine position";
+        let help = "it begins at the position of `--assume-start`: check that the tool clears the clamps on its way";
         self.warnings.push(warning(self.place.line, message, help));
         let unknown = if self.home.take().is_some() { self.known & 0b011 } else { self.known };
         for axis in (0..3).filter(|axis| unknown & 1 << axis == 0) {
@@ -369,7 +372,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// A place of which axes stand where the caller said that the tool begins: the program has not said them since.
+    /// Corrects the axes of a position that are counted from the start position of the options because the program has
+    /// not set them since.
     fn counted_from_start(&self, to: &Position, unknown: u8) -> Position {
         let mut to = *to;
         if self.options.start.is_some() {
@@ -400,11 +404,11 @@ impl<'a> Reader<'a> {
         self.push(Event::Arc { arc: &arc, feed: Some(turn.feed) })
     }
 
-    /// What is done where the tool stands.
+    /// Pushes an event that happens at the tool's current position.
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         if self.operation && (self.place.operation == 0 || self.tool_is_new()) {
-            // after the tool change of the form
+            // the event comes after the form's tool change
             return match event {
                 Event::Stop(kind) => self.wait(Waiting::Stop(kind)),
                 Event::Dwell(seconds) => self.wait(Waiting::Dwell(seconds)),
@@ -412,7 +416,7 @@ impl<'a> Reader<'a> {
             };
         }
         if let Some(line) = self.home.take() {
-            // the operator finds the tool there
+            // move the tool home first, because the operator expects it there
             self.homeward(line, self.at)?;
             if self.known & 0b011 == 0b011 {
                 let axes = self.axes(&self.at);
@@ -445,13 +449,13 @@ impl<'a> Reader<'a> {
         self.push(Event::Comment(text))
     }
 
-    /// What stands before the next operation is done in it.
+    /// Keeps an item until the next operation begins.
     fn wait(&mut self, waiting: Waiting) -> Done {
         if self.waiting.len() < MOST_WAITING {
             self.waiting.push(waiting);
         } else if !matches!(waiting, Waiting::Comment(_)) {
             let message = format!("more than {MOST_WAITING} stops, dwells and comments before a tool's first move");
-            return unsaid(self.place.line, message, "take out those that are not needed");
+            return unsaid(self.place.line, message, "remove the ones that are not needed");
         }
         Ok(())
     }

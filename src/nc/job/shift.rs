@@ -1,5 +1,5 @@
-//! Frames that a program moves between its moves, by G52 or G92: a job has one frame, so its places are counted in that of the
-//! program's first move.
+//! Frames that a program moves between its moves, by G52 or G92. A job has one frame, so its positions are converted to
+//! the frame of the program's first move.
 
 use super::behind::Behind;
 use super::fault::{Done, unsaid, warning};
@@ -7,23 +7,22 @@ use super::reader::Reader;
 use crate::nc::action::{Action, Drilling, Position, Turn};
 
 impl Reader<'_> {
-    /// The frame was moved.
+    /// Handles a move of the frame.
     pub(super) fn frame(&mut self, behind: Behind) -> Done {
         if self.place.operation == 0 {
             (self.frame, self.lost) = (behind.shift, behind.frame);
             if !std::mem::replace(&mut self.framed, true) {
-                let message = "the program sets its work offsets (G10, G52 or G92), which a job can't say";
-                let help = "set them at the machine: positions are those that the program writes";
+                let message = "the program sets its work offsets (G10, G52 or G92): a job can't contain this";
+                let help = "set them at the machine: the positions of the program are unchanged";
                 self.warnings.push(warning(self.place.line, message, help));
             }
             return Ok(());
         }
         let by: [f64; 3] = std::array::from_fn(|axis| behind.shift[axis] - self.frame[axis]);
-        // G10 moves the work offset itself; how far a shift to a place of the machine moves it is unknown
+        // G10 moves the work offset itself, and a shift at a machine position has an unknown distance
         let moved = (0..3).filter(|&axis| by[axis] != self.shift[axis]).fold(0, |axes, axis| axes | 1 << axis);
         if moved == 0 || moved & behind.unknown != 0 || behind.frame != self.lost {
-            let help =
-                "write the places in one frame: a job has no G10, and no G92 where only the machine knows the place";
+            let help = "write all positions in one frame: a job has no G10, and no G92 at an unknown machine position";
             return unsaid(self.place.line, "the program moves its coordinate frame between its moves", help);
         }
         self.end_cycle()?;
@@ -31,7 +30,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// An action in the frame of the first move; `None`: as it stands.
+    /// Converts an action to the frame of the first move; `None`: the action is unchanged.
     pub(super) fn shifted(&self, action: &Action) -> Option<Action> {
         if self.shift == [0.0; 3] {
             return None;

@@ -1,4 +1,4 @@
-//! The first run of a program that is read as a job: what must be known before its first move.
+//! The first run of a program that is read as a job. It collects data that is needed before the first move.
 
 use std::collections::BTreeMap;
 
@@ -18,18 +18,18 @@ pub(super) struct Registers {
     pub diameter: Option<f64>,
 }
 
-/// What a program says as a whole.
+/// Data about a whole program.
 #[derive(Debug, Default)]
 pub(super) struct Survey {
     pub program: Option<f64>,
     /// The comment after the program's number.
     pub name: Option<String>,
     pub units: Option<Units>,
-    /// Registers for each tool change, the first for what comes before any.
+    /// Registers for each tool change. The first entry is for moves before any tool change.
     pub registers: Vec<Registers>,
     /// Rotary axes that move, as bits.
     pub rotary: u8,
-    /// The highest Z that the program says in work coordinates, in its units at the beginning.
+    /// The highest Z in work coordinates that the program contains, in the units at its beginning.
     pub top: f64,
 }
 
@@ -37,11 +37,11 @@ impl Survey {
     /// The head of the job: its number, name and units.
     ///
     /// # Errors
-    /// Nothing says the units.
+    /// The units are not given.
     pub fn start(&self, machine: Machine) -> Result<Start, Box<Diag>> {
         let Some(units) = self.units else {
-            let message = "the program does not say its units: it has no G20 or G21";
-            let help = "say them with `--assume-units inch` or `mm`";
+            let message = "the units of the program are unknown: it has no G20 or G21";
+            let help = "give the units with `--assume-units inch` or `mm`";
             return Err(Box::new(Diag::new(diag::Code::PL005, message).help(help).place(Location::at(1, 1))));
         };
         Ok(Start {
@@ -65,9 +65,9 @@ pub(super) fn survey(
     let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
     let mut left_out: BTreeMap<Option<Code>, (u64, u64)> = BTreeMap::new();
     let mut items = Vec::new();
-    // the register in force, and whether it was turned on for the tool before
+    // the register in force, and whether it was turned on for the previous tool
     let (mut length, mut inherited) = (None, false);
-    // the tool has cut with its length on
+    // whether the tool has cut with its length offset on
     let mut with_length = false;
     let (mut told, mut named) = (false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
@@ -80,7 +80,8 @@ pub(super) fn survey(
             if let Action::Feed { .. } | Action::Arc(_) = &item.action {
                 match length {
                     None if with_length => {
-                        let help = "turn it off after the tool's last cut: as a job the tool has one length";
+                        let help =
+                            "turn the length offset off after the tool's last cut: in a job a tool has one length";
                         return unsaid(
                             item.line,
                             "a tool cuts with its length offset and, after G49, without it",
@@ -88,8 +89,9 @@ pub(super) fn survey(
                         );
                     }
                     None if !std::mem::replace(&mut told, true) => {
-                        let message = "a tool cuts without a length offset, and the form will turn its own on";
-                        let help = "look whether the machine has tool lengths, and what its registers hold";
+                        let message =
+                            "a tool cuts without a length offset, but the form turns the offset of the tool on";
+                        let help = "check whether the machine has tool lengths, and the values in its registers";
                         warnings.push(warning(item.line, message, help));
                     }
                     Some(register) if std::mem::take(&mut inherited) => {
@@ -99,7 +101,7 @@ pub(super) fn survey(
                         warnings.push(warning(
                             item.line,
                             message,
-                            "write G43 with the tool's own H after its M6, if that is meant",
+                            "if the tool's own length is correct, write G43 with its H after M6",
                         ));
                     }
                     _ => {}
@@ -115,7 +117,7 @@ pub(super) fn survey(
                 }
                 last = *to;
                 if machine & 0b100 == 0 {
-                    // in the frame of the first move, as the job has it
+                    // in the frame of the first move, as in the job
                     survey.top = survey.top.max(to[2] + shift - *base.get_or_insert(shift));
                 }
             };
@@ -125,7 +127,7 @@ pub(super) fn survey(
                 Action::Arc(turn) => reach(&mut survey, &turn.to, 0),
                 Action::Units(now) => {
                     if moved && units.is_some_and(|units| units != *now) {
-                        let help = "run it in one unit: a job has one";
+                        let help = "write the program in one unit: a job has one unit";
                         return unsaid(item.line, "the program changes its units after its first move", help);
                     }
                     units = Some(*now);
@@ -133,7 +135,7 @@ pub(super) fn survey(
                 Action::Length(None) => length = None,
                 Action::Length(Some(register)) if *register < 0.0 => {
                     let help = "give the tool a register with the other sign, and G43";
-                    return unsaid(item.line, "G44, a length offset that is taken off", help);
+                    return unsaid(item.line, "G44, a subtracted length offset", help);
                 }
                 Action::Tool(_) => {
                     survey.registers.push(Registers::default());
@@ -157,7 +159,7 @@ pub(super) fn survey(
         if !more {
             break;
         }
-        // its name stands after its number
+        // the name of a program is the comment after its number
         if !named && simulator.program().is_some() {
             named = true;
             let name = simulator.comment().map(|name| String::from_utf8_lossy(name).trim().to_owned());
@@ -167,11 +169,11 @@ pub(super) fn survey(
     for (code, (line, count)) in left_out {
         let name = code.map_or("block delete".to_owned(), |code| code.to_string());
         let times = if count > 1 { format!(", {count} times") } else { String::new() };
-        let message = format!("{name}{times} has no place in a job and is left out");
-        warnings.push(warning(line, message, "if the machine needs it, print it by the form"));
+        let message = format!("{name}{times} is left out: a job can't contain it");
+        warnings.push(warning(line, message, "if the machine needs it, let the form print it"));
     }
     if simulator.begins_again() {
-        let message = "the program ends with M99 and begins again; a job ends";
+        let message = "the program ends with M99 and begins again, but a job ends";
         warnings.push(warning(simulator.line(), message, "print M99 in EndCode"));
     }
     survey.program = simulator.program();
@@ -179,7 +181,7 @@ pub(super) fn survey(
     Ok(survey)
 }
 
-/// A tool has one register of a kind.
+/// Records a register. A tool may have only one register of each kind.
 fn one(
     registers: &mut [Registers],
     which: impl Fn(&mut Registers) -> &mut Option<f64>,
@@ -191,7 +193,7 @@ fn one(
     match which(tool).replace(value) {
         Some(before) if before != value => {
             let message = format!("one tool uses two {name}{before} and {value}");
-            unsaid(line, message, "a tool of a job has one: change the tool between them, or the register")
+            unsaid(line, message, "a tool of a job has one: use one register, or change the tool between them")
         }
         _ => Ok(()),
     }

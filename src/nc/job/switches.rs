@@ -1,9 +1,9 @@
-//! What is switched on a machine: spindle, coolant, work offset. A job says it with the move after.
+//! Switches of a machine: spindle, coolant, work offset. A job sets them with the move that follows.
 
 use crate::nc::action::{Cooling, Rotation};
 use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
 
-/// What is switched on a machine, for comparison: what was said, and what is wanted now.
+/// Switches of a machine. The events given so far and the state now required are compared by these values.
 #[derive(Clone, Copy, PartialEq, Default)]
 pub(super) struct Switches {
     pub rotation: Option<Rotation>,
@@ -16,7 +16,7 @@ pub(super) struct Switches {
 }
 
 impl Switches {
-    /// Takes a coolant code. `false`: flood and mist would be on together, and a job has one of them, the later.
+    /// Takes a coolant code. Returns `false` if flood and mist would both be on. A job has only one of them: the later.
     pub fn cool(&mut self, cooling: Cooling) -> bool {
         let wanted = match cooling {
             Cooling::Flood => Coolant::FLOOD,
@@ -28,10 +28,10 @@ impl Switches {
         !flows(wanted) || before.is_none_or(|before| !flows(before) || before == wanted)
     }
 
-    /// The spindle as a job says it.
+    /// The spindle as an event of a job has it.
     pub fn spindle(&self) -> Spindle {
         Spindle {
-            // a standing spindle's zero is no speed
+            // a speed of zero while the spindle is stopped is not a speed
             speed: self.speed.filter(|&speed| speed > 0.0 || self.turns()),
             turn: Some(match self.rotation {
                 Some(Rotation::Cw) => SpindleTurn::Cw,
@@ -43,7 +43,7 @@ impl Switches {
         }
     }
 
-    /// What is to be said where this was said and that is wanted.
+    /// The events that change these switches to `wanted`.
     pub fn changes(self, wanted: Switches) -> impl Iterator<Item = Event<'static>> {
         let of_spindle = |at: &Switches| (at.rotation, at.speed, at.css, at.limit);
         let spindle = (of_spindle(&self) != of_spindle(&wanted)).then(|| Event::Spindle(wanted.spindle()));
@@ -52,7 +52,7 @@ impl Switches {
         [spindle, coolant, work].into_iter().flatten()
     }
 
-    /// Does the spindle turn?
+    /// Whether the spindle turns.
     pub fn turns(&self) -> bool {
         matches!(self.rotation, Some(Rotation::Cw | Rotation::Ccw))
     }

@@ -1,4 +1,4 @@
-//! Programs of lathes as jobs: actions become events. Positions are Z, and X as a radius.
+//! Converts lathe programs to jobs: actions become events. Positions are Z, and X as a radius.
 
 use super::fault::{Done, unsaid, warning};
 use super::options::JobOptions;
@@ -14,10 +14,10 @@ use crate::toolpath::{
 
 /// X and Z of the machine, as bits.
 const AXES: u8 = 0b101;
-/// Stations of a turret's T word: two digits of offset follow.
+/// Divides a T word into station and offset: the last two digits are the offset.
 const STATION: f64 = 100.0;
 
-/// Actions to events.
+/// Converts actions to events.
 pub(super) struct Turner<'a> {
     survey: &'a Survey,
     options: &'a JobOptions,
@@ -25,25 +25,25 @@ pub(super) struct Turner<'a> {
     sink: &'a mut dyn Sink,
     place: Place,
     started: bool,
-    /// The station in front, and the T word of the operation.
+    /// T word of the active station, and of the operation.
     station: Option<f64>,
     tool: Option<f64>,
-    /// An operation begins with the next move.
+    /// Whether an operation begins with the next move.
     operation: bool,
     wanted: Switches,
     said: Switches,
     mode: FeedMode,
-    /// Where the tool is, on the axes whose position the program has said.
+    /// Position of the tool, on the axes that the program has positioned.
     at: Axes,
-    /// The tool's offset is off: T with 00 after the station.
+    /// Whether the tool offset is off: T has 00 after the station.
     without: bool,
-    /// The tool went to the reference point, and nothing has moved since.
+    /// Whether the tool is at the reference point: nothing has moved since it went there.
     home: bool,
-    /// It went home along X or Z alone: a job has no such way.
+    /// Whether the tool went home along X or Z only. A job has no such move.
     half_home: bool,
-    /// Side of compensation, as wanted and as the last move left it.
+    /// Side of compensation: the side now programmed, and the side after the last move.
     side: [Option<Side>; 2],
-    /// A thread's passes follow.
+    /// Whether the passes of a thread follow.
     in_thread: bool,
     comments: Vec<String>,
 }
@@ -57,7 +57,7 @@ impl<'a> Turner<'a> {
         mode: FeedMode,
     ) -> Result<Turner<'a>, Stop> {
         if survey.rotary != 0 {
-            let help = "take the moves of C, A and B out: the job of a lathe has Z and X";
+            let help = "remove the moves of C, A and B: the job of a lathe has only Z and X";
             return unsaid(1, "the program turns a rotary axis", help);
         }
         Ok(Turner {
@@ -83,29 +83,29 @@ impl<'a> Turner<'a> {
         })
     }
 
-    /// Takes an action of a block, whose text is `block`.
+    /// Takes an action of a block with the text `block`.
     pub fn take(&mut self, item: &Item, block: &[u8]) -> Done {
         self.place.line = item.line;
         self.place.column = 1;
         let line = item.line;
         if item.by_cycle && self.in_thread {
-            return Ok(()); // the thread is told as one
+            return Ok(()); // the whole thread is one event
         }
         self.in_thread = false;
         match &item.action {
             Action::Rapid { to, .. } | Action::Feed { to, .. } | Action::Arc(Turn { to, .. }) if to[1] != 0.0 => {
-                unsaid(line, "a move along Y", "take it out: the job of a lathe has Z and X")
+                unsaid(line, "a move along Y", "remove it: the job of a lathe has only Z and X")
             }
             Action::Rapid { astray, .. } if astray & AXES != 0 => {
                 let help = "write the position by X and Z, or go there by G53";
-                unsaid(line, "an increment leads on from a position that only the machine knows", help)
+                unsaid(line, "an increment from an unknown machine position", help)
             }
             Action::Rapid { to, machine, .. } => self.rapid(to, *machine),
             Action::Feed { lead: Some(_), .. } => {
-                unsaid(line, "a pass of a thread by itself", "write the thread by G76, in two blocks")
+                unsaid(line, "a single pass of a thread", "write the thread as G76 in two blocks")
             }
             Action::Feed { home: 1.., .. } => {
-                unsaid(line, "a cut goes to a position of the machine", "write G0 with G53")
+                unsaid(line, "a cut to a position in machine coordinates", "write G0 with G53")
             }
             Action::Feed { to, feed, .. } => {
                 self.cut_begins()?;
@@ -114,7 +114,7 @@ impl<'a> Turner<'a> {
             }
             Action::Arc(turn) => self.arc(turn),
             Action::Passes(passes) => self.thread(passes),
-            Action::Hole(_) => unsaid(line, "a canned cycle of a lathe", "write its moves"),
+            Action::Hole(_) => unsaid(line, "a canned cycle of a lathe", "write the cycle as single moves"),
             Action::Dwell(seconds) => self.between(Event::Dwell(*seconds)),
             Action::Stop(kind) => self.between(Event::Stop(*kind)),
             Action::Tool(station) => {
@@ -140,8 +140,8 @@ impl<'a> Turner<'a> {
             }
             Action::Coolant(cooling) => {
                 if !self.wanted.cool(*cooling) {
-                    let message = "flood and mist at once: a job has one of them, the later";
-                    self.warnings.push(warning(line, message, "print the other by the form"));
+                    let message = "flood and mist at once: the job has only the later one";
+                    self.warnings.push(warning(line, message, "let the form print the other one"));
                 }
                 Ok(())
             }
@@ -192,11 +192,11 @@ impl<'a> Turner<'a> {
         self.push(Event::Start(&self.survey.start(Machine::Lathe)?))
     }
 
-    /// Another station or offset: an operation with another tool begins with the next move.
+    /// Begins an operation with another station or offset at the next move.
     fn tool_change(&mut self, register: f64) -> Done {
         let Some(station) = self.station else { return Ok(()) };
         let word = station * STATION + register;
-        // a turret turns where it stands, and positions count from the tool that it turns to
+        // a turret indexes at its position, and later positions are those of the new tool
         (self.without, self.at) = (false, Axes::default());
         if self.tool == Some(word) {
             return Ok(());
@@ -210,11 +210,11 @@ impl<'a> Turner<'a> {
         Ok(())
     }
 
-    /// What comes before a move: the operation that it begins, the way home, and what was switched.
+    /// Pushes the events before a move: the operation that it begins, the move home, and what was switched.
     fn move_begins(&mut self, first: First) -> Done {
         if self.half_home {
-            let help = "send it home along both axes (G28 U0 W0), or write where it goes by X and Z";
-            return unsaid(self.place.line, "the tool goes home along X or Z alone, and on from there", help);
+            let help = "send it home along both axes (G28 U0 W0), or write its position in X and Z";
+            return unsaid(self.place.line, "the tool goes home along only X or Z, and then moves on", help);
         }
         self.start()?;
         if std::mem::take(&mut self.operation) {
@@ -230,12 +230,12 @@ impl<'a> Turner<'a> {
 
     fn begin_operation(&mut self, first: First) -> Done {
         let Some(number) = self.tool.or(self.options.tool) else {
-            let help = "say which with `--assume-tool NUMBER`: a T word with its offset, as 101";
+            let help = "give the tool with `--assume-tool NUMBER`: a T word with its offset, as 101";
             return unsaid(self.place.line, "the program moves before it loads a tool", help);
         };
         self.place.operation += 1;
         self.place.item = 0;
-        // the same tool again after another feed mode: home is then a way of its own
+        // if the same tool continues in another feed mode, the move home is a separate event
         let goes_home = std::mem::take(&mut self.home);
         let change = ToolChange {
             name: None,
@@ -275,8 +275,9 @@ impl<'a> Turner<'a> {
             return Ok(());
         }
         if self.without {
-            let message = "a rapid without the tool's offset (T with 00 after the station) is a way home in the job";
-            self.warnings.push(warning(self.place.line, message, "look at the position to which the form goes"));
+            let message =
+                "a rapid without the tool's offset (T with 00 after the station) becomes a move home in the job";
+            self.warnings.push(warning(self.place.line, message, "check the home position in the form"));
             (self.home, self.half_home) = (true, false);
             return Ok(());
         }
@@ -292,7 +293,7 @@ impl<'a> Turner<'a> {
         self.straight(to, None)
     }
 
-    /// Takes the end of a straight move. `false`: it moves nothing.
+    /// Takes the end of a straight move. Returns `false` if nothing moves.
     fn goes(&mut self, to: Axes) -> bool {
         let [wanted, on] = self.side;
         let stays = to == self.at && wanted == on && !self.home;
@@ -300,7 +301,8 @@ impl<'a> Turner<'a> {
         !stays
     }
 
-    /// A straight move, a rapid without a feed; the first after G41, G42 or G40 turns compensation on or off.
+    /// Pushes a straight move. A move without a feed is a rapid. The first move after G41, G42 or G40 switches
+    /// compensation.
     fn straight(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
         let [wanted, on] = self.side;
@@ -317,11 +319,11 @@ impl<'a> Turner<'a> {
         }
     }
 
-    /// A cut begins where the program has said that the tool is.
+    /// Begins a cut. The program must have positioned the tool.
     fn cut_begins(&mut self) -> Done {
         if self.at.given != 0b11 || self.home {
             let help = "write a rapid with X and Z before it";
-            return unsaid(self.place.line, "a cut begins at a position that only the machine knows", help);
+            return unsaid(self.place.line, "a cut begins at an unknown machine position", help);
         }
         self.move_begins(First::Cut)
     }
@@ -348,13 +350,13 @@ impl<'a> Turner<'a> {
     fn thread(&mut self, passes: &Passes) -> Done {
         if self.at.given != 0b11 || self.home {
             let help = "write a rapid with X and Z before it";
-            return unsaid(self.place.line, "a thread begins at a position that only the machine knows", help);
+            return unsaid(self.place.line, "a thread begins at an unknown machine position", help);
         }
         self.move_begins(First::Nothing)?;
         self.in_thread = true;
         if passes.allowance > 0.0 || passes.last > 0 {
             let message = "a job has no last passes of a thread (R and the first digits of P in G76's first block)";
-            self.warnings.push(warning(self.place.line, message, "print them by the form"));
+            self.warnings.push(warning(self.place.line, message, "let the form print them"));
         }
         let [from, to] = [passes.from, passes.to].map(|[radius, z]| Axes::new(&[z, radius]));
         let taper = Some(passes.taper).filter(|taper| *taper != 0.0);
@@ -374,13 +376,13 @@ impl<'a> Turner<'a> {
         self.push(Event::Thread(&thread))
     }
 
-    /// What is done where the tool stands.
+    /// Pushes an event that happens at the tool's current position.
     fn between(&mut self, event: Event<'_>) -> Done {
         let half_home = std::mem::take(&mut self.half_home);
         if half_home {
             let message =
-                "a way home along X or Z alone before a stop or a dwell is the form's whole way home in the job";
-            self.warnings.push(warning(self.place.line, message, "look at the position to which the form goes"));
+                "a move home along only X or Z before a stop or a dwell becomes a complete move home in the job";
+            self.warnings.push(warning(self.place.line, message, "check the home position in the form"));
             self.home = true;
         }
         self.move_begins(First::Nothing)?;
@@ -402,7 +404,7 @@ impl<'a> Turner<'a> {
     }
 }
 
-/// A position of the machine as a job has it: Z, and X as a radius. `given`: bits of X and Z that are.
+/// Converts a machine position to axes of a job: Z, and X as a radius. `given`: bits of X and Z that are known.
 fn axes(to: &Position, given: u8) -> Axes {
     let mut axes = Axes::default();
     if given & 0b100 != 0 {

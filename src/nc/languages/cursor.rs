@@ -6,14 +6,14 @@ use crate::diag::Code;
 use crate::nc::digits::{signed, unsigned};
 use crate::nc::fault::{Done, Fault};
 
-/// A block that is being read. Blanks between its parts do not count.
+/// A block that is being read. Spaces between its parts are skipped.
 pub struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
 }
 
 impl<'a> Cursor<'a> {
-    /// The text from this byte on.
+    /// Reads a text from this byte on.
     pub fn new(text: &'a [u8], at: usize) -> Cursor<'a> {
         let mut cursor = Cursor { text, at };
         cursor.skip_blanks();
@@ -26,7 +26,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The same block, from another byte on.
+    /// A cursor on the same block at another byte.
     pub fn from(&self, at: usize) -> Cursor<'a> {
         Cursor::new(self.text, at)
     }
@@ -36,22 +36,22 @@ impl<'a> Cursor<'a> {
         self.skip_blanks();
     }
 
-    /// The byte at which it stands.
+    /// The byte offset of the cursor.
     pub fn at(&self) -> usize {
         self.at
     }
 
-    /// What is left of the block.
+    /// The unread rest of the block.
     pub fn rest(&self) -> &'a [u8] {
         self.text.get(self.at..).unwrap_or_default()
     }
 
-    /// The next byte, not taken.
+    /// The next byte, without taking it.
     pub fn peek(&self) -> Option<u8> {
         self.text.get(self.at).copied()
     }
 
-    /// Is the block over?
+    /// Whether the block is read to its end.
     pub fn is_over(&self) -> bool {
         self.at >= self.text.len()
     }
@@ -65,7 +65,7 @@ impl<'a> Cursor<'a> {
         is_next
     }
 
-    /// Takes a whole word, in capital or small letters, if it is next.
+    /// Takes a whole word if it is next, in upper or lower case.
     pub fn takes_word(&mut self, word: &str) -> bool {
         let before = self.at;
         if self.name().is_some_and(|name| name.eq_ignore_ascii_case(word.as_bytes())) {
@@ -75,14 +75,14 @@ impl<'a> Cursor<'a> {
         false
     }
 
-    /// A name: letters, digits, `_` and `$`, and no digit first.
+    /// Takes a name: letters, digits, `_` and `$`. The first character is not a digit.
     pub fn name(&mut self) -> Option<&'a [u8]> {
         let is_of_name = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$');
         let length = self.rest().iter().take_while(|byte| is_of_name(byte)).count();
         self.take(length).filter(|name| !name[0].is_ascii_digit())
     }
 
-    /// The letters that are next.
+    /// Takes the letters that are next.
     pub fn letters(&mut self) -> Option<&'a [u8]> {
         let length = self.rest().iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         self.take(length)
@@ -94,13 +94,14 @@ impl<'a> Cursor<'a> {
         Some(taken)
     }
 
-    /// Passes over the digits that are next.
+    /// Skips the digits that are next.
     pub fn pass_digits(&mut self) {
         let length = self.rest().iter().take_while(|byte| byte.is_ascii_digit()).count();
         self.goes_to(self.at + length);
     }
 
-    /// A word of one letter and its number, as `X12.5`: the letter in capital form. Nothing is taken of `X=5`, `X1=5` or `X+Q5`.
+    /// Takes a word of one letter and its number, such as `X12.5`. The letter is returned in upper case. `X=5`, `X1=5`
+    /// and `X+Q5` are not taken.
     pub fn word(&mut self) -> Option<(u8, f64)> {
         let [letter, next, ..] = *self.rest() else { return None };
         if !letter.is_ascii_alphabetic() || next.is_ascii_alphabetic() {
@@ -116,8 +117,8 @@ impl<'a> Cursor<'a> {
         Some((letter.to_ascii_uppercase(), number.value))
     }
 
-    /// Is the rest of the block words of one letter, and the first of them a code G or an axis? It then sets no variable, has no
-    /// label and calls nothing.
+    /// Whether the rest of the block consists of words of one letter, and the first letter is G or an axis. Such a block
+    /// sets no variable, has no label and calls nothing.
     pub fn is_words(&self) -> bool {
         let [letter, next, ..] = *self.rest() else { return false };
         matches!(letter, b'G' | b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')
@@ -125,26 +126,26 @@ impl<'a> Cursor<'a> {
             && memchr::memchr2(b'=', b':', self.rest()).is_none()
     }
 
-    /// Do these bytes, in capital letters, come next, in capital or small letters?
+    /// Whether these bytes come next, in upper or lower case. `capitals` is in upper case.
     pub fn is_next(&self, capitals: &[u8]) -> bool {
         self.rest().get(..capitals.len()).is_some_and(|next| next.eq_ignore_ascii_case(capitals))
     }
 
-    /// A number without a sign.
+    /// Takes a number without a sign.
     pub fn unsigned(&mut self) -> Option<f64> {
         let (number, end) = unsigned(self.text, self.at)?;
         self.goes_to(end);
         Some(number.value)
     }
 
-    /// A number with or without a sign.
+    /// Takes a number with or without a sign.
     pub fn signed(&mut self) -> Option<f64> {
         let (number, end) = signed(self.text, self.at)?;
         self.goes_to(end);
         Some(number.value)
     }
 
-    /// A text in quotes, without them.
+    /// Takes a text in quotes and returns it without the quotes.
     pub fn quoted(&mut self) -> Option<&'a [u8]> {
         let rest = self.rest().strip_prefix(b"\"")?;
         let length = rest.iter().position(|byte| *byte == b'"')?;
@@ -155,26 +156,26 @@ impl<'a> Cursor<'a> {
     /// Takes these bytes.
     ///
     /// # Errors
-    /// Others are next.
+    /// Other bytes are next.
     pub fn needs(&mut self, bytes: &[u8]) -> Done {
         if self.takes(bytes) {
             return Ok(());
         }
         let message = format!("`{}` is missing", String::from_utf8_lossy(bytes));
-        Err(Fault::at(Code::PN001, self.at, message, "look for a misprint"))
+        Err(Fault::at(Code::PN001, self.at, message, "check the spelling"))
     }
 
-    /// A fault about what is next.
+    /// A fault at the unreadable text that is next.
     pub fn unreadable(&self) -> Box<Fault> {
         let rest = String::from_utf8_lossy(self.rest());
         let word: String = rest.trim_end().chars().take_while(|c| !c.is_whitespace()).take(40).collect();
         let message =
             if word.is_empty() { "the block ends too early".to_owned() } else { format!("`{word}` can't be read") };
-        Fault::at(Code::PN001, self.at, message, "take it out, or put it into a comment")
+        Fault::at(Code::PN001, self.at, message, "remove it, or put it into a comment")
     }
 }
 
-/// A word in capital letters; as it stands where it is written so, as in most programs.
+/// A word in upper case. It is borrowed if it is already in upper case, as in most programs.
 pub fn capitals(word: &[u8]) -> Cow<'_, str> {
     match str::from_utf8(word) {
         Ok(text) if !word.iter().any(u8::is_ascii_lowercase) => Cow::Borrowed(text),

@@ -7,10 +7,10 @@ use crate::nc::fault::{Done, Fault};
 /// Deepest nesting of brackets.
 const DEEPEST: u32 = 64;
 
-/// What a name stands for. `None`: it stands for nothing.
+/// The value of a name. `None`: the name is unknown.
 pub type Values<'v> = dyn Fn(&str) -> Option<f64> + 'v;
 
-/// Two operands' operators by strength; those of one strength are worked off from the left.
+/// Binary operators by precedence. Operators of the same precedence are evaluated from left to right.
 const OPERATORS: [&[(&str, Operator)]; 5] = [
     &[("AND", Operator::And), ("OR", Operator::Or), ("XOR", Operator::Xor)],
     &[
@@ -76,10 +76,10 @@ impl Operator {
     }
 }
 
-/// A function of one argument by its name.
+/// A function of one argument, with its name.
 type Function = (&'static str, fn(f64) -> f64);
 
-/// Functions; angles are degrees.
+/// The functions. Angles are in degrees.
 const FUNCTIONS: [Function; 16] = [
     ("SIN", |x| x.to_radians().sin()),
     ("COS", |x| x.to_radians().cos()),
@@ -99,18 +99,18 @@ const FUNCTIONS: [Function; 16] = [
     ("EXP", f64::exp),
 ];
 
-/// Reads a formula and calculates it.
+/// Reads and evaluates a formula.
 ///
 /// # Errors
-/// It can't be read, one of its names stands for no known number, or its result is none.
+/// The formula can't be read, one of its names has no known value, or it has no result.
 pub fn formula(cursor: &mut Cursor<'_>, values: &Values<'_>) -> Done<f64> {
     let begin = cursor.at();
     let value = binary(cursor, values, 0, 0)?;
     if value.is_finite() {
         return Ok(value);
     }
-    let message = format!("the result is {value}, and no number");
-    Err(Fault::at(Code::PN014, begin, message, "look for a division by zero, or a root of a negative number"))
+    let message = format!("the result is {value}, not a number");
+    Err(Fault::at(Code::PN014, begin, message, "check for a division by zero, or a root of a negative number"))
 }
 
 fn binary(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: u32) -> Done<f64> {
@@ -173,7 +173,7 @@ fn unary(cursor: &mut Cursor<'_>, values: &Values<'_>, depth: u32) -> Done<f64> 
     if let Some(value) = values(&name) {
         return Ok(value);
     }
-    let help = "give it a number in the program before: what the machine holds in it is unknown here";
+    let help = "set it earlier in the program: its value in the machine is unknown";
     Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
 }
 

@@ -1,7 +1,7 @@
-//! Languages of blocks beside that of G codes with one letter: Siemens 840D, Heidenhain Klartext, Okuma OSP.
+//! Block languages other than G codes with one letter: Siemens 840D, Heidenhain Klartext, Okuma OSP.
 //!
-//! A reader turns each block into the words and meanings that the simulator runs, so that there is one machine below all of
-//! them. A block that it does not know is refused by name.
+//! A reader converts each block to the words and meanings that the simulator runs, so all languages share one machine. An
+//! unknown block is refused by name.
 
 mod canned;
 mod cursor;

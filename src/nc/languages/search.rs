@@ -1,11 +1,11 @@
-//! Where a search leads, by the language.
+//! Searches for jump targets, by language.
 
 use crate::control::Rules;
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::Search;
 
 impl Simulator<'_> {
-    /// Goes where a search leads.
+    /// Searches for the target and jumps to it.
     pub(in crate::nc) fn search(&mut self, search: Search) -> Result<(), RunError> {
         match self.state.settings.control.rules() {
             Rules::Klartext => self.search_klartext(search),

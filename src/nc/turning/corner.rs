@@ -1,7 +1,9 @@
-//! Chamfers and rounded corners of lathes: I, K or R in a straight cut along one axis, which the next block leaves along the other.
+//! Chamfers and rounded corners of lathes. I, K or R in a straight cut along one axis makes a corner, and the next block
+//! leaves it along the other axis.
 //!
-//! Sources: Fanuc's operator's manual of the 0i-T (chamfering and corner R), Haas's lathe operator's manual (G1). The sign says
-//! the way of the next block; it counts from the corner, which no block reaches, and is as long as the chamfer at least.
+//! Sources: Fanuc's operator's manual of the 0i-T (chamfering and corner R), Haas's lathe operator's manual (G1). The
+//! sign is the direction of the next block. The next block is measured from the corner point, which the tool does not
+//! reach, and is at least as long as the chamfer.
 
 use crate::control::Meaning;
 use crate::diag::Code;
@@ -14,22 +16,22 @@ use crate::nc::profiled::Corner;
 use crate::nc::state::State;
 use crate::toolpath::{Direction, Plane};
 
-/// What the words of a block ask for.
+/// The corner that the words of a block request.
 struct Asked {
-    /// The axis of its own cut.
+    /// The axis of the block's own cut.
     along: usize,
-    /// The chamfer or radius, positive where the next block goes to plus.
+    /// The chamfer or radius; positive if the next block moves in the positive direction.
     size: f64,
     rounds: bool,
 }
 
-/// Lengths below which two positions are one.
+/// Positions closer than this are equal.
 const SAME: f64 = 1e-7;
 
-const NEXT: &str = "write a G1 along the other axis after it, or write the corner as moves";
+const NEXT: &str = "write a G1 along the other axis in the next block, or write the corner as moves";
 
 impl State {
-    /// Is the block what a corner before it needs? It is asked of every block that does something.
+    /// Checks that a block leaves the previous corner as required. It is called for every block that is not empty.
     pub(in crate::nc) fn check_after_corner(&self, motion: Motion, block: &Block) -> Done {
         let Some(due) = self.turning.corner else { return Ok(()) };
         let [own, other] = if due.axis == 0 { ["XU", "ZW"] } else { ["ZW", "XU"] };
@@ -38,10 +40,10 @@ impl State {
         if moves && !block.has(letters(other)) && !block.has(letters("YT")) && !frames {
             return Ok(());
         }
-        refuse(Code::PN006, "a chamfer or rounded corner, and the next block does not leave it", NEXT)
+        refuse(Code::PN006, "a chamfer or rounded corner, but the next block does not move along the other axis", NEXT)
     }
 
-    /// A straight cut of a lathe with what is before and after it: the corner where it begins, and the one where it ends.
+    /// Makes a straight cut of a lathe with the corner at its start and the corner at its end.
     pub(in crate::nc) fn cut_with_corners(&mut self, block: &Block, feed: f64, out: &mut Out<'_>) -> Done {
         let from = self.place.position;
         let asked = asked(block)?;
@@ -51,10 +53,11 @@ impl State {
                 to[due.axis] -= due.by;
             }
             if (to[due.axis] - from[due.axis]) * due.by.signum() < -SAME {
-                let message = "the block after a chamfer or rounded corner goes the other way, or is shorter than it";
-                return refuse(Code::PN018, message, "look at the sign and the size of I, K or R before it");
+                let message =
+                    "the block after a chamfer or rounded corner moves in the opposite direction, or is too short";
+                return refuse(Code::PN018, message, "check the sign and the size of I, K or R in the block before");
             }
-            // a chamfer as long as this cut leaves nothing of it
+            // if the chamfer is as long as this cut, nothing of the cut remains
             if asked.is_none() && (to[due.axis] - from[due.axis]).abs() <= SAME {
                 return Ok(());
             }
@@ -64,7 +67,7 @@ impl State {
             return Ok(());
         };
         if self.place.at_machine & 0b101 != 0 {
-            let message = "a chamfer or rounded corner from a position that only the machine knows";
+            let message = "a chamfer or rounded corner from an unknown machine position";
             return refuse(Code::PN007, message, "write a move with X and Z before it");
         }
         let length = to[along] - from[along];
@@ -92,7 +95,7 @@ impl State {
         Ok(())
     }
 
-    /// A quarter of a circle that leaves its first point along an axis. `turns`: above 0 where both ways go the same way.
+    /// A quarter circle that leaves its first point along an axis. `turns`: above 0 if both cuts have the same sign.
     fn rounding(&self, from: Position, to: Position, along: usize, turns: f64, feed: f64) -> Turn {
         let mut center = [to[0], to[1], to[2]];
         center[along] = from[along];
@@ -103,7 +106,7 @@ impl State {
     }
 }
 
-/// I, K and R are all on the radius.
+/// Reads I, K and R. All are on the radius.
 fn asked(block: &Block) -> Done<Option<Asked>> {
     let words = [b'I', b'K', b'R'].map(|letter| block.get(letter).map(|value| (letter, value)));
     let mut words = words.into_iter().flatten();
@@ -124,7 +127,7 @@ fn asked(block: &Block) -> Done<Option<Asked>> {
                 _ => "one axis",
             }
         );
-        return refuse(Code::PN009, message, "I belongs to a cut along Z, K to one along X, R to both");
+        return refuse(Code::PN009, message, "use I in a cut along Z, K in a cut along X, and R in both");
     }
     if size == 0.0 {
         return refuse(Code::PN018, "a chamfer or rounded corner of 0", "leave it out");

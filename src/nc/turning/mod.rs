@@ -1,7 +1,8 @@
-//! Turning cycles of Fanuc's kind: G70 to G75, G90 and G94 of system A, in two blocks, and Haas's in one.
+//! Turning cycles of the Fanuc kind: G70 to G75, G90 and G94 of system A in two blocks, and those of Haas in one.
 //!
-//! Sources: Fanuc's operator's manuals of the 0i-T and 31i (canned and multiple repetitive cycles), Haas's lathe operator's
-//! manual (G70 to G75). What they leave to parameters and settings is said where it is decided.
+//! Sources: Fanuc's operator's manuals of the 0i-T and 31i (canned and multiple repetitive cycles), Haas's lathe
+//! operator's manual (G70 to G75). Comments in the code state what is done where the manuals leave it to parameters and
+//! settings.
 
 mod corner;
 mod passes;
@@ -18,11 +19,12 @@ use crate::control::{Meaning, Row};
 use crate::diag::Code;
 use crate::toolpath::Units;
 
-/// Most passes of a cycle.
+/// The largest number of passes of a cycle.
 const MOST: f64 = 10_000.0;
 
 impl State {
-    /// A cycle of several passes. A profile that it follows is the caller's to find; the cycle itself is made then.
+    /// Runs a cycle of several passes. If the cycle follows a profile, the caller finds the profile and then makes the
+    /// cycle.
     pub(super) fn turning_cycle(&mut self, block: &Block, out: &mut super::out::Out<'_>) -> Done<Option<Profiled>> {
         let Some(row) = block.row(Group::Once) else { return Ok(None) };
         match row.meaning {
@@ -31,8 +33,8 @@ impl State {
                     return self.first_of(row, block).map(|()| None);
                 };
                 if block.get(b'R').is_some_and(|second| second != 0.0) {
-                    let message = format!("{} with R, for profiles that go back on themselves", row.code);
-                    return refuse(Code::PN016, message, "cut the pocket by a cycle of its own, or write its moves");
+                    let message = format!("{} with R, for profiles with pockets", row.code);
+                    return refuse(Code::PN016, message, "cut the pocket with a separate cycle, or write its moves");
                 }
                 self.begins_in_the_program(row.code)?;
                 let how = self.how(row, block)?;
@@ -43,25 +45,24 @@ impl State {
         }
     }
 
-    /// A cycle of several passes counts them from where it begins.
+    /// Checks that a cycle of several passes begins at a known position, because its passes are counted from there.
     pub(in crate::nc) fn begins_in_the_program(&self, code: impl std::fmt::Display) -> Done {
         if self.place.at_machine & 0b101 == 0 {
             return Ok(());
         }
-        let message =
-            format!("{code} begins at a position that only the machine knows: where its passes lie is unknown");
+        let message = format!("{code} begins at an unknown machine position: the positions of its passes are unknown");
         refuse(Code::PN007, message, "write a rapid with X and Z before it")
     }
 
-    /// The first block of two.
+    /// Reads the first of two blocks.
     fn first_of(&mut self, row: &Row, block: &Block) -> Done {
         let meaning = row.meaning;
-        // a Haas has one block
+        // a Haas has only one block
         if meaning == Meaning::Finish || row.words.has(b'D') || !block.has(letters("UWR")) {
             return refuse(
                 Code::PN007,
                 "a turning cycle without P and Q",
-                "write the numbers of its profile's first block and its last: G71 P10 Q20",
+                "write the block numbers of the first and the last block of its profile: G71 P10 Q20",
             );
         }
         let depth = if meaning == Meaning::RoughFace { b'W' } else { b'U' };
@@ -78,14 +79,14 @@ impl State {
         Ok(())
     }
 
-    /// A word that has no sign.
+    /// Checks that a word has no minus sign.
     pub(in crate::nc) fn is_size(&self, block: &Block, letter: u8) -> Done {
         match block.get(letter) {
             Some(size) if size < 0.0 => {
                 let letter = char::from(letter);
                 refuse(
                     Code::PN018,
-                    format!("{letter}{size} is a size, and below 0"),
+                    format!("{letter}{size} is negative, but it is a size"),
                     format!("write {letter} without the minus"),
                 )
             }
@@ -100,17 +101,16 @@ impl State {
             Meaning::Finish => How::Finish,
             Meaning::RoughPattern => {
                 let [x, z, count] = self.turning.pattern;
-                // Haas has them in one block
+                // on a Haas, these words are in the same block
                 let x = block.get(b'I').or(x).unwrap_or(0.0);
                 let z = block.get(b'K').or(z).unwrap_or(0.0);
                 let Some(count) = block.get(b'D').or(count).filter(|count| (1.0..=MOST).contains(count)) else {
-                    let help = "G73 U.. W.. R(how often) before it; on a Haas D in its block";
-                    return refuse(Code::PN007, "G73 does not say how often", help);
+                    let help = "write G73 U.. W.. R(number of passes) before it; on a Haas write D in its block";
+                    return refuse(Code::PN007, "G73 without its number of passes", help);
                 };
                 if count == 1.0 && [x, z] != [0.0; 2] {
-                    let message =
-                        "G73 with one pass that also has a distance to the first: which counts is in no manual";
-                    return refuse(Code::PN016, message, "write two passes or more, or no distance");
+                    let message = "G73 with one pass and a distance to the first pass: no manual defines the result";
+                    return refuse(Code::PN016, message, "write two or more passes, or no distance");
                 }
                 How::Pattern { outside: [x, z], count: count as u32, left }
             }
@@ -120,23 +120,24 @@ impl State {
                 let (code, letter) = if across { ("G72", 'W') } else { ("G71", 'U') };
                 self.is_size(block, b'D')?;
                 let Some(depth) = block.get(b'D').or(depth).filter(|depth| *depth > 0.0) else {
-                    let message = format!("{code} does not say how deep a pass is: a parameter of the control does");
-                    let help = format!("{code} {letter}2. R1. before it; on a Haas D in its block");
+                    let message =
+                        format!("{code} without the depth of a pass: it would come from a parameter of the control");
+                    let help = format!("write {code} {letter}2. R1. before it; on a Haas write D in its block");
                     return refuse(Code::PN007, message, help);
                 };
-                // the one block of a Haas does not say it
+                // the single block of a Haas does not contain it
                 let one_block = row.words.has(b'D');
                 let Some(back) = back.or_else(|| one_block.then(|| self.usual_back())) else {
                     let message =
-                        format!("{code} does not say how far a pass goes back: a parameter of the control does");
-                    return refuse(Code::PN007, message, format!("{code} {letter}2. R1. before it"));
+                        format!("{code} without the retract of a pass: it would come from a parameter of the control");
+                    return refuse(Code::PN007, message, format!("write {code} {letter}2. R1. before it"));
                 };
                 How::Passes { across, depth, back, left }
             }
         })
     }
 
-    /// How far a pass goes back where the program does not say: 0.05 inch, which Haas's settings 22 and 73 have from the factory.
+    /// The retract of a pass if it is not programmed: 0.05 inch, the factory value of Haas's settings 22 and 73.
     fn usual_back(&self) -> f64 {
         if self.modes.units == Units::Inch { 0.05 } else { 1.27 }
     }

@@ -1,4 +1,4 @@
-//! G90 and G94 of system A: one pass along a cylinder or a face, and back to its start.
+//! G90 and G94 of system A: one pass along a cylinder or a face, and the return to its start.
 
 use crate::control::Meaning;
 use crate::nc::block::Block;
@@ -7,14 +7,14 @@ use crate::nc::out::Out;
 use crate::nc::state::State;
 
 impl State {
-    /// A pass. The blocks after it make another where they give another position.
+    /// Makes a pass. The following blocks make further passes if they contain another position.
     pub(in crate::nc) fn turning_pass(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
-        // the taper is along X on a cone, along Z on a sloping face
+        // the taper is along X for a cone, along Z for a sloping face
         let (end, taper) = self.pass_end(does, block)?;
         let [out_of, along] = if does == Meaning::TurnPass { [0, 2] } else { [2, 0] };
-        // a position that only the machine knows stays one until the block says it
+        // a position known only at the machine stays so until the block contains it
         let at_end = self.place.at_machine;
         let is_said = |axis: usize| unsaid & !(1 << axis) | at_end & 1 << axis;
         let mut to = begin;

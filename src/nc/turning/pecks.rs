@@ -1,4 +1,4 @@
-//! G74 and G75: pecks along one axis, at positions along the other.
+//! G74 and G75: pecks along one axis, at several positions along the other.
 
 use super::MOST;
 use crate::control::{Meaning, Row};
@@ -12,7 +12,7 @@ use crate::nc::state::State;
 impl State {
     /// G74 pecks along Z and steps along X; G75 pecks along X and steps along Z.
     pub(super) fn turning_pecks(&mut self, row: &Row, block: &Block, out: &mut Out<'_>) -> Done {
-        // Haas has lengths in one block: the peck and the step of G74 are K and I, those of G75 I and K
+        // a Haas has all lengths in one block: the peck and the step of G74 are K and I, those of G75 are I and K
         let one_block = row.words.has(b'K');
         let is_first = !one_block && !block.has(letters("XZUWPQ"));
         if is_first {
@@ -23,8 +23,7 @@ impl State {
         let code = row.code;
         let relief = block.get(if one_block { b'D' } else { b'R' }).unwrap_or(0.0);
         if relief != 0.0 {
-            let message =
-                format!("{code} with a relief at the bottom, to a side that the text of no manual says for certain");
+            let message = format!("{code} with a relief at the bottom: no manual clearly defines its side");
             return refuse(Code::PN016, message, "write its moves, or leave the relief out");
         }
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
@@ -49,7 +48,7 @@ impl State {
             None if peck.is_none() => 0.0,
             None => {
                 let help = format!("write {code} R1. before it");
-                return refuse(Code::PN007, format!("{code} does not say how far it goes back after a peck"), help);
+                return refuse(Code::PN007, format!("{code} without the retract after a peck"), help);
             }
         };
         self.begins_in_the_program(code)?;
@@ -59,10 +58,10 @@ impl State {
         let strokes = peck.map_or(1.0, |peck| (depth.abs() / peck).ceil());
         let places = step.map_or(1.0, |step| (width.abs() / step).ceil());
         if strokes * places > MOST {
-            return refuse(Code::PN018, format!("{code} of over {MOST} pecks"), "write larger P and Q");
+            return refuse(Code::PN018, format!("{code} of more than {MOST} pecks"), "write larger P and Q");
         }
         if width != 0.0 && step.is_none() {
-            let message = format!("{code} goes to another position, and does not say in which steps");
+            let message = format!("{code} goes to another position without a step");
             return refuse(Code::PN007, message, format!("write {} with it", char::from(letter_of(across))));
         }
         let mut to = begin;

@@ -1,4 +1,4 @@
-//! Profiles: found by the numbers of their blocks, read by running them aside, or run for good.
+//! Profiles of turning cycles. They are found by their block numbers, read by a trial run, and run as the finish.
 
 use super::rough::{Move, Piece, Point, Profile, moves};
 use crate::diag::Code;
@@ -13,19 +13,19 @@ use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Spot};
 use crate::toolpath::{Direction, Plane};
 
-/// Where a profile stands.
+/// Location of a profile in the program.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::nc) struct Found {
-    /// The numbers of its first block and its last.
+    /// The numbers of the first and last block.
     numbers: [f64; 2],
-    /// Before its first block.
+    /// Position in the input before the first block.
     begin: Spot,
-    /// After its last one.
+    /// Position in the input after the last block.
     end: Spot,
 }
 
 impl Simulator<'_> {
-    /// Makes a cycle that follows a profile, from the block after which it stands.
+    /// Makes a cycle that follows a profile, from the block of the cycle.
     pub(in crate::nc) fn follow_profile(&mut self, asked: Profiled, items: &mut Vec<Item>) -> Result<(), RunError> {
         let (back, text) = (self.at, self.line.clone());
         let start = *self.state.position();
@@ -42,7 +42,7 @@ impl Simulator<'_> {
         self.profiles.push(found);
         let profile = self.read_profile(&found, matches!(asked.how, How::Passes { .. }))?;
         let made = moves(&profile, [start[0], start[2]], &asked.how);
-        // what is wrong with the cycle is said of its block
+        // faults of the cycle are reported at its block
         let after = std::mem::replace(&mut self.at, back);
         self.line = text;
         let made = made.map_err(|fault| self.refused(fault))?;
@@ -73,12 +73,12 @@ impl Simulator<'_> {
             }
         }
         self.at = after;
-        self.state.modes.motion = None; // the one of the profile, or the one before: controls differ
-        // the control goes on after the profile
+        self.state.modes.motion = None; // controls differ: it is the motion of the profile or the motion before
+        // the control continues after the profile
         self.go(found.end)
     }
 
-    /// The last block of a profile was run: back to the start of the cycle, and on after it.
+    /// Ends a profile after its last block: moves to the start of the cycle and continues after the cycle.
     pub(in crate::nc) fn end_profile(&mut self, items: &mut Vec<Item>) -> Option<Spot> {
         let Some(&Frame::Profile { back, end, start }) = self.frames.last() else { return None };
         if self.at.byte < end.byte {
@@ -90,7 +90,7 @@ impl Simulator<'_> {
         Some(back)
     }
 
-    /// Looks for a profile: the one that a cycle before has followed, else after this block.
+    /// Finds a profile: the one that an earlier cycle has followed, else one after this block.
     fn profile(&mut self, asked: Profiled, after: Spot) -> Result<Found, RunError> {
         let numbers = [asked.first, asked.last];
         if asked.how == How::Finish
@@ -115,12 +115,12 @@ impl Simulator<'_> {
         self.line = text;
         let (Some(begin), Some(end)) = (begin, end) else {
             let which = if begin.is_none() { asked.first } else { asked.last };
-            let message = format!("the profile's block N{which} does not stand after this one");
+            let message = format!("the profile's block N{which} does not follow this block");
             let help = match asked.how {
                 How::Finish => {
-                    "a finish has its profile after it, or after a cycle before it that has the same P and Q"
+                    "the profile of a finishing cycle follows it, or follows an earlier cycle with the same P and Q"
                 }
-                _ => "write the numbers of its first block and its last: P10 Q20",
+                _ => "write the block numbers of its first and its last block: P10 Q20",
             };
             let fault = Fault::new(Code::PN018, message, help);
             return Err(self.refused(fault));
@@ -128,10 +128,10 @@ impl Simulator<'_> {
         Ok(Found { numbers, begin, end })
     }
 
-    /// Runs the blocks of a profile aside, and gives what they cut. `in_passes`: it is cut by G71 or G72.
+    /// Reads the cuts of a profile by a trial run of its blocks. `in_passes`: the profile is cut by G71 or G72.
     fn read_profile(&mut self, found: &Found, in_passes: bool) -> Result<Profile, RunError> {
         self.go(found.begin)?;
-        // what it computes is computed once: where it is run for good
+        // the trial run works on copies, so that the state changes only when the profile is run as the finish
         let (mut aside, mut parameters) = (self.state.clone(), self.parameters.clone());
         let (mut items, mut reading) = (Vec::new(), Reading::default());
         while self.at.byte < found.end.byte && self.read_line()? {
@@ -142,25 +142,26 @@ impl Simulator<'_> {
                 Some(_) => refuse(Code::PN016, "a jump or a call in a profile", "write its moves"),
                 None => match aside.run(&mut self.block, self.at.line, &mut items)? {
                     Next::On => Ok(()),
-                    _ => refuse(Code::PN016, "a profile holds moves alone", "write this block before its cycle"),
+                    _ => refuse(Code::PN016, "a profile may contain only moves", "write this block before its cycle"),
                 },
             });
             let taken = run.and_then(|()| items.drain(..).try_for_each(|item| reading.take(&item)));
             taken.map_err(|fault| self.refused(fault))?;
         }
         let Some(profile) = reading.profile else {
-            let help = "P and Q name its first block and its last";
+            let help = "P and Q are the block numbers of its first and its last block";
             return Err(self.refused(Fault::new(Code::PN018, "the profile has no move", help)));
         };
         Ok(profile)
     }
 }
 
-/// Is the profile one of the first kind, that goes on along both axes? A first block along both axes makes it one of the second.
+/// Refuses a profile whose first block moves along both axes. Such a profile is of type II, for pockets.
 fn is_first_kind(block: &Block) -> Done {
     if [letters("XU"), letters("ZW")].iter().all(|words| block.has(*words)) {
-        let message = "the first block of the profile goes along X and Z: the cycle then cuts pockets, each control by rules of its own";
-        return refuse(Code::PN016, message, "write X alone in it for G71, Z alone for G72");
+        let message = "the first block of the profile moves along X and Z: the cycle then cuts pockets, and each \
+            control does this differently";
+        return refuse(Code::PN016, message, "write only X in it for G71, only Z for G72");
     }
     Ok(())
 }
@@ -174,11 +175,11 @@ fn number_of(line: &[u8]) -> Option<f64> {
     }
 }
 
-/// A profile as far as it is read.
+/// A profile while it is read.
 #[derive(Debug, Default)]
 struct Reading {
     profile: Option<Profile>,
-    /// A rapid has taken the tool away: nothing more is cut.
+    /// Whether a rapid has moved the tool away. No cut may follow.
     is_over: bool,
 }
 
@@ -199,14 +200,14 @@ impl Reading {
             | Action::Spindle(..)
             | Action::SurfaceSpeed(_)
             | Action::FeedMode(_) => return Ok(()),
-            _ => return refuse(Code::PN016, "a profile holds moves alone", "write this block before its cycle"),
+            _ => return refuse(Code::PN016, "a profile may contain only moves", "write this block before its cycle"),
         };
         match &mut self.profile {
             None if arc.is_none() => self.profile = Some(Profile { rapid, begin: to, pieces: Vec::new() }),
             None => return refuse(Code::PN016, "a profile begins with an arc", "begin it with G0 or G1"),
             Some(_) if rapid => self.is_over = true,
             Some(_) if self.is_over => {
-                return refuse(Code::PN016, "a cut after a rapid inside of a profile", "write G1: a profile is cut");
+                return refuse(Code::PN016, "a cut after a rapid inside a profile", "write G1 instead of the rapid");
             }
             Some(profile) => profile.pieces.push(Piece { to, arc }),
         }

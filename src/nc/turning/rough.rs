@@ -1,4 +1,4 @@
-//! Passes that remove what is outside of a profile: pure functions from a profile to moves.
+//! Passes that remove the stock outside a profile. These are pure functions from a profile to moves.
 
 use super::MOST;
 use crate::diag::Code;
@@ -11,20 +11,20 @@ pub(super) type Point = [f64; 2];
 /// A piece of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
-    /// Where it ends.
+    /// End of the piece.
     pub to: Point,
-    /// Its centre, and whether it turns counter-clockwise from Z to X; `None`: it is straight.
+    /// The centre, and whether the arc turns counter-clockwise from Z to X; `None`: a straight piece.
     pub arc: Option<(Point, bool)>,
 }
 
-/// A profile: a first move from the start of the cycle, then what is cut.
+/// A profile: a first move from the start of the cycle, then the cuts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Profile {
-    /// The first move is a rapid.
+    /// Whether the first move is a rapid.
     pub rapid: bool,
-    /// Where it ends.
+    /// End of the first move.
     pub begin: Point,
-    /// The rest.
+    /// The cuts.
     pub pieces: Vec<Piece>,
 }
 
@@ -35,7 +35,7 @@ pub(super) enum Move {
     Cut(Piece),
 }
 
-/// Lengths below which two positions are one.
+/// Positions closer than this are equal.
 const SAME: f64 = 1e-7;
 
 /// The moves of a cycle that begins and ends at `start`.
@@ -44,7 +44,8 @@ pub(super) fn moves(profile: &Profile, start: Point, how: &How) -> Done<Vec<Move
         How::Finish => Ok(Vec::new()),
         How::Pattern { outside, count, left } => Ok(pattern(profile, start, outside, count, left)),
         How::Passes { across, depth, back, left } => {
-            // a profile for cuts along X is one for cuts along Z with its axes exchanged, in which arcs turn the other way
+            // a profile for cuts along X is mirrored to one for cuts along Z: its axes are exchanged, and arcs change
+            // direction
             let turned = |point: Point| if across { [point[1], point[0]] } else { point };
             let piece = |piece: &Piece| Piece {
                 to: turned(piece.to),
@@ -79,7 +80,7 @@ fn first(profile: &Profile, to: Point) -> Move {
     if profile.rapid { Move::Rapid(to) } else { Move::Cut(Piece { to, arc: None }) }
 }
 
-/// G73: the whole profile, each time nearer.
+/// G73: the whole profile, each pass nearer to the final shape.
 fn pattern(profile: &Profile, start: Point, outside: Point, count: u32, left: Point) -> Vec<Move> {
     let mut list = Vec::new();
     for pass in 0..count {
@@ -93,8 +94,8 @@ fn pattern(profile: &Profile, start: Point, outside: Point, count: u32, left: Po
     list
 }
 
-/// G71: passes along the second coordinate, each deeper along the first; then along the profile with what is left for the
-/// finish. Type I alone: a profile that goes back on itself is refused.
+/// G71: passes along the second coordinate, each deeper along the first, then one pass along the profile with the
+/// allowance for the finish. Only type I is run: a profile that goes back on itself is refused.
 fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, across: bool) -> Done<Vec<Move>> {
     let inwards = (profile.begin[0] - start[0]).signum();
     let last = profile.pieces.last().map_or(profile.begin, |piece| piece.to);
@@ -103,18 +104,20 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     let code = if across { "G72" } else { "G71" };
     if (profile.begin[0] - start[0]).abs() < SAME {
         let message =
-            format!("{code}: the profile begins at the {deep} of the cycle's start: nothing is outside of it");
+            format!("{code}: the profile begins at the {deep} of the cycle's start: there is no material to remove");
         return refuse(
             Code::PN018,
             message,
-            format!("the first block of the profile goes to the {deep} of its beginning"),
+            format!("in the first block of the profile, move to the {deep} where the profile begins"),
         );
     }
     let beyond = |piece: &&Piece| (piece.to[0] - start[0]) * inwards < -SAME;
     if profile.pieces.iter().any(|piece| beyond(&piece)) {
-        let message =
-            format!("{code}: the profile ends farther out than the cycle begins: what is there is cut in one pass");
-        return refuse(Code::PN018, message, format!("begin at the {deep} of the stock, outside of the whole profile"));
+        let message = format!(
+            "{code}: the profile goes farther out than the start of the cycle: that part would be cut in one \
+                pass"
+        );
+        return refuse(Code::PN018, message, format!("begin at the {deep} of the stock, outside the whole profile"));
     }
     let mut from = profile.begin;
     for piece in &profile.pieces {
@@ -124,10 +127,9 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
         };
         for (axis, sense, name) in [(0, -inwards, deep), (1, onwards, along)] {
             if !goes_on(axis, sense) {
-                let message = format!(
-                    "{code}: the profile goes back along {name}, and how pockets are cut differs from control to control"
-                );
-                return refuse(Code::PN016, message, "cut the pocket by a cycle of its own, or write its moves");
+                let message =
+                    format!("{code}: the profile goes back along {name}: controls differ in how they cut such pockets");
+                return refuse(Code::PN016, message, "cut the pocket with a separate cycle, or write its moves");
             }
         }
         from = piece.to;
@@ -135,17 +137,17 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     let clear = moved(start, left);
     let (begin, pieces) = (moved(profile.begin, left), profile.pieces.iter().map(|piece| shifted(piece, left)));
     let pieces: Vec<Piece> = pieces.collect();
-    // a level that is the beginning of the profile but for the last digits is it
+    // a level that differs from the profile's beginning only by rounding is not a separate pass
     let count = (((begin[0] - clear[0]).abs() - SAME) / depth).ceil();
     if count > MOST {
-        return refuse(Code::PN018, format!("{code} of over {MOST} passes"), "write a larger depth");
+        return refuse(Code::PN018, format!("{code} of more than {MOST} passes"), "write a larger depth");
     }
     let mut list = Vec::new();
     if left != [0.0; 2] {
         list.push(Move::Rapid(clear));
     }
     let infeed = |level: f64| first(profile, [level, clear[1]]);
-    // the last level is the beginning of the profile, which is followed to its end
+    // the last level is the beginning of the profile, and the last pass follows the profile to its end
     for pass in 1..count as u32 {
         let level = clear[0] + inwards * depth * f64::from(pass);
         let end = crossing(begin, &pieces, level, inwards);
@@ -164,11 +166,11 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     Ok(list)
 }
 
-/// How far an arc goes beyond its ends along an axis, in this sense.
+/// How far an arc extends beyond its ends along an axis, in the direction of `sense`.
 fn bulges(from: Point, piece: &Piece, axis: usize, sense: f64) -> f64 {
     let Some((centre, ccw)) = piece.arc else { return 0.0 };
     let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
-    // angles from Z to X
+    // angles are measured from Z to X
     let angle = |point: Point| (point[0] - centre[0]).atan2(point[1] - centre[1]);
     let turn = if ccw { 1.0 } else { -1.0 };
     let sweep = (turn * (angle(piece.to) - angle(from))).rem_euclid(std::f64::consts::TAU);
@@ -179,11 +181,11 @@ fn bulges(from: Point, piece: &Piece, axis: usize, sense: f64) -> f64 {
     if ahead < sweep { centre[axis] * sense + radius - most } else { 0.0 }
 }
 
-/// Where a pass at this level meets the profile; beyond its end, at the last coordinate of it.
+/// The position where a pass at this level meets the profile. Beyond the profile's end, this is its last coordinate.
 fn crossing(begin: Point, pieces: &[Piece], level: f64, inwards: f64) -> f64 {
     let mut from = begin;
     for piece in pieces {
-        // the profile comes outwards: it is met where it first reaches the level
+        // the profile goes outwards, so the pass ends where the profile first reaches the level
         if (piece.to[0] - level) * inwards <= SAME {
             return meets(from, piece, level);
         }

@@ -1,4 +1,4 @@
-//! Words whose values are calculated, and lists of what lies ahead.
+//! Words with calculated values, and lists of tools, operations or work offsets.
 
 use super::{Body, FEEDS, go_on};
 use crate::compile::{LetterKind, List};
@@ -14,14 +14,14 @@ use crate::render::words::check_feed;
 use crate::sema::Without;
 
 impl Body<'_> {
-    /// Lines that print once for each tool, operation or work offset of the job.
+    /// Prints the lines of a list once for each tool, operation or work offset of the job.
     #[cold]
     pub(super) fn list(&mut self, index: usize) -> Done {
         self.end_line();
         let List { each, routine } = &self.writer.shape.program.lists[index];
         let Some(survey) = self.writer.shape.options.survey.clone() else {
-            let message = format!("the {}s of the job are not known", each.name());
-            return fault(Code::PR052, message, "let the job be read twice: give it as a file, without `--stream`");
+            let message = format!("the list of {}s of the job is unknown", each.name());
+            return fault(Code::PR052, message, "give the job as a file, without `--stream`: it must be read twice");
         };
         for item in ahead::items(*each, self.writer.want.item, &survey) {
             let want = ahead::of_item(item, &survey, self.writer.shape, self.writer.want);
@@ -32,7 +32,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// A directive gives a variable or a property its value.
+    /// Executes `@set`: assigns a value to a variable or a property.
     pub(super) fn set(&mut self, index: u32) -> Done {
         let (target, formula) = self.writer.shape.program.sets[index as usize];
         let value = match self.writer.shape.program.formulas[formula as usize].value(&self.now(b' ')) {
@@ -40,16 +40,16 @@ impl Body<'_> {
             Err(Without::Divisor(divisor)) => return Err(Box::new(division_by_zero(divisor))),
             Err(Without::Value(var)) => {
                 self.value_of(var, b' ')?;
-                // a word is left out then; what was set before would stay
-                let message = format!("[{}] has no value here, and @set takes one", var.name());
-                return fault(Code::PR001, message, format!("set it where there is one: `@if [{}]`", var.name()));
+                // an optional variable has no value here; leaving `@set` out would keep the old value
+                let message = format!("[{}] has no value here, but @set needs one", var.name());
+                return fault(Code::PR001, message, format!("set it only if there is a value: `@if [{}]`", var.name()));
             }
         };
         self.writer.said.kept.set(target, value);
         Ok(())
     }
 
-    /// A calculated value, or none where the word of a variable in it is optional.
+    /// A calculated value; `None` if it contains a variable whose word is optional and has no value.
     pub(super) fn calculated(&self, index: u32, letter: u8) -> Done<Option<f64>> {
         match self.writer.shape.program.formulas[index as usize].number(&self.now(letter)) {
             Ok(value) => Ok(Some(value)),
@@ -58,7 +58,8 @@ impl Body<'_> {
         }
     }
 
-    /// The condition that a value is made of alone, with the job's value of it.
+    /// The condition of the control (for example the work offset) that is the only variable of the value, with the job's value
+    /// for it.
     fn condition_of(&self, vars: VarSet, letter: u8) -> Done<Option<(VarId, f64)>> {
         match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
             Some(var) => Ok(self.value_of(var, letter)?.map(|own| (var, own))),
@@ -66,7 +67,7 @@ impl Body<'_> {
         }
     }
 
-    /// A calculated value without a letter: after a text it may print a condition too.
+    /// Prints a calculated value without a letter. After a text it may also set a condition of the control.
     pub(super) fn bare_formula(&mut self, index: u32, glued: bool) -> Done {
         let Some(value) = self.calculated(index, b' ')? else { return Ok(()) };
         let condition = self.condition_of(self.writer.shape.program.formulas[index as usize].vars(), b' ')?;
@@ -80,8 +81,9 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// A letter and a calculated value. On an axis the control counts it like a typed one: it may stand in another frame.
-    /// What a form makes of a condition alone, as `H[work-53]`, is the form's own value: the job's value is not printed after it.
+    /// Prints a letter and a calculated value. An axis word with a calculated position is treated like a typed one: it may be in
+    /// another frame. A value calculated from one condition alone, as `H[work-53]`, counts as printing that condition: the job's
+    /// value is not printed again.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
         let shape = self.writer.shape;
         let info = &shape.letters[letter];
@@ -110,7 +112,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// A value in a comment, which says what is known.
+    /// Prints a value in a comment; a value that is unknown prints as `-`.
     pub(super) fn remark(&mut self, value: Done<Option<f64>>, glued: bool) -> Done {
         match value {
             Ok(Some(value)) => self.writer.out.bare(value, &self.writer.shape.letters.bare, glued),

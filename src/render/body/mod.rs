@@ -1,4 +1,4 @@
-//! One run of a sequence: its operations, word by word. What holds only during it begins and ends here.
+//! One run of a sequence: executes its operations word by word. State in this module lasts for one run only.
 
 mod formula;
 mod text;
@@ -26,22 +26,22 @@ use crate::number::quantise;
 /// Which words of a line print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Every word: ordinary sequences, the first hole of a machine cycle.
+    /// Every word: used for ordinary sequences and for the first hole of a machine cycle.
     All,
-    /// A motion sequence: codes and variables only when changed.
+    /// Motion sequence: codes and variables print only if they changed.
     Motion,
-    /// The sequence of an arc: as a motion sequence, but centre words always print.
+    /// Sequence of an arc: like a motion sequence, but centre words always print.
     ArcMotion,
-    /// A later hole of a machine cycle: variables that changed, or both position words.
+    /// Later hole of a machine cycle: prints the variables that changed, or both position words.
     NextHole {
-        /// The position is printed, because nothing changed.
+        /// Prints the position because no word changed.
         position: bool,
     },
-    /// A hole of an emulated or advanced cycle.
+    /// Hole of an emulated or advanced cycle.
     Hole,
 }
 
-/// Variables that no control keeps from arc to arc.
+/// Variables that are never modal: no control keeps them from one arc to the next.
 const ARC_WORDS: VarSet = VarSet::of(&[
     VarId::Ival,
     VarId::Jval,
@@ -54,10 +54,10 @@ const ARC_WORDS: VarSet = VarSet::of(&[
     VarId::Sweep,
 ]);
 
-/// Variables whose value is how far an axis moves.
+/// Variables that hold the distance an axis moves.
 const INCREMENTS: VarSet = VarSet::of(&MOVED);
 
-/// Variables whose value is a position of the axis that prints them; a dwell or a distance is none.
+/// Variables that hold a position of the axis that prints them. Dwells and distances are not positions.
 const POSITIONS: VarSet = VarSet::of(&[
     VarId::H,
     VarId::V,
@@ -74,16 +74,17 @@ const POSITIONS: VarSet = VarSet::of(&[
     VarId::Pointd,
 ]);
 
-/// Variables of feeds, speeds, pecks and dwells: rounded to nothing, they would stop the machine, never end, or not be.
+/// Variables of feeds, speeds, pecks and dwells. Rounded to zero, such a value would stop the machine, peck without end or
+/// vanish.
 const FEEDS: VarSet =
     VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell, VarId::Speed]);
 
-/// Runs a whole sequence in which every word prints.
+/// Runs a whole sequence and prints every word.
 pub fn run_all(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     run(routine, Mode::All, writer)
 }
 
-/// Runs a whole sequence; each line is a block.
+/// Runs a whole sequence and prints one block for each line.
 pub fn run(routine: &Routine, mode: Mode, writer: &mut Writer<'_>) -> Done {
     run_part(routine, routine.ops.clone(), mode, writer)
 }
@@ -94,7 +95,7 @@ pub fn run_part(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut W
     go_on(routine, ops, mode, writer)
 }
 
-/// Runs further operations of the same sequence.
+/// Continues with further operations of the same sequence.
 pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let begin = ops.start;
@@ -133,7 +134,7 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
         i += 1;
     }
     body.end_line();
-    // looked at before the next move: until then another sequence may put it right
+    // checked before the next move: until then another sequence may restore the job's value
     if writer.said.take_switched() {
         writer.said.differs |=
             writer.said.is_misread(shape, writer.want) || !writer.said.lacks(writer.want, shape).is_empty();
@@ -141,7 +142,7 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
     Ok(())
 }
 
-/// Does what the directives of a sequence set before the lines that a cycle repeats: they count at every hole.
+/// Executes the `@set` directives before the lines that a cycle repeats: they apply at every hole.
 pub fn run_sets(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let (line, mode) = (routine.ops.start, Mode::Hole);
@@ -155,17 +156,17 @@ pub fn run_sets(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// A sequence while it runs.
+/// A sequence during its run.
 struct Body<'r> {
     writer: Writer<'r>,
     mode: Mode,
-    /// Where the operations of the line begin that is printed.
+    /// The first operation of the line that is being printed.
     line: usize,
-    /// The operation that is done.
+    /// The operation that is being executed.
     at: usize,
-    /// A cycle may drop the unchanged words of the line.
+    /// The sequence is a cycle and may drop unchanged words of this line.
     drops: bool,
-    /// What the line printed since its last word with a letter of its own: text, and values in it.
+    /// Text and values without a letter that the line printed since its last word with a letter.
     text: Vec<u8>,
     /// The operations of the comment that was printed last.
     comment: std::ops::Range<usize>,
@@ -183,12 +184,13 @@ impl Body<'_> {
         }
     }
 
-    /// The line whose words are printed. A block that is too long is refused at its end, whatever it says.
+    /// The line whose words are printed. For a block that is already too long this is [`Line::NONE`]: the block is an error
+    /// anyway.
     fn line(&self) -> Line {
         if self.writer.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
     }
 
-    /// Prints an operation. What is no word with a letter is kept, so that the whole text of the line can be read.
+    /// Prints an operation. Text without a letter is collected so that the text of the whole line can be analysed.
     fn operation(&mut self, op: Op, at: usize) -> Done {
         if matches!(op, Op::Var { .. } | Op::Literal { .. } | Op::Formula { .. }) {
             self.read_text();
@@ -196,7 +198,7 @@ impl Body<'_> {
         }
         let from = self.writer.out.length();
         self.print_operation(op, at)?;
-        // what a comment says, no control reads
+        // the control ignores comments
         if self.writer.out.length() > from && !self.comment.contains(&at) {
             self.text.extend_from_slice(self.writer.out.block_from(from));
         }
@@ -265,7 +267,7 @@ impl Body<'_> {
             return self.packed_word(info, digits, glued);
         }
         if self.mode == Mode::ArcMotion && ARC_WORDS.has(var) && self.writer.want.get(var).is_none() {
-            return Ok(()); // the centre along the axis across the plane
+            return Ok(()); // the centre coordinate along the axis across the plane has no value
         }
         let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
         if info.kind == LetterKind::Axis && settings.incremental && POSITIONS.has(var) {
@@ -297,7 +299,7 @@ impl Body<'_> {
         }
         match var {
             VarId::D => self.writer.said.set_depth_moved(false),
-            // another length register alone moves the depth as G43 does
+            // a new length register without a position moves the depth, as G43 does
             VarId::Lcomp if !self.line().prints(shape, |_, var| var == Some(VarId::D)) => {
                 self.writer.said.set_depth_moved(true);
             }
@@ -310,7 +312,8 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Positions after the word of another work offset count from there.
+    /// If a word selects another work offset, the axis positions after it are in that offset, so the known positions become
+    /// invalid.
     fn counts_from(&mut self, letter: u8, var: VarId, value: f64) {
         if var == VarId::Work
             && self.writer.shape.program.work.says(self.at)
@@ -321,14 +324,15 @@ impl Body<'_> {
         }
     }
 
-    /// A word with this variable was printed. The work offset is said by some of the words that print it.
+    /// Records that a word with this variable was printed. Only some words that print `[work]` select the work offset.
     fn condition_word(&mut self, letter: u8, var: VarId, value: f64) {
         if var != VarId::Work || self.writer.shape.program.work.says(self.at) {
             self.writer.said.condition_word(letter, var, value, self.line(), self.writer.want, self.writer.shape);
         }
     }
 
-    /// A word with its value. The control holds it from here; what an axis holds depends on what it counts from.
+    /// Prints a word and records its value as the control's. For axis words the caller does this, because it depends on their
+    /// frame.
     fn print(&mut self, letter: u8, value: f64, units: i64, glued: bool) -> Done {
         let info = &self.writer.shape.letters[letter];
         self.writer.out.letter(info, units, glued)?;
@@ -345,7 +349,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// May a word be left out, because the control holds it already? Of its variable, where its value is not calculated.
+    /// May the word be left out because the control already has its value? `var` is `None` for a calculated value.
     fn drops_word(&self, letter: u8, var: Option<VarId>, value: f64, units: i64) -> bool {
         let is = |set: VarSet| var.is_some_and(|var| set.has(var));
         let settings = &self.writer.shape.program.settings;
@@ -358,7 +362,7 @@ impl Body<'_> {
                     && match info.kind {
                         LetterKind::GCode | LetterKind::MCode => control::Code::of(info.printed, value)
                             .is_some_and(|code| self.writer.said.code_drops(code, self.writer.shape)),
-                        // an increment is no position: it may go when it is none
+                        // an increment is not a position: it is left out if it is zero
                         _ if is(INCREMENTS) => units == 0,
                         _ => info.modal && self.writer.said.holds(info, units),
                     }
@@ -372,14 +376,14 @@ impl Body<'_> {
         }
     }
 
-    /// A word of packed parameters: as the form has them, or as the job sets them, in as many digits.
+    /// A word of packed parameters: the form's digits, or the job's value with the same number of digits.
     fn packed_word(&mut self, info: &Letter, digits: &str, glued: bool) -> Done {
         let text = match self.writer.want.get(VarId::Tparams) {
             Some(value) => format!("{value:0width$}", width = digits.len()),
             None => digits.to_owned(),
         };
         if text.len() != digits.len() || !text.bytes().all(|digit| digit.is_ascii_digit()) {
-            let message = format!("[tparams] is {text}, its word has {} digits", digits.len());
+            let message = format!("[tparams] is {text}, but its word has {} digits", digits.len());
             return fault(Code::PR002, message, "give a whole number of that many digits");
         }
         let word = self.writer.out.word(glued);
@@ -388,7 +392,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// The value a variable prints, or none where its word is optional.
+    /// The value of a variable; `None` if the variable has none and its word is optional.
     fn value_of(&self, var: VarId, letter: u8) -> Done<Option<f64>> {
         if let Some(value) = self.now(letter).get(var) {
             return Ok(Some(value));
@@ -398,9 +402,9 @@ impl Body<'_> {
                 return Ok(rpm_as_limit(self.writer.shape, self.writer.want));
             }
             VarId::Block => return Ok(Some(self.writer.out.number() as f64)),
-            // a two-axis job has no upper guide
+            // a job with two axes has no upper guide
             VarId::H2 | VarId::V2 if self.writer.shape.linear == 4 => return Ok(None),
-            // a cycle without dwell drops the word
+            // in a cycle without a dwell the word is left out
             VarId::Dwell if self.writer.want.cycle.is_some() => return Ok(None),
             _ => {}
         }
@@ -408,11 +412,11 @@ impl Body<'_> {
             && let Some(survey) = &self.writer.shape.options.survey
             && !ahead::sums(self.writer.want.item, survey).in_one_frame()
         {
-            let message = format!("[{}] in a job of several work offsets", var.name());
+            let message = format!("[{}] in a job with several work offsets", var.name());
             return fault(
                 Code::PR052,
                 message,
-                "print it inside `@for work`, for each of them, or ask before it: `@if [hmin]`",
+                "print it inside `@for work`, for each work offset, or test it first: `@if [hmin]`",
             );
         }
         no_value(var)
@@ -431,7 +435,7 @@ impl Body<'_> {
         }
     }
 
-    /// A word as typed; its value goes into the registers.
+    /// Prints a typed word and records its value in the registers.
     fn literal_word(&mut self, index: usize, glued: bool) {
         let shape = self.writer.shape;
         let literal = &shape.program.literals[index];
@@ -457,7 +461,7 @@ impl Body<'_> {
             LetterKind::GCode | LetterKind::MCode => {
                 self.writer.said.code_word(info, literal.value, self.line(), self.writer.want, shape);
             }
-            // a literal position may stand in another frame
+            // the position of a typed word may be in another frame
             LetterKind::Axis => {
                 self.writer.said.forget(info);
                 self.writer.said.displaced(shape.axis_bit(literal.letter), shape);
@@ -473,7 +477,7 @@ impl Body<'_> {
         self.writer.said.speed_word(literal.letter, literal.value, self.line(), self.writer.want, shape);
     }
 
-    /// In a form of increments a position is read as one, unless the control was told otherwise.
+    /// In a form with incremental moves, a sequence may print a position only while the control is not in incremental mode.
     #[cold]
     fn check_position_word(&self, letter: u8, var: VarId) -> Done {
         let [increments, _] = self.writer.shape.program.settings.inc_abs;
@@ -481,7 +485,7 @@ impl Body<'_> {
             return Ok(());
         }
         let message =
-            format!("{}[{}] is a position, and the control is in G{increments}", char::from(letter), var.name());
-        fault(Code::PR040, message, "print G90 before it, or the increment, as [hdist]")
+            format!("{}[{}] is a position, but the control is in G{increments}", char::from(letter), var.name());
+        fault(Code::PR040, message, "print G90 before it, or print the increment, as [hdist]")
     }
 }

@@ -1,4 +1,4 @@
-//! What a line prints besides words with letters of their own: text, values in it, comments.
+//! Output of a line other than words with letters: text, values in it, comments.
 
 use super::Body;
 use crate::lang::VarId;
@@ -7,14 +7,14 @@ use crate::render::texts;
 use crate::render::values::property_text;
 
 impl Body<'_> {
-    /// Has the job none of the texts of the comment that begins here?
+    /// Are all texts in the comment that begins here empty in this job?
     pub(super) fn comment_is_empty(&self, at: usize, words: usize) -> bool {
         texts::are_empty(&self.writer.shape.program.ops[at + 1..][..words], &self.writer.want.texts, &|row| {
             property_text(row, self.writer.want, self.writer.said).is_empty()
         })
     }
 
-    /// Reads the text that was printed since the last word.
+    /// Analyses the text that was printed since the last word.
     pub(super) fn read_text(&mut self) {
         if !self.text.is_empty() {
             self.writer.said.text(&self.text, self.line(), self.writer.want, self.writer.shape);

@@ -1,4 +1,4 @@
-//! Which sequence serves a cycle.
+//! Selects the sequence that prints a cycle.
 
 use super::open::is_rigid;
 use crate::compile::{CycleStyle, Routine};
@@ -13,7 +13,7 @@ use crate::render::shape::Shape;
 use crate::sema::kind_of_remark;
 use crate::toolpath::{CycleKind, CycleSpec, Peck};
 
-/// The kinds whose sequences make a cycle, the best first: GENER makes some cycles as others.
+/// The kinds of cycle that can print this one, best first. As in GENER, some cycles are printed by the sequence of another kind.
 fn made_as(spec: &CycleSpec) -> [Option<CycleKind>; 3] {
     use CycleKind as K;
     let dwells = spec.dwell.or(spec.revs).is_some_and(|time| time > 0.0);
@@ -27,7 +27,7 @@ fn made_as(spec: &CycleSpec) -> [Option<CycleKind>; 3] {
     }
 }
 
-/// The sequence that prints a cycle, or none where moves are generated.
+/// The sequence that prints a cycle; `None` if the cycle becomes single moves.
 pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Done<Option<SequenceId>> {
     let program = shape.program;
     let rigid = is_rigid(spec, shape);
@@ -35,11 +35,11 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
     let candidate = candidate(spec, shape).filter(|_| !emulated);
     let floats = |routine: &Routine| !program.settings.rigid_tap && !routine.asks(VarId::Rigid, program);
     if rigid && spec.rigid == Some(true) && candidate.and_then(|id| program.routine(id)).is_some_and(floats) {
-        let message = "a rigid tap, and the form's tap is for a floating holder";
+        let message = "a rigid tap, but the form's tap is for a floating holder";
         return fault(
             Code::PC021,
             message,
-            "say `RigidTap? Y` in the form where its tap is rigid, or ask `@if [rigid]` in it",
+            "write `RigidTap? Y` in the form if its tap is rigid, or test `@if [rigid]` in the Tap sequence",
         );
     }
     let why = match candidate.and_then(|id| program.routine(id).map(|routine| (id, routine))) {
@@ -51,20 +51,21 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
         None => format!("the form has no sequence for `{}`", spec.kind.name()),
     };
     if rigid {
-        let message = format!("a rigid tap can't be made of single moves, and {why}");
+        let message = format!("a rigid tap can't be printed as single moves, but {why}");
         return fault(
             Code::PC021,
             message,
-            "print it in the form's Tap; what no form prints (`ratio`, `decr`, `pecks`) is the control's to set: take it out of the cycle",
+            "print it in the form's Tap; remove `ratio`, `decr` and `pecks` from the cycle: no form prints them, set \
+             them at the control",
         );
     }
     if candidate.is_some() {
-        out.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "look at the moves");
+        out.note(Code::PR014, format!("the cycle is printed as single moves: {why}"), "check the moves");
     }
     Ok(None)
 }
 
-/// Which sequence serves which kind (render.md section 3).
+/// The sequence for each kind of cycle (render.md section 3).
 fn candidate(spec: &CycleSpec, shape: &Shape) -> Option<SequenceId> {
     use SequenceId as S;
     let program = shape.program;
@@ -85,7 +86,7 @@ fn candidate(spec: &CycleSpec, shape: &Shape) -> Option<SequenceId> {
     made_as(spec).into_iter().flatten().find_map(serves)
 }
 
-/// What a cycle asks for that its sequence does not print.
+/// The first request of a cycle that its sequence does not print.
 pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<&'static str> {
     if routine.style == CycleStyle::Generated {
         return None;
@@ -94,18 +95,18 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
     let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
     let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
     let program = shape.program;
-    let own = !custom; // what a custom cycle must say, only its form knows
+    let own = !custom; // only the form knows what a custom cycle must print
     let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
     let absolute = |code: control::Code| code.is_g(program.settings.inc_abs[1]);
     let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
     let steps = program.settings.incremental && prints(positions) && !prints_code(routine, absolute, shape);
     let feeds_out = !spec.norevr && !spec.rapout;
-    // F of a tap may count the turns
+    // F of a tap may be the spindle speed
     let feeds = spec.kind.is_tap() && prints_letter(routine, program.settings.feed_code, shape);
     let by_form = shape.defaults.orient;
     let other_angle = spec.orient.is_some_and(|orient| orient.angle(by_form) != by_form);
     let missing = [
-        (steps, &[][..], "increments, which the control expects here"),
+        (steps, &[][..], "the increments that the control expects here"),
         (across, &[VarId::H], "the position: [h]"),
         (across, &[VarId::V], "the position: [v]"),
         (own && spec.kind != CycleKind::Manual, &[VarId::D, VarId::Depth], "the depth: [d]"),
@@ -123,7 +124,7 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
         (spec.starts.is_some_and(|s| s > 1.0), &[VarId::Vclear], "several starts: [vclear]"),
         (spec.hole_diameter.is_some(), &[], "the rapid to the cone (`hole_diameter`)"),
         (other_angle, &[], "the spindle angle (`orient`)"),
-        // at the control's own angle only a cycle that leaves the wall stops the spindle at one
+        // at the control's own angle, only a cycle that leaves the wall stops the spindle oriented
         (spec.kind == CycleKind::Bore && spec.orient.is_some(), &[VarId::Sleave], "an oriented spindle: [sleave]"),
         (spec.jog.is_some(), &[], "the lift of the jog (`jog`)"),
         (spec.offset_y.is_some(), &[], "a jog along both axes (`offset_y`)"),
@@ -136,7 +137,7 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
     missing.into_iter().find(|(asked, vars, _)| *asked && !prints(vars)).map(|(_, _, what)| what)
 }
 
-/// A cycle of the job in program units.
+/// Converts a cycle of the job to program units.
 pub fn scaled(spec: &CycleSpec, shape: &Shape) -> CycleSpec {
     let scale = shape.scale;
     let length = |value: Option<f64>| value.map(|v| v * scale);

@@ -1,4 +1,4 @@
-//! A hole as single moves: the steps of a planned cycle, one block each.
+//! Prints a hole as single moves: one block for each step of a planned cycle.
 
 use super::open::{Drilling, left_hole, turning};
 use super::planned::{Planned, hole_variables};
@@ -51,7 +51,7 @@ fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drill
                 to.values[1] += y;
                 to.values[shape.depth] = hole.heights.point + height;
                 set_targets(&to, shape, cx.want, cx.said)?;
-                rapid_block(&to, None, cx)?; // off the wall and up in one: up alone would score it
+                rapid_block(&to, None, cx)?; // off the wall and up in one block: up alone would score the wall
             }
             Step::Feed(height, feed) => {
                 to.values[shape.depth] = hole.heights.point + height;
@@ -72,7 +72,7 @@ fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drill
                 spindle_block(code, sped_up.then_some(ratio), &mut cx.writer())?;
             }
             Step::Orient(_) if shape.depth == 0 => {
-                let message = "a turned hole has no wall that the tool could leave at an angle of the spindle";
+                let message = "in a hole on a lathe the tool can't move off the wall at a spindle angle";
                 return fault(Code::PR006, message, "leave `orient` and `offset` out");
             }
             Step::Orient(angle) => {
@@ -92,12 +92,12 @@ fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drill
     left_hole(&hole.target, Some((exit, true)), shape, cx.said, drill)
 }
 
-/// A direction, and where the speed changes with the feed, this many times the spindle's speed.
+/// Prints a spindle direction; with `times` also the spindle speed multiplied by it.
 fn spindle_block(code: f64, times: Option<f64>, writer: &mut Writer<'_>) -> Done {
     if let Some(times) = times {
         let Some(speed) = writer.want.get(VarId::Speed) else {
             let help = "give the operation a spindle speed, or take `ratio` out";
-            return fault(Code::PC009, "a tap that comes out faster must turn faster, and its speed is unknown", help);
+            return fault(Code::PC009, "a tap that retracts faster must turn faster, but its speed is unknown", help);
         };
         speed_word(speed * times, writer)?;
     }

@@ -1,4 +1,4 @@
-//! One hole: where it is, how the tool comes there, and what prints it.
+//! One hole: its position, the approach, and the code that prints it.
 
 use super::choose::{cannot_say, scaled};
 use super::generated::generated_hole;
@@ -23,16 +23,16 @@ use crate::render::targets::{check_limits, set_targets};
 use crate::render::want::Want;
 use crate::toolpath::{Axes, CycleKind, CycleSpec, FeedMode, Hole, impossible};
 
-/// The first point of a cycle must say how high it is.
+/// Error: the first point of a cycle has no height.
 fn no_height<T>() -> Done<T> {
     fault(
         Code::PR006,
-        "the cycle's first point has no height",
+        "the first point of the cycle has no height",
         "give its third coordinate, the top of the hole, as [1, 1, 0]",
     )
 }
 
-/// A hole of the open cycle.
+/// Handles a hole of the open cycle. It is held back until the next event if the form uses `[lasthole]`.
 pub fn hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     if !shape.program.printed.with(shape.program.asked).has(VarId::Lasthole) {
@@ -67,7 +67,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let Some(point) = point.or(cycle.point) else { return no_height() };
     cycle.point = Some(point);
     let clear = point + planes.clear;
-    // without a return plane the tool comes back to each hole's own clearance
+    // without a return plane the tool returns to the clearance of each hole
     let first = cycle.spec.return_height.map(|height| *cycle.return_plane.get_or_insert(point + height));
     let return_plane = first.map_or(clear, |first| first.max(clear));
     let heights = Heights { point, clear, bottom: point + planes.bottom, return_plane };
@@ -75,7 +75,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let mut target = cx.said.stand.target(&hole.at, shape);
     if hole.at.given & ROTARY_BITS != 0 {
         if cx.said.turns(&unwound(&target, hole.at.given, shape, cx.said), shape) {
-            leave_cycle(cx, drill)?; // before an axis is unwound
+            leave_cycle(cx, drill)?; // must come before an axis is unwound
         }
         target = in_travel(&target, hole.at.given, true, cx)?;
     }
@@ -92,7 +92,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let mut planned = Planned { target, planes, heights };
     let routine = match routine.filter(|routine| routine.flow.is_some()) {
         Some(routine) => {
-            // conditions ask for the hole
+            // conditions of the sequence may depend on the hole
             set_targets(&target, shape, cx.want, cx.said)?;
             hole_variables(&planned, shape, cx.want, drill);
             let way = shape.way(routine, cx.want, cx.said);
@@ -103,7 +103,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     };
     let lost = routine.is_some_and(|routine| sequence_loses(routine, &target, shape, cx.said));
     if cx.said.turns(&target, shape) || lost {
-        // no cycle turns the part: the control leaves it, and begins it again there
+        // a cycle can't turn the part: leave the cycle, index or move, then start it again
         leave_cycle(cx, drill)?;
         set_targets(&target, shape, cx.want, cx.said)?;
         if cx.said.is_unsettled(cx.want) {
@@ -117,7 +117,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     if cx.said.stand.left_hole.is_some() {
         stand_as_left(&target, true, cx)?;
     }
-    cx.said.stand.moved_by = None; // every hole is approached by rapids
+    cx.said.stand.moved_by = None; // rapids approach every hole
     match routine {
         Some(routine) => {
             for start in 0..starts {
@@ -126,7 +126,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
                 sequence_hole(routine, &planned, cx, drill)?;
             }
             if planned.heights.return_plane < heights.return_plane - SAME {
-                // the last start of a thread comes out lower: nothing may be crossed there
+                // the last start of a thread ends lower than the return plane: raise the tool before it crosses
                 leave_cycle(cx, drill)?;
                 split_rapid(&target, cx)?;
             }
@@ -135,20 +135,20 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     }
     if let Some(cycle) = &mut drill.open {
         cycle.holes += 1;
-        // a manual cycle stays where it stopped
+        // a manual cycle leaves the tool where it stopped
         cycle.left = (cycle.spec.kind != CycleKind::Manual).then_some(heights.return_plane);
     }
     Ok(())
 }
 
-/// The way through a sequence must say what the cycle asks for, as the whole sequence does.
+/// The selected branches of a sequence must print everything that the cycle requests.
 fn says_the_hole(way: &Routine, drill: &Drilling, shape: &Shape) -> Done {
     let Some(what) = drill.open.as_ref().and_then(|cycle| cannot_say(&cycle.spec, way, shape)) else { return Ok(()) };
-    let message = format!("this way through the sequence does not print {what}");
+    let message = format!("a branch of the sequence does not print {what}");
     fault_at(Code::PR017, message, "print it in every branch", Some(way.span))
 }
 
-/// Does a hole lie at a place across the tool that its sequence does not print, as on a lathe?
+/// Does the hole need a position across the tool that its sequence does not print, as on a lathe?
 fn sequence_loses(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> bool {
     let mut across = (0..2).filter(|&axis| axis != shape.depth);
     across.any(|axis| target.get(axis) != said.stand.position.get(axis) && !prints_axis(routine, axis, shape))
@@ -160,7 +160,7 @@ fn planes_at(spec: &CycleSpec, hole: &Hole, shape: &Shape, want: &Want) -> Done<
     Ok(Plan::of(spec, depth, &shape.defaults, want.get(VarId::Speed))?)
 }
 
-/// Where the tool is before the first hole of a cycle: over it, at the return plane. For tool changes.
+/// The tool position before the first hole of a cycle: over the hole, at the return plane. Used by tool changes.
 pub fn hole_position(spec: &CycleSpec, hole: &Hole, shape: &Shape, want: &Want, said: &Said) -> Done<Axes> {
     let spec = scaled(spec, shape);
     let planes = planes_at(&spec, hole, shape, want)?;

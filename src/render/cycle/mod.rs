@@ -1,4 +1,4 @@
-//! Canned cycles: begin and end.
+//! Begin and end of canned cycles.
 
 mod choose;
 mod generated;
@@ -22,19 +22,19 @@ use hole::make_hole;
 use open::{ActiveCycle, Drilling, Setup, is_rigid, leave_cycle, turning};
 use remarks::warn_of;
 
-/// A cycle begins; nothing is printed before its first hole.
+/// Begins a cycle. It prints nothing before its first hole.
 pub fn cycle_begin(spec: &CycleSpec, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     if shape.program.settings.machine == Machine::Edm {
         return fault(Code::PR008, "a wire EDM machine has no canned cycles", "take the cycle out of the job");
     }
     if cx.want.compensated {
-        let message = "cutter compensation is on, and no control allows a cycle then";
+        let message = "a canned cycle under cutter compensation: no control allows this";
         return fault(Code::PC041, message, "end the compensation with an `outfeed` before the cycle");
     }
     if cx.want.inverse_time() {
-        let message = "a canned cycle in an operation whose feeds are inverse time";
-        return fault(Code::PR006, message, "give the holes an operation of their own with feeds per minute");
+        let message = "a canned cycle in an operation with inverse time feeds";
+        return fault(Code::PR006, message, "give the holes a separate operation with feeds per minute");
     }
     check(spec)?;
     let spec = scaled(spec, shape);
@@ -62,8 +62,8 @@ pub fn cycle_begin(spec: &CycleSpec, cx: &mut Cx<'_>, drill: &mut Drilling) -> D
     Ok(())
 }
 
-/// A tap goes in turning its own way: a floating one needs the spindle to, with a rigid one the control turns it.
-/// The direction that comes back after the cycle, if it is another.
+/// Sets the spindle direction for a tap. With a floating holder the spindle must turn in the tap's direction; for a rigid tap the
+/// control turns it. Returns the direction to restore after the cycle, if it differs.
 fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Said) -> Done<Option<f64>> {
     let [cw, ccw, off] = shape.program.settings.spindle;
     let inwards = match spec.kind.inwards() {
@@ -74,8 +74,8 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
     let (rigid, before) = (is_rigid(spec, shape), want.get(VarId::Direct));
     if let (None, Some(sub)) = (before, &mut said.sub) {
         if inwards == ccw {
-            let message = "a left-hand tap in a subprogram that does not say how the spindle turns";
-            return fault(Code::PR033, message, "say its direction in the subprogram, or tap in the main program");
+            let message = "a left-hand tap in a subprogram without a spindle direction";
+            return fault(Code::PR033, message, "give the direction in the subprogram, or tap in the main program");
         }
         sub.taps = true;
     }
@@ -86,8 +86,8 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
         return Ok(None);
     }
     if !rigid && shape.program.switches_spindle {
-        let message = "the tap goes in turning the other way, and the form's own sequences turn the spindle";
-        return fault(Code::PR006, message, "say the direction of the spindle in the job, or take the other tap");
+        let message = "the tap needs the opposite spindle direction, but sequences of the form turn the spindle";
+        return fault(Code::PR006, message, "give the direction of the spindle in the job, or use the other tap");
     }
     want.set(VarId::Direct, inwards);
     if rigid {
@@ -97,7 +97,7 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
     Ok(before)
 }
 
-/// Ends the open cycle, if any: the hole that waits, Cancel, and what is known afterwards.
+/// Ends the open cycle, if any: prints a hole that is held back and Cancel, and updates the known state.
 pub fn close_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     let Some(cycle) = &mut drill.open else { return Ok(()) };
@@ -119,7 +119,7 @@ pub fn close_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     if let Some(direct) = cycle.turned {
         cx.want.set(VarId::Direct, direct);
         cx.want.changed = true;
-        // a rigid tap has turned it both ways, and said neither
+        // a rigid tap turned the spindle both ways without printing either direction
         cx.said.conditions.put(VarId::Direct, None);
     }
     cx.want.put(VarId::Dwell, None);

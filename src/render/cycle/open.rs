@@ -1,4 +1,4 @@
-//! A cycle between its begin and its end, and how the control leaves it.
+//! The open cycle, from its begin to its end, and the exit of the control from it.
 
 use crate::compile::Sources;
 use crate::cycle::Steps;
@@ -17,37 +17,37 @@ use crate::render::want::Want;
 use crate::sema::Target;
 use crate::toolpath::{Axes, CycleSpec, Hole, Place};
 
-/// A cycle between its begin and its end.
+/// The open cycle.
 pub struct ActiveCycle {
-    /// What the job asks for, in program units.
+    /// Request of the job, in program units.
     pub spec: CycleSpec,
-    /// The sequence that prints the cycle; `None`: single moves do.
+    /// Sequence that prints the cycle; `None` if the cycle becomes single moves.
     pub sequence: Option<SequenceId>,
-    /// Holes so far.
+    /// Number of holes so far.
     pub holes: u64,
-    /// The control is in the cycle: it needs its Cancel.
+    /// The control is in the cycle, so that Cancel must be printed.
     pub in_force: bool,
-    /// Which way through the sequence the control is in.
+    /// Branches of the sequence with which the control entered the cycle.
     pub branches: u128,
-    /// Values at the last start.
+    /// Values when the cycle was last started.
     pub setup: Setup,
-    /// The last hole: where, and the height at which the tool left it.
+    /// Position of the last hole, with the height of the tool after it.
     pub last: Option<Axes>,
-    /// The exit height is certain.
+    /// The height of the tool after the last hole is certain.
     pub exit_known: bool,
     /// Depth position of the last point.
     pub point: Option<f64>,
     /// Return plane of the first point.
     pub return_plane: Option<f64>,
-    /// Where the control returns to: the tool's height when the cycle was started.
+    /// Level to which the control returns: the tool's height when the cycle was started.
     pub initial_level: f64,
-    /// A hole that waits: only the next event tells whether it is the last.
+    /// A hole that is held back: the next event shows whether it is the last one.
     pub held: Option<(Hole, Place)>,
-    /// The feed that comes back after the cycle.
+    /// Feed to restore after the cycle.
     pub feed: Option<f64>,
     /// The height at which the job leaves the last hole.
     pub left: Option<f64>,
-    /// The spindle's direction that comes back after a tap that turned it.
+    /// Spindle direction to restore after a tap that changed it.
     pub turned: Option<f64>,
 }
 
@@ -59,12 +59,12 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// The values of now.
+    /// The current values.
     pub fn new(want: &Want, said: &Said) -> Setup {
         Setup { vars: want.values().clone(), kept: said.kept.clone() }
     }
 
-    /// Is any of these another one now?
+    /// Does any of these values differ now?
     pub fn differs(&self, sources: Sources, want: &Want, said: &Said) -> bool {
         let other = |target| {
             self.kept.of(target) != said.kept.of(target) || self.kept.text_of(target) != said.kept.text_of(target)
@@ -74,16 +74,16 @@ impl Setup {
     }
 }
 
-/// The open cycle, and the steps of its holes; kept so that a hole allocates nothing.
+/// The open cycle and the steps of its holes. Both are reused so that a hole needs no allocation.
 #[derive(Default)]
 pub struct Drilling {
     /// The open cycle.
     pub open: Option<ActiveCycle>,
-    /// The steps of a hole that is made of moves.
+    /// Steps of a hole that is printed as single moves.
     pub steps: Steps,
 }
 
-/// The control leaves the cycle: Cancel, and what is known of the axes after the last hole.
+/// Leaves the cycle: prints Cancel and updates the known axis positions after the last hole.
 pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     cancel(cx, drill)?;
@@ -92,7 +92,7 @@ pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     };
     cx.said.stand.position = last;
     set_targets(&last, shape, cx.want, cx.said)?;
-    // a cycle turns no part: what the control holds of its angles, it holds still
+    // a cycle turns no part: the known angles of rotary axes stay valid
     let turned = ROTARY.filter(|&axis| !cx.said.differs_from(&last, 1 << axis, shape));
     let turned = turned.fold(0, |axes, axis| axes | 1 << axis);
     cx.said.forget_letters();
@@ -106,7 +106,7 @@ pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
         }
     }
     if !exit_known {
-        cx.said.displaced(shape.depth_bit(), shape); // an increment must know from where
+        cx.said.displaced(shape.depth_bit(), shape); // an increment needs a known start
     }
     Ok(())
 }
@@ -127,13 +127,14 @@ pub fn cancel(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     Ok(())
 }
 
-/// A rigid tap keeps step with the spindle, in and out. One that does not reverse is made as a face or drill.
+/// Is this a rigid tap, where the feed is synchronised with the spindle in and out? A tap that does not reverse is printed as a
+/// face or drill cycle.
 pub fn is_rigid(spec: &CycleSpec, shape: &Shape) -> bool {
     let reverses = spec.kind.is_tap() && !spec.norevr && !spec.rapout;
     reverses && spec.rigid.unwrap_or(shape.program.settings.rigid_tap)
 }
 
-/// The direction before the cycle, which must be one.
+/// The spindle direction before the cycle; an error if the spindle does not turn.
 pub fn turning(direct: Option<f64>, shape: &Shape) -> Done<f64> {
     match direct {
         Some(code) if code != shape.program.settings.spindle[2] => Ok(code),
@@ -141,7 +142,8 @@ pub fn turning(direct: Option<f64>, shape: &Shape) -> Done<f64> {
     }
 }
 
-/// Where the tool is after a hole; `exit` is the height, if the sequence does not print it, and whether it is sure.
+/// Records the tool position after a hole. `exit`: height after the cycle, if the sequence does not print it, and whether it is
+/// certain.
 pub fn left_hole(
     target: &Axes,
     exit: Option<(f64, bool)>,
@@ -158,7 +160,7 @@ pub fn left_hole(
         }
         None => (target.values[shape.depth], false),
     });
-    // what the job means by its last position is the return plane, also where the control stays lower
+    // for the job the last position is the return plane, even if the control stays lower
     last.set(shape.depth, exit);
     said.stand.position = last;
     if let Some(cycle) = &mut drill.open {

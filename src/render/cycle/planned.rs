@@ -1,4 +1,4 @@
-//! A hole as it is planned: its heights, and the variables of its cycle.
+//! A planned hole: its heights, and the variables of its cycle.
 
 use super::open::{Drilling, is_rigid};
 use crate::cycle::Plan;
@@ -9,10 +9,10 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::toolpath::{Axes, CycleKind, FeedMode};
 
-/// Heights that differ by less are one.
+/// Heights that differ by less count as equal.
 pub const SAME: f64 = 1e-9;
 
-/// The heights of a hole as depth positions.
+/// Heights of the hole as positions of the depth axis.
 #[derive(Clone, Copy)]
 pub struct Heights {
     /// The point of the job: the top of the hole.
@@ -21,19 +21,20 @@ pub struct Heights {
     pub clear: f64,
     /// The bottom.
     pub bottom: f64,
-    /// Where the tool returns to.
+    /// Return plane of the tool.
     pub return_plane: f64,
 }
 
 impl Heights {
-    /// Each further start of a thread begins a part of its lead lower: the spindle has turned on by then.
+    /// Heights for one start of a thread. Each further start begins a fraction of the lead lower, because the spindle has turned
+    /// on by then.
     pub fn of_start(self, start: u32, starts: u32, planes: &Plan) -> Done<Heights> {
         if start == 0 {
             return Ok(self);
         }
         let Some(lead) = planes.lead else {
             let help = "give the operation a spindle speed";
-            return fault(Code::PC009, "a tap of several starts, and the spindle does not turn", help);
+            return fault(Code::PC009, "a tap with several starts, but the spindle does not turn", help);
         };
         let clear = self.clear - lead * f64::from(start) / f64::from(starts);
         let returns = self.return_plane > self.clear + SAME;
@@ -41,11 +42,11 @@ impl Heights {
     }
 }
 
-/// A hole as it is planned.
+/// A planned hole.
 pub struct Planned {
-    /// The place over the hole, at its return plane.
+    /// Position over the hole, at its return plane.
     pub target: Axes,
-    /// Planes of the hole, counted from its point.
+    /// Planes of the hole, relative to its point.
     pub planes: Plan,
     /// Heights of the hole as positions of the depth axis.
     pub heights: Heights,
@@ -58,7 +59,7 @@ pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Dr
     let spec = &cycle.spec;
     let settings = &shape.program.settings;
     let [r_level, initial_level] = settings.return_plane;
-    // [retplane]: G98 where the job returns above the clearance, else G99
+    // `[retplane]`: G98 if the job returns above the clearance, else G99
     let higher = hole.heights.return_plane > hole.heights.clear + SAME;
     want.set(VarId::Retplane, if higher { initial_level } else { r_level });
     want.set(VarId::D, hole.heights.bottom);
@@ -69,7 +70,7 @@ pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Dr
     want.set(VarId::Depth, hole.heights.point - hole.heights.bottom);
     want.set(VarId::Frate, hole.planes.feed);
     want.set(VarId::Plunge, spec.plunge.unwrap_or(hole.planes.feed));
-    // without a step the cycle goes down in one; the usual step counts for a tap only where the job names a way of pecking
+    // without a step the cycle goes down in one; a tap has the default step only if the job names a mode of pecking
     let pecks = !spec.kind.is_tap() || spec.mode.is_some();
     let step = spec.step.or(shape.defaults.step.filter(|_| pecks)).or(Some(hole.heights.clear - hole.heights.bottom));
     want.put(VarId::Vbite, step);

@@ -1,4 +1,4 @@
-//! What a cycle leaves out or contradicts, without being wrong.
+//! Warnings about values that a cycle lacks or that contradict each other, without being errors.
 
 use super::planned::SAME;
 use crate::diag::Code;
@@ -8,15 +8,15 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// What a cycle leaves out or contradicts, without being wrong.
+/// Warns of values that a cycle lacks or that contradict each other, without being errors.
 pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, want: &Want, out: &mut Printer) {
     let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
     if pecks && spec.step.or(shape.defaults.step).is_none() && spec.pecks.is_empty() {
-        let message = format!("`{}` has no step and goes down in one peck", spec.kind.name());
+        let message = format!("`{}` has no step and drills in one peck", spec.kind.name());
         out.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
     }
     let clear = spec.clear.unwrap_or(shape.defaults.clear);
-    // a first point above the plane comes back to its own clearance: no contradiction
+    // if the first point is above the plane, the tool returns to its clearance: no contradiction
     if let Some(height) = spec.return_height.filter(|height| (0.0..clear - SAME).contains(height)) {
         let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
         out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");
@@ -25,26 +25,26 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     let needed = if spec.kind == CycleKind::LTap { ccw } else { cw };
     if spec.kind.is_tap() && want.get(VarId::Direct).is_some_and(|code| code != needed && [cw, ccw].contains(&code)) {
         let (name, turns) = (spec.kind.name(), cw + ccw - needed);
-        let message = format!("a `{name}` with the spindle in M{turns}: it is turned for the tap");
-        out.note(Code::PC054, message, "say the direction of the spindle in the job, or take the other tap");
+        let message = format!("a `{name}` with the spindle in M{turns}: the direction is reversed for the tap");
+        out.note(Code::PC054, message, "give the direction of the spindle in the job, or use the other tap");
     }
     if spec.back.is_some()
         && sequence
             .and_then(|id| shape.program.routine(id))
             .is_some_and(|routine| !routine.vars.has(VarId::Sclear) && !routine.vars.has(VarId::Vleave))
     {
-        let message = "the distance that pecks go back, `back`, is the control's own setting here";
+        let message = "the control uses its own setting instead of `back`, the retract between pecks";
         out.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
     }
     let printed =
         sequence.and_then(|id| shape.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
     if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
-        let message = "`step` without effect: this tap goes down in one";
-        out.note(Code::PC061, message.into(), "say how it pecks with `mode`, or take `step` out");
+        let message = "`step` without effect: this tap does not peck";
+        out.note(Code::PC061, message.into(), "give the kind of pecks with `mode`, or remove `step`");
     }
     if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
         let message = "`ratio` without effect: this tap does not feed out";
-        out.note(Code::PC057, message.into(), "take `ratio` out");
+        out.note(Code::PC057, message.into(), "remove `ratio`");
     }
     if shape.options.sink_as_printed && spec.kind == CycleKind::Csink && spec.angle.is_some_and(|angle| angle > 90.0) {
         let message = "the printed formula makes this countersink too deep";
@@ -52,16 +52,16 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     }
     if spec.min_step.is_some() && spec.decr.is_none() && shape.program.settings.cycle_min_step == 0.0 {
         let message = "`min_step` without effect: the steps do not shrink";
-        out.note(Code::PC055, message.into(), "take it out, or give `decr`");
+        out.note(Code::PC055, message.into(), "remove it, or give `decr`");
     }
     let floats = spec.kind.is_tap() && spec.rigid == Some(false) && !spec.norevr && !spec.rapout;
     let asks = |id| shape.program.routine(id).is_some_and(|routine| routine.asks(VarId::Rigid, shape.program));
     if floats && shape.program.settings.rigid_tap && sequence.is_some_and(|id| !asks(id)) {
-        let help = "nothing, if a floating holder may be tapped rigidly; else print what differs in `@if [rigid]`";
-        out.note(Code::PR021, "a floating tap, and the form's tap is rigid".into(), help);
+        let help = "if this tap may be rigid, do nothing; if not, print the difference in `@if [rigid]`";
+        out.note(Code::PR021, "a floating tap, but the form's tap is rigid".into(), help);
     }
     if let (Some(mode), true) = (spec.mode, sequence.is_some()) {
-        let message = format!("how the tap pecks, here `{}`, is the control's own setting", mode.name());
-        out.note(Code::PR021, message, "set the control to it: no word of a form says which");
+        let message = format!("the kind of pecks of the tap, here `{}`, is a setting of the control", mode.name());
+        out.note(Code::PR021, message, "set it at the control: no word of a form selects it");
     }
 }

@@ -1,4 +1,4 @@
-//! A hole by a sequence of the form.
+//! Prints a hole by a sequence of the form.
 
 use super::open::{Drilling, Setup, cancel, leave_cycle, left_hole};
 use super::planned::{Heights, Planned, SAME, hole_variables};
@@ -22,16 +22,16 @@ use crate::render::upon::{upon_is_due, upons};
 use crate::render::want::Want;
 use crate::toolpath::Axes;
 
-/// A hole by a sequence of the form.
+/// Prints a hole by a sequence of the form.
 pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     set_targets(&hole.target, shape, cx.want, cx.said)?;
-    settle_before_hole(routine, cx, drill)?; // with [d] at the return plane: an Upon must not go down the hole
+    settle_before_hole(routine, cx, drill)?; // `[d]` is the return plane here: an Upon must not go down the hole
     hole_variables(hole, shape, cx.want, drill);
     cx.want.set(VarId::D, hole.heights.return_plane);
     let used = routine.vars.without(VarSet::of(&[VarId::D]));
     if upon_is_due(used, false, shape, cx.want, cx.said) {
-        leave_cycle(cx, drill)?; // else the control takes its words for those of a hole
+        leave_cycle(cx, drill)?; // else the control reads these words as those of a hole
         settle_between_holes(hole, cx, drill)?;
     }
     upons(used, cx)?;
@@ -44,7 +44,7 @@ pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: 
     let starts = starts_cycle(routine, hole.heights, shape, cx.want, cx.said, drill);
     if starts {
         cancel(cx, drill)?;
-        settle_between_holes(hole, cx, drill)?; // what Cancel switched is put back
+        settle_between_holes(hole, cx, drill)?; // restores what Cancel switched
         approach(&hole.target, cx)?;
         cx.want.set(VarId::D, hole.heights.bottom);
         warn_of_return(routine, hole.heights, cx.out);
@@ -61,7 +61,7 @@ pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: 
             if starts {
                 run_part(routine, routine.ops.start..routine.repeat, Mode::All, &mut cx.writer())?;
                 if !drills_at_once(routine, shape) {
-                    cx.said.forget_letters(); // the first hole needs its lines whole
+                    cx.said.forget_letters(); // the first hole prints its lines whole
                 }
             }
             let rest = routine.repeat..routine.ops.end;
@@ -83,12 +83,12 @@ pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: 
     left_hole(&hole.target, Some(exit), shape, cx.said, drill)
 }
 
-/// A hole by a sequence that prints its moves, or a cycle that ends in its own body.
+/// Prints a hole by a sequence that prints its own moves, or by a cycle that ends in the sequence itself.
 fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     raise_to(&hole.target, cx, drill)?;
     if !drill.open.as_ref().is_some_and(|cycle| cycle.in_force) {
-        settle_between_holes(hole, cx, drill)?; // what Cancel switched is put back
+        settle_between_holes(hole, cx, drill)?; // restores what Cancel switched
     }
     cx.want.set(VarId::D, hole.heights.bottom);
     cx.said.forget_letters();
@@ -97,7 +97,7 @@ fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut
     if let Some(cycle) = &mut drill.open {
         cycle.in_force = routine.stays;
     }
-    // after a cycle of the control the last height printed is its bottom
+    // after a cycle of the control, the last printed height is the bottom of the hole
     let cycled = prints_code(routine, |code| shape.is_cycle(code), shape);
     let exit = match stays_at_clearance(routine, hole.heights, shape) {
         true => (hole.heights.clear, true),
@@ -106,20 +106,20 @@ fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut
     left_hole(&hole.target, cycled.then_some(exit), shape, cx.said, drill)
 }
 
-/// The height to which a cycle of the control comes back, and whether that is certain. `planned.rs` chooses G98 or G99.
+/// The height to which a cycle of the control returns, and whether it is certain. `planned.rs` selects G98 or G99.
 fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Drilling) -> (f64, bool) {
     let initial = drill.open.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
-    // with [retplane] the code says whether it returns: G98 where the job goes higher, else G99
+    // with `[retplane]` the code decides: G98 if the return plane is above the clearance, else G99
     let higher = heights.return_plane > heights.clear + SAME;
     let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
     let exit = if returns { initial.max(heights.clear) } else { heights.clear };
-    // without a code that says it, the control's own setting decides whether it returns
+    // without such a code the control's own setting decides
     let stays = prints_code(routine, |code| code.is_g(shape.program.settings.return_plane[0]), shape);
     let known = routine.returns || stays || !higher && initial <= heights.clear + SAME;
     (exit, known)
 }
 
-/// Is the tool certainly at the clearance after an emulated sequence: G99, and no axis is printed after the control's cycle?
+/// Is the tool certainly at the clearance after an emulated sequence? It is, with G99 and no axis word after the control's cycle.
 fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
     let number = shape.program.settings.return_plane[0];
     let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
@@ -137,7 +137,7 @@ fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> boo
     !prints_axis_words(&Routine { ops: end..routine.ops.end, ..routine.clone() }, false, shape)
 }
 
-/// An Upon of the hole's bottom, unless it would take the tool there.
+/// Runs an Upon for the hole's bottom, unless that Upon would move the tool to the bottom.
 fn upon_bottom(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     const BOTTOM: VarSet = VarSet::of(&[VarId::D]);
@@ -148,13 +148,13 @@ fn upon_bottom(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut D
     {
         return Ok(());
     }
-    leave_cycle(cx, drill)?; // else the control takes its words for those of a hole
+    leave_cycle(cx, drill)?; // else the control reads these words as those of a hole
     settle_between_holes(hole, cx, drill)?;
     cx.want.set(VarId::D, hole.heights.bottom);
     upons(BOTTOM, cx)
 }
 
-/// The way to a hole of an emulated cycle is a rapid, also where its first block with axis words says no motion.
+/// Prints a rapid code for the approach of an emulated cycle if its first block with axis words has no motion code.
 fn way_to_hole(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let program = shape.program;
@@ -176,7 +176,7 @@ fn way_to_hole(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Do the first lines of a counted cycle drill a hole themselves? K0 and L0 keep the control from it.
+/// Do the first lines of a counted cycle drill a hole themselves? With K0 or L0 they do not.
 fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
     let typed = |asked: &dyn Fn(&Literal) -> bool| {
         routine.steps_in(routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
@@ -188,8 +188,8 @@ fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
         && !typed(&|word| matches!(word.letter, b'K' | b'L') && word.value == 0.0)
 }
 
-/// What stands between holes. While the control is in its cycle nothing may come there: it would be taken for a hole, and
-/// what differs from the job is what the sequence itself switched, as `G95` for a tap. It waits for Cancel.
+/// Prints waiting changes before a hole. While the control is in its cycle they wait for Cancel: a block between the holes would
+/// be read as a hole. The only differences then are those of the sequence itself, as `G95` for a tap.
 fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
     let shape = cx.shape;
     if !cx.said.is_unsettled(cx.want) {
@@ -197,14 +197,14 @@ fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> D
     }
     let in_force = drill.open.as_ref().is_some_and(|cycle| cycle.in_force);
     match in_force && (routine.cancel || prints_code(routine, |code| shape.is_cycle(code), shape)) {
-        // positions in a form of increments are right if the sequence says G90
+        // in a form with incremental moves, positions are correct if the sequence prints G90
         true if shape.program.settings.incremental => Ok(()),
         true => check_reading(shape, cx.want, cx.said),
         false => settle(cx),
     }
 }
 
-/// The control has left its cycle before a hole: what stands between moves, with the hole's own values after it.
+/// Prints waiting changes after the control left its cycle, then sets the hole's values again.
 fn settle_between_holes(hole: &Planned, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
     let shape = cx.shape;
     set_targets(&hole.target, shape, cx.want, cx.said)?;
@@ -229,17 +229,17 @@ fn starts_cycle(
     if !cycle.in_force || cycle.branches != routine.branches {
         return true;
     }
-    // the control would rapid there through the material
+    // the control would make a rapid to this hole through the material
     let level = cycle.last.and_then(|last| last.get(shape.depth));
     if level.is_none_or(|level| heights.clear > level + SAME) {
         return true;
     }
-    // what only its first hole prints would stay as it is
+    // words that only the first hole prints would keep their old values
     let first = routine.first_only;
     !first.is_empty() && routine.style != CycleStyle::WholeLine && cycle.setup.differs(first, want, said)
 }
 
-/// Does a word of the position change at this hole? A block without one would drill on no control, or only on some.
+/// Does a position word change at this hole? Controls do not drill at a block without one, or only some of them do.
 fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done<bool> {
     for i in routine.steps() {
         let crate::compile::Op::Var { letter, var, .. } = shape.program.ops[i] else { continue };
@@ -255,7 +255,7 @@ fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) 
     Ok(false)
 }
 
-/// Goes to the return plane before a control's cycle, up first or down last.
+/// Moves to the return plane before a cycle of the control: up first or down last.
 fn approach(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if !cx.said.differs_from(target, shape.depth_bit(), shape) {
@@ -264,7 +264,7 @@ fn approach(target: &Axes, cx: &mut Cx<'_>) -> Done {
     if is_below(target, shape, cx.said) { raise(target, cx) } else { split_rapid(target, cx) }
 }
 
-/// An emulated cycle's first line may go across: the tool must not be below the return plane then.
+/// Raises the tool before an emulated cycle if it is below the return plane, because the cycle's first line may move across.
 fn raise_to(target: &Axes, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     let below = is_below(target, shape, cx.said) && cx.said.differs_from(target, shape.depth_bit(), shape);
@@ -272,17 +272,13 @@ fn raise_to(target: &Axes, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     if !below || !across {
         return Ok(());
     }
-    cancel(cx, drill)?; // else the control takes the rapid for a hole
+    cancel(cx, drill)?; // else the control reads the rapid as a hole
     raise(target, cx)
 }
 
 fn warn_of_return(routine: &Routine, heights: Heights, out: &mut Printer) {
     if heights.return_plane > heights.clear + SAME && !routine.returns {
-        let message = format!("the job returns to {}, the cycle stays at {}", heights.return_plane, heights.clear);
-        out.note(
-            Code::PR013,
-            message,
-            "print `G[retplane]` in the cycle, so that the control knows where to return to",
-        );
+        let message = format!("the job returns to {}, but the cycle stays at {}", heights.return_plane, heights.clear);
+        out.note(Code::PR013, message, "print `G[retplane]` in the cycle, to set the return level");
     }
 }

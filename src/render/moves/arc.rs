@@ -1,4 +1,4 @@
-//! Arcs: what the form can print of them.
+//! Arcs, as far as the form can print them.
 
 use crate::control;
 use crate::render::cx::Cx;
@@ -21,7 +21,7 @@ use crate::render::targets::{check_limits, set_targets};
 use crate::sema::ArcCentre;
 use crate::toolpath::{Arc, Axes, Direction, Plane, PlaneArc, Units};
 
-/// The axes of a plane in the order that makes counter-clockwise positive, the axis across it, the plane's code.
+/// The axes of a plane in the order for which counter-clockwise is positive, the axis across the plane, and the plane's code.
 fn plane_axes(plane: Plane) -> ([usize; 2], usize, control::Code) {
     let (axes, across) = plane.axes();
     let code = match plane {
@@ -32,13 +32,13 @@ fn plane_axes(plane: Plane) -> ([usize; 2], usize, control::Code) {
     (axes, across, control::Code::g(code))
 }
 
-/// An arc of the path.
+/// Prints an arc of the path.
 pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
     let shape = cx.shape;
     let mut target = begin_cut(&arc.to, Some(feed), cx)?;
     let (axes, across, code) = plane_axes(arc.plane);
     if cx.want.compensated && arc.plane != Plane::Xy && shape.program.settings.machine == Machine::Mill {
-        let help = "end the compensation with an `outfeed` before";
+        let help = "end the compensation with an `outfeed` before it";
         return fault(Code::PR030, "an arc in another plane under cutter compensation", help);
     }
     let Some(from) = in_plane(&cx.said.stand.position, axes) else {
@@ -56,7 +56,7 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
     if cx.said.differs_from(&cx.said.stand.position, 1 << axes[0] | 1 << axes[1], shape)
         && !shape.program.settings.incremental
     {
-        // the control must begin where its centre is counted from
+        // the arc's centre is relative to the start, so the control must be exactly there
         let here = cx.said.stand.position;
         set_targets(&here, shape, cx.want, cx.said)?;
         line_to(&here, cx)?;
@@ -95,7 +95,7 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
     }
 }
 
-/// Travel limits where the arc reaches farthest.
+/// Checks the travel limits at the extreme points of an arc.
 fn check_arc(arc: &PlaneArc, axes: [usize; 2], target: &Axes, shape: &Shape) -> Done {
     let mut parts = Vec::new();
     arc.quadrant_parts(&mut parts);
@@ -111,7 +111,7 @@ fn in_plane(position: &Axes, axes: [usize; 2]) -> Option<[f64; 2]> {
     Some([position.get(axes[0])?, position.get(axes[1])?])
 }
 
-/// Does the target move along this axis at all?
+/// Does the target move along this axis?
 fn differs_by(target: &Axes, axis: usize, said: &Said) -> bool {
     target.get(axis).is_some() && target.get(axis) != said.stand.position.get(axis)
 }
@@ -129,20 +129,20 @@ fn centre_of(arc: &Arc, axes: [usize; 2], from: [f64; 2], to: [f64; 2], ccw: boo
         None => fault(
             Code::PR005,
             format!("no arc of radius {} joins the ends", radius.abs()),
-            "the ends are one point, or farther apart than the diameter: give the `center`",
+            "the ends are equal, or farther apart than the diameter: give the `center`",
         ),
     }
 }
 
-/// Controls alarm, or cut something else, when start and end have different radii: the job's is an error. Whether
-/// the form's digits make it so: then lines say it better.
+/// Checks the radii at start and end: controls alarm or cut another path if they differ. Radii that differ in the job are an
+/// error. If only the rounding of the form makes them differ, returns the difference: the arc then becomes lines.
 fn check_radii(axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2], shape: &Shape) -> Done<Option<f64>> {
     let allowed = if shape.units == Units::Mm { 0.01 } else { 0.0005 } + 1e-9;
     let radius = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
     let (start, end) = (radius(from), radius(to));
     if (start - end).abs() > allowed {
         let message = format!("the arc's radius is {start:.6} at its start and {end:.6} at its end");
-        return fault(Code::PR005, message, "look at the centre: both ends must be equally far from it");
+        return fault(Code::PR005, message, "check the centre: both ends must be at the same distance from it");
     }
     let mut radii = [0.0; 2];
     for (radius, point) in radii.iter_mut().zip([from, to]) {
@@ -168,7 +168,7 @@ fn has_centre_words(axes: [usize; 2], ccw: bool, shape: &Shape) -> bool {
     }
 }
 
-/// Says once that a sequence can't print an arc which it is there for.
+/// Reports once that an arc sequence lacks the centre words for an arc, which therefore becomes lines.
 fn note_lines(axes: [usize; 2], ccw: bool, shape: &Shape, out: &mut Printer) {
     let id = if ccw { SequenceId::CcwCode } else { SequenceId::CwCode };
     if shape.program.routine(id).is_some() && !out.notes().iter().any(|note| note.code == Code::PR024) {

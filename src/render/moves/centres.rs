@@ -1,4 +1,4 @@
-//! Centres of arcs: by the words of the form, by the radius, as values of variables.
+//! Centres of arcs: as words of the form, as a radius, and as values of variables.
 
 use std::f64::consts::PI;
 
@@ -17,13 +17,13 @@ use crate::sema;
 use crate::sema::{ArcCentre, Settings};
 use crate::toolpath::{Axes, PlaneArc, Units};
 
-/// Variables that say where an arc's centre is.
+/// Variables of an arc's centre.
 pub const CENTRES: VarSet = VarSet::of(&[VarId::Ival, VarId::Jval, VarId::Kval, VarId::Hctr, VarId::Vctr]);
 
 /// The variables of the centre along each axis.
 pub const CENTRE_OF: [&[VarId]; 3] = [&[VarId::Ival, VarId::Hctr], &[VarId::Jval, VarId::Vctr], &[VarId::Kval]];
 
-/// A value as the axis prints it.
+/// A value rounded to the digits that its axis prints.
 pub fn as_printed_back(axis: usize, value: f64, shape: &Shape) -> Done<f64> {
     let info = &shape.letters[shape.axes[axis]];
     let scale = shape.scales[axis];
@@ -43,10 +43,10 @@ pub fn centre_letter(letters: &[u8], axis: usize, shape: &Shape) -> Option<u8> {
     if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
 }
 
-/// Divides an arc that radius words say badly. Near half a turn the last digit of the radius moves the centre far:
-/// more and shorter parts say the same arc to the digits of the form.
+/// Divides an arc whose radius word is too coarse. Near half a turn the last digit of the radius moves the centre far; several
+/// shorter parts describe the same arc within the form's digits.
 pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, shape: &Shape, said: &Said) -> Done {
-    const MOST_PARTS: usize = 8; // of each piece that the form would say
+    const MOST_PARTS: usize = 8; // for each piece that the form would print
     let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
     let allowed = if shape.units == Units::Mm { 0.004 } else { 0.00015 };
     let from = said.stand.position;
@@ -67,7 +67,7 @@ pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, sha
     Ok(())
 }
 
-/// How far the control's centre of a piece that begins `here` is from the arc's, where a radius says the centre.
+/// Distance between the arc's centre and the centre that the control computes from the radius, for a piece that begins at `here`.
 fn centre_moves(piece: &Piece, here: &Axes, shape: &Shape) -> Done<f64> {
     let ccw = piece.arc.sweep > 0.0;
     let Some(letter) = radius_letter(piece, ccw, shape) else { return Ok(0.0) };
@@ -84,7 +84,7 @@ fn centre_moves(piece: &Piece, here: &Axes, shape: &Shape) -> Done<f64> {
     Ok(centre.map_or(f64::INFINITY, |[a, b]| (a - piece.arc.centre[0]).hypot(b - piece.arc.centre[1])))
 }
 
-/// The letter of a piece's radius, where that is what says its centre.
+/// The letter of a piece's radius; `None` if centre words define the centre.
 fn radius_letter(piece: &Piece, ccw: bool, shape: &Shape) -> Option<u8> {
     let program = shape.program;
     match program.routine(if ccw { SequenceId::CcwCode } else { SequenceId::CwCode }) {
@@ -100,19 +100,19 @@ fn radius_letter(piece: &Piece, ccw: bool, shape: &Shape) -> Option<u8> {
     }
 }
 
-/// Centre words are printed only where the control counts them as the form does, from the arc's start or as positions.
+/// Checks that the control interprets centre words as the form does: relative to the arc's start, or as positions.
 pub fn check_centres(shape: &Shape, said: &Said) -> Done {
     match said.centres_misread_by(shape) {
         None => Ok(()),
         Some(code) => {
-            let message = format!("the control is in {code} here, and would take the arc's centre for another point");
-            fault(Code::PR041, message, "take the code out of the form, or turn `CtrIncremental?` round")
+            let message = format!("the control is in {code} here, and would read another centre of the arc");
+            fault(Code::PR041, message, "remove the code from the form, or reverse `CtrIncremental?`")
         }
     }
 }
 
-/// `RevSigns` of an axis is one of its centre word too, and turns the arc round: in blocks that are generated and in the
-/// form's own.
+/// Checks `RevSigns`: reversing one axis also requires reversing its centre word and exchanging the arc codes, in generated
+/// blocks and in the form's own.
 pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, ccw: bool, shape: &Shape) -> Done {
     const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
     let settings = &shape.program.settings;
@@ -125,13 +125,13 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
         (None, ArcCentre::Letters(letters)) => centre_letter(letters, axis, shape),
         (None, ArcCentre::Radius(_)) => None,
     };
-    // both centre words the other way round: some controls count from the centre to the start
+    // both centre words reversed: some controls measure from the centre to the start
     let other = |axis: &usize| centre(*axis).is_some_and(|letter| shape.letters[letter].reversed != reversed(*axis));
     let others = piece.axes.iter().copied().filter(other).count();
     if others == 1 || others == 2 && !settings.centre_incremental {
         let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(shape.axes[axis]));
-        let message = format!("{axis} and its word of the arc's centre have different signs");
-        return fault(Code::PR036, message, "reverse both, as `RevSigns X I`, or none");
+        let message = format!("the signs of {axis} and of its centre word differ");
+        return fault(Code::PR036, message, "reverse both, as `RevSigns X I`, or neither");
     }
     let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
     let own = if ccw != mirrored { 3.0 } else { 2.0 };
@@ -142,22 +142,23 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     };
     if wrong && (0..shape.linear).any(reversed) {
         let message = match mirrored {
-            true => "one axis of the arc's plane has the other sign, and the arc would turn the other way",
-            false => "no axis of the arc's plane has the other sign alone, and the arc would turn the other way",
+            true => "one axis of the arc's plane is reversed: the arc would turn in the opposite direction",
+            false => "no single axis of the arc's plane is reversed: the arc would turn in the opposite direction",
         };
-        let help = "exchange the codes, `CW G3` and `CCW G2`, where one axis of the plane is reversed; leave other planes out of `ArcPlane`";
+        let help = "if one axis of the plane is reversed, exchange the codes, `CW G3` and `CCW G2`; leave other \
+            planes out of `ArcPlane`";
         return fault(Code::PR036, message, help);
     }
     Ok(())
 }
 
-/// The centre as the form counts it: from the printed start, or absolute.
+/// The centre as the form requires it: relative to the printed start, or absolute.
 pub fn centre_values(piece: &Piece, shape: &Shape, said: &Said) -> Done<[f64; 2]> {
     let mut values = piece.arc.centre;
     let mirrored = |axis: usize| shape.scales[axis] < 0.0;
     if shape.program.settings.centre_incremental {
         for (value, &axis) in values.iter_mut().zip(&piece.axes) {
-            // the control starts where it was told to, not where the job exactly was
+            // the control starts at the printed position, not at the exact position of the job
             *value -= as_printed_back(axis, said.stand.position.values[axis], shape)?;
         }
     }
@@ -175,7 +176,7 @@ pub fn centre_words(piece: &Piece, centre: &[f64; 2], shape: &Shape, out: &mut P
             arc_word(*letter, radius, shape, out)
         }
         ArcCentre::Letters(letters) => {
-            // in the order of the axes: I J, I K, J K
+            // axis order: I J, I K, J K
             let mut order = [0, 1];
             if piece.axes[0] > piece.axes[1] {
                 order = [1, 0];
@@ -190,7 +191,7 @@ pub fn centre_words(piece: &Piece, centre: &[f64; 2], shape: &Shape, out: &mut P
     }
 }
 
-/// A centre word: always printed, and no register keeps it.
+/// Prints a centre word. It is always printed and never stored in a register.
 pub fn arc_word(letter: u8, value: f64, shape: &Shape, out: &mut Printer) -> Done {
     let info = &shape.letters[letter];
     let units = quantised(info, value)?;
@@ -210,7 +211,7 @@ pub fn set_arc_variables(piece: &Piece, centre: &[f64; 2], shape: &Shape, want: 
         }
     }
     let degrees = |angle: f64| (angle.to_degrees() % 360.0 + 360.0) % 360.0;
-    // a turret on the other side sees them in a mirror
+    // for a turret on the other side, angles are mirrored
     let way = if piece.axes.iter().any(|&axis| shape.scales[axis] < 0.0) { -1.0 } else { 1.0 };
     let (start, sweep) = (piece.arc.start * way, piece.arc.sweep * way);
     want.set(VarId::Arcrad, piece.arc.radius);
@@ -219,7 +220,7 @@ pub fn set_arc_variables(piece: &Piece, centre: &[f64; 2], shape: &Shape, want: 
     want.set(VarId::Sweep, sweep.to_degrees());
 }
 
-/// How the form says the centre of an arc that turns so far.
+/// The centre format of the form for an arc of this sweep.
 fn centre_by(settings: &Settings, sweep: f64) -> &ArcCentre {
     let over = sweep > PI + 1e-9;
     let full = sweep > 2.0 * PI - 1e-9;

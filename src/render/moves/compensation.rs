@@ -14,7 +14,7 @@ use crate::render::upon::upons;
 use crate::render::words::{AxisUnits, axis_units, axis_words, feed_word, letter_word, motion_word, value_code};
 use crate::toolpath::{Axes, Infeed, Side};
 
-/// The move that turns cutter compensation on.
+/// Prints the move that turns cutter compensation on.
 pub fn infeed(infeed: &Infeed, feed: Option<f64>, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     shape.needs(Meaning::SideLeft)?;
@@ -23,7 +23,7 @@ pub fn infeed(infeed: &Infeed, feed: Option<f64>, cx: &mut Cx<'_>) -> Done {
     let code = if (infeed.side == Side::Left) != mirrored { left } else { right };
     let reversed = |axis: usize| shape.letters[shape.axes[axis]].reversed;
     if reversed(0) != reversed(1) && left < right {
-        let message = "one axis is printed with the other sign, and the offset would be on the other side";
+        let message = "one axis is reversed, so the offset would be on the wrong side";
         return fault(Code::PR036, message, "exchange the codes: `CDC 42 41 40`");
     }
     cx.want.set(VarId::Side, code);
@@ -33,7 +33,7 @@ pub fn infeed(infeed: &Infeed, feed: Option<f64>, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// The move that turns it off.
+/// Prints the move that turns cutter compensation off.
 pub fn outfeed(to: &Axes, feed: Option<f64>, rapid: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let off = shape.program.settings.cdc[2];
@@ -48,21 +48,21 @@ pub fn outfeed(to: &Axes, feed: Option<f64>, rapid: bool, cx: &mut Cx<'_>) -> Do
 struct Switch {
     id: SequenceId,
     code: f64,
-    /// The offset register is said with it.
+    /// The block also prints the offset register.
     offset: bool,
     feed: Option<f64>,
-    /// The job rapids there; a sequence of the form feeds all the same, which is slower and not wrong.
+    /// The job requests a rapid. A sequence of the form prints a feed move all the same: slower, but not wrong.
     rapid: bool,
 }
 
-/// The move of an infeed or an outfeed.
+/// Prints the move of an infeed or an outfeed.
 fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
     let &Switch { id, code, offset, feed, rapid } = switch;
     if rapid && program.routine(id).is_some() {
-        let message = format!("a rapid with cutter compensation is printed by {}, which may feed", id.name());
-        cx.out.note(Code::PR022, message, "look at the move");
+        let message = format!("a rapid with cutter compensation is printed by {}, which may be at feed", id.name());
+        cx.out.note(Code::PR022, message, "check the move");
     }
     let rapid = rapid && program.routine(id).is_none();
     let target = begin_cut(to, (!rapid).then_some(feed), cx)?;
@@ -74,18 +74,18 @@ fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
         let tapers = shape.linear == 4 && (2..4).any(|axis| to.get(axis).is_some());
         let blocks = routine.steps().filter(|&i| matches!(program.ops[i], crate::compile::Op::Line { .. })).count();
         if tapers && blocks > 1 {
-            let message = format!("{} has {blocks} blocks, a four-axis wire takes one", id.name());
+            let message = format!("{} has {blocks} blocks, but a four-axis wire needs exactly one", id.name());
             return fault_at(Code::PR008, message, "write the sequence on one line", Some(routine.span));
         }
         check_prints(routine, &target, shape, cx.said)?;
-        // among increments no register holds a height: it is where the moves so far lead
+        // with incremental moves the registers hold no height, so this check does not apply
         if program.settings.machine == Machine::Mill
             && !program.settings.incremental
             && !routine.vars.has(VarId::D)
             && cx.said.differs_from(&target, shape.depth_bit(), shape)
         {
             let message = format!("the height is unknown here, and {} does not print it", id.name());
-            let help = "put a rapid before it, or the word of [d] into the sequence";
+            let help = "put a rapid before it, or print [d] in the sequence";
             return fault_at(Code::PR017, message, help, Some(routine.span));
         }
         plane_block(control::Code::g(17), routine, &mut cx.writer())?;

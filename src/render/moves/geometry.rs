@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::sema;
 use crate::toolpath::{Axes, PlaneArc};
 
-/// An arc or a part of one, ready to print.
+/// An arc or a part of it, ready to print.
 pub struct Piece<'a> {
     /// The axes of the plane, in the order that makes counter-clockwise positive.
     pub axes: [usize; 2],
@@ -18,14 +18,14 @@ pub struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// The piece from one part of the sweep to another, of an arc that begins at `from`.
+    /// The part of the arc between two fractions of its sweep. The arc begins at `from`.
     pub fn part(&self, from: &Axes, done: f64, part: f64, across: usize) -> Piece<'_> {
         let arc = &self.arc;
         let mut target = *from;
         if part == 1.0 {
             target = self.target;
         } else {
-            // after whole turns it is where it began, to the last digit: else a turn would be an arc of no length
+            // after whole turns the point equals the start in every digit, so that a full turn stays an arc
             let turns = arc.sweep * part / (2.0 * PI);
             if (turns - turns.round()).abs() > 1e-9 {
                 let point = arc.point(part);

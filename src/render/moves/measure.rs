@@ -5,7 +5,7 @@ use crate::render::said::Said;
 use crate::render::want::Want;
 use crate::toolpath::{Axes, FeedMode};
 
-/// Lengths and times, for forms that print them.
+/// Adds the length and time of a move, for forms that print them.
 #[cold]
 pub fn measure(target: &Axes, cuts: bool, want: &mut Want, said: &Said) {
     let mut square = 0.0;
@@ -17,7 +17,7 @@ pub fn measure(target: &Axes, cuts: bool, want: &mut Want, said: &Said) {
     measured(square.sqrt(), cuts, want);
 }
 
-/// Adds a move of this length to what is measured.
+/// Adds a move of this length to the totals.
 pub fn measured(length: f64, cuts: bool, want: &mut Want) {
     want.set(VarId::Movelength, length);
     let Some(feed) = want.feed().filter(|_| cuts) else { return };

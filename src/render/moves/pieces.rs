@@ -1,4 +1,4 @@
-//! Arcs as blocks: in whole, in parts, or as chords.
+//! Prints arcs as blocks: as a whole, in parts, or as chords.
 
 use crate::render::cx::{Cx, Writer};
 use std::f64::consts::PI;
@@ -26,13 +26,13 @@ use crate::sema;
 use crate::sema::ArcCentre;
 use crate::toolpath::{Axes, PlaneArc};
 
-/// Does a sequence say where an arc ends by its centre and the angle there?
+/// Does a sequence define the arc's end by centre and angle?
 fn ends_by_angle(routine: &Routine, axes: [usize; 2]) -> bool {
     let angle = routine.vars.has(VarId::Endang) || routine.vars.has(VarId::Sweep);
     angle && axes.iter().all(|&axis| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var)))
 }
 
-/// Prints an arc in as many parts as the form needs.
+/// Prints an arc in as many parts as the form requires.
 pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
     let shape = cx.shape;
     let settings = &shape.program.settings;
@@ -44,7 +44,7 @@ pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64
     } else {
         let sequence = if arc.sweep > 0.0 { SequenceId::CcwCode } else { SequenceId::CwCode };
         let routine = shape.routine(sequence, cx.want, cx.said);
-        // a sequence that prints the radius and no centre can't say more than half a turn
+        // a sequence with a radius and no centre can print at most half a turn
         let radius_only = match routine {
             Some(routine) => routine.vars.has(VarId::Arcrad) && !routine.vars.meets(CENTRES),
             None => matches!(settings.centre, ArcCentre::Radius(_)),
@@ -57,7 +57,7 @@ pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64
         } else {
             PI
         };
-        // radius words can't say a full circle, and over 180 degrees only when the form has a way
+        // radius words can't print a full circle; over 180 degrees only if the form has a format for it
         arc.equal_parts(most, parts);
         divide_for_radius(whole, across, parts, shape, cx.said)?;
     }
@@ -73,14 +73,14 @@ pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64
     Ok(())
 }
 
-/// In inverse time a part of a move has a part of its time.
+/// With inverse time feeds, each part of a move takes its share of the move's time.
 fn share_of_time(whole: Option<f64>, part: f64, shape: &Shape, want: &mut Want) {
     if want.inverse_time() {
         want.keep_feed(whole.map(|feed| feed / part), shape);
     }
 }
 
-/// Prints one arc block or the form's sequence for it.
+/// Prints one arc as a block or by the form's sequence.
 fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
@@ -89,7 +89,7 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
         set_targets(&piece.target, shape, cx.want, cx.said)?;
         return line_to(&piece.target, cx); // as an arc it would be a full circle
     }
-    // a turret on the other side sees the arc in a mirror
+    // for a turret on the other side, the arc is mirrored
     let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| shape.scales[axis] < 0.0);
     let centre = centre_values(piece, shape, cx.said)?;
     set_targets(&piece.target, shape, cx.want, cx.said)?;
@@ -121,11 +121,11 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
         feed_block(code, routine, &mut cx.writer())?;
         run(routine, Mode::ArcMotion, &mut cx.writer())?;
         if polar {
-            // the control knows where it is, and the letters of these axes say something older
+            // the position is known, but the registers of these axes hold older values
             for axis in piece.axes {
                 cx.said.forget(&shape.letters[shape.axes[axis]]);
             }
-            cx.said.say_motion_again(); // G12 is a motion that no group knows
+            cx.said.say_motion_again(); // G12 belongs to no known modal group
         }
     } else {
         arc_block(piece, (code, ccw), &centre, &mut cx.writer())?;
@@ -135,7 +135,7 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Do both ends print alike? A short arc would then become a full circle.
+/// Do both ends print as the same position? As an arc, a short one would become a full circle.
 pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) -> bool {
     axes.iter().all(|&axis| {
         let printed = |value: f64| as_printed_back(axis, value, shape).ok();
@@ -143,24 +143,24 @@ pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) ->
     })
 }
 
-/// A sequence of arcs must print a code of its own: an arc code in a block before it would have no end.
+/// Checks that an arc sequence prints its own arc code: a code in a block before it would be an arc without an end.
 fn check_arc_code(routine: &Routine, code: &sema::Code, shape: &Shape, said: &Said) -> Done {
     if !shape.program.speaks_g || said.motion_in_force(code) || prints_own_motion(routine, shape) {
         return Ok(());
     }
-    let message = format!("the sequence prints no G{}, and the control is in another motion", code.value());
+    let message = format!("the sequence does not print G{}, but another motion code is active", code.value());
     fault_at(Code::PR017, message, format!("begin its block with G{}", code.value()), Some(routine.span))
 }
 
-/// The generated block: plane, motion code, axes, centre, direction, feed.
+/// Prints a generated block: plane, motion code, axes, centre, direction, feed.
 fn arc_block(piece: &Piece, (code, ccw): (&sema::Code, bool), centre: &[f64; 2], writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let settings = &shape.program.settings;
     if shape.program.settings.machine == Machine::Mill {
-        motion_word(piece.plane, writer)?; // a lathe and a wire have but one
+        motion_word(piece.plane, writer)?; // a lathe and a wire EDM machine have only one plane
     }
     if !writer.said.differs_from(&piece.target, 0x3f, shape) {
-        // a whole circle has no axis words: controls want its code said again
+        // a full circle has no axis words, and controls require its code in the block
         writer.said.say_motion_again();
     }
     motion_word(code, writer)?;
@@ -181,7 +181,7 @@ fn arc_block(piece: &Piece, (code, ccw): (&sema::Code, bool), centre: &[f64; 2],
     Ok(())
 }
 
-/// An arc that the form can't print, as lines within its tolerance.
+/// Prints an arc as lines within the form's tolerance, for an arc that the form can't print.
 pub fn chords((arc, axes): (&PlaneArc, [usize; 2]), target: &Axes, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
     let shape = cx.shape;
     let mut from = cx.said.stand.position;
@@ -189,7 +189,11 @@ pub fn chords((arc, axes): (&PlaneArc, [usize; 2]), target: &Axes, cx: &mut Cx<'
         match cx.said.stand.angle(axis) {
             Some(angle) => from.set(axis, angle),
             None => {
-                return fault(Code::PR005, "the arc turns from an unknown angle", "begin with a rapid that says it");
+                return fault(
+                    Code::PR005,
+                    "the arc turns from an unknown angle",
+                    "begin with a rapid that gives the angle",
+                );
             }
         }
     }

@@ -1,4 +1,4 @@
-//! What comes before each move of the path, in its order.
+//! Preparation of each move of the path, in order.
 
 use super::rapid_blocks::split_rapid;
 use super::travel::in_travel;
@@ -14,32 +14,32 @@ use crate::render::upon::upons;
 use crate::render::vars::MOVE_VARS;
 use crate::toolpath::Axes;
 
-/// Where an item of the path goes, in the travel of the machine; `free`: out of the part. An open cycle ends before it.
+/// The target of an item within the machine's travel. `free`: the tool is out of the part. An open cycle has ended before.
 #[inline]
 pub fn reach(to: &Axes, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
     if cx.said.stand.left_hole.is_some() {
         stand_as_left(&cx.said.stand.target(to, shape), free, cx)?;
         if to.given & shape.depth_bit() != 0 {
-            cx.said.stand.left_hole = None; // the item says its own height
+            cx.said.stand.left_hole = None; // the item has a height of its own
         }
     }
     let target = cx.said.stand.target(to, shape);
     if to.given & ROTARY_BITS != 0 { in_travel(&target, to.given, free, cx) } else { Ok(target) }
 }
 
-/// After a cycle that left the tool at another height than the job: a cut begins at the job's, and a rapid across, which
-/// may also be the way to the next cycle, is made there.
+/// Moves the tool to the height of the job after a cycle that left it at another one. This happens before a cut, and before a
+/// rapid across, which may also lead to the next cycle.
 #[cold]
 pub fn stand_as_left(target: &Axes, free: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let Some((at, height)) = cx.said.stand.left_hole.take() else { return Ok(()) };
-    // only where nothing moved the tool since
+    // only if nothing has moved the tool since
     if at != cx.said.stand.position {
         return Ok(());
     }
     if cx.said.lacks(cx.want, shape).has(VarId::Work) {
-        // in another offset all axes are said again: at the job's height
+        // in another work offset all axes are printed again, with the job's height
         cx.said.stand.position.set(shape.depth, height);
         return Ok(());
     }
@@ -58,8 +58,8 @@ pub fn stand_as_left(target: &Axes, free: bool, cx: &mut Cx<'_>) -> Done {
     split_rapid(&to, cx)
 }
 
-/// Where a cut goes and how fast: the first half of what comes before each cut. In this order: the height after a cycle, where the
-/// item goes within the travel, that the tool begins somewhere, the feed. `feed`: the job's; `None`: the move is a rapid.
+/// First half of the preparation of a cut: its target and feed. Steps in order: height after a cycle, target within the travel,
+/// known start, feed. `feed`: the job's feed; the outer `None` means a rapid.
 #[inline]
 pub fn begin_cut(to: &Axes, feed: Option<Option<f64>>, cx: &mut Cx<'_>) -> Done<Axes> {
     let target = reach(to, false, cx)?;
@@ -72,8 +72,8 @@ pub fn begin_cut(to: &Axes, feed: Option<Option<f64>>, cx: &mut Cx<'_>) -> Done<
     Ok(target)
 }
 
-/// Prints what must come before a cut to a target: the second half. In this order: conditions that wait, that the tool is at the
-/// cut's beginning, the position variables, the Upon sequences of them. `targets`: the cut's own sequence has them.
+/// Second half of the preparation of a cut. Steps in order: waiting changes, check that the tool is at the start of the cut,
+/// position variables, their Upon sequences. `targets`: the cut's own sequence uses the position variables.
 #[inline]
 pub fn cut_goes_to(target: &Axes, targets: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
@@ -91,7 +91,7 @@ pub fn cut_goes_to(target: &Axes, targets: bool, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// A new tool comes from an unknown position: its first cut must have a beginning.
+/// Checks that the start of the first cut is known: a new tool comes from an unknown position.
 #[cold]
 fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
     // the upper guides of a wire follow the lower ones
@@ -103,8 +103,7 @@ fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
     }
     let unsaid = (0..6).filter(|axis| unknown & 1 << axis != 0).map(|axis| char::from(shape.axes[axis]).to_string());
     let unsaid = unsaid.collect::<Vec<_>>().join(" and ");
-    let message = format!(
-        "the operation begins with a cut, and nothing before it says {unsaid} since the tool change or the way home"
-    );
-    fault(Code::PR012, message, "begin it with a rapid to the beginning of its first cut")
+    let message =
+        format!("the operation begins with a cut, but {unsaid} is unknown since the tool change or the move home");
+    fault(Code::PR012, message, "begin it with a rapid to the start of its first cut")
 }

@@ -15,7 +15,7 @@ use crate::render::vars::MOVE_VARS;
 use crate::render::work::work_before;
 use crate::toolpath::Axes;
 
-/// A rapid of the path.
+/// Prints a rapid of the path.
 pub fn rapid(to: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let target = reach(to, true, cx)?;
@@ -32,11 +32,12 @@ pub fn rapid(to: &Axes, cx: &mut Cx<'_>) -> Done {
             return fault(
                 Code::PR017,
                 message,
-                "print the work offset by `WorkChange`, with the angle: `G[work] A[rotangle]`; or put a rapid that keeps the angle before it",
+                "print the work offset in `WorkChange`, with the angle: `G[work] A[rotangle]`; or put a rapid at the \
+                 same angle before it",
             );
         }
         print_lacking(cx)?;
-        cx.said.differs |= cx.said.sub.is_some_and(|sub| sub.stops); // a cut after it must know its spindle
+        cx.said.differs |= cx.said.sub.is_some_and(|sub| sub.stops); // a cut after it must check the spindle again
     }
     cx.said.stand.moved_by = None;
     if turns {

@@ -1,4 +1,4 @@
-//! Rapids as blocks: in one, or up first and down last.
+//! Rapids as blocks: in one block, or in two (up first or down last).
 
 use super::measure::measure;
 use crate::lang::SequenceId;
@@ -15,7 +15,7 @@ use crate::render::words::move_block;
 use crate::sema;
 use crate::toolpath::Axes;
 
-/// A rapid to a target in program units, as one block or, under VRapid, split.
+/// Prints a rapid to a target in program units: as one block, or split if the form has VRapid.
 pub fn rapid_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if shape.program.settings.depth_rapid.is_some()
@@ -27,7 +27,7 @@ pub fn rapid_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     rapid_block(target, None, cx)
 }
 
-/// A rapid that goes up first or down last: between holes, and under VRapid.
+/// Prints a rapid that goes up first or down last: between holes, and with VRapid.
 pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let code = shape.program.settings.depth_rapid.clone();
@@ -36,7 +36,7 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
             target.given & shape.depth_bit() != 0 && cx.said.differs_from(target, shape.depth_bit(), shape);
         return rapid_block(target, code.filter(|_| depth_only), cx);
     }
-    // only the axes of each part: the others stay where they are, printed or not
+    // each part has only its own axes: the others do not move, whether they are printed or not
     let depth = shape.depth_bit();
     let part = |axes: u8| Axes { given: target.given & axes, ..*target };
     if is_below(target, shape, cx.said) {
@@ -48,7 +48,7 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Is the tool below a target, by what the job said last? From an unknown height it comes from above.
+/// Is the tool below a target, from its last known height? If the height is unknown, the tool counts as above.
 pub fn is_below(target: &Axes, shape: &Shape, said: &Said) -> bool {
     let from = said.stand.position.get(shape.depth).or(said.stand.left_at);
     from.is_some_and(|from| target.values[shape.depth] > from)
@@ -61,7 +61,7 @@ fn changes_depth_and_plane(target: &Axes, shape: &Shape, said: &Said) -> bool {
 pub fn rapid_block(target: &Axes, code: Option<sema::Code>, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
-    // the depth part under VRapid has its own code, which the sequence can't print
+    // the depth part of VRapid has its own code, which the sequence can't print
     match program.routine(SequenceId::RapidCode).filter(|_| code.is_none()) {
         Some(routine) if cx.said.differs_from(target, 0x3f, shape) => {
             let mut whole = cx.said.stand.position;
@@ -69,7 +69,7 @@ pub fn rapid_block(target: &Axes, code: Option<sema::Code>, cx: &mut Cx<'_>) -> 
                 whole.set(axis, target.values[axis]);
             }
             set_targets(&whole, shape, cx.want, cx.said)?;
-            // where an axis is unknown, its variable may still have the height of a hole
+            // the variable of an unknown axis may still hold the height of a hole
             for axis in (0..shape.linear.min(3)).filter(|axis| whole.given & 1 << axis == 0) {
                 cx.want.put(NOW[axis], None);
             }

@@ -1,4 +1,4 @@
-//! Threads on a lathe: the control's cycle, a cycle of one pass each, or passes made here.
+//! Threads on a lathe: by the control's cycle, by a cycle for each pass, or by generated passes.
 
 use super::rapid_blocks::rapid_to;
 use crate::compile::{Op, Routine};
@@ -19,28 +19,28 @@ use crate::render::words::{axis_word, code_word, letter_word};
 use crate::sema;
 use crate::toolpath::{Axes, Thread};
 
-/// A thread in program units, radii as radii.
+/// A thread in program units. Radii are real radii, not diameters.
 struct Cut {
     /// End along the axis.
     end: f64,
     /// Radius of the crest at the end.
     crest: f64,
-    /// Which way the passes go: -1 to the centre, 1 away from it.
+    /// Direction of the passes: -1 towards the centre, 1 away from it.
     inward: f64,
     passes: Vec<f64>,
     lead: f64,
-    /// How much the crest's radius falls from the start to the end, for each unit of length.
+    /// Decrease of the crest's radius from start to end, per unit of length.
     slope: f64,
 }
 
 impl Cut {
-    /// Radius at the begin of a pass less radius at its end.
+    /// Radius at the start of a pass minus radius at its end.
     fn taper(&self, begin: f64) -> f64 {
         self.slope * (begin - self.end).abs()
     }
 }
 
-/// A thread of the path. AutoThread goes before CanThread, both before passes made here.
+/// Prints a thread of the path: by AutoThread if the form has it, else by CanThread, else by generated passes.
 pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     check_state(shape, cx.want, cx.out)?;
@@ -84,7 +84,7 @@ pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
         if cycle.is_some_and(|routine| routine.cancel)
             && let Some(cancel) = shape.routine(SequenceId::Cancel, cx.want, cx.said)
         {
-            run_with_upons(cancel, cx)?; // else the rapid after it would be a pass
+            run_with_upons(cancel, cx)?; // else the next rapid would be a pass
         }
         cx.said.forget_words();
         cx.said.stand.position = here;
@@ -95,11 +95,11 @@ pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Refuses a thread that the machine can't cut as it stands.
+/// Refuses a thread that the machine can't cut in its current state.
 fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
     let settings = &shape.program.settings;
     if settings.machine != Machine::Lathe {
-        return fault(Code::PR008, "threads are for lathes", "mill the thread by its moves, or tap it");
+        return fault(Code::PR008, "threads are for lathes", "program the thread as milling moves, or tap it");
     }
     if !want.get(VarId::Direct).is_some_and(|code| code != settings.spindle[2]) {
         return fault(Code::PR032, "the spindle does not turn", "give the operation a spindle with a direction");
@@ -109,20 +109,22 @@ fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
         return fault(Code::PR030, "a thread under cutter compensation", help);
     }
     if want.get(VarId::Speedtype) == Some(settings.speed_type[0]) {
-        let message = "a thread at constant surface speed: each pass turns otherwise, and begins elsewhere".to_owned();
+        let message =
+            "a thread at constant surface speed: the passes have different speeds and different starting angles"
+                .to_owned();
         out.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
     }
     if settings.incremental {
-        let help = "thread with a form of positions";
-        return fault(Code::PR031, "a thread's words are positions, and the form prints increments", help);
+        let help = "use a form that prints positions";
+        return fault(Code::PR031, "the words of a thread are positions, but the form prints increments", help);
     }
     Ok(())
 }
 
-/// Checks that the tool is known to be beside the thread, on the side from which it is cut.
+/// Checks that the tool is beside the thread, on the side from which it is cut.
 fn check_beside(thread: &Thread, cut: &Cut, shape: &Shape, said: &Said) -> Done {
     let Some(beside) = said.stand.position.get(1) else {
-        let help = "begin with a rapid to beside the thread, which says how far it is from the axis";
+        let help = "begin with a rapid to a position beside the thread, with its distance from the axis";
         return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
     };
     let from = said.stand.target(&thread.from, shape).values[1];
@@ -130,7 +132,7 @@ fn check_beside(thread: &Thread, cut: &Cut, shape: &Shape, said: &Said) -> Done 
     if wrong {
         let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
         let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
-        return fault(Code::PR031, message, "rapid to the other side of the crest first");
+        return fault(Code::PR031, message, "first make a rapid to the other side of the crest");
     }
     Ok(())
 }
@@ -152,8 +154,8 @@ fn planned(thread: &Thread, shape: &Shape, said: &Said) -> Done<Cut> {
     let crest = if thread.to.given & 0b10 != 0 { to.values[1] } else { start - taper.unwrap_or(0.0) };
     let falls = start - crest;
     if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
-        let message = format!("the thread's ends differ by {falls} in radius, its `taper` is {taper}");
-        return fault(Code::PR031, message, "give x of `to`, or `taper`, or both alike");
+        let message = format!("the ends of the thread differ by {falls} in radius, but its `taper` is {taper}");
+        return fault(Code::PR031, message, "give x of `to`, or `taper`, or equal values for both");
     }
     let depth = thread.depth.abs() * shape.scale;
     let first = thread.first_depth.map(|d| d * shape.scale);
@@ -185,7 +187,7 @@ fn thread_variables(thread: &Thread, cut: &Cut, shape: &Shape, want: &mut Want) 
     want.set(VarId::Startang, angle / 2.0);
 }
 
-/// What the thread asks for must be in the cycle's words, or stand in its packed parameters.
+/// Checks that the words of the cycle, or its packed parameters, contain everything that the thread requests.
 fn check_thread_words(thread: &Thread, cut: &Cut, routine: &Routine, shape: &Shape, want: &Want) -> Done {
     let packed = packed_parameters(routine, shape, want);
     let in_packed = |digits: std::ops::Range<usize>, value: f64| {
@@ -216,13 +218,14 @@ fn check_thread_words(thread: &Thread, cut: &Cut, routine: &Routine, shape: &Sha
         None => Ok(()),
         Some((_, what)) => {
             let message = format!("the thread cycle does not print {what}");
-            let help = "add the word, or say it in the packed parameters: `--set tparams=010029` is 1 finishing pass, no chamfer, 29 degrees";
+            let help = "add the word, or give the value in the packed parameters: `--set tparams=010029` is 1 \
+                finishing pass, no chamfer, 29 degrees";
             fault_at(Code::PR017, message, help, Some(routine.span))
         }
     }
 }
 
-/// The digits of a packed `[tparams]` word: finishing passes, chamfer, angle, two each.
+/// The digits of a packed `[tparams]` word: finishing passes, chamfer and angle, with two digits each.
 fn packed_parameters(routine: &Routine, shape: &Shape, want: &Want) -> Option<String> {
     let letter = routine.steps().find_map(|i| match shape.program.ops[i] {
         Op::Var { letter, var: VarId::Tparams, .. } => Some(letter),
@@ -234,7 +237,7 @@ fn packed_parameters(routine: &Routine, shape: &Shape, want: &Want) -> Option<St
     }
 }
 
-/// The end of a pass as the position variables.
+/// Sets the position variables to the end of a pass.
 fn pass_variables(cut: &Cut, depth: f64, shape: &Shape, want: &mut Want, said: &mut Said) -> Done<Axes> {
     let mut end = said.stand.position;
     end.set(0, cut.end);
@@ -243,7 +246,7 @@ fn pass_variables(cut: &Cut, depth: f64, shape: &Shape, want: &mut Want, said: &
     Ok(end)
 }
 
-/// CanThread: its first lines once, the others at every pass.
+/// Prints CanThread: its first lines once, the others for every pass.
 fn canned_passes(routine: &Routine, cut: &Cut, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     upons(routine.vars, cx)?;
@@ -262,13 +265,13 @@ fn canned_passes(routine: &Routine, cut: &Cut, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Passes with the code of the `Thread` command.
+/// Prints passes with the code of the `Thread` command.
 fn own_passes(cut: &Cut, here: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
     let Some(code) = &program.settings.thread else {
         let help = "add AutoThread, CanThread or the line `Thread G33` to the form";
-        return fault(Code::PR008, "the form has no way to thread", help);
+        return fault(Code::PR008, "the form can't print a thread", help);
     };
     for (i, &depth) in cut.passes.iter().enumerate() {
         let end = pass_variables(cut, depth, shape, cx.want, cx.said)?;

@@ -1,4 +1,4 @@
-//! Rotary travel that ends: axes are unwound.
+//! Rotary axes with limited travel: unwinding.
 
 use crate::compile::Routine;
 use crate::diag::Code;
@@ -12,9 +12,9 @@ use crate::render::targets::set_targets;
 use crate::render::upon::run_with_upons;
 use crate::toolpath::Axes;
 
-/// A target whose rotary angles are in the travel of their axes: when one would leave it, the tool is taken out,
-/// the axis unwound, and angles count from there. `given`: the axes that the job's own item gives. `free`: the tool is
-/// out of the part, so whole turns more or less are the same view.
+/// Brings the rotary angles of a target into the travel of their axes. If an axis would leave its travel, the tool is taken out,
+/// the axis is unwound, and angles then count from the new zero. `given`: the axes in the job's own item. `free`: the tool is out
+/// of the part, so that angles that differ by whole turns are equivalent.
 pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
     let mut inside = *target;
@@ -33,7 +33,7 @@ pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<
             continue;
         }
         if free {
-            // the nearest of the same views that the axis can reach
+            // the nearest equivalent angle within the travel
             let (raw, here) = (inside.values[axis], cx.said.stand.angle(axis).unwrap_or(0.0));
             let nearest = here + (raw - here + 180.0).rem_euclid(360.0) - 180.0;
             if let Some(angle) = [nearest, nearest - 360.0, nearest + 360.0].into_iter().find(|&a| within(a)) {
@@ -42,7 +42,7 @@ pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<
                 continue;
             }
         }
-        // whole turns come off where the axis stands, so that the move itself turns as far as it should
+        // subtract whole turns from the axis' position, so that the move itself keeps its full angle
         let here = cx.said.stand.angle(axis).unwrap_or(0.0);
         let turns = here - here % 360.0;
         let angle = inside.values[axis] - turns;
@@ -52,7 +52,7 @@ pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<
             return fault(
                 Code::PR007,
                 message,
-                "split the move, or turn the other way: no unwinding brings it into the travel",
+                "split the move, or turn in the opposite direction: unwinding does not help",
             );
         }
         unwind(axis, cx)?;
@@ -62,7 +62,7 @@ pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<
     Ok(inside)
 }
 
-/// A target less the whole turns that were taken off.
+/// The target minus the whole turns that were removed by unwinding.
 pub fn unwound(target: &Axes, given: u8, shape: &Shape, said: &Said) -> Axes {
     let mut inside = *target;
     for axis in shape.rotary().filter(|axis| given & 1 << axis != 0) {
@@ -71,21 +71,21 @@ pub fn unwound(target: &Axes, given: u8, shape: &Shape, said: &Said) -> Axes {
     inside
 }
 
-/// Prints Unwind; the tool is back where it was, its angle modulo 360.
+/// Prints Unwind. Afterwards the tool is where it was, and the angle is reduced modulo 360.
 pub fn unwind(axis: usize, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
     let letter = char::from(shape.axes[axis]);
     let Some(routine) = program.routine(SequenceId::Unwind) else {
-        let message = format!("{letter} reaches the end of its travel, and the form has no Unwind");
-        return fault(Code::PR007, message, "add Unwind: it lifts the tool, turns the axis back and goes on");
+        let message = format!("{letter} reaches the end of its travel, but the form has no Unwind");
+        return fault(Code::PR007, message, "add Unwind: it retracts the tool, turns the axis back and continues");
     };
     if cx.want.compensated {
         let help = "end the compensation with an `outfeed` before";
         return fault(Code::PR030, "a rotary axis is unwound under cutter compensation", help);
     }
     if !prints_angle(routine, axis, shape) {
-        let message = format!("{letter} is to be unwound, and Unwind does not print its angle");
+        let message = format!("{letter} must be unwound, but Unwind does not print its angle");
         return fault_at(Code::PR017, message, format!("print `{letter}[lastrotangle]`"), Some(routine.span));
     }
     let mut here = cx.said.stand.position;
@@ -102,7 +102,7 @@ pub fn unwind(axis: usize, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// A sequence that may leave the path and come back: only what it prints is known afterwards.
+/// Runs a sequence that may leave the path and return. Afterwards only the values that it printed are known.
 pub fn run_elsewhere(routine: &Routine, cx: &mut Cx<'_>) -> Done {
     cx.said.forget_words();
     cx.said.stand.placed = 0;

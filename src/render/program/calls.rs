@@ -26,7 +26,7 @@ fn undefined<T>(number: f64) -> Done<T> {
     fault(Code::PR034, format!("the job has no subprogram {number}"), "add it to `subprograms`, before the operations")
 }
 
-/// A fault at another place than the current one.
+/// Sets another location for a fault.
 fn at<T>(place: Place, done: Done<T>) -> Done<T> {
     done.map_err(|mut diag: Box<Diag>| {
         diag.place = Some(place.into());
@@ -34,7 +34,7 @@ fn at<T>(place: Place, done: Done<T>) -> Done<T> {
     })
 }
 
-/// A call: nothing is known before and after it, because the subprogram moves the tool.
+/// Prints a call. The subprogram moves the tool, so the known state is discarded before and after it.
 pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     let shape = cx.shape;
     let from = subs.open;
@@ -42,7 +42,7 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     for var in CONDITIONS.into_iter().filter(|&var| cx.want.get(var).is_none()) {
         unknown.insert(var);
     }
-    // a call of the main program needs no look at the end: its subprogram is known here, and so is what that calls
+    // a call from the main program needs no check at the end: its subprogram, and those that it calls, are already known
     if let Some(from) = from {
         let turned_back = turns_back(cx.want, shape);
         subs.calls.push(Called { from, to: call.sub, place: cx.out.place, unknown, turned_back });
@@ -67,7 +67,7 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     cx.want.put(VarId::Subline, first_block);
     let routine = shape.way(base, cx.want, cx.said);
     let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
-    // a sequence that does not print how often is printed as often; so is one whose next run must begin as the first
+    // print the call once for each run if the sequence lacks `[times]`, or if each run must begin in the state of the first
     let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
     let calls = if together { 1 } else { call.times as u32 };
     if !together {
@@ -87,39 +87,51 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
         run_all(routine, &mut cx.writer())?;
         after_call(called, cx.want, cx.said, subs);
     }
-    // the call's work offset is the call's alone: what follows is in the operation's again
+    // the call's work offset applies to the call only: afterwards the operation's offset is active again
     cx.want.put(VarId::Work, work);
     cx.want.changed = true;
     Ok(())
 }
 
-/// Refuses a call whose subprogram would do something else here.
+/// Refuses a call whose subprogram would behave differently here.
 fn check_call(call: &Call, called: Option<usize>, want: &Want, said: &Said, subs: &Subprograms) -> Done {
     if want.feed_mode() != FeedMode::PerMinute {
-        let help = "call it from an operation whose feeds are per minute";
-        return fault(Code::PR033, "a subprogram's feeds are per minute, and the caller's are not", help);
+        let help = "call it from an operation with feeds per minute";
+        return fault(
+            Code::PR033,
+            "the feeds of a subprogram are per minute, but the feeds of its caller are not",
+            help,
+        );
     }
     if said.stand.angles.is_wound() {
         let help = "make the call before an axis is unwound, or turn it back first";
-        return fault(Code::PR033, "a call after a rotary axis was unwound: its angles would mean others", help);
+        return fault(
+            Code::PR033,
+            "a call after a rotary axis was unwound: the angles of the subprogram would be wrong",
+            help,
+        );
     }
     if call.work.is_some() && want.get(VarId::Work).is_none() {
         let help = "give the subprogram its own `work` before the call";
-        return fault(Code::PR033, "a call in another work offset from one that is not known here", help);
+        return fault(
+            Code::PR033,
+            "a call in another work offset, but the work offset of the caller is unknown here",
+            help,
+        );
     }
     if call.times > 1.0 && called.is_some_and(|i| subs.defined[i].left.turned) {
-        let help = "turn it back at the end of the subprogram, or call it once for each angle";
+        let help = "turn the part back at the end of the subprogram, or call it once for each angle";
         return fault(Code::PR033, "a subprogram that leaves the part turned is called several times", help);
     }
     Ok(())
 }
 
-/// The number of the called subprogram as it is printed, and the number of its first block, where that is known.
+/// The number of the called subprogram as printed, and the number of its first block if that is known.
 fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Subprograms) -> Done<(f64, Option<f64>)> {
     let inside = subs.open.is_some();
     match called.map(|i| &subs.defined[i]) {
         Some(sub) => Ok((sub.printed, sub.first_block)),
-        // inside a subprogram a later one may be called; whether it comes is checked at the end
+        // inside a subprogram, a later one may be called; the end of the job checks that it exists
         None if inside && !shape.program.settings.renumber_subs => Ok((call.sub, None)),
         None if inside => {
             let help = "put the called subprogram before this one, or set `RenumSubs? N`";
@@ -129,7 +141,7 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
     }
 }
 
-/// Where the next run of a call begins that is printed again for each: where the run before has ended.
+/// The start of each further run, if a call is printed once for each run: the end position of the previous run.
 fn next_begins(
     place: &Axes,
     routine: &Routine,
@@ -138,15 +150,16 @@ fn next_begins(
     want: &Want,
     subs: &Subprograms,
 ) -> Done<Axes> {
-    // places in an offset of the subprogram's own are others here
+    // if the subprogram selects its own offset, its end position does not apply here
     let work =
         |conditions: &Conditions| conditions.get(VarId::Work).filter(|work| want.get(VarId::Work) != Some(*work));
     let left = called.map(|called| &subs.defined[called].left).filter(|left| work(&left.conditions).is_none());
     let mut begins = *place;
     for axis in (0..6).filter(|&axis| prints_axis(routine, axis, shape)) {
         let Some(at) = left.and_then(|left| left.position.get(axis)) else {
-            let message = "a subprogram whose end position is unknown is called several times, and `SubCall` prints a place for each";
-            let help = "end the subprogram with a rapid to a place, or let `SubCall` print [times] and no place";
+            let message = "a subprogram with an unknown end position is called several times, but `SubCall` prints a \
+                position for each call";
+            let help = "end the subprogram with a rapid to a position, or let `SubCall` print [times] and no position";
             return fault(Code::PR033, message, help);
         };
         begins.set(axis, at);
@@ -154,19 +167,19 @@ fn next_begins(
     Ok(begins)
 }
 
-/// Does the spindle turn counterclockwise here?
+/// Does the spindle turn counterclockwise?
 fn turns_back(want: &Want, shape: &Shape) -> bool {
     want.get(VarId::Direct) == Some(shape.program.settings.spindle[1])
 }
 
 fn taps_back<T>(sub: f64) -> Done<T> {
     let message =
-        format!("subprogram {sub} taps right-hand threads, and its caller turns the spindle counterclockwise");
-    fault(Code::PR033, message, "say the direction of the spindle in the subprogram before its tap")
+        format!("subprogram {sub} taps right-hand threads, but its caller turns the spindle counterclockwise");
+    fault(Code::PR033, message, "give the direction of the spindle in the subprogram before its tap")
 }
 
-/// Prints what a call needs before it: changes that its sequence does not print, and the place it is called at. Returns
-/// the place.
+/// Prints what a call needs before it: changes that its sequence does not print, and the move to the position of the call.
+/// Returns that position.
 fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
     plain_cutting(&mut cx.writer())?;
@@ -176,7 +189,7 @@ fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
         settle(cx)?;
     }
     let at = Axes { given: call.at.given, ..target };
-    // all of it: a part alone would go down before it goes across
+    // the whole position: a part alone would move down before it moves across
     if (0..6).any(|axis| at.get(axis).is_some() && !prints_axis(routine, axis, shape)) {
         if says_work(routine, shape) {
             upons(VarSet::of(&[VarId::Work]), cx)?;
@@ -188,7 +201,7 @@ fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
     Ok(target)
 }
 
-/// The subprogram moved the tool, and changed what it says it changed.
+/// Updates the known state after a call: the tool moved, and the subprogram's changes apply.
 fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     said.stand.fresh_tool = None;
     said.beside.doubt();
@@ -219,21 +232,27 @@ fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mu
     }
 }
 
-/// Checks that every call has its subprogram, and none comes back to itself.
+/// Checks that every called subprogram exists and that none calls itself.
 pub fn check_calls(subs: &Subprograms) -> Done {
     let ends = subs.ending();
     for call in &subs.calls {
         let Some(to) = subs.index(call.to) else { return at(call.place, undefined(call.to)) };
         if subs.defined[to].left.conditions.known().meets(call.unknown) {
-            let message = format!("subprogram {} changes what its caller does not know and can't put back", call.to);
-            let help = "say spindle, coolant and work offset in the calling subprogram before the call";
+            let message = format!(
+                "subprogram {} changes a setting that its caller can't restore, because it has not set it",
+                call.to
+            );
+            let help = "set spindle, coolant and work offset in the calling subprogram before the call";
             return at(call.place, fault(Code::PR033, message, help));
         }
-        // a later one that stops: its caller went on without a look at it
+        // the caller printed no check after the call of a later subprogram that stops
         let unknown = [VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(|var| call.unknown.has(var));
         if to > call.from && unknown && subs.defined[to].left.spins.stops {
-            let message = format!("subprogram {} stops, and its caller does not know its spindle and coolant", call.to);
-            let help = "say spindle and coolant in the calling subprogram before the call";
+            let message = format!(
+                "subprogram {} contains a stop, but the spindle and coolant of its caller are unknown",
+                call.to
+            );
+            let help = "set spindle and coolant in the calling subprogram before the call";
             return at(call.place, fault(Code::PR033, message, help));
         }
         if call.turned_back && subs.taps(to) {
@@ -241,7 +260,7 @@ pub fn check_calls(subs: &Subprograms) -> Done {
         }
         if !ends[to] {
             let message = format!("subprogram {} calls itself, directly or through others", call.to);
-            return at(call.place, fault(Code::PR033, message, "a control would run it for ever: take the call out"));
+            return at(call.place, fault(Code::PR033, message, "a control would never end it: remove the call"));
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! Comments, in the marks of the form.
+//! Comments, in the comment marks of the form.
 
 use crate::diag::Code;
 use crate::lang::SequenceId;
@@ -11,7 +11,7 @@ use crate::render::shape::Shape;
 use crate::render::texts::room;
 use crate::render::upon::run_with_upons;
 
-/// A text in lines of at most so many characters, broken at blanks where it has them.
+/// Splits a text into lines of at most `most` characters, at spaces where possible.
 fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     std::iter::from_fn(move || {
@@ -24,15 +24,15 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
     })
 }
 
-/// A comment, in as many blocks as the control's line asks for: by the form's CommentLine, if it has one.
+/// Prints a comment, in as many blocks as the control's line length requires: by the form's CommentLine if it has one.
 pub fn comment_block(text: &str, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let marks: usize = shape.program.settings.comment.iter().map(String::len).sum();
     let room = room(shape).saturating_sub(marks).max(1);
     for (i, line) in wrapped(&plain(text), room).enumerate() {
         if i == 1 {
-            let message = "a comment is longer than the control's line, and goes on in the next";
-            cx.out.note(Code::PR026, message.into(), "shorten it, if it is to stand in one block");
+            let message = "a comment is longer than a line of the control, and continues in the next block";
+            cx.out.note(Code::PR026, message.into(), "shorten it to keep it in one block");
         }
         match shape.program.routine(SequenceId::CommentLine) {
             Some(routine) => {

@@ -20,7 +20,7 @@ use crate::render::unnumbered::is_closing;
 use crate::render::upon::{run_with_upons, upons};
 use crate::toolpath::Section;
 
-/// The end of the job: EndCode.
+/// Prints the end of the job: EndCode.
 pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> Done {
     let shape = cx.shape;
     check_sections_closed(sections)?;
@@ -31,7 +31,7 @@ pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> 
     if let Some(order) = &cx.want.tool_order
         && cx.want.tool_changes != order.len()
     {
-        let message = format!("`tool_order` lists {} tools, the job used {}", order.len(), cx.want.tool_changes);
+        let message = format!("`tool_order` lists {} tools, but the job used {}", order.len(), cx.want.tool_changes);
         return fault(Code::PJ012, message, "list the tools in the order of their use, each change once");
     }
     end_operation(cx)?;
@@ -45,7 +45,7 @@ pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> 
     if !has_waiting(subs) {
         return run_with_upons(routine, cx);
     }
-    // subprograms stand after the main program, before the `%` or `END PGM` that ends the text
+    // subprograms come after the main program, before the `%` or `END PGM` that ends the text
     let percent = closing_line(routine, shape);
     upons(routine.vars, cx)?;
     run_part(routine, routine.ops.start..percent, Mode::All, &mut cx.writer())?;
@@ -53,7 +53,7 @@ pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> 
     go_on(routine, percent..routine.ops.end, Mode::All, &mut cx.writer())
 }
 
-/// Where the line that ends the text begins, at the end of EndCode; its end, when there is none.
+/// The line of EndCode that ends the text; the end of EndCode if there is no such line.
 fn closing_line(routine: &Routine, shape: &Shape) -> usize {
     let mut lines = routine.steps().rev().filter(|&i| matches!(shape.program.ops[i], Op::Line { .. }));
     lines.next().filter(|&line| is_closing(line, shape)).unwrap_or(routine.ops.end)

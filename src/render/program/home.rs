@@ -1,4 +1,4 @@
-//! The tool goes to the machine's own place.
+//! Moves the tool to the home position of the machine.
 
 use super::stops::settle_between_moves;
 use crate::diag::Code;
@@ -8,7 +8,7 @@ use crate::render::fault::{Done, fault};
 use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
 
-/// Where the machine's own place is, only the form says. Nobody knows where the tool is then.
+/// Prints the form's MoveHome. Only the form defines the home position, so the tool's position is unknown afterwards.
 pub fn home(cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if cx.want.compensated {
@@ -16,8 +16,8 @@ pub fn home(cx: &mut Cx<'_>) -> Done {
         return fault(Code::PR030, "the tool goes home under cutter compensation", help);
     }
     if shape.program.routine(SequenceId::MoveHome).is_none() {
-        let message = "the tool goes home here, and the form does not say where that is";
-        let help = "add the sequence `MoveHome` with the control's words, as `G28 G91 Z0.` and `G90`, to its `End`";
+        let message = "the tool goes home here, but the form has no sequence `MoveHome`";
+        let help = "add `MoveHome` with the words of the control, as `G28 G91 Z0.` and `G90`, and `End`";
         return fault(Code::PR008, message, help);
     }
     settle_between_moves(cx)?;

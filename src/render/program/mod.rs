@@ -1,4 +1,4 @@
-//! The program around the path: its beginning and end, operations, parts of a path, text, subprograms.
+//! The program around the path: begin, end, operations, parts of a path, text, and subprograms.
 
 pub mod calls;
 pub mod comments;

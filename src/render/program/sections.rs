@@ -1,4 +1,4 @@
-//! Named parts of a path, and what a wire EDM machine does between moves.
+//! Named parts of a path, and actions of a wire EDM machine between moves.
 
 use crate::diag::Code;
 use crate::lang::{Machine, SequenceId};
@@ -12,7 +12,7 @@ use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
 use crate::toolpath::{EdmAction, Section};
 
-/// The sequences before and after each part.
+/// The sequences at the begin and end of each part.
 fn sequences(section: Section) -> (SequenceId, SequenceId) {
     use SequenceId as S;
     match section {
@@ -40,7 +40,7 @@ fn part(section: Section) -> &'static str {
     }
 }
 
-/// A part begins.
+/// Begins a part.
 pub fn begin_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section>) -> Done {
     let shape = cx.shape;
     let (begin, _) = sequences(section);
@@ -49,7 +49,7 @@ pub fn begin_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Secti
     run_section(begin, cx)
 }
 
-/// The part that began last ends.
+/// Ends the part that began last.
 pub fn end_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section>) -> Done {
     let shape = cx.shape;
     let (begin, end) = sequences(section);
@@ -59,12 +59,12 @@ pub fn end_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section
         Some(open) => fault(
             Code::PJ011,
             format!("a {} ends inside a {}", part(section), part(open)),
-            "end the parts in the reverse order of their beginnings",
+            "end first the part that began last",
         ),
         None => fault(
             Code::PJ011,
-            format!("a {} ends that did not begin", part(section)),
-            "begin it first, or take the end out",
+            format!("the end of a {} that did not begin", part(section)),
+            "begin it first, or remove the end",
         ),
     }
 }
@@ -75,7 +75,7 @@ fn run_section(id: SequenceId, cx: &mut Cx<'_>) -> Done {
         Some(routine) => {
             set_here(shape, cx.want, cx.said)?;
             let routine = shape.way(routine, cx.want, cx.said);
-            // an arc's code would want a centre; among cuts it stays a cut
+            // an arc code would need a centre; a feed code keeps the sequence a cut
             if matches!(cx.said.last_move, LastMove::Cw | LastMove::Ccw) {
                 cx.want.cutting = true;
                 way_before(routine, &mut cx.writer())?;
@@ -95,11 +95,11 @@ fn check_section(id: SequenceId, shape: &Shape) -> Done {
     if id.row().machines.has(machine) {
         return Ok(());
     }
-    let message = format!("a {} has no such part of a path", machine.name());
+    let message = format!("a {} does not have this part of a path", machine.name());
     fault(Code::PR008, message, format!("{} is for {}", id.name(), id.row().machines))
 }
 
-/// Parts must be closed where an operation ends.
+/// Checks that all parts are closed at the end of an operation.
 pub fn check_sections_closed(sections: &[Section]) -> Done {
     match sections.last() {
         None => Ok(()),
@@ -109,13 +109,13 @@ pub fn check_sections_closed(sections: &[Section]) -> Done {
     }
 }
 
-/// What a wire EDM machine does between moves: the form must have a sequence for it.
+/// Prints an action of a wire EDM machine between moves. The form must have a sequence for it.
 pub fn edm(action: EdmAction, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let machine = shape.program.settings.machine;
     if machine != Machine::Edm {
         let message = format!("a {} has no wire", machine.name());
-        return fault(Code::PR008, message, "take the item out, or render it for a wire EDM machine");
+        return fault(Code::PR008, message, "remove the item, or render it for a wire EDM machine");
     }
     let (id, what) = match action {
         EdmAction::Thread => (SequenceId::EdmThread, "threads the wire"),
@@ -124,8 +124,8 @@ pub fn edm(action: EdmAction, cx: &mut Cx<'_>) -> Done {
         EdmAction::Submerge => (SequenceId::SubmergeTank, "fills the tank"),
     };
     if shape.program.routine(id).is_none() {
-        let message = format!("the job {what} here, and the form has no {}", id.name());
-        let help = format!("add the sequence `{}` with what the machine needs, to its `End`", id.name());
+        let message = format!("the job {what} here, but the form has no {}", id.name());
+        let help = format!("add the sequence `{}` with the words of the machine, and `End`", id.name());
         return fault(Code::PR008, message, help);
     }
     run_section(id, cx)

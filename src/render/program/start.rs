@@ -18,7 +18,7 @@ use crate::render::vars::PLACE;
 use crate::render::want::Want;
 use crate::toolpath::{Start, Units};
 
-/// The job's head: units, checks, Mod text, StartCode.
+/// Prints the job's head: units, checks, Mod text and StartCode.
 pub fn start(
     start: &Start,
     shape: &mut Shape,
@@ -30,8 +30,9 @@ pub fn start(
     let program = shape.program;
     let settings = &program.settings;
     if start.machine != settings.machine {
-        let message = format!("the job is for a {}, the form for a {}", start.machine.name(), settings.machine.name());
-        return fault(Code::PR008, message, "take a form for this machine");
+        let message =
+            format!("the job is for a {}, but the form is for a {}", start.machine.name(), settings.machine.name());
+        return fault(Code::PR008, message, "use a form for this machine");
     }
     shape.choose_units(start.units)?;
     want.set(VarId::Unitmode, settings.inch_mm[usize::from(shape.units == Units::Mm)]);
@@ -50,19 +51,17 @@ pub fn start(
     }
     if settings.is_flat {
         let axis = char::from(settings.axes[2]);
-        let message = format!(
-            "{axis} is ignored: positions along it are neither printed nor compared, nor is a cut along it alone"
-        );
+        let message = format!("{axis} is ignored: positions and cuts along it are neither printed nor compared");
         out.note(
             Code::PR059,
             message,
-            "look at the heights that the form types; without `Ignore` the job's are printed",
+            "check the heights in the form; without `Ignore` the heights of the job are printed",
         );
     }
     let shape = &*shape;
     if let Some(routine) = shape.routine(SequenceId::StartCode, want, said) {
         upons(routine.vars, &mut Cx { shape, want, said, out })?;
-        // with subprograms first only the leading `%` comes now
+        // if subprograms come first, print only the leading `%` now
         let now = if settings.subs_first { start_code_rest(routine, shape) } else { routine.ops.end };
         run_part(routine, routine.ops.start..now, Mode::All, &mut Writer { shape, want, said, out })?;
         subs.start_waits = settings.subs_first;
@@ -70,7 +69,7 @@ pub fn start(
     Ok(())
 }
 
-/// Values from the job and the caller; every prompt needs an answer.
+/// Stores values from the job and the caller. Every prompt needs a value.
 pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     for (name, value) in &start.set {
         set_named(name, value, shape, want, out)?;
@@ -85,8 +84,8 @@ pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer)
         }
         let Some(default) = prompt.default else {
             let name = prompt.var.name();
-            let diag = crate::diag::Diag::new(Code::PR015, format!("[{name}] is asked for: {}", prompt.text))
-                .at(prompt.span, "asked for here")
+            let diag = crate::diag::Diag::new(Code::PR015, format!("[{name}] needs an answer: {}", prompt.text))
+                .at(prompt.span, "the prompt is here")
                 .help(format!("answer with `--set {name}=VALUE`"));
             return Err(Box::new(diag));
         };
@@ -96,7 +95,7 @@ pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer)
     Ok(())
 }
 
-/// Where StartCode is divided when subprograms come first: after its leading `%` line.
+/// The first operation of StartCode that waits if subprograms come first: after its leading `%` line.
 fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
     let ops = &shape.program.ops;
     let mut lines = routine.steps().filter(|&i| matches!(ops[i], Op::Line { .. }));
@@ -106,7 +105,7 @@ fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
     }
 }
 
-/// The main program begins: what waited of StartCode, and Between.
+/// Begins the main program: prints Between and the rest of StartCode.
 pub fn begin_main(cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     let shape = cx.shape;
     if !std::mem::take(&mut subs.start_waits) {

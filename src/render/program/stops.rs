@@ -12,13 +12,13 @@ use crate::render::upon::{run_with_upons, upon_is_due};
 use crate::render::words::value_code;
 use crate::toolpath::StopKind;
 
-/// A dwell in seconds.
+/// Prints a dwell in seconds.
 pub fn dwell(seconds: f64, cx: &mut Cx<'_>) -> Done {
     settle_between_moves(cx)?;
     dwell_here(seconds, cx)
 }
 
-/// A program stop or an optional one.
+/// Prints a program stop or an optional stop.
 pub fn stop(kind: StopKind, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     settle_between_moves(cx)?;
@@ -34,7 +34,7 @@ pub fn stop(kind: StopKind, cx: &mut Cx<'_>) -> Done {
             if !routine.vars.has(VarId::Stop)
                 && !prints_code(routine, |code| shape.meaning_of(code).is_some_and(Meaning::is_stop), shape)
             {
-                cx.said.stopped(cx.want, shape); // by words of its own
+                cx.said.stopped(cx.want, shape); // the sequence stops by words that are no known stop code
             }
         }
         None => {
@@ -45,10 +45,10 @@ pub fn stop(kind: StopKind, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Changes of spindle and coolant come before a dwell or stop too.
+/// Prints waiting changes of spindle and coolant before a dwell or stop.
 pub fn settle_between_moves(cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
-    // where nobody knows the place, what would move the tool waits for the next rapid
+    // at an unknown position, an Upon that would move the tool waits for the next rapid
     let lost = cx.said.stand.position.given & 0b11 != 0b11
         && upon_is_due(cx.said.lacks(cx.want, shape), true, shape, cx.want, cx.said);
     if cx.said.is_unsettled(cx.want) && !lost { settle_here(false, cx) } else { Ok(()) }

@@ -1,4 +1,4 @@
-//! Subprograms begin and end.
+//! Begin and end of subprograms.
 
 use super::sections::check_sections_closed;
 use super::table::{Defined, Left, State, Subprograms};
@@ -17,7 +17,7 @@ use crate::render::vars::PLACE;
 use crate::render::want::Want;
 use crate::toolpath::{Section, key};
 
-/// A subprogram begins.
+/// Begins a subprogram.
 pub fn sub_start(number: f64, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     let shape = cx.shape;
     let settings = &shape.program.settings;
@@ -28,7 +28,7 @@ pub fn sub_start(number: f64, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
         return fault(
             Code::PJ010,
             format!("two subprograms have the number {number}"),
-            "give each a number of its own",
+            "give each subprogram its own number",
         );
     }
     let Some(routine) = shape.program.routine(SequenceId::SubStart) else {
@@ -56,7 +56,7 @@ pub fn sub_start(number: f64, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     run_with_upons(shape.way(routine, cx.want, cx.said), cx)
 }
 
-/// Forgets what the main program knows: in a subprogram nothing is known but what it says itself.
+/// Saves the known state of the main program and discards it: a subprogram may rely only on its own words.
 fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     let nothing_served = nothing_served(shape);
     subs.main = Some(Box::new(State {
@@ -73,13 +73,13 @@ fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subpro
     want.keep_feed(None, shape);
 }
 
-/// Values for Upon sequences in a subprogram: whatever it says of these is a change, because its caller may have said
-/// anything.
+/// Initial values for the Upon sequences of conditions in a subprogram: every value counts as a change, because the callers may
+/// have set any value.
 fn nothing_served(shape: &Shape) -> Vec<Option<f64>> {
     shape.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
 }
 
-/// The main program goes on as if the subprogram had not been written, because only calls run it.
+/// Restores the state of the main program after a subprogram, because the subprogram runs only when it is called.
 fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     let turned = said.stand.angles.is_known();
     let position = said.stand.position;
@@ -97,7 +97,7 @@ fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subp
     }
 }
 
-/// The open subprogram ends.
+/// Ends the open subprogram.
 pub fn sub_end(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> Done {
     let shape = cx.shape;
     check_sections_closed(sections)?;
@@ -106,7 +106,7 @@ pub fn sub_end(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) ->
     }
     plain_cutting(&mut cx.writer())?;
     if subs.main.as_ref().is_some_and(|main| !main.angles.wound_as(&cx.said.stand.angles)) {
-        let help = "unwind in the main program: a call would leave the axis turned otherwise than the next expects";
+        let help = "unwind in the main program: after a call the angle of the axis would be unexpected";
         return fault(Code::PR033, "a rotary axis was unwound inside a subprogram", help);
     }
     match shape.routine(SequenceId::SubEnd, cx.want, cx.said) {
@@ -120,37 +120,37 @@ pub fn sub_end(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) ->
     Ok(())
 }
 
-/// Subprograms begin and end in the first plane, without cutter compensation.
+/// Checks that cutter compensation is off, and selects the XY plane. Both are required at the begin and end of subprograms.
 pub fn plain_cutting(writer: &mut Writer<'_>) -> Done {
     if writer.want.compensated {
         let help = "end the compensation with an `outfeed` before";
-        return fault(Code::PR030, "cutter compensation is on at the border of a subprogram", help);
+        return fault(Code::PR030, "cutter compensation is on at the beginning or end of a subprogram", help);
     }
     enter_plane(control::Code::g(17), writer)
 }
 
-/// Changes places with the text aside.
+/// Swaps the program with the stored text.
 pub fn aside(out: &mut Printer, subs: &mut Subprograms) {
     out.turn_to(&mut subs.waiting);
 }
 
-/// Subprograms that stand after the main program: appended now.
+/// Appends the stored subprograms after the main program.
 pub fn append_waiting(out: &mut Printer, subs: &mut Subprograms) {
     out.append(std::mem::take(&mut subs.waiting));
 }
 
-/// Is there text aside, so that the end of the program must wait for it?
+/// Are there stored subprograms that must be printed before the end of the program?
 pub fn has_waiting(subs: &Subprograms) -> bool {
     !subs.waiting.text.is_empty()
 }
 
-/// What is printed outside subprograms, while one is written aside.
+/// The page of the main program, also while a subprogram is written to the stored text.
 pub fn main_page<'r>(shape: &Shape, out: &'r mut Printer, subs: &'r mut Subprograms) -> &'r mut Page {
     let is_aside = subs.open.is_some() && !shape.program.settings.subs_first;
     if is_aside { &mut subs.waiting } else { out.page() }
 }
 
-/// Nobody knows where the tool and the part are.
+/// Discards the known positions of the tool and the part.
 pub fn forget_where(want: &mut Want, said: &mut Said) {
     said.forget_where();
     want.forget(&[VarId::Rotangle, VarId::Lastrotangle, VarId::Rotaxdir]);

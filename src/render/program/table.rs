@@ -1,4 +1,4 @@
-//! What is known of the job's subprograms: where they stand, their numbers, and who calls whom.
+//! Table of the job's subprograms: their definitions, numbers and calls.
 
 use std::collections::HashMap;
 
@@ -8,21 +8,21 @@ use crate::render::said::{Angles, Conditions, Own, Spins};
 use crate::render::vars::Vars;
 use crate::toolpath::{Axes, Place, key};
 
-/// What is known of the job's subprograms.
+/// Table of the job's subprograms.
 #[derive(Debug, Default)]
 pub struct Subprograms {
     pub defined: Vec<Defined>,
-    /// Where each number is in `defined`.
+    /// Index in `defined` for each number.
     pub by_number: HashMap<u64, usize>,
     /// The calls inside subprograms.
     pub calls: Vec<Called>,
     /// The subprogram that is open, as an index of `defined`.
     pub open: Option<usize>,
-    /// Subprograms that stand after the main program wait here.
+    /// Stored subprograms that are printed after the main program.
     pub waiting: Page,
-    /// The rest of StartCode is still to be printed: subprograms come first.
+    /// The rest of StartCode is not printed yet, because subprograms come first.
     pub start_waits: bool,
-    /// What is so in the main program, while a subprogram is written.
+    /// Saved state of the main program while a subprogram is written.
     pub main: Option<Box<State>>,
 }
 
@@ -32,7 +32,7 @@ impl Subprograms {
         self.by_number.get(&key(number)).copied()
     }
 
-    /// Does a subprogram tap, or one that it calls, without a word of how the spindle turns?
+    /// Does a subprogram, or one that it calls, tap without setting the spindle direction first?
     pub fn taps(&self, sub: usize) -> bool {
         let mut seen = vec![false; self.defined.len()];
         let mut open = vec![sub];
@@ -49,7 +49,8 @@ impl Subprograms {
         false
     }
 
-    /// Which subprograms end: those all of whose calls do. Each of the others is in a circle, or leads into one.
+    /// Which subprograms end? A subprogram ends if all its calls do. Each of the others is part of a cycle of calls, or leads
+    /// into one.
     pub fn ending(&self) -> Vec<bool> {
         let mut open = vec![0_usize; self.defined.len()];
         let mut callers = vec![Vec::new(); self.defined.len()];
@@ -74,7 +75,7 @@ impl Subprograms {
     }
 }
 
-/// What a subprogram's own items must not change for the program around it.
+/// State of the main program that a subprogram must not change.
 #[derive(Debug)]
 pub struct State {
     pub vars: Vars,
@@ -85,7 +86,7 @@ pub struct State {
     pub feed: Option<f64>,
 }
 
-/// What a subprogram leaves to its caller.
+/// Effects of a subprogram on its caller.
 #[derive(Debug, Default)]
 pub struct Left {
     pub conditions: Conditions,
@@ -93,14 +94,14 @@ pub struct Left {
     /// A rotary axis turned.
     pub turned: bool,
     pub spins: Spins,
-    /// The height at which it leaves the tool.
+    /// Height of the tool at the end.
     pub height: Option<f64>,
-    /// Where it leaves the tool, as far as its own items say.
+    /// Position of the tool at the end, as far as the subprogram itself defines it.
     pub position: Axes,
 }
 
 impl Left {
-    /// Does the subprogram leave nothing that its next run would find otherwise?
+    /// Does the subprogram change nothing that its next run depends on?
     pub fn is_nothing(&self) -> bool {
         self.conditions.known().is_empty() && !self.spins.stops
     }
@@ -111,7 +112,7 @@ pub struct Defined {
     pub printed: f64,
     pub first_block: Option<f64>,
     pub left: Left,
-    /// The subprogram calls one that comes later: what that one leaves is not known here.
+    /// The subprogram calls a later one, whose effects are not known yet.
     pub calls_ahead: bool,
 }
 
@@ -121,7 +122,7 @@ pub struct Called {
     pub from: usize,
     pub to: f64,
     pub place: Place,
-    /// What the caller does not know of spindle, coolant and work offset, so that it can't put it back.
+    /// Spindle, coolant and work offset values that are unknown in the caller, so that they can't be restored.
     pub unknown: VarSet,
     /// The caller turns the spindle counterclockwise.
     pub turned_back: bool,

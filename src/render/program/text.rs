@@ -1,4 +1,4 @@
-//! Text of the job, printed as it stands.
+//! Text of the job, printed unchanged.
 
 use super::stops::settle_between_moves;
 use crate::control::{Code, Group};
@@ -11,24 +11,26 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::terminal::steers;
 
-/// Prints a block as it stands. What its words switch is what the job wants from there on; letters and positions are
-/// unknown after it.
+/// Prints a block of text unchanged. The codes in it become the values that the job requests. Letters and positions are unknown
+/// afterwards.
 pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
-        let message = format!("the text holds U+{:04X}, which steers instead of being printed", u32::from(c));
+        let message = format!("the text contains the control character U+{:04X}", u32::from(c));
         return fault(diag::Code::PR035, message, "take it out");
     }
     if text.trim() == "%" {
-        let message = "the text is a lone `%`, at which a control takes the program to be over";
-        return fault(diag::Code::PR035, message, "take it out: StartCode and EndCode print it");
+        let message = "the text is a single `%`, which ends the program on a control";
+        return fault(diag::Code::PR035, message, "remove it: StartCode and EndCode print it");
     }
     let words = words_of(text.as_bytes()).unwrap_or_default();
     let is_length = |word: &&TextWord| b"XYZUVWIJKRQF".contains(&word.letter) && word.value != 0.0;
     if let Some(TextWord { letter, value }) = words.iter().find(is_length).filter(|_| shape.scale != 1.0) {
-        let message =
-            format!("the text has {}{value} in the units of the job, and the program has others", char::from(*letter));
-        let help = "render with `--units` of the job: text is printed as it stands";
+        let message = format!(
+            "the text has {}{value} in the units of the job, but the program has other units",
+            char::from(*letter)
+        );
+        let help = "render with the units of the job (`--units`): text is printed unchanged";
         return fault(diag::Code::PR035, message, help);
     }
     cx.said.stand.fresh_tool = None;
@@ -43,7 +45,7 @@ pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
         } else if let Some(code) = Code::of(letter, value) {
             if changes_units(code, shape, cx.want) {
                 let message = format!("the text changes the units of the program with {code}");
-                let help = "render with `--units`, and take the code out";
+                let help = "render with `--units`, and remove the code";
                 return fault_at(diag::Code::PR035, message, help, None);
             }
             is_the_jobs(code, shape, cx.want);
@@ -58,12 +60,12 @@ pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Takes what a text switches as what the job wants from there on; what its feeds count is not.
+/// Stores the code of a text as the value that the job requests. Feed modes are not stored.
 fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
         Some(Group::Coolant) => {
-            // the text says one kind
+            // the text switches only one kind of coolant
             (want.coolant, want.coolant_is_said) = (want.coolant.first(), true);
             VarId::Cool
         }
@@ -71,7 +73,7 @@ fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
             words if words.by_code() => {
                 return want.put(VarId::Work, work_code(shape.program.settings.work, code.value()));
             }
-            // G54 is none of the offsets that have a word of their own: its number is unknown
+            // the offset selected by G54 has no number among the form's own offset words
             words if words.shares_its_codes => return want.put(VarId::Work, None),
             _ => return,
         },
@@ -81,7 +83,7 @@ fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     want.set(var, code.value());
 }
 
-/// Is this a code of other units than the program's?
+/// Does the code select other units than those of the program?
 fn changes_units(code: Code, shape: &Shape, want: &Want) -> bool {
     shape.group_of(code) == Some(Group::Units) && want.get(VarId::Unitmode) != Some(code.value())
 }

@@ -1,4 +1,4 @@
-//! Operations: tool changes, and what a new operation with the same tool changes.
+//! Operations: tool changes, and the changes of a new operation with the same tool.
 
 use super::comments::comment_block;
 use super::sections::check_sections_closed;
@@ -30,7 +30,7 @@ use crate::toolpath::{Axes, Coolant, FeedMode, First, Section, Tool, ToolChange}
 /// The position variables of a tool change.
 const POSITION: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::D]);
 
-/// An operation begins.
+/// Begins an operation.
 pub fn tool_change(
     change: &ToolChange,
     shape: &mut Shape,
@@ -63,7 +63,7 @@ pub fn tool_change(
     run_here(SequenceId::Operation, &mut Cx { shape, want, said, out })
 }
 
-/// The operation's comment, unless the tool change says it, or Operation.
+/// Prints the operation's comment, unless the tool change or Operation prints it.
 fn operation_comment(change: &ToolChange, routine: Option<&Routine>, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let says = |routine: &Routine| routine.texts.has(TextId::Optext);
@@ -74,7 +74,7 @@ fn operation_comment(change: &ToolChange, routine: Option<&Routine>, cx: &mut Cx
     }
 }
 
-/// The operation that is open ends.
+/// Ends the open operation.
 pub fn end_operation(cx: &mut Cx<'_>) -> Done {
     if !std::mem::take(&mut cx.want.in_operation) {
         return Ok(());
@@ -82,7 +82,7 @@ pub fn end_operation(cx: &mut Cx<'_>) -> Done {
     run_here(SequenceId::EndOperation, cx)
 }
 
-/// A sequence that is printed where the tool is, if the form has it.
+/// Prints a sequence at the current position, if the form has it.
 fn run_here(id: SequenceId, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let Some(routine) = shape.program.routine(id) else { return Ok(()) };
@@ -100,19 +100,19 @@ fn change_of(want: &Want) -> SequenceId {
     if want.tool.is_none() { SequenceId::FirstToolChange } else { SequenceId::ToolChange }
 }
 
-/// The tool that is in keeps its offset registers: no sequence would print others.
+/// Checks that the tool in the spindle keeps its offset registers, because no sequence would print new ones.
 fn same_registers(tool: &Tool, want: &Want) -> Done {
     let registers = [(VarId::Lcomp, tool.length_offset, "length"), (VarId::Dcomp, tool.diameter_offset, "diameter")];
     for (var, register, name) in registers {
         if register.is_some() && register != want.get(var) {
-            let message = format!("tool {} is in, and its {name} offset register changes", tool.number);
-            return fault(Code::PR039, message, "give it a number of its own, or keep the register");
+            let message = format!("the {name} offset register changes while tool {} is in the spindle", tool.number);
+            return fault(Code::PR039, message, "use another tool number, or keep the register");
         }
     }
     Ok(())
 }
 
-/// Spindle, coolant, work offset and feeds of the operation.
+/// Sets spindle, coolant, work offset and feeds of the operation.
 fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     if new_tool {
         for var in [VarId::Speed, VarId::Direct] {
@@ -122,7 +122,7 @@ fn set_conditions(change: &ToolChange, new_tool: bool, shape: &Shape, want: &mut
         want.set(VarId::Speedtype, shape.program.settings.speed_type[1]);
     }
     if change.spindle.is_some_and(|spindle| spindle.speed.is_some() && spindle.css.is_none()) {
-        want.set(VarId::Speedtype, shape.program.settings.speed_type[1]); // revolutions, unless it says otherwise
+        want.set(VarId::Speedtype, shape.program.settings.speed_type[1]); // default: revolutions per minute
     }
     if let Some(spindle) = &change.spindle {
         want.set_spindle(spindle, shape)?;
@@ -194,7 +194,7 @@ fn change_tool(
         }
         _ => None,
     };
-    // another tool has no last position that a first rapid could keep
+    // a new tool has no last position that a first rapid could keep
     said.forget_tool();
     want.forget(&[VarId::H, VarId::V, VarId::D]);
     if let Some(target) = &target {
@@ -205,10 +205,11 @@ fn change_tool(
         Some(_) => {}
         None if routine.vars.meets(POSITION) => {
             let at = routine.steps().next().map(|first| program.spans[first]);
-            let help = "begin the operation with a rapid to above its first cut";
+            let help = "begin the operation with a rapid to a position above its first cut";
             return match first {
                 First::Cut => {
-                    let message = "the operation begins with a cut, and the tool change would rapid to its end";
+                    let message =
+                        "the operation begins with a cut: the tool change would make a rapid to the end of this cut";
                     fault_at(Code::PR012, message, help, at)
                 }
                 _ => fault_at(Code::PR012, "the operation has no move for the tool change to print", help, at),
@@ -217,10 +218,10 @@ fn change_tool(
         None => {}
     }
     if routine.vars.meets(POSITION) && !says_work(routine, shape) {
-        work_before(&mut Writer { shape, want, said, out })?; // the position counts from it
+        work_before(&mut Writer { shape, want, said, out })?; // the position is relative to this offset
     }
     if routine.vars.has(VarId::Speed) && !says_speed_mode(routine, shape) {
-        speed_mode_before(&mut Writer { shape, want, said, out })?; // else a surface speed would be revolutions
+        speed_mode_before(&mut Writer { shape, want, said, out })?; // else a surface speed would be read as revolutions
     }
     check_reading_of(routine, shape, want, said)?;
     said.stand.placed = 0;
@@ -254,7 +255,7 @@ fn next_tool(tool: &Tool, shape: &mut Shape, want: &mut Want) -> Done {
     shape.choose_turret(tool.turret);
     if let Some(order) = &want.tool_order {
         if order.get(want.tool_changes) != Some(&tool.number) {
-            let message = format!("tool {} comes next, `tool_order` says otherwise", tool.number);
+            let message = format!("tool {} is the next tool, but `tool_order` lists another", tool.number);
             return fault(Code::PJ012, message, "list the tools in the order of their use");
         }
         let next = order.get(want.tool_changes + 1).or_else(|| order.first()).copied();

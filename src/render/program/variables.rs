@@ -8,7 +8,7 @@ use crate::render::shape::Shape;
 use crate::render::want::{Want, in_program_units, settable};
 use crate::toolpath::Given;
 
-/// Gives a variable or a property a value by its name, lengths in the job's units.
+/// Sets a variable or a property by its name. Lengths are in the job's units.
 pub fn set_named(name: &str, given: &Given, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     let settings = &shape.program.settings;
     let asked = name.trim_matches(['[', ']']);
@@ -20,18 +20,18 @@ pub fn set_named(name: &str, given: &Given, shape: &Shape, want: &mut Want, out:
     match given {
         Given::Number(value) => set_variable(var, in_program_units(var, *value, shape), want, out),
         Given::Text(text) => {
-            let message = format!("[{}] takes a number, and the job gives the text `{text}`", var.name());
+            let message = format!("[{}] takes a number, but the job gives the text `{text}`", var.name());
             return fault(
                 Code::PR016,
                 message,
-                "write the number without quotes; a `Property` of the form may be a text",
+                "write the number without quotes; only a `Property` of the form can be a text",
             );
         }
     }
     Ok(())
 }
 
-/// A variable, in program units; the number of the next block is the printer's.
+/// Sets a variable, in program units. `[block]` is stored in the printer.
 pub fn set_variable(var: VarId, value: f64, want: &mut Want, out: &mut Printer) {
     match var {
         VarId::Block => out.set_number(value as i64),

@@ -1,4 +1,4 @@
-//! What printed codes mean for what is known: modal groups, the frame of axis words, positions and increments.
+//! Effects of printed codes on the known state: modal groups, frame of axis words, positions and increments.
 
 use super::line::{Line, Shift};
 use super::state::Said;
@@ -9,7 +9,7 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 
 impl Said {
-    /// A letter and its number were printed in this line: they may be a code.
+    /// Records that a letter and a number were printed; they may be a code.
     #[inline]
     pub fn code_word(&mut self, info: &Letter, value: f64, line: Line, want: &Want, shape: &Shape) {
         if let Some(code) = Code::of(info.printed, value) {
@@ -17,13 +17,13 @@ impl Said {
         }
     }
 
-    /// A G or M code was printed in this line.
+    /// Records that a G or M code was printed.
     pub fn code(&mut self, code: Code, line: Line, want: &Want, shape: &Shape) {
         let row = shape.code_row(code);
         if row.is_some_and(|row| row.stops_spindle) {
             self.spindle_stopped(want, shape);
         }
-        // of a subprogram of the job it is known what it does
+        // the effects of the job's own subprograms are known
         self.calls |= row.is_some_and(|row| runs_elsewhere(code, row, shape))
             && !line.prints(shape, |_, var| var == Some(VarId::Sub));
         if code.letter == b'M' && self.beside_code(code.value(), want, shape) {
@@ -31,7 +31,7 @@ impl Said {
             return;
         }
         self.switching_code(code, row, line, want, shape);
-        // an unknown M code switches something of the machine; an unknown G code may move it
+        // an unknown M code is taken to switch something; an unknown G code may move the machine
         if code.letter == b'G' || row.is_some() {
             self.frame_code(code, row, line, want, shape);
         }
@@ -56,7 +56,7 @@ impl Said {
         self.condition_code(group, code.value(), line, want, shape);
     }
 
-    /// What a code stops, starts or calls.
+    /// Handles a code that stops, starts or calls.
     fn switching_code(&mut self, code: Code, row: Option<&Row>, line: Line, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
         self.spindle_code(meaning, line, want, shape);
@@ -67,12 +67,13 @@ impl Said {
         if own_stop || meaning.is_some_and(Meaning::is_stop) {
             self.stopped(want, shape);
         } else if meaning.is_some_and(|meaning| meaning.is_call() || meaning.changes_tool()) {
-            self.forget_axes(shape); // a changer, and what is called, go where they like
+            self.forget_axes(shape); // a tool changer, macro or subprogram may move to any position
             self.forget_motion();
         }
     }
 
-    /// A code that stops the spindle at an angle, or turns it with coolant, as `[direct]` and `[cool]` would.
+    /// Handles a code that stops the spindle at an angle, or starts it with coolant. The effect is that of `[direct]` and
+    /// `[cool]`.
     fn spindle_code(&mut self, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let (direct, cool) = match meaning {
@@ -88,13 +89,13 @@ impl Said {
         self.switched = true;
     }
 
-    /// A code of the form's kinds of coolant, whatever the control takes it for.
+    /// Handles a code of the form's kinds of coolant, regardless of its meaning on the control.
     fn coolant_code(&mut self, code: f64, line: Line, want: &Want, shape: &Shape) {
         let kinds = &shape.program.settings.coolant_kinds;
         let begins = kinds.iter().any(|kind| kind.on == code);
         let ends = kinds.iter().any(|kind| kind.off == Some(code));
         let own = |cool: f64| kinds.iter().any(|kind| kind.on == cool && kind.off == Some(code));
-        // what ends one kind leaves another on
+        // a code that turns off one kind leaves another one on
         if begins || ends && self.conditions.get(VarId::Cool).is_some_and(own) {
             self.coolant_said(code, line, want, shape);
             self.switched = true;
@@ -104,7 +105,7 @@ impl Said {
         }
     }
 
-    /// What a G code does to positions.
+    /// Handles the effect of a G code on positions.
     fn frame_code(&mut self, code: Code, row: Option<&Row>, line: Line, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
         let lathe = shape.program.settings.machine == Machine::Lathe;
@@ -120,7 +121,7 @@ impl Said {
             Some(Frame::Shifts) => self.shift = Shift::Body,
             // on a lathe increments have letters of their own
             Some(Frame::Increments) if lathe => self.shift = Shift::Body,
-            // the same offset again; of G54.1 the P says which
+            // the same offset is selected again; for G54.1 the word P would decide
             Some(Frame::Moves)
                 if self.registers.group(Group::Work) == Some(code)
                     && row.is_some_and(|row| row.words == Words::NONE) => {}
@@ -132,7 +133,7 @@ impl Said {
                 self.depth_moved = true;
                 self.axis_words_are_data(meaning);
             }
-            // it moves by itself, or its effect is unknown
+            // the code moves by itself, or its effect is unknown
             None if !is_harmless(code, meaning, want, shape) => {
                 self.shift = self.shift.max_of(Shift::Block);
                 self.forget_axes(shape);
@@ -142,7 +143,7 @@ impl Said {
         }
     }
 
-    /// After such a code the axis words of the block are no places.
+    /// If the axis words of this code's block are data, they are not positions of the job.
     fn axis_words_are_data(&mut self, meaning: Option<Meaning>) {
         if meaning.is_some_and(|meaning| meaning.axes() == AxisWords::Data) {
             self.shift = self.shift.max_of(Shift::Block);
@@ -150,15 +151,15 @@ impl Said {
     }
 }
 
-/// May positions be kept after a G code without a modal group? Where the form's control runs it, where the form's
-/// commands name it, and in a cycle, whose end forgets them.
+/// Do known positions stay valid after a G code without a modal group? They do if the form's control defines the code, if the
+/// form's commands name it, and in a cycle, because its end discards them anyway.
 fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
     known || shape.program.settings.names_code(code) || want.cycle.is_some()
 }
 
-/// Does a code run what is written elsewhere: a macro, a subprogram, what the control's file knows and does not run?
+/// Does a code run external code: a macro, a subprogram, or a code that the control's file lists without a meaning?
 fn runs_elsewhere(code: Code, row: &Row, shape: &Shape) -> bool {
     let settings = &shape.program.settings;
     let unsaid = row.meaning == Meaning::Unsaid;

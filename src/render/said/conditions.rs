@@ -1,4 +1,4 @@
-//! Conditions: work offset, spindle, coolant and feed mode, as the program printed them last.
+//! Conditions: modal states of the control (work offset, spindle, coolant, feed mode), as last printed.
 
 use crate::lang::{VarId, VarSet};
 
@@ -6,7 +6,7 @@ use crate::lang::{VarId, VarSet};
 pub const CONDITIONS: [VarId; 7] =
     [VarId::Work, VarId::Speed, VarId::Direct, VarId::Cool, VarId::Feedtype, VarId::Speedtype, VarId::Maxrpm];
 
-/// The values that the program printed last; `None`: unknown.
+/// The values that were printed last; `None`: unknown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Conditions {
     /// Values in the order of [`CONDITIONS`].
@@ -14,7 +14,7 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// Each condition with the value that was printed.
+    /// Each condition with its printed value.
     pub fn each(&self) -> impl Iterator<Item = (VarId, Option<f64>)> {
         CONDITIONS.into_iter().zip(self.values)
     }
@@ -24,7 +24,7 @@ impl Conditions {
         index(var).and_then(|at| self.values[at])
     }
 
-    /// A value was printed, or is unknown from here. Whether the variable is a condition.
+    /// Stores a printed value, or `None` for unknown. Returns whether the variable is a condition.
     pub fn put(&mut self, var: VarId, value: Option<f64>) -> bool {
         let at = index(var);
         if let Some(at) = at {
@@ -47,7 +47,7 @@ impl Conditions {
         known
     }
 
-    /// What holds after a subprogram that printed `later`.
+    /// The conditions after a subprogram that printed `later`.
     pub fn then(&self, later: &Conditions) -> Conditions {
         let mut values = self.values;
         for (value, later) in values.iter_mut().zip(later.values) {

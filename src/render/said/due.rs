@@ -1,4 +1,4 @@
-//! What must hold at the next move: the job's conditions, or the form's own where the job gives none.
+//! Conditions that must be active at the next move: the job's values, or the form's own where the job has none.
 
 use super::conditions::Conditions;
 use super::line::Line;
@@ -9,7 +9,7 @@ use crate::render::want::Want;
 use crate::span::Span;
 
 impl Said {
-    /// What must hold at the next move: the job's, or the form's own where the job gives none.
+    /// The value that must be active at the next move: the job's, or the form's own if the job has none.
     pub fn due(&self, var: VarId, want: &Want) -> Option<f64> {
         let own = match var {
             VarId::Cool => self.own.cool.filter(|_| !want.coolant_is_said),
@@ -19,14 +19,14 @@ impl Said {
         own.or(want.get(var))
     }
 
-    /// A code of coolant was printed.
+    /// Records a printed code of coolant.
     pub(super) fn coolant_said(&mut self, code: f64, line: Line, want: &Want, shape: &Shape) {
         self.conditions.put(VarId::Cool, Some(code));
         self.own.cool = Some(code).filter(|_| !want.coolant_is_said);
         self.typed(VarId::Cool, code, line, want, shape);
     }
 
-    /// A line set a condition: is it another one than the job's? What ends something takes nothing from the job.
+    /// Records that a line set a condition, if its value differs from the job's. An "off" value never counts as a difference.
     pub(super) fn typed(&mut self, var: VarId, value: f64, line: Line, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let off = match var {
@@ -40,12 +40,13 @@ impl Said {
         self.own.line = at.or(self.own.line);
     }
 
-    /// A word of the form set the job's speed: the form's own is over.
+    /// A word printed the job's speed, which replaces the form's own.
     pub(super) fn speed_is_the_jobs(&mut self) {
         self.own.speed = None;
     }
 
-    /// The tool change is printed: its own speed stands until the job gives another one. On a lathe a typed S may be a limit.
+    /// Keeps the speed that the tool change printed until the job gives another one. Only on mills: on a lathe a typed S may be a
+    /// limit.
     pub fn keep_speed_of_change(&mut self, want: &Want, shape: &Shape) {
         let printed = self.conditions.get(VarId::Speed).filter(|own| *own > 0.0);
         let mill = shape.program.settings.machine == Machine::Mill;
@@ -56,14 +57,14 @@ impl Said {
         }
     }
 
-    /// What a line set otherwise than the job, with its place.
+    /// Takes the value that a line set differently from the job, with its location.
     pub fn take_typed(&mut self, var: VarId) -> Option<(f64, Option<Span>)> {
         let typed = self.own.typed.get(var)?;
         self.own.typed.put(var, None);
         Some((typed, self.own.line))
     }
 
-    /// All conditions were looked at: coolant of the job's own is not the form's any more.
+    /// Called after all conditions were checked: if the job sets the coolant itself, the form's own value is dropped.
     pub fn conditions_are_settled(&mut self, want: &Want) {
         self.own.typed = Conditions::default();
         if want.coolant_is_said {

@@ -1,17 +1,17 @@
-//! What the form set by words of its own, in place of the job's.
+//! Values that the form set by its own words instead of the job's.
 
 use super::conditions::Conditions;
 use crate::span::Span;
 
-/// What the form set by words of its own.
+/// Values that the form set by its own words.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Own {
-    /// The code of coolant that was printed while the job gave no coolant.
+    /// Coolant code that was printed while the job set no coolant.
     pub(super) cool: Option<f64>,
-    /// The speed that the tool change printed, and the job's, in whose place it stands.
+    /// The speed that the tool change printed, and the job's speed that it replaces.
     pub(super) speed: Option<(f64, f64)>,
-    /// Conditions that a line turned on otherwise than the job does, since the last look at them.
+    /// Conditions that a line set differently from the job since the last check.
     pub(super) typed: Conditions,
-    /// The line that did so last.
+    /// The last such line.
     pub(super) line: Option<Span>,
 }

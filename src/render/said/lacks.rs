@@ -1,4 +1,4 @@
-//! Conditions that were printed, and those that the control lacks.
+//! Printed conditions, and conditions that the control lacks.
 
 use super::line::Line;
 use super::state::Said;
@@ -11,7 +11,7 @@ use crate::render::want::Want;
 const SPINDLE: VarSet = VarSet::of(&[VarId::Speed, VarId::Direct, VarId::Speedtype]);
 
 impl Said {
-    /// Conditions that the job wants and nothing printed yet: the next move counts as using them.
+    /// Conditions that the job requests and that are not printed yet. The next move counts as using them.
     pub fn lacks(&self, want: &Want, shape: &Shape) -> VarSet {
         let mut set = VarSet::default();
         for (var, said) in self.conditions.each() {
@@ -25,7 +25,7 @@ impl Said {
         if shape.program.switches_spindle { set.without(SPINDLE) } else { set }
     }
 
-    /// A word with this variable was printed in this line.
+    /// Records that a word with this variable was printed in this line.
     #[inline]
     pub fn condition_word(&mut self, letter: u8, var: VarId, value: f64, line: Line, want: &Want, shape: &Shape) {
         if self.conditions.put(var, Some(value)) {
@@ -39,7 +39,7 @@ impl Said {
         }
     }
 
-    /// A word of this letter was printed in this line: is it the speed?
+    /// Records a printed word of this letter if it is the speed.
     #[inline]
     pub fn speed_word(&mut self, letter: u8, value: f64, line: Line, want: &Want, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
@@ -49,7 +49,7 @@ impl Said {
         }
     }
 
-    /// A word of this letter was the parameter of a code: if that is the speed's, the speed is unknown, and said again
+    /// Records a word that was a parameter of a code. If its letter is that of the speed, the speed is unknown and printed again
     /// before the next move.
     pub fn parameter_of_code(&mut self, letter: u8, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
@@ -58,7 +58,7 @@ impl Said {
         }
     }
 
-    /// A code of this group was printed in this line.
+    /// Records that a code of this group was printed in this line.
     pub(super) fn condition_code(&mut self, group: Group, value: f64, line: Line, want: &Want, shape: &Shape) {
         self.switched |= !matches!(group, Group::Motion | Group::Return);
         let var = match group {
@@ -68,7 +68,7 @@ impl Said {
                     self.conditions.put(VarId::Work, None);
                     return;
                 }
-                // G56 of an Okuma is a length
+                // on an Okuma, G56 is a length offset
                 _ => return,
             },
             Group::Spindle => VarId::Direct,
@@ -81,7 +81,7 @@ impl Said {
         self.typed(var, value, line, want, shape);
     }
 
-    /// A code was printed at which the control stops the spindle: if it has to turn, that is printed again.
+    /// Records a code at which the control stops the spindle. If the spindle must turn, its direction is printed again.
     pub fn spindle_stopped(&mut self, want: &Want, shape: &Shape) {
         let off = shape.program.settings.spindle[2];
         if self.due(VarId::Direct, want).is_some_and(|value| value != off) {
@@ -90,8 +90,8 @@ impl Said {
         }
     }
 
-    /// The program stops, or may. Many controls stop spindle and coolant with it: before the next move that cuts or
-    /// crosses they are said again, whoever printed the stop.
+    /// Records a program stop or optional stop, from whatever source. Many controls stop spindle and coolant with it, so both are
+    /// printed again before the next cut or rapid.
     pub fn stopped(&mut self, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let off = [settings.spindle[2], settings.coolant[1]];

@@ -1,29 +1,29 @@
-//! The line of a sequence that is printed, and in which frame its axis words stand.
+//! The line of a sequence that is being printed, and the frame of its axis words.
 
 use crate::compile::Op;
 use crate::lang::VarId;
 use crate::render::shape::Shape;
 use crate::span::Span;
 
-/// Which axis words of a sequence stand in another frame than the job's positions.
+/// Axis words of a sequence whose frame differs from that of the job's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shift {
     /// No axis words.
     None,
-    /// Axis words of the block that is open.
+    /// Those in the open block.
     Block,
-    /// All from here on.
+    /// All from here to the end of the sequence.
     Body,
 }
 
 impl Shift {
-    /// Of two shifts, the one that reaches farther.
+    /// The wider of two shifts.
     pub fn max_of(self, other: Shift) -> Shift {
         if self == Shift::Body { self } else { other }
     }
 }
 
-/// The line of a sequence whose words are printed; generated blocks have none.
+/// The line of a sequence whose words are being printed; [`Line::NONE`] for generated blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Line {
     /// The first operation of the line.
@@ -34,12 +34,12 @@ impl Line {
     /// The line of a generated block.
     pub const NONE: Line = Line { begin: None };
 
-    /// The line whose [`Op::Line`] this is.
+    /// The line that begins with this [`Op::Line`].
     pub fn at(op: usize) -> Line {
         Line { begin: Some(op + 1) }
     }
 
-    /// Does the line have such a word? Asked of its letter, and of its variable where it has one.
+    /// Does the line have a word for which `asked` is true? Its arguments are the letter, and the variable if there is one.
     pub fn prints(self, shape: &Shape, asked: impl Fn(u8, Option<VarId>) -> bool) -> bool {
         let Some(begin) = self.begin else { return false };
         let ops = &shape.program.ops[begin..];
@@ -51,7 +51,7 @@ impl Line {
         })
     }
 
-    /// Where the line stands in the form; `None`: the block is generated.
+    /// Location of the line in the form; `None` for a generated block.
     pub fn span(self, shape: &Shape) -> Option<Span> {
         self.begin.map(|begin| shape.program.spans[begin - 1])
     }

@@ -1,5 +1,5 @@
-//! What the control holds now, by what the program printed: letters, modal groups, conditions, the frame of axis words, and
-//! where the tool stands. Everything that may have changed the machine behind our back makes it unknown here.
+//! The state of the control, as known from the printed program: letters, modal groups, conditions, the frame of axis words, and
+//! the tool's position. Anything that may have changed the machine in another way makes it unknown.
 
 mod angles;
 mod codes;

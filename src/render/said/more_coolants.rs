@@ -1,4 +1,4 @@
-//! Kinds of coolant that are on beside the first.
+//! Further kinds of coolant that are on besides the first.
 
 use super::state::Said;
 use crate::lang::Coolant;
@@ -6,12 +6,12 @@ use crate::render::coolant::codes;
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
-/// Kinds of coolant beside the first, as the program said them.
+/// Further kinds of coolant, as printed by the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Beside {
-    /// Those that may be on: they were turned on, and nothing ended them for certain.
+    /// Kinds that may be on: they were turned on, and it is not certain that they were turned off.
     may: Coolant,
-    /// Those of them that are on: nothing may have ended them since.
+    /// Kinds that are certainly on: nothing may have turned them off since.
     sure: Coolant,
 }
 
@@ -19,17 +19,17 @@ impl Beside {
     /// None.
     pub const OFF: Beside = Beside { may: Coolant::OFF, sure: Coolant::OFF };
 
-    /// A kind is on.
+    /// Records that a kind is on.
     pub fn begin(&mut self, kind: Coolant) {
         *self = Beside { may: self.may.and(kind), sure: self.sure.and(kind) };
     }
 
-    /// A kind is off, or is the first now.
+    /// Records that a kind is off, or is the first kind now.
     pub fn end(&mut self, kind: Coolant) {
         *self = Beside { may: self.may.without(kind), sure: self.sure.without(kind) };
     }
 
-    /// A stop, or a subprogram: all may be off.
+    /// Records a stop or subprogram, after which all kinds may be off.
     pub fn doubt(&mut self) {
         self.sure = Coolant::OFF;
     }
@@ -39,20 +39,20 @@ impl Beside {
         self.sure.holds(kind)
     }
 
-    /// A kind that may be on, and is none of these.
+    /// A kind that may be on and is not in `keeps`.
     pub fn other_than(self, keeps: Coolant) -> Option<Coolant> {
         self.may.without(keeps).each().next()
     }
 }
 
 impl Said {
-    /// Does the job want other kinds beside the first than are on?
+    /// Do the further kinds that the job requests differ from those that are on?
     pub(super) fn lacks_beside(&self, want: &Want) -> bool {
         let others = want.coolant.without(want.coolant.first());
         self.beside.other_than(others).is_some() || others.without(self.beside.sure) != Coolant::OFF
     }
 
-    /// Takes a code that switches a kind beside the first. `false`: it says nothing of those alone.
+    /// Records a code that switches a further kind. Returns `false` if the code is not only for further kinds.
     pub(super) fn beside_code(&mut self, code: f64, want: &Want, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
         if self.beside.may == Coolant::OFF && want.coolant == want.coolant.first() {

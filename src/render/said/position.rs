@@ -1,34 +1,35 @@
-//! Where the tool stands, and how certain that is.
+//! The position of the tool, and its certainty.
 
 use super::angles::Angles;
 use crate::render::shape::Shape;
 use crate::span::Span;
 use crate::toolpath::Axes;
 
-/// Where the tool stands.
+/// The position of the tool.
 #[derive(Clone, Debug, Default)]
 pub struct Stand {
-    /// Position in program units, as the job means it; axes not given are unknown.
+    /// Position in program units, as meant by the job. Axes that are not given are unknown.
     pub position: Axes,
-    /// Where the rotary axes stand.
+    /// Angles of the rotary axes.
     pub angles: Angles,
-    /// Axes that a sequence brought to a position of the job, and nothing moved since; cleared before the sequence.
+    /// Axes that the current sequence moved to a position of the job and that nothing has moved since; cleared before each
+    /// sequence.
     pub placed: u8,
-    /// Axes that something moved since the last target was set: nobody knows an increment of them.
+    /// Axes that moved since the last target was set, so that their increments are unknown.
     pub(super) astray: u8,
-    /// The height at which the subprogram called last left the tool, while nothing else tells one.
+    /// Height at the end of the subprogram that was called last, while no other height is known.
     pub left_at: Option<f64>,
-    /// Where the control left a cycle, and the other height at which the job did: a cut begins there.
+    /// Height at which the control left a cycle, and the height of the job if it differs: the next cut begins at the job's.
     pub left_hole: Option<(Axes, f64)>,
-    /// The sequence that took the tool away from its place by numbers of its own; a rapid brings it back.
+    /// The sequence that moved the tool to typed positions. A rapid brings the tool back.
     pub moved_by: Option<Span>,
-    /// While the tool has made no cut by a line or an arc since its change: the axes along which the tool before it had a place. The
-    /// first cut must have a beginning along these too.
+    /// Set from a tool change to the first cut by a line or arc: the axes along which the previous tool had a known position. The
+    /// first cut needs a known start along these axes too.
     pub fresh_tool: Option<u8>,
 }
 
 impl Stand {
-    /// An item's target in program units, with the axes that it keeps.
+    /// The target of an item in program units; axes that the item does not give keep their position.
     #[inline]
     pub fn target(&self, to: &Axes, shape: &Shape) -> Axes {
         let mut target = self.position;
@@ -42,7 +43,7 @@ impl Stand {
         target
     }
 
-    /// The tool is there now; axes that the target does not give stay.
+    /// Moves the known position to the target. Axes that the target does not give keep theirs.
     #[inline]
     pub fn move_to(&mut self, target: &Axes) {
         for axis in 0..6 {
@@ -53,24 +54,24 @@ impl Stand {
         self.position.given |= target.given;
     }
 
-    /// A target was set along these axes: increments count from here.
+    /// Records that a target was set along these axes: increments are relative to it.
     #[inline]
     pub fn aims(&mut self, axes: u8) {
         self.astray &= !axes;
     }
 
-    /// Did something move this axis since the last target was set?
+    /// Has this axis moved since the last target was set?
     pub fn is_astray(&self, axis: usize) -> bool {
         self.astray & 1 << axis != 0
     }
 
-    /// Nobody knows where the linear axes are. The part stays turned as it is.
+    /// Discards the position of the linear axes. The angles stay known.
     pub fn forget_position(&mut self) {
         self.position = Axes::default();
         self.left_at = None;
     }
 
-    /// Where a rotary axis stands.
+    /// The angle of a rotary axis.
     pub fn angle(&self, axis: usize) -> Option<f64> {
         self.position.get(axis).or(self.angles.stands(axis))
     }

@@ -1,12 +1,12 @@
-//! What was last printed: a register for each letter, one for each modal group of codes.
+//! The values that were printed last: one register for each letter, and one for each modal group of codes.
 
 use crate::control::{Code, GROUPS, Group};
 
-/// What a letter last printed.
+/// Last printed value of a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 struct Register {
     units: i64,
-    /// Decimals of `units` plus one; 0: unknown. Two formats of one letter (`Rename`) never compare equal by chance.
+    /// Decimals of `units` plus one; 0: unknown. Two formats of one letter (`Rename`) therefore never compare equal by accident.
     scale: u8,
 }
 
@@ -14,7 +14,7 @@ struct Register {
 #[derive(Clone, Debug)]
 pub struct Registers {
     letters: [Register; 128],
-    /// The code that each modal group printed last.
+    /// Last printed code of each modal group.
     groups: [Option<Code>; GROUPS],
 }
 
@@ -30,54 +30,54 @@ impl Registers {
         *self = Registers::default();
     }
 
-    /// No letter is known; codes stay.
+    /// Forgets all letters; keeps codes.
     pub fn forget_letters(&mut self) {
         self.letters = [Register::default(); 128];
     }
 
-    /// Is this what the letter last printed?
+    /// Is this the last printed value of the letter?
     #[inline]
     pub fn holds(&self, letter: u8, units: i64, decimals: u8) -> bool {
         self.letters[usize::from(letter & 0x7f)] == Register { units, scale: decimals + 1 }
     }
 
-    /// What the letter last printed, with its decimals.
+    /// The last printed value of the letter, with its decimals.
     pub fn get(&self, letter: u8) -> Option<(i64, u8)> {
         let register = self.letters[usize::from(letter & 0x7f)];
         (register.scale != 0).then(|| (register.units, register.scale - 1))
     }
 
-    /// A letter printed this value.
+    /// Stores a printed value.
     #[inline]
     pub fn set(&mut self, letter: u8, units: i64, decimals: u8) {
         self.letters[usize::from(letter & 0x7f)] = Register { units, scale: decimals + 1 };
     }
 
-    /// The letter's value is unknown.
+    /// Forgets the value of a letter.
     #[inline]
     pub fn forget(&mut self, letter: u8) {
         self.letters[usize::from(letter & 0x7f)] = Register::default();
     }
 
-    /// The code that a group last printed.
+    /// The last printed code of a group.
     #[inline]
     pub fn group(&self, group: Group) -> Option<Code> {
         self.groups[group as usize]
     }
 
-    /// Is this code what its group last printed?
+    /// Is this code the last one of its group?
     #[inline]
     pub fn holds_code(&self, code: Code) -> bool {
         self.groups.contains(&Some(code))
     }
 
-    /// A group printed this code.
+    /// Stores a printed code.
     #[inline]
     pub fn set_group(&mut self, group: Group, code: Code) {
         self.groups[group as usize] = Some(code);
     }
 
-    /// The group's code is unknown.
+    /// Forgets the code of a group.
     #[inline]
     pub fn forget_group(&mut self, group: Group) {
         self.groups[group as usize] = None;

@@ -1,4 +1,4 @@
-//! What is known of the control, and how it becomes known and unknown.
+//! The known state of the control, and the functions that update or discard it.
 
 use super::conditions::Conditions;
 use super::form_values::Own;
@@ -17,10 +17,10 @@ use crate::render::want::Want;
 use crate::sema;
 use crate::toolpath::Axes;
 
-/// What kind of move printed last.
+/// Kind of the last printed move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LastMove {
-    /// No move that counts.
+    /// No relevant move.
     None,
     /// A rapid.
     Rapid,
@@ -32,60 +32,60 @@ pub enum LastMove {
     Ccw,
 }
 
-/// What the control holds now.
+/// The known state of the control.
 #[derive(Clone, Debug)]
 pub struct Said {
     pub(super) registers: Registers,
     /// Work offset, spindle, coolant, feed mode.
     pub conditions: Conditions,
-    /// What the form said of its own.
+    /// Values that the form set by its own words.
     pub own: Own,
-    /// The code that ended a kind of coolant, while nothing has begun one since.
+    /// Code that turned off a kind of coolant, until another code turns one on.
     pub coolant_ended: Option<f64>,
-    /// The kinds of coolant that are on beside the first.
+    /// Further kinds of coolant that are on besides the first.
     pub beside: Beside,
-    /// Where the tool stands.
+    /// Position of the tool.
     pub stand: Stand,
-    /// What the form itself has set.
+    /// Values that the form set with `@set`.
     pub kept: Kept,
-    /// The names of tools that words have printed.
+    /// Tool names that were printed as words.
     pub names: Names,
-    /// The value of each Upon's variable when it was used last.
+    /// Value of each Upon's variable when it was last used.
     pub upon_used: Vec<Option<f64>>,
-    /// The plane that the control is in: what was printed last, also before a tool change. `None`: unknown.
+    /// Current plane of the control, as last printed. A tool change does not reset it. `None`: unknown.
     pub(super) plane: Option<Code>,
-    /// The distance code that the control is in: what was printed last, also before a tool change.
+    /// Current distance mode of the control, as last printed. A tool change does not reset it.
     pub(super) distance: Option<Code>,
-    /// The motion that the control is in: also where the next move says it again.
+    /// Current motion of the control. It is kept when the next move must print its code again.
     pub(super) motion: Option<Code>,
-    /// What kind of move printed last.
+    /// Kind of the last printed move.
     pub last_move: LastMove,
-    /// The frame in which axis words of the running sequence stand.
+    /// Frame of the axis words in the current sequence.
     pub(super) shift: Shift,
     /// The open block changed the frame of the depth axis.
     pub(super) depth_moved: bool,
-    /// The open block runs what is written elsewhere, as a macro.
+    /// The open block runs external code, as a macro.
     pub(super) calls: bool,
-    /// A code or value that switches something was printed, and nobody looked yet whether the job wants it so.
+    /// A code or value was printed that switches something, and its check against the job's request is still due.
     pub(super) switched: bool,
-    /// The control may not hold what the job wants: the next move must look.
+    /// The state of the control may differ from the job's request: the next move must check it.
     pub differs: bool,
-    /// What the open subprogram does. `None`: in the main program.
+    /// Effects of the open subprogram on the spindle. `None`: in the main program.
     pub sub: Option<Spins>,
 }
 
-/// What a subprogram does to a spindle that only its caller knows.
+/// Effects of a subprogram on a spindle that only its caller sets.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spins {
-    /// It stops, or calls one that does: spindle and coolant may stand, whoever calls it.
+    /// The subprogram stops, or calls one that does: spindle and coolant may be off afterwards.
     pub stops: bool,
-    /// It taps right-hand threads itself: in a floating holder that needs the spindle clockwise, and a rigid tap leaves it so
-    /// or standing.
+    /// The subprogram taps right-hand threads itself. A floating holder needs the spindle clockwise for them; a rigid tap leaves
+    /// it clockwise or stopped.
     pub taps: bool,
 }
 
 impl Said {
-    /// A control to which nothing was said; this many Upon sequences watch.
+    /// The state before the first block. `upons`: number of Upon sequences.
     pub fn new(upons: usize) -> Said {
         Said {
             registers: Registers::default(),
@@ -112,24 +112,24 @@ impl Said {
 
     // ---- letters and groups
 
-    /// A letter printed this value.
+    /// Records the printed value of a letter.
     #[inline]
     pub fn word(&mut self, info: &Letter, units: i64) {
         self.registers.set(info.printed, units, info.format.dec.count);
     }
 
-    /// Is this what the letter printed last?
+    /// Is this the last printed value of the letter?
     #[inline]
     pub fn holds(&self, info: &Letter, units: i64) -> bool {
         self.registers.holds(info.printed, units, info.format.dec.count)
     }
 
-    /// What the letter printed last, with its decimals.
+    /// The last printed value of the letter, with its decimals.
     pub fn register(&self, info: &Letter) -> Option<(i64, u8)> {
         self.registers.get(info.printed)
     }
 
-    /// Does the control hold this value of a letter already, a code in its modal group?
+    /// Does the control already have this value of a letter? For a code: is it active in its modal group?
     pub fn holds_value(&self, info: &Letter, units: i64, value: f64) -> bool {
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
@@ -139,19 +139,19 @@ impl Said {
         }
     }
 
-    /// May a motion block drop this code, because it is in force in its modal group?
+    /// May a motion block leave out this code, because it is active in its modal group?
     #[inline]
     pub fn code_drops(&self, code: Code, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
         settings.modality && self.registers.holds_code(code) && settings.modal_codes.contains(&code)
     }
 
-    /// Is this motion code the one in force, so that the next move need not say it?
+    /// Is this motion code active, so that the next move need not print it?
     pub fn motion_in_force(&self, code: &sema::Code) -> bool {
         self.registers.group(Group::Motion) == Some(code.code)
     }
 
-    /// Is the control in this motion, also where the next move says it again?
+    /// Is the control in this motion, even if the next move must print the code again?
     pub fn is_in_motion(&self, code: &sema::Code) -> bool {
         self.motion == Some(code.code)
     }
@@ -161,19 +161,20 @@ impl Said {
         self.plane == Some(plane)
     }
 
-    /// Is the control in the distance code of this number?
+    /// Is the control in the distance mode of this number (G90, G91)?
     pub fn is_in_distance(&self, number: f64) -> bool {
         self.distance.is_some_and(|code| code.value() == number)
     }
 
-    /// Would the control read generated positions as increments, or the other way round?
+    /// Would the control read generated positions as increments, or generated increments as positions?
     pub fn distance_is_wrong(&self, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
         let wrong = settings.inc_abs[usize::from(settings.incremental)];
         self.is_in_distance(wrong) && settings.machine != Machine::Lathe
     }
 
-    /// Would the control read generated positions or feeds in other units, or as diameters? The code that it is in.
+    /// The active code that makes the control read generated positions or feeds in other units, or as diameters; `None` if there
+    /// is none.
     pub fn misread_by(&self, shape: &Shape, want: &Want) -> Option<Code> {
         let settings = &shape.program.settings;
         let inch = want.get(VarId::Unitmode) == Some(settings.inch_mm[0]);
@@ -187,12 +188,12 @@ impl Said {
         others.or_else(diameters)
     }
 
-    /// Would the control read generated positions otherwise than they are meant?
+    /// Would the control misread generated positions?
     pub fn is_misread(&self, shape: &Shape, want: &Want) -> bool {
         self.distance_is_wrong(shape) || self.misread_by(shape, want).is_some()
     }
 
-    /// Would the control read the centre words of generated arcs as something else? The code that it is in.
+    /// The active code that makes the control misread the centre words of generated arcs; `None` if there is none.
     pub fn centres_misread_by(&self, shape: &Shape) -> Option<Code> {
         let wrong = if shape.program.settings.centre_incremental {
             Meaning::CentresAbsolute
@@ -202,7 +203,7 @@ impl Said {
         self.registers.group(Group::ArcDistance).filter(|&code| shape.meaning_of(code) == Some(wrong))
     }
 
-    /// Does a target differ on one of these axes from what was printed?
+    /// Does a target differ on one of these axes from the printed value?
     pub fn differs_from(&self, target: &Axes, axes: u8, shape: &Shape) -> bool {
         (0..6).any(|axis| {
             let bit = 1 << axis;
@@ -216,55 +217,55 @@ impl Said {
         })
     }
 
-    /// May the control lack what the job wants, so that something must be done before the next move?
+    /// May the control's state differ from the job's request, so that something must be printed before the next move?
     #[inline]
     pub fn is_unsettled(&self, want: &Want) -> bool {
         want.changed || self.differs
     }
 
-    // ---- what becomes unknown
+    // ---- state that becomes unknown
 
-    /// The letter's value is unknown.
+    /// Forgets the value of a letter.
     #[inline]
     pub fn forget(&mut self, info: &Letter) {
         self.registers.forget(info.printed);
     }
 
-    /// The letters of `Force` print again.
+    /// Forgets the letters of `Force`, so that they print again.
     pub fn force(&mut self, shape: &Shape) {
         for &letter in &shape.program.settings.force {
             self.forget(&shape.letters[letter]);
         }
     }
 
-    /// The letter of the depth axis says its next position again.
+    /// Forgets the letter of the depth axis, so that its next position prints again.
     pub fn forget_depth(&mut self, shape: &Shape) {
         self.forget(&shape.letters[shape.axes[shape.depth]]);
     }
 
-    /// No letter is known; codes stay.
+    /// Forgets all letters; keeps codes.
     pub fn forget_letters(&mut self) {
         self.registers.forget_letters();
     }
 
-    /// Neither letters nor modal groups are known.
+    /// Forgets all letters and modal groups.
     pub fn forget_words(&mut self) {
         self.registers.forget_all();
     }
 
-    /// The next move says its motion code again; the control is still in that motion.
+    /// Makes the next move print its motion code again. The control's motion stays known.
     pub fn say_motion_again(&mut self) {
         self.registers.forget_group(Group::Motion);
     }
 
-    /// Which motion the control is in is unknown, as after a macro.
+    /// Forgets the motion of the control, as after a macro.
     pub fn forget_motion(&mut self) {
         self.say_motion_again();
         self.motion = None;
     }
 
-    /// The tool is somewhere else on these axes now. Positions stay what the job means by them; increments need to know
-    /// more.
+    /// Records that the tool moved on these axes by other words. The job's positions stay valid, but increments have no known
+    /// start any more.
     pub fn displaced(&mut self, axes: u8, shape: &Shape) {
         self.stand.placed &= !axes;
         if shape.program.settings.incremental {
@@ -273,7 +274,7 @@ impl Said {
         }
     }
 
-    /// Where the axes are is unknown.
+    /// Records that the axis positions are unknown.
     pub fn forget_axes(&mut self, shape: &Shape) {
         self.displaced(0x3f, shape);
         for letter in shape.axes.into_iter().chain(shape.program.settings.axes2) {
@@ -281,22 +282,21 @@ impl Said {
         }
     }
 
-    /// Nobody knows where the tool is, nor how it came there.
+    /// Forgets the tool's position and the last motion.
     pub fn forget_place(&mut self) {
         self.stand.forget_position();
         self.motion = None;
         self.last_move = LastMove::None;
     }
 
-    /// Nobody knows anything of letters, modal groups, the tool and the part, as where a subprogram begins or ends.
+    /// Forgets letters, modal groups, and the positions of tool and part, as at the begin or end of a subprogram.
     pub fn forget_where(&mut self) {
         self.forget_words();
         self.stand.angles.forget();
         self.forget_place();
     }
 
-    /// Forgets what belongs to a tool that leaves: speed, direction and the spindle's limit are the next one's; no
-    /// letter keeps its value.
+    /// Forgets the values of the tool that is removed: speed, direction, spindle limit, and all letters.
     pub fn forget_tool(&mut self) {
         self.stand.angles.keep(&self.stand.position);
         self.stand.forget_position();
@@ -308,12 +308,12 @@ impl Said {
 
     // ---- one sequence
 
-    /// A sequence begins: its axis words stand in the job's frame.
+    /// Begins a sequence: its axis words are in the job's frame.
     pub fn begin_sequence(&mut self) {
         self.shift = Shift::None;
     }
 
-    /// A block of a sequence or of the job's text ends.
+    /// Ends a block of a sequence or of the job's text.
     pub fn end_block(&mut self, want: &Want, shape: &Shape) {
         if std::mem::take(&mut self.calls) {
             self.called(want, shape);
@@ -326,17 +326,17 @@ impl Said {
         }
     }
 
-    /// The frame of the depth axis changed in the open block, or its position was printed since.
+    /// Sets whether the frame of the depth axis changed in the open block without a new position after it.
     pub fn set_depth_moved(&mut self, moved: bool) {
         self.depth_moved = moved;
     }
 
-    /// Do axis words that are printed now stand in another frame than the job's positions?
+    /// Is the frame of axis words that are printed now different from that of the job's positions?
     pub fn is_elsewhere(&self, shape: &Shape) -> bool {
         self.shift != Shift::None || !shape.program.settings.incremental && self.distance_is_wrong(shape)
     }
 
-    /// Was something switched since this was last asked?
+    /// Was anything switched since the last call of this function?
     pub fn take_switched(&mut self) -> bool {
         std::mem::take(&mut self.switched)
     }

@@ -1,4 +1,4 @@
-//! Text as it stands, in backquotes of a form or from a job: its words change what is known as typed words do.
+//! Text that is printed unchanged, from backquotes of a form or from a job. Its words affect the known state like typed words.
 
 use super::line::Line;
 use super::state::Said;
@@ -13,15 +13,15 @@ use crate::render::want::Want;
 /// A word of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextWord {
-    /// Upper case.
+    /// Letter, in upper case.
     pub letter: u8,
-    /// The number after it.
+    /// Number after the letter.
     pub value: f64,
 }
 
-/// The words of a text outside comments, as the scanner of programs reads them. `None`: the text is more than words, as
-/// an expression, a name or a call by name, so that its effect is unknown. Variables of the program alone change
-/// nothing that the renderer keeps: `#500=1` has no words.
+/// The words of a text outside comments, as the scanner of programs reads them. `None`: the text contains more than words, as an
+/// expression, a name or a call by name, so that its effect is unknown. An assignment to a program variable, as `#500=1`, has no
+/// words and does not change the known state.
 pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
     let mut words = Vec::new();
     let tokens = tokens(text).filter(|token| {
@@ -34,7 +34,7 @@ pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
         match token.kind {
             Kind::Word(letter, number) => words.push(TextWord { letter, value: number.value }),
             Kind::Symbol(b'#') if i == 0 => return sets_variable(text).then_some(words),
-            // a block delete: the words after it may or may not be read
+            // block delete: the control may skip the words after it
             Kind::Delete if i == 0 => {}
             _ => return None,
         }
@@ -42,10 +42,10 @@ pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
     Some(words)
 }
 
-/// Addresses that another language writes with `=`, and that say how the arc of their block goes, as Siemens' `I=AC(10)`, `CR=5`.
+/// Addresses that other languages write with `=` and that describe the arc of their block, as Siemens' `I=AC(10)`, `CR=5`.
 const OF_ARCS: [&str; 9] = ["I", "J", "K", "CR", "AR", "TURN", "I1", "J1", "K1"];
 
-/// Is a text beside the axes of a line only such addresses, or parts of them? They change nothing besides the move.
+/// Does a text next to axis words consist only of such addresses, or parts of them? They change only the move.
 fn is_argument(text: &[u8]) -> bool {
     let mut parts = text.split(u8::is_ascii_whitespace).filter(|part| !part.is_empty());
     parts.all(is_of_arc)
@@ -63,7 +63,7 @@ fn is_of_arc(part: &[u8]) -> bool {
     }
 }
 
-/// Is a text that begins with `#` an assignment to a variable of the program, and none of the control's own?
+/// Is a text that begins with `#` an assignment to a variable of the program, not to one of the control?
 fn sets_variable(text: &[u8]) -> bool {
     let mut tokens = tokens(text).filter(|token| token.kind != Kind::Blank).skip(1);
     let own = match tokens.next().map(|token| token.kind) {
@@ -75,14 +75,14 @@ fn sets_variable(text: &[u8]) -> bool {
 }
 
 impl Said {
-    /// A text was printed in a line: what its words change is known; what a text changes that is more than words is not.
-    /// In a form without a control only positions and modal words count as changed by such a text, because its language
-    /// is unknown too. In a cycle the text is the cycle's own, and its end makes positions unknown.
+    /// Records a printed text. The effect of plain words is known; the effect of any other text is not. In a form without a
+    /// control, any other text invalidates only positions and modal words, because its language is unknown too. In a cycle the
+    /// text belongs to the cycle, whose end invalidates positions.
     #[cold]
     pub fn text(&mut self, text: &[u8], line: Line, want: &Want, shape: &Shape) {
         let program = shape.program;
         if !program.settings.control().prints_codes() {
-            // beside the axes of a line it is a part of their move, as `R0 FMAX` is
+            // next to the axes of a line the text is part of their move, as `R0 FMAX`
             let moves = |token: Token| matches!(token.kind, Kind::Word(letter, _) if shape.axis_bit(letter) != 0);
             if want.cycle.is_none() && (!line.prints_axes(shape) || tokens(text).any(moves)) {
                 self.forget_motions(shape);
@@ -109,7 +109,7 @@ impl Said {
         }
     }
 
-    /// A word of a text, as if it were typed.
+    /// Records a word of a text like a typed word.
     fn text_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
         let TextWord { letter, value } = word;
         if !letter.is_ascii_uppercase() {
@@ -128,7 +128,7 @@ impl Said {
         self.speed_word(letter, value, line, want, shape);
     }
 
-    /// A word after the slash of block delete: whether the control reads it is unknown, and so is what it sets.
+    /// Records a word after the slash of block delete. The control may skip it, so that its effect is unknown.
     fn skipped_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
         let TextWord { letter, value } = word;
         self.speed_word(letter, value, line, want, shape);
@@ -142,7 +142,7 @@ impl Said {
         self.registers.forget(letter);
     }
 
-    /// Something ran that is written elsewhere, as a macro: all that it may have changed is unknown. In a cycle it
+    /// Records a run of external code, as a macro: everything that it may have changed is unknown. In a cycle the external code
     /// makes the holes.
     pub(super) fn called(&mut self, want: &Want, shape: &Shape) {
         self.forget_motions(shape);
@@ -153,14 +153,14 @@ impl Said {
         for var in [VarId::Work, VarId::Speed, VarId::Direct, VarId::Feedtype] {
             self.conditions.put(var, None);
         }
-        // not every mill takes G97
+        // some mills have no G97
         if shape.program.settings.machine == Machine::Lathe {
             self.conditions.put(VarId::Speedtype, None);
         }
         self.differs = true;
     }
 
-    /// Where the axes are, how they move and which words are in force is unknown.
+    /// Forgets positions, motions and all words.
     fn forget_motions(&mut self, shape: &Shape) {
         self.forget_words();
         self.forget_axes(shape);

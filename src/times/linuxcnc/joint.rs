@@ -1,24 +1,24 @@
-//! What stands between two moves.
+//! The transition between two moves.
 
 use super::piece::{NORMAL, PERIOD, Piece, TANGENTIAL, Vector};
 use crate::times::corner::PathMode;
 use crate::times::rates::{AxisRates, Rates, size};
 
-/// The share of an acceleration that a kink may take: below it two moves count as tangent.
+/// The share of an acceleration that a kink may use: below it, two moves count as tangent.
 const KINK: f64 = 0.1;
-/// Two directions within two degrees of opposite ones: the tool goes back.
+/// Two directions within two degrees of opposite: the tool reverses.
 const BACK: f64 = 2.0 * std::f64::consts::PI / 180.0;
-/// What is left of a move is a part of the blend where it is over in fewer periods.
+/// The rest of a move becomes part of the blend if it takes fewer periods than this.
 const LEAST_PERIODS: f64 = 4.0;
 
-/// What stands between two moves.
+/// The transition between two moves.
 pub(super) enum Joint {
     Stop,
-    /// They go on, at most so fast.
+    /// The moves continue, at most at this speed.
     Tangent(f64),
-    /// The next begins so long before the end of the one before it.
+    /// The next move begins this time before the end of the one before it.
     Overlap(f64),
-    /// An arc of this length is put in, which has taken its part of both.
+    /// An arc of this length is inserted; both moves are already shortened for it.
     Arc {
         length: f64,
         speed: f64,
@@ -27,7 +27,7 @@ pub(super) enum Joint {
     },
 }
 
-/// How two moves are joined; what it takes of them is taken.
+/// Finds the transition of two moves, and shortens them for it.
 pub(super) fn joint(last: &mut Piece, next: &mut Piece, mode: PathMode, rates: &Rates) -> Joint {
     let (before, after) = (last.directions[1], next.directions[0]);
     let together: Vector = std::array::from_fn(|axis| before[axis] + after[axis]);
@@ -88,10 +88,10 @@ fn half_angle(last: &Piece, next: &Piece) -> f64 {
     (-dot(&last.directions[1], &next.directions[0])).clamp(-1.0, 1.0).acos() / 2.0
 }
 
-/// A parabolic blend: the net speed through the corner, and by how much the next move begins early.
+/// A parabolic blend: the net speed through the corner, and the time by which the next move begins early.
 fn overlap(last: &Piece, next: &Piece, tolerance: Option<f64>) -> (f64, f64) {
     let half = half_angle(last, next);
-    // both at half of their accelerations
+    // both moves at half of their accelerations
     let halved = |piece: &Piece| {
         let mut piece = piece.clone();
         piece.begins_in_overlap = true;
@@ -111,7 +111,7 @@ fn overlap(last: &Piece, next: &Piece, tolerance: Option<f64>) -> (f64, f64) {
         }
         (v1, v2)
     };
-    // while it is decided the end of neither is known: half of each is left for it
+    // the ends of both moves are not known at this point: half of each is reserved for them
     let (v1, v2) = speeds(0.5);
     (half.sin() * (v1 + v2) / 2.0, speeds(1.0).0 / a1)
 }
@@ -121,11 +121,11 @@ struct Arc {
     length: f64,
     speed: f64,
     acceleration: f64,
-    /// What it takes of both.
+    /// The length that it takes from each move.
     trims: [f64; 2],
 }
 
-/// The arc that is put in; `None`: none can be.
+/// The arc to insert; `None`: no arc is possible.
 fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Option<Arc> {
     let (before, after) = (last.directions[1], next.directions[0]);
     let mut half = half_angle(last, next);
@@ -141,7 +141,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     let within = tolerance.filter(|tolerance| *tolerance > 0.0).unwrap_or(f64::INFINITY);
     let within = within.min(last.nominal / 4.0).min(next.nominal / 4.0);
     let whole = half;
-    // how much of each may be taken; a curve that comes towards the other makes the corner sharper
+    // the length that may be taken from each; a curve towards the other move makes the corner sharper
     let mut room = |piece: &Piece, other: &Vector, at: usize, share: f64, of_line: f64| {
         let Some(round) = piece.round else { return of_line };
         let towards = dot(&round.inwards[at], other) * if at == 1 { 1.0 } else { -1.0 } > 0.0;
@@ -159,7 +159,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     }
     let turn = std::f64::consts::PI - 2.0 * half;
     let in_plane = |of: fn(&AxisRates) -> Option<f64>| {
-        // the greatest circle in the plane of the corner that no axis forbids
+        // the greatest circle in the plane of the corner that all axes allow
         let along = |axis: usize| (1.0 - normal[axis] * normal[axis]).max(0.0).sqrt().max(1e-12);
         (0..3).filter_map(|axis| Some(of(&rates.axes[axis])? / along(axis))).fold(f64::INFINITY, f64::min)
     };
@@ -186,7 +186,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     })
 }
 
-/// The greatest speed through the corner of two lines at which neither is faster than it may be.
+/// The greatest speed through the corner of two lines at which neither exceeds its limit.
 fn altitude(last: &Piece, next: &Piece, turn: f64) -> f64 {
     if last.round.is_some() || next.round.is_some() {
         return 0.0;

@@ -1,6 +1,6 @@
-//! Corners as LinuxCNC 2.9's trajectory planner goes around them. The rules were measured on its simulator, by 225 runs of 45
-//! programs in each of its modes, and are told in words here: a move that ends in a corner is tangent, stops, overlaps with the
-//! next one (a parabolic blend, at half the acceleration), or a small arc is put in.
+//! Corners as in the trajectory planner of LinuxCNC 2.9. The rules were measured on its simulator, in 225 runs of 45 programs
+//! in each of its modes. They are stated here in words. A corner between two moves is tangent, is a stop, is an overlap (a
+//! parabolic blend, at half the acceleration), or gets a small arc.
 
 mod joint;
 mod piece;
@@ -13,18 +13,18 @@ use super::rates::{Rates, Way};
 use joint::{Joint, joint};
 use piece::{End, Piece};
 
-/// Most lines that are joined into one.
+/// Maximum number of lines that are joined into one.
 const MOST_JOINED: usize = 100;
 
-/// What it keeps from one move to the next.
+/// The state from one move to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Linuxcnc {
     mode: PathMode,
-    /// The last move: how it ends depends on the next one.
+    /// The last move; its end depends on the next move.
     last: Option<Piece>,
     /// The square of the greatest speed at its beginning.
     most_entry: f64,
-    /// Cuts at this feed that may be joined into one line, each from the end of the one before it.
+    /// A feed, and the consecutive cuts at this feed that may be joined into one line.
     chain: (f64, Vec<Way>),
 }
 
@@ -38,7 +38,7 @@ impl Linuxcnc {
         self.mode = mode;
     }
 
-    /// A line; `feed`: a cut, at so many millimetres a second.
+    /// A line; `feed` is that of a cut, in millimetres per second.
     pub fn line(&mut self, way: &Way, feed: Option<f64>, rates: &Rates, queue: &mut Queue) {
         let tolerance = self.joined_within();
         let Some(feed) = feed.filter(|_| tolerance > 0.0 && way[3..] == [0.0; 3]) else {
@@ -52,11 +52,11 @@ impl Linuxcnc {
         self.chain.1.push(*way);
     }
 
-    /// An arc at so many millimetres a second.
+    /// An arc at a feed in millimetres per second.
     pub fn arc(&mut self, curve: &Curve, feed: f64, rates: &Rates, queue: &mut Queue) {
         let sagitta = curve.radius() * (1.0 - (curve.sweep.abs() / 2.0).min(std::f64::consts::PI).cos());
         if curve.plane == [0, 1] && sagitta < self.joined_within() {
-            // two lines by way of its middle
+            // two lines that meet in its middle
             for half in curve.parts(2) {
                 self.line(&half, Some(feed), rates, queue);
             }
@@ -66,7 +66,7 @@ impl Linuxcnc {
         self.add(Piece::arc(curve, feed, rates), rates, queue);
     }
 
-    /// The moves are over, or something waits for them: the last one of G64 keeps the half acceleration of a blend.
+    /// Ends the moves, at a stop or at the end of the program. The last move of G64 keeps the half acceleration of a blend.
     pub fn stop(&mut self, rates: &Rates, queue: &mut Queue) {
         self.end_chain(rates, queue);
         if let Some(mut last) = self.last.take() {
@@ -77,7 +77,7 @@ impl Linuxcnc {
         self.most_entry = 0.0;
     }
 
-    /// How far joined lines may leave the points between them: P of G64.
+    /// Greatest distance of joined lines from the points between them: P of G64.
     fn joined_within(&self) -> f64 {
         match self.mode {
             PathMode::Blend(tolerance) => tolerance.unwrap_or(0.0),
@@ -85,7 +85,7 @@ impl Linuxcnc {
         }
     }
 
-    /// May this cut be joined to those that wait? All points between must lie near the line to its end.
+    /// May this cut be joined to the waiting cuts? All points between must be near the line to its end.
     fn joins(&self, way: &Way, tolerance: f64) -> bool {
         let chain = &self.chain.1;
         let add = |at: [f64; 3], way: &Way| std::array::from_fn(|axis| at[axis] + way[axis]);

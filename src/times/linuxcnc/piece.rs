@@ -1,4 +1,4 @@
-//! A move with its limits.
+//! A move and its limits.
 
 use crate::times::curve::Curve;
 use crate::times::leg::Leg;
@@ -6,62 +6,62 @@ use crate::times::rates::{Rates, Way, size};
 
 /// A period of the servo thread, in seconds: no move is shorter.
 pub(super) const PERIOD: f64 = 0.001;
-/// The share of an acceleration that is left along an arc across which all of it acts, and that across.
+/// Shares of the acceleration on an arc: along it, if all of the acceleration across is used, and across it.
 pub(super) const TANGENTIAL: f64 = 0.5;
 pub(super) const NORMAL: f64 = 0.866_025_403_784_438_6;
 
-/// How a move ends.
+/// The end of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum End {
     Stop,
     Tangent,
-    /// The next move begins before it is over.
+    /// The next move begins before this one ends.
     Overlap,
 }
 
 /// A direction, or a vector, of X Y Z.
 pub(super) type Vector = [f64; 3];
 
-/// A move. Speeds are millimetres a second.
+/// A move. Speeds are in millimetres per second.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     /// Directions at its beginning and its end.
     pub directions: [Vector; 2],
-    /// What is left of its length.
+    /// Its remaining length.
     pub length: f64,
-    /// Its length, before blends took a part.
+    /// Its length before blends shortened it.
     pub nominal: f64,
-    /// The speed that it may have.
+    /// Its greatest possible speed.
     pub most: f64,
-    /// The speed that it is to have.
+    /// Its programmed speed.
     pub wanted: f64,
     pub acceleration: f64,
     pub round: Option<Round>,
     pub is_cut: bool,
     pub end: End,
-    /// None comes after it: the speed of an arc is then not made slower for what the end takes of its acceleration.
+    /// No move follows: the share of acceleration for its end then does not reduce the speed on an arc.
     pub is_last: bool,
     /// It begins in an overlap.
     pub begins_in_overlap: bool,
-    /// The share of its acceleration that the kinks at its ends take.
+    /// The share of its acceleration that the kinks at its two ends use.
     pub kinks: [f64; 2],
 }
 
-/// What is round of an arc.
+/// The arc of a move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
     pub radius: f64,
-    /// That by which it counts, with its whole rise.
+    /// The effective radius, including its rise.
     pub bend: f64,
     pub sweep: f64,
-    /// Across its plane.
+    /// The axis of its plane.
     pub axis: Vector,
     /// From its beginning and its end to its centre.
     pub inwards: [Vector; 2],
 }
 
 impl Piece {
-    /// A line; `None`: it has no length, or nothing says how fast it is.
+    /// A line; `None`: it has no length, or its speed is unknown.
     pub fn line(way: &Way, feed: Option<f64>, rates: &Rates) -> Option<Piece> {
         let length = rates.length(way);
         if length == 0.0 {
@@ -110,7 +110,7 @@ impl Piece {
         };
         let (fast, strong) = (smaller(|axis| axis.rapid), smaller(|axis| axis.acceleration));
         let across = (strong * NORMAL * radius).sqrt().min(fast);
-        // the way to its end, as if it were straight, limits it too
+        // the straight path to its end is a further limit
         let mut way = Way::default();
         (0..3).for_each(|axis| way[axis] = rise[axis]);
         (way[a], way[b]) = (end[0] - begin[0], end[1] - begin[1]);
@@ -156,12 +156,12 @@ impl Piece {
         }
     }
 
-    /// The speed at which it goes without the moves beside it.
+    /// Its speed without the adjacent moves.
     pub fn speed(&self) -> f64 {
         self.wanted.min(self.fastest())
     }
 
-    /// The greatest speed, which on an arc depends on what is left for the acceleration across.
+    /// The greatest speed; on an arc it depends on the acceleration that is left across.
     fn fastest(&self) -> f64 {
         let most = self.most.min(self.length / PERIOD);
         match self.round {
@@ -170,7 +170,7 @@ impl Piece {
         }
     }
 
-    /// The acceleration that its ends leave.
+    /// The acceleration that remains after the share of its ends.
     fn share(&self) -> f64 {
         let overlaps = self.begins_in_overlap || self.end == End::Overlap;
         self.acceleration * (1.0 - self.kinks[0].max(self.kinks[1])) * if overlaps { 0.5 } else { 1.0 }
@@ -188,7 +188,7 @@ impl Piece {
         }
     }
 
-    /// As a leg that begins at most so fast.
+    /// Converts it to a leg with this greatest speed at its beginning.
     pub fn leg(&self, most_entry: f64) -> Leg {
         let speed = self.speed();
         Leg {

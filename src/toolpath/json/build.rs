@@ -1,4 +1,4 @@
-//! From objects of a job to events, with the checks that need more than one key.
+//! Converts objects of a job to events, with checks that need more than one key.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,19 +12,19 @@ use crate::toolpath::{
 
 type Done = Result<(), Stop>;
 
-/// Tools that a message names.
+/// The largest number of tools that a message lists.
 const MOST_NAMED: usize = 20;
 
 /// Takes the parts of a job in order and pushes events.
 pub struct Builder<'s> {
     hold: Hold<'s>,
-    /// The place of what comes next; readers keep line and column.
+    /// The place of the next event. Readers update line and column.
     pub place: Place,
     /// The tools in the order of the job.
     tools: Vec<Tool>,
     /// The first tool of each number.
     by_number: HashMap<u64, usize>,
-    /// Numbers with their turrets: each is there once.
+    /// Tool numbers with their turrets. Each pair may occur only once.
     listed: HashSet<(u64, Option<u64>)>,
     tool_needed: bool,
     tool: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Builder<'s> {
 }
 
 impl<'s> Builder<'s> {
-    /// Pushes to `sink`.
+    /// A builder that pushes events to `sink`.
     pub fn new(sink: &'s mut dyn Sink) -> Self {
         Builder {
             hold: Hold::new(sink),
@@ -54,7 +54,7 @@ impl<'s> Builder<'s> {
         self.hold.push(event, self.place)
     }
 
-    /// The head of the job.
+    /// Pushes the head of the job.
     pub fn start(&mut self, head: JobHead) -> Done {
         if head.version.is_some_and(|v| v.0 != 1.0) {
             return fault(Code::PJ003, "this version reads jobs with \"postform\": 1", "write \"postform\": 1");
@@ -86,11 +86,11 @@ impl<'s> Builder<'s> {
         self.push(Event::Start(&start))
     }
 
-    /// A subprogram begins. Subprograms stand before the operations that call them.
+    /// Begins a subprogram. Subprograms come before the operations that call them.
     pub fn subprogram(&mut self, head: SubprogramHead) -> Done {
         self.leave_cycle("a subprogram")?;
         if self.in_subprogram || self.place.operation > 0 {
-            let help = "end it first; subprograms stand one after the other, before the operations";
+            let help = "end it first; write the subprograms one after the other, before the operations";
             return fault(Code::PJ011, "a subprogram inside another part of the job", help);
         }
         let Some(number) = head.number else {
@@ -103,7 +103,7 @@ impl<'s> Builder<'s> {
         self.push(Event::SubStart(number))
     }
 
-    /// The open subprogram ends.
+    /// Ends the open subprogram.
     pub fn subprogram_end(&mut self) -> Done {
         self.leave_cycle("the end of a subprogram")?;
         if !self.in_subprogram {
@@ -113,7 +113,7 @@ impl<'s> Builder<'s> {
         self.push(Event::SubEnd)
     }
 
-    /// An operation begins.
+    /// Begins an operation.
     pub fn operation(&mut self, head: OperationHead) -> Done {
         self.leave_cycle("an operation")?;
         if self.in_subprogram {
@@ -135,7 +135,7 @@ impl<'s> Builder<'s> {
                     let more = if self.tools.len() > MOST_NAMED { " and others" } else { "" };
                     let help = match known.len() {
                         0 => "list the tools under \"tools\", before the operations".to_owned(),
-                        _ => format!("add it to \"tools\", or take one of {}{more}", known.join(", ")),
+                        _ => format!("add it to \"tools\", or use one of {}{more}", known.join(", ")),
                     };
                     return fault(Code::PJ006, format!("tool {number} is not among the job's tools"), help);
                 }
@@ -158,7 +158,7 @@ impl<'s> Builder<'s> {
         self.hold.tool_change(change, self.place)
     }
 
-    /// An item of a path that is no cycle.
+    /// Pushes an item of a path that is not a cycle.
     pub fn item(&mut self, item: &ItemObject) -> Done {
         self.leave_cycle("an item")?;
         self.in_operation()?;
@@ -188,7 +188,7 @@ impl<'s> Builder<'s> {
         }
     }
 
-    /// An item that moves nothing.
+    /// Pushes an item without a move.
     fn between_moves(&mut self, item: &ItemObject) -> Done {
         if let Some(section) = item.begin {
             return self.push(Event::Begin(section.0));
@@ -205,7 +205,7 @@ impl<'s> Builder<'s> {
         }
         if let Some(home) = item.home {
             if !home {
-                return fault(Code::PJ003, "`home` is false, so the item says nothing", "take it out, or write true");
+                return fault(Code::PJ003, "`home` is false, so the item does nothing", "remove it, or write true");
             }
             return self.push(Event::Home);
         }
@@ -220,7 +220,7 @@ impl<'s> Builder<'s> {
         }
         if let Some(text) = &item.text {
             if text.contains(['\n', '\r']) {
-                return fault(Code::PJ003, "`text` holds more than one line", "make an item of each block");
+                return fault(Code::PJ003, "`text` contains more than one line", "make a separate item of each block");
             }
             return self.push(Event::Text(text));
         }
@@ -239,7 +239,7 @@ impl<'s> Builder<'s> {
         Ok(())
     }
 
-    /// The two items that make up most of every job, without an object between.
+    /// Pushes a rapid or a line without an object between. These two items are most of every job.
     #[inline]
     pub fn simple_move(&mut self, to: Axes, feed: Option<f64>, rapid: bool) -> Done {
         if self.in_cycle || (self.place.operation == 0 && !self.in_subprogram) {
@@ -252,7 +252,7 @@ impl<'s> Builder<'s> {
         self.push(if rapid { Event::Rapid(to) } else { Event::Line { to, feed } })
     }
 
-    /// A cycle begins.
+    /// Begins a cycle.
     pub fn cycle_begin(&mut self, cycle: &CycleObject) -> Done {
         self.leave_cycle("a cycle")?;
         self.in_operation()?;
@@ -263,7 +263,7 @@ impl<'s> Builder<'s> {
         self.push(Event::CycleBegin(&spec))
     }
 
-    /// A point of the open cycle.
+    /// Pushes a point of the open cycle.
     pub fn hole(&mut self, hole: Hole) -> Done {
         if !self.in_cycle {
             return fault(Code::PJ011, "a point outside a cycle", "begin the cycle first, as {\"cycle\": {...}}");
@@ -272,7 +272,7 @@ impl<'s> Builder<'s> {
         self.push(Event::Hole(hole))
     }
 
-    /// The open cycle ends.
+    /// Ends the open cycle.
     pub fn cycle_end(&mut self) -> Done {
         if !self.in_cycle {
             return fault(Code::PJ011, "the end of a cycle that did not begin", "take it out");
@@ -285,7 +285,7 @@ impl<'s> Builder<'s> {
         self.push(Event::CycleEnd)
     }
 
-    /// The job ends.
+    /// Ends the job.
     pub fn finish(&mut self) -> Done {
         self.leave_cycle("the end")?;
         if self.in_subprogram {
@@ -321,7 +321,7 @@ impl<'s> Builder<'s> {
     }
 }
 
-/// Checks that an item says one thing: the feed and side that go with a move do not count.
+/// Checks that an item has exactly one main key. A feed or side that belongs to a move is not a main key.
 fn check_one(item: &ItemObject) -> Done {
     let moves = item.line.is_some() || item.arc.is_some() || item.infeed.is_some() || item.outfeed.is_some();
     let kinds = [
@@ -349,13 +349,13 @@ fn check_one(item: &ItemObject) -> Done {
     match kinds.iter().filter(|&&kind| kind).count() {
         1 if item.side.is_some() != item.infeed.is_some() => {
             let help = "write {\"infeed\": [1, 2], \"side\": \"left\"}";
-            fault(Code::PJ005, "`side` and `infeed` go together", help)
+            fault(Code::PJ005, "`side` and `infeed` must be given together", help)
         }
         1 => Ok(()),
         0 => {
             let help = format!("give one of {}", ItemObject::KEYS.join(", "));
-            fault(Code::PJ004, "the path item says nothing", help)
+            fault(Code::PJ004, "the path item is empty", help)
         }
-        _ => fault(Code::PJ005, "the path item says more than one thing", "make an item of each"),
+        _ => fault(Code::PJ005, "the path item contains more than one action", "make a separate item of each"),
     }
 }

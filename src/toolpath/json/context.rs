@@ -1,4 +1,4 @@
-//! Where a reader is, and what went wrong there.
+//! The current position of a reader in the document, and its failure.
 
 use std::cell::{Cell, RefCell};
 use std::fmt::Write;
@@ -18,46 +18,46 @@ pub enum Step {
     Index(u64),
 }
 
-/// Shared by the readers of one job: the path to where they are, and the failure that stopped them.
+/// Data that the readers of one job share: the path to the current value, and the failure that stopped them.
 #[derive(Default)]
 pub struct Context {
-    /// Line and column of what was read last; only the document reader counts them.
+    /// Line and column of the last byte read. Only the document reader counts them.
     pub at: Cell<(u64, u32)>,
-    /// Where the last point began.
+    /// Line and column where the last point began.
     pub point_at: Cell<(u64, u32)>,
     path: RefCell<Vec<Step>>,
     failure: RefCell<Option<Stop>>,
 }
 
 impl Context {
-    /// Goes down one step.
+    /// Enters one step of the path.
     pub fn enter(&self, step: Step) {
         self.path.borrow_mut().push(step);
     }
 
-    /// Comes back up. Not called after an error: the path then tells where it was.
+    /// Leaves one step of the path. Not called after an error, so that the path still shows the location.
     pub fn leave(&self) {
         self.path.borrow_mut().pop();
     }
 
-    /// Keeps a failure of ours and returns an error that carries it through serde.
+    /// Keeps a finding of postform and returns an error that carries it through serde.
     pub fn fail<E: de::Error>(&self, diag: Diag) -> E {
         self.fail_with(diag.into())
     }
 
-    /// Keeps what a sink answered and returns an error that carries it through serde.
+    /// Keeps the stop of a sink and returns an error that carries it through serde.
     pub fn fail_with<E: de::Error>(&self, stop: Stop) -> E {
         *self.failure.borrow_mut() = Some(stop);
         E::custom("stopped")
     }
 
-    /// Keeps a failure that the input ends with and returns an error that carries it through a reader.
+    /// Keeps a finding that ends the input and returns an error that carries it through a reader.
     pub fn fail_reading(&self, diag: Diag) -> std::io::Error {
         *self.failure.borrow_mut() = Some(diag.into());
         std::io::Error::other("stopped")
     }
 
-    /// The path, as `operations[0].path[3].line`.
+    /// The path, such as `operations[0].path[3].line`.
     pub fn path(&self) -> String {
         let mut text = String::new();
         for step in self.path.borrow().iter() {
@@ -70,7 +70,7 @@ impl Context {
         text
     }
 
-    /// The failure after a serde error; `line` and `column` say where it stopped.
+    /// The failure after a serde error. `line` and `column` are the location of the error.
     pub fn explain(&self, error: serde_json::Error, line: u64, column: u32) -> ReadError {
         let failure = self.failure.borrow_mut().take();
         if failure.is_none() && error.is_io() {
@@ -81,10 +81,10 @@ impl Context {
     }
 }
 
-/// What is wrong with a text that is no UTF-8, as its first bytes show.
+/// A finding if the first bytes show that the text is not UTF-8.
 pub fn not_utf_8(start: &[u8]) -> Option<Diag> {
     let marked = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
-    // without the mark every other byte is zero
+    // without a byte order mark, every other byte is zero
     let bare = matches!(start, [0, b'{', ..] | [b'{', 0, ..]);
     (marked || bare).then(|| {
         Diag::new(Code::PJ001, "the job is UTF-16")
@@ -92,7 +92,7 @@ pub fn not_utf_8(start: &[u8]) -> Option<Diag> {
     })
 }
 
-/// A message of serde in our words.
+/// Converts a serde error to a finding in postform's words.
 fn of_serde(error: &serde_json::Error) -> Diag {
     let text = error.to_string();
     let text = text.rsplit_once(" at line ").map_or(text.as_str(), |(message, _)| message);
@@ -105,7 +105,7 @@ fn of_serde(error: &serde_json::Error) -> Diag {
             diag
         }
         _ if text.contains("trailing characters") => {
-            Diag::new(Code::PJ008, "something stands after the end of the job").help("a job file holds one job")
+            Diag::new(Code::PJ008, "there is text after the end of the job").help("a job file must contain one job")
         }
         _ if text.contains("number out of range") => {
             Diag::new(Code::PJ003, "the number is too large").help("give a number that a machine can reach")
@@ -122,9 +122,9 @@ fn of_serde(error: &serde_json::Error) -> Diag {
     }
 }
 
-/// What was meant by a word that is none of a list, or by a text where a number stands.
+/// A suggestion for a word that is not in the list, or for a text instead of a number.
 fn meant(text: &str) -> Option<String> {
-    /// What people and other formats write.
+    /// Words from people and other formats.
     const ALSO: [(&str, &str); 10] = [
         ("metric", "mm"),
         ("millimeter", "mm"),
@@ -151,17 +151,14 @@ fn meant(text: &str) -> Option<String> {
     }
 }
 
-/// What to type instead, for what people write into JSON.
+/// A correction for common mistakes in JSON.
 fn instead(text: &str) -> Option<&'static str> {
     const KNOWN: [(&str, &str); 5] = [
         ("expected `,`", "a comma is missing before it, perhaps at the end of the line above"),
         ("trailing comma", "take out the comma before it"),
-        ("key must be a string", "keys and texts stand in double quotes: `\"units\": \"mm\"`"),
-        ("expected `:`", "a colon stands between a key and its value: `\"units\": \"mm\"`"),
-        (
-            "expected value",
-            "a value stands here: a number, a text in double quotes, [..] or {..}; JSON has no comments",
-        ),
+        ("key must be a string", "put keys and texts in double quotes: `\"units\": \"mm\"`"),
+        ("expected `:`", "put a colon between a key and its value: `\"units\": \"mm\"`"),
+        ("expected value", "write a value here: a number, a text in double quotes, [..] or {..}; JSON has no comments"),
     ];
     KNOWN.iter().find(|(begins, _)| text.starts_with(begins)).map(|(_, help)| *help)
 }

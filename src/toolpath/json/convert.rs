@@ -1,4 +1,4 @@
-//! Objects of a job as the events' types, with the checks of their values.
+//! Converts objects of a job to the types of events, and checks their values.
 
 use super::objects::{ArcObject, CallObject, CycleObject, SpindleObject, ThreadObject, ToolObject};
 use super::values::{Number, PeckMode, SpeedMode, StepFrom};
@@ -6,7 +6,7 @@ use crate::diag::{Code, Diag};
 use crate::toolpath::CycleKind;
 use crate::toolpath::{Arc, Call, CycleSpec, Orient, Peck, Plane, Spindle, Thread, Tool};
 
-/// A fault in the job; the reader adds the place.
+/// A fault in the job. The reader adds its location.
 pub(super) fn fault<T, E: From<Box<Diag>>>(
     code: Code,
     message: impl Into<String>,
@@ -65,20 +65,20 @@ pub(super) fn spindle_of(object: &SpindleObject) -> Result<Spindle, Box<Diag>> {
 
 pub(super) fn arc_of(object: &ArcObject) -> Result<Arc, Box<Diag>> {
     let Some(to) = object.to else {
-        return fault(Code::PJ004, "an arc without `to`", "say where it ends");
+        return fault(Code::PJ004, "an arc without `to`", "give its end");
     };
     let Some(direction) = object.direction else {
         return fault(Code::PJ004, "an arc without `direction`", "write \"direction\": \"cw\" or \"ccw\"");
     };
     if object.center.is_some() == object.radius.is_some() {
-        return fault(Code::PJ005, "an arc has either `center` or `radius`", "give one of them");
+        return fault(Code::PJ005, "an arc needs either `center` or `radius`", "give one of them");
     }
     if object.radius.is_some_and(|r| r.0 == 0.0) {
         return fault(Code::PJ003, "`radius` is 0", "give the arc's radius");
     }
     let turns = object.turns.map_or(Ok(0.0), |n| whole("turns", n))?;
     if turns > 10_000.0 {
-        return fault(Code::PJ003, format!("`turns` is {turns}"), "an arc has at most 10000 turns");
+        return fault(Code::PJ003, format!("`turns` is {turns}"), "an arc can have at most 10000 turns");
     }
     Ok(Arc {
         to: to.0,
@@ -101,7 +101,7 @@ pub(super) fn thread_of(object: &ThreadObject) -> Result<Thread, Box<Diag>> {
     let count = |name, n: Option<Number>| n.map(|n| whole(name, n).and_then(|n| positive(name, Number(n)))).transpose();
     let starts = count("starts", object.starts)?;
     if starts.is_some_and(|starts| starts > 100.0) {
-        return fault(Code::PJ003, "`starts` is above 100", "a thread has a few starts");
+        return fault(Code::PJ003, "`starts` is above 100", "give the number of starts of the thread");
     }
     Ok(Thread {
         from: from.0,
@@ -124,7 +124,7 @@ pub(super) fn call_of(object: &CallObject) -> Result<Call, Box<Diag>> {
     };
     let times = object.times.map_or(Ok(1.0), |n| whole("times", n))?;
     if times == 0.0 {
-        return fault(Code::PJ003, "`times` is 0", "take the call out, or let it run once");
+        return fault(Code::PJ003, "`times` is 0", "remove the call, or let it run once");
     }
     Ok(Call {
         sub: whole("sub", sub)?,
@@ -144,7 +144,7 @@ pub(super) fn spec_of(object: &CycleObject) -> Result<CycleSpec, Box<Diag>> {
     let mut pecks = Vec::new();
     for peck in object.pecks.iter().flat_map(|pecks| &pecks.0) {
         let Some(to) = peck.to else {
-            return fault(Code::PJ004, "a peck without `to`", "say how deep it goes");
+            return fault(Code::PJ004, "a peck without `to`", "give its depth");
         };
         pecks.push(Peck { to: to.0, feed: above_zero("feed", peck.feed)? });
     }

@@ -18,18 +18,19 @@ use super::values::Point;
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop};
 
-/// Most points of a cycle that wait for keys after them; more are passed on as they come.
+/// The largest number of points of a cycle that wait for keys after the points. If there are more, points are passed on
+/// at once.
 const MOST_WAITING: usize = 4096;
 
 /// Reads a job document and pushes its events. Memory does not grow with the job.
 ///
 /// # Errors
-/// What is wrong with the job, or with what the sink was asked to do, and where.
+/// The job is wrong, or the sink can't do what the job requests.
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
     read_from(AsItStands(input), sink)
 }
 
-/// Reads a job document that can be gone back in: its keys may stand in any order.
+/// Reads a job document from an input that can seek. Its keys may be in any order.
 ///
 /// # Errors
 /// As [`read_document`].
@@ -39,7 +40,7 @@ pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> 
     match found {
         Order::Late(parts) => read_from(InParts::new(input, &parts), sink),
         Order::Usual => read_document(input, sink),
-        // what is wrong with its text comes first: the reader would miss keys that stand further on
+        // report faults of the text first, because the reader would report keys after the fault as missing
         Order::Broken => {
             let is_whole = read_text(AsItStands(&mut input), |text, _| {
                 IgnoredAny::deserialize(&mut *text).and_then(|_| text.end())
@@ -51,12 +52,13 @@ pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> 
     }
 }
 
-/// A text as it comes.
+/// A text that is read in parts.
 trait Text {
-    /// Reads on; where the text goes on elsewhere, it says the line and column of the first byte.
+    /// Reads the next bytes. If they are from another location in the text, also returns the line and column of the first
+    /// byte.
     fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)>;
 
-    /// May it begin with a mark of its encoding?
+    /// Whether the text may begin with a byte order mark.
     const IS_WHOLE: bool;
 }
 
@@ -88,7 +90,7 @@ fn read_from(input: impl Text, sink: &mut dyn Sink) -> Result<(), ReadError> {
     })
 }
 
-/// Reads a text of JSON.
+/// Reads a JSON text.
 fn read_text<T: Text>(
     input: T,
     read: impl FnOnce(&mut serde_json::Deserializer<IoRead<Counting<'_, T>>>, &Context) -> serde_json::Result<()>,
@@ -111,7 +113,7 @@ fn read_text<T: Text>(
     })
 }
 
-/// Counts lines and columns of what was taken. serde_json takes one byte at a time, so this is also its buffer.
+/// Counts lines and columns of the bytes taken. It is also the buffer for serde_json, which takes one byte at a time.
 struct Counting<'a, R> {
     input: R,
     context: &'a Context,
@@ -122,7 +124,8 @@ struct Counting<'a, R> {
 }
 
 impl<R: Text> Counting<'_, R> {
-    /// Reads so far that an encoding shows, and passes over the mark of UTF-8. How many bytes are there then.
+    /// Reads enough bytes to detect the encoding, and skips the byte order mark of UTF-8. Returns the number of bytes
+    /// read.
     fn begin(&mut self) -> std::io::Result<usize> {
         while R::IS_WHOLE && self.to < 3 && self.fill()? > 0 {}
         if !R::IS_WHOLE {
@@ -134,7 +137,7 @@ impl<R: Text> Counting<'_, R> {
         Ok(self.to - self.from)
     }
 
-    /// Reads on after what is there; 0 at the end.
+    /// Reads more bytes. Returns 0 at the end.
     fn fill(&mut self) -> std::io::Result<usize> {
         loop {
             match self.input.read_on(&mut self.buffer[self.to..]) {
@@ -144,7 +147,7 @@ impl<R: Text> Counting<'_, R> {
                     if let Some((line, column)) = begins {
                         self.context.at.set((line, column - 1));
                     }
-                    // serde gathers a whole string before anybody sees it
+                    // serde would keep a whole string in memory first
                     if !self.strings.take(&self.buffer[self.to..self.to + count]) {
                         return Err(self.context.fail_reading(too_long()));
                     }
@@ -172,7 +175,7 @@ impl<R: Text> Read for Counting<'_, R> {
     }
 }
 
-/// What all seeds of one document share.
+/// Data that all seeds of one document share.
 struct Job<'a, 's> {
     context: &'a Context,
     builder: RefCell<Builder<'s>>,
@@ -184,13 +187,13 @@ impl<'s> Job<'_, 's> {
     }
 
     fn misplaced<E: serde::de::Error>(&self, list: &str, object: &str, key: &str) -> E {
-        self.context.fail(
-            Diag::new(Code::PJ005, format!("`{key}` stands after `{list}`"))
-                .help(format!("make `{list}` the last key of {object}, or give the job as a file: a stream can't wait for what comes after it")),
-        )
+        self.context.fail(Diag::new(Code::PJ005, format!("`{key}` is after `{list}`")).help(format!(
+            "make `{list}` the last key of {object}, or give the job as a file: in a stream the \
+                    keys after `{list}` come too late"
+        )))
     }
 
-    /// The place of the value that begins here.
+    /// Sets the place to the beginning of the next value.
     fn mark(&self) {
         let (line, column) = self.context.at.get();
         let mut builder = self.builder.borrow_mut();
@@ -199,9 +202,9 @@ impl<'s> Job<'_, 's> {
     }
 }
 
-/// An object whose last key is a list that is passed on as it comes.
+/// An object whose last key is a list. The list is passed on while it is read.
 trait Streamed: Object {
-    /// The key of the list, alone.
+    /// The key of the list, as a list of one.
     const LIST: &'static [&'static str];
 }
 impl Streamed for OperationHead {
@@ -211,7 +214,7 @@ impl Streamed for SubprogramHead {
     const LIST: &'static [&'static str] = &["path"];
 }
 
-/// Reads such an object: `head` takes the keys before the list. Says whether the list was there.
+/// Reads a streamed object. `head` takes the keys before the list. Returns whether the list was present.
 fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
     job: &Job,
     mut map: A,
@@ -243,7 +246,7 @@ fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
     Ok(listed)
 }
 
-/// What a seed reads: each list is passed on element by element.
+/// The part that a seed reads. Lists are passed on element by element.
 #[derive(Clone, Copy)]
 enum Part {
     Job,
@@ -333,7 +336,7 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
     }
 }
 
-/// The job: its head, then its subprograms, then its operations, each list passed on as it comes.
+/// Reads the job: its head, then its subprograms, then its operations. Each list is passed on while it is read.
 fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const LISTS: &[&str] = &["subprograms", "operations"];
     let (mut head, mut seen, mut done) = (Some(JobHead::default()), 0, "");
@@ -365,7 +368,7 @@ fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     }
 }
 
-/// A path item. A cycle is passed on while it is read; it is then the item's only key.
+/// Reads a path item. A cycle is passed on while it is read, and must be the item's only key.
 fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const CYCLE: &[&str] = &["cycle"];
     job.builder.borrow_mut().place.item += 1;
@@ -385,7 +388,8 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     }
     if cycle {
         if seen.count_ones() > 1 {
-            let diag = Diag::new(Code::PJ005, "the path item says more than one thing").help("make an item of each");
+            let diag = Diag::new(Code::PJ005, "the path item contains more than one action")
+                .help("make a separate item of each");
             return Err(job.context.fail(diag));
         }
         return Ok(());
@@ -393,7 +397,7 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     job.build(|b| b.item(&item))
 }
 
-/// A cycle: its first points wait for keys that stand after them, later ones do not.
+/// Reads a cycle. Its first points wait for keys after them, later points do not.
 fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const POINTS: &[&str] = &["points"];
     let (mut object, mut seen) = (CycleObject::default(), 0);
@@ -431,7 +435,7 @@ fn pass_on<E: serde::de::Error>(job: &Job, waiting: &mut Vec<(Point, (u64, u32))
     Ok(())
 }
 
-/// The points of a cycle; says whether they were passed on.
+/// Reads the points of a cycle. Returns whether they were passed on.
 struct Points<'w, 'j, 'a, 's> {
     job: &'j Job<'a, 's>,
     object: &'w CycleObject,

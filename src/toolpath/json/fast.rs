@@ -1,10 +1,10 @@
-//! The shortest way for the three lines that make up most of every JSON Lines job:
-//! `{"line":[1.5,2,-0.1],"feed":300}`, `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. Anything else, however slightly, is not read here
-//! but by serde, so the two ways can't disagree on what is an error; a property test holds them to the same values.
+//! A fast reader for the three kinds of lines that are most of every JSON Lines job: `{"line":[1.5,2,-0.1],"feed":300}`,
+//! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. Lines with any other form are read by serde. So both readers report the
+//! same errors. A property test checks that they read the same values.
 
 use crate::toolpath::Axes;
 
-/// What a plain line says.
+/// The kind of a plain line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A feed move.
@@ -18,7 +18,7 @@ pub enum Kind {
 /// A plain line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Simple {
-    /// What the line says.
+    /// The kind of the line.
     pub kind: Kind,
     /// The position.
     pub to: Axes,
@@ -26,7 +26,7 @@ pub struct Simple {
     pub feed: Option<f64>,
 }
 
-/// Reads such a line, without its line end; `None` when it is any other.
+/// Reads a plain line without its line end; `None`: the line is not plain.
 #[inline]
 pub fn simple(line: &[u8]) -> Option<Simple> {
     let mut at = Cursor { rest: line };
@@ -96,8 +96,8 @@ impl Cursor<'_> {
         Some(())
     }
 
-    /// A decimal of at most 15 digits without exponent: its digits and its power of ten are exact doubles, so one
-    /// division gives the nearest double, the same that any correct reader finds.
+    /// A decimal number of at most 15 digits without exponent. Its digits and its power of ten are exact doubles, so one
+    /// division gives the nearest double, as in any correct reader.
     #[inline]
     fn number(&mut self) -> Option<f64> {
         let (negative, digits) = match self.rest {
@@ -106,7 +106,7 @@ impl Cursor<'_> {
         };
         let (whole, rest) = run_of_digits(digits, 0);
         let whole_digits = digits.len() - rest.len();
-        // JSON wants a digit before the point and no zero before other digits
+        // JSON requires a digit before the point and no leading zero before other digits
         if whole_digits == 0 || (whole_digits > 1 && digits[0] == b'0') {
             return None;
         }
@@ -130,7 +130,7 @@ impl Cursor<'_> {
     }
 }
 
-/// Appends the digits in front to a value; wraps where there are too many, which the caller counts.
+/// Appends leading digits to a value. Too many digits wrap around; the caller checks their number.
 #[inline]
 fn run_of_digits(mut bytes: &[u8], mut value: i64) -> (i64, &[u8]) {
     while let [digit @ b'0'..=b'9', rest @ ..] = bytes {
@@ -181,7 +181,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// What is read here is what a JSON reader reads.
+        /// The fast reader reads the same numbers as a JSON reader.
         #[test]
         fn numbers_are_those_of_serde(text in "-?(0|[1-9][0-9]{0,8})(\\.[0-9]{1,9})?") {
             let line = format!("{{\"line\":[{text}]}}");

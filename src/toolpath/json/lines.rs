@@ -1,4 +1,4 @@
-//! JSON Lines: one object a line, so that a job can be written and read as a stream.
+//! JSON Lines: one object per line, so that a job can be written and read as a stream.
 
 use std::fmt;
 use std::io::Read;
@@ -16,13 +16,13 @@ use super::values::Point;
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{Hole, ReadError, Sink, Stop};
 
-/// Longest line; a longer one is a file of another kind.
+/// The longest line. A file with longer lines is not a job.
 const LONGEST: usize = 4 << 20;
 
 /// Reads a job in JSON Lines and pushes its events. Memory does not grow with the job.
 ///
 /// # Errors
-/// What is wrong with the job, or with what the sink was asked to do, and where.
+/// The job is wrong, or the sink can't do what the job requests.
 pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let context = Context::default();
     let mut lines = Lines { builder: Builder::new(sink), context: &context, started: false, ended: false };
@@ -40,7 +40,7 @@ pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadE
                 (to, from) = (to - from, 0);
                 if to == buffer.len() {
                     if to >= LONGEST {
-                        let diag = Diag::new(Code::PJ001, "a line longer than 4 MB").help("write one item a line");
+                        let diag = Diag::new(Code::PJ001, "a line longer than 4 MB").help("write one item per line");
                         lines.builder.place.line = number + 1;
                         return Err(lines.placed(diag));
                     }
@@ -102,8 +102,8 @@ impl Lines<'_, '_> {
             return Ok(());
         }
         if self.ended {
-            let diag = Diag::new(Code::PJ008, "something stands after the end of the job");
-            return Err(self.placed(diag.help("`{\"end\": true}` is the last line")));
+            let diag = Diag::new(Code::PJ008, "there is text after the end of the job");
+            return Err(self.placed(diag.help("`{\"end\": true}` must be the last line")));
         }
         if line.len() > strings::LONGEST && !Strings::default().take(line) {
             return Err(self.placed(strings::too_long()));
@@ -120,8 +120,8 @@ impl Lines<'_, '_> {
                 let mut failure = self.context.explain(error, number, column);
                 if let ReadError::Job(diag) = &mut failure {
                     if diag.code == Code::PJ008 {
-                        **diag = Diag::new(Code::PJ008, "something stands after the object on this line");
-                        diag.help = Some("write one item a line".into());
+                        **diag = Diag::new(Code::PJ008, "there is text after the object on this line");
+                        diag.help = Some("write one item per line".into());
                     }
                     let key = self.context.path();
                     let steps = [place.path(), key].into_iter().filter(|step| !step.is_empty()).collect::<Vec<_>>();
@@ -136,9 +136,9 @@ impl Lines<'_, '_> {
         let is_start = matches!(line, Line::Start(_));
         if is_start == self.started {
             let (message, help) = if is_start {
-                ("the job starts twice", "take this line out")
+                ("the job starts twice", "remove this line")
             } else {
-                ("the job does not begin with its start", "write {\"start\": {\"postform\": 1}} as the first line")
+                ("the job does not begin with `start`", "write {\"start\": {\"postform\": 1}} as the first line")
             };
             return Err(Diag::new(Code::PJ011, message).help(help).into());
         }
@@ -172,7 +172,7 @@ impl Lines<'_, '_> {
         }
     }
 
-    /// The last line was read.
+    /// Checks the end of the job after the last line.
     fn end(self) -> Result<(), ReadError> {
         if self.ended {
             return Ok(());
@@ -180,8 +180,10 @@ impl Lines<'_, '_> {
         let diag = if self.builder.place.line == 0 {
             Diag::new(Code::PJ007, "the job is empty").help("write a job file")
         } else {
-            Diag::new(Code::PJ007, "the job stops without its end")
-                .help("write it again: its last line is {\"end\": true}, a job cut short must not become a program")
+            Diag::new(Code::PJ007, "the job has no end").help(
+                "write the job again: its last line must be {\"end\": true}; an incomplete job must not become \
+                    a program",
+            )
         };
         Err(self.placed(diag))
     }
@@ -192,7 +194,7 @@ impl Lines<'_, '_> {
     }
 }
 
-/// What a line holds.
+/// The content of a line.
 enum Line {
     Start(JobHead),
     Operation(OperationHead),
@@ -254,7 +256,8 @@ impl<'de> Visitor<'de> for LineSeed<'_> {
         }
         match line {
             Some(_) if seen.count_ones() > 1 => {
-                let diag = Diag::new(Code::PJ005, "the line says more than one thing").help("make a line of each");
+                let diag = Diag::new(Code::PJ005, "the line contains more than one action")
+                    .help("make a separate line of each");
                 Err(context.fail(diag))
             }
             Some(line) => Ok(line),

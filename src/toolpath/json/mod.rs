@@ -1,4 +1,5 @@
-//! Job files: `job.json` as one document, `.jsonl` a line at a time. Both are streams: nothing of a path is kept.
+//! Job files: `job.json` as one document, `.jsonl` line by line. Both are read as streams, without keeping the path in
+//! memory.
 
 mod build;
 mod context;

@@ -1,4 +1,4 @@
-//! The objects of a job: each is a table of keys, from which it is read and its schema is made.
+//! The objects of a job. Each is a table of keys, which defines its reader and its schema.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -14,7 +14,7 @@ use crate::toolpath::{Direction, FeedMode, Given, Plane, Section, Side, SpindleT
 
 /// An object with a fixed list of keys.
 pub trait Object: Default {
-    /// What the object is called in messages.
+    /// Name of the object in messages.
     const NAME: &'static str;
     /// Keys of the object.
     const KEYS: &'static [&'static str];
@@ -22,9 +22,9 @@ pub trait Object: Default {
     fn read<'de, A: MapAccess<'de>>(&mut self, key: usize, map: &mut A, context: &Context) -> Result<(), A::Error>;
 }
 
-/// A value inside an object: a leaf, or an object of its own.
+/// A value inside an object: a leaf, or another object.
 pub trait Value: Sized {
-    /// Reads it.
+    /// Reads the value.
     fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error>;
 }
 
@@ -105,12 +105,12 @@ objects! {
         "postform" version Number, "version of this format: 1";
         "program" program Number, "program number";
         "name" name String, "the job's name";
-        "part" part String, "the part, for people";
-        "material" material String, "what it is made of";
-        "customer" customer String, "who gets it";
-        "author" author String, "who made the job";
+        "part" part String, "the part";
+        "material" material String, "its material";
+        "customer" customer String, "the customer";
+        "author" author String, "the author of the job";
         "units" units Word<Units>, "units of all numbers (inch)";
-        "machine" machine Word<Machine>, "what the job is for (mill)";
+        "machine" machine Word<Machine>, "the type of machine (mill)";
         "set" set Values, "values for variables of the form";
         "tools" tools Vec<ToolObject>, "the tools";
         "tool_order" tool_order Vec<Number>, "tool numbers in the order of their use";
@@ -125,25 +125,25 @@ objects! {
         "turret" turret Number, "turret";
         "name" name String, "its name";
         "comment" comment String, "what it is";
-        "data" data Values, "what else is known of it, for people: a number or a text by any name";
+        "data" data Values, "further data of the tool: numbers or texts with any names";
     }
     /// Spindle of an operation, or a change of it.
     SpindleObject "a spindle" {
         "speed" speed Number, "revolutions per minute, or surface speed";
-        "direction" direction Word<SpindleTurn>, "which way it turns";
-        "mode" mode Word<SpeedMode>, "what the speed counts";
-        "max" max Number, "most revolutions at constant surface speed";
+        "direction" direction Word<SpindleTurn>, "its direction";
+        "mode" mode Word<SpeedMode>, "the unit of the speed";
+        "max" max Number, "speed limit at constant surface speed";
     }
     /// An operation without its path.
     OperationHead "an operation" {
         "name" name String, "the operation's name";
-        "tool" tool Number, "its tool; left out: the one before";
-        "work" work Number, "work offset: a fixture number below 50, else the code";
+        "tool" tool Number, "its tool; if left out, the tool of the operation before";
+        "work" work Number, "work offset: a fixture number below 50, or a code";
         "spindle" spindle SpindleObject, "its spindle";
-        "coolant" coolant Kinds, "its coolant: a kind, or a list of those that are on at once";
-        "feed" feed Number, "feed of moves that name none";
+        "coolant" coolant Kinds, "its coolant: a kind, or a list of the kinds that are on together";
+        "feed" feed Number, "feed of moves without their own feed";
         "plunge" plunge Number, "feed of plunges";
-        "feed_mode" feed_mode Word<FeedMode>, "what feeds count (per_minute)";
+        "feed_mode" feed_mode Word<FeedMode>, "the unit of feeds (per_minute)";
         "comment" comment String, "a comment to print";
         "set" set Values, "values for variables of the form, from its tool change on";
     }
@@ -156,15 +156,15 @@ objects! {
         "outfeed" outfeed Position, "feed to a position, turning cutter compensation off";
         "side" side Word<Side>, "side of an infeed";
         "begin" begin Word<Section>, "a named part of the path begins";
-        "end" end EndWord, "it ends; in JSON Lines `true` ends the job";
+        "end" end EndWord, "the named part ends; in JSON Lines `true` ends the job";
         "call" call CallObject, "call of a subprogram";
         "thread" thread ThreadObject, "a thread on a lathe";
-        "edm" edm Word<EdmAction>, "what a wire EDM machine does between moves";
-        "home" home bool, "`true`: the tool goes to the machine's own place";
+        "edm" edm Word<EdmAction>, "an action of a wire EDM machine between moves";
+        "home" home bool, "`true`: the tool goes to the machine's home position";
         "dwell" dwell Number, "dwell in seconds";
         "stop" stop Word<StopKind>, "a stop";
         "comment" comment String, "a comment to print";
-        "text" text String, "a block as it stands";
+        "text" text String, "a block that is printed unchanged";
         "feed" feed Number, "feed of this move and those after it";
         "work" work Number, "change of the work offset";
         "spindle" spindle SpindleObject, "change of the spindle";
@@ -177,47 +177,47 @@ objects! {
     }
     /// A thread on a lathe; x is a radius.
     ThreadObject "a thread" {
-        "from" from Position, "where it begins: z, and the radius of the crest";
-        "to" to Position, "where it ends";
-        "pitch" pitch Number, "from crest to crest";
+        "from" from Position, "its start: z, and the radius of the crest";
+        "to" to Position, "its end";
+        "pitch" pitch Number, "distance from crest to crest";
         "depth" depth Number, "height on the radius; negative for an inner thread";
         "first_depth" first_depth Number, "the first cut, on the radius";
         "min_depth" min_depth Number, "the least cut";
         "taper" taper Number, "radius at the start less radius at the end";
-        "angle" angle Number, "angle of the tip in degrees (60)";
-        "passes" passes Number, "how many passes, instead of first_depth";
-        "chamfer" chamfer Number, "length of the runout, as the control counts it";
-        "starts" starts Number, "how many starts (1)";
+        "angle" angle Number, "angle of the thread in degrees (60)";
+        "passes" passes Number, "number of passes, instead of first_depth";
+        "chamfer" chamfer Number, "length of the runout, in the unit of the control";
+        "starts" starts Number, "number of starts (1)";
     }
     /// A call of a subprogram.
     CallObject "a call" {
         "sub" sub Number, "the subprogram's number";
-        "times" times Number, "how often it runs (1)";
-        "at" at Position, "where it is called";
+        "times" times Number, "number of runs (1)";
+        "at" at Position, "position of the call";
         "work" work Number, "work offset of the call";
     }
     /// An arc from the tool's position.
     ArcObject "an arc" {
-        "to" to Position, "where it ends";
+        "to" to Position, "its end";
         "center" center Position, "its centre";
         "radius" radius Number, "its radius instead; negative for the longer way round";
-        "direction" direction Word<Direction>, "which way, seen from the plane's positive third axis";
+        "direction" direction Word<Direction>, "its direction, seen from the positive third axis of the plane";
         "plane" plane Word<Plane>, "its plane (xy)";
-        "turns" turns Number, "full turns before the end is reached for good (0)";
+        "turns" turns Number, "additional full turns before the end (0)";
     }
     /// A canned cycle without its points; heights are distances along the tool axis from each point.
     CycleObject "a cycle" {
         "kind" kind Word<CycleKind>, "which cycle";
         "depth" depth Number, "depth below the point, positive down";
-        "clear" clear Number, "clearance above the point, where the feed begins";
+        "clear" clear Number, "clearance above the point: the height where the feed begins";
         "return" return_height Number, "return plane above the first point";
         "feed" feed Number, "feed into the hole";
         "plunge" plunge Number, "plunge feed (the feed)";
-        "step" step Number, "peck, counted from the clearance plane";
+        "step" step Number, "peck, measured from the clearance plane";
         "first_step" first_step Number, "first peck";
-        "back" back Number, "secondary clearance: how far above the last depth the feed begins again";
+        "back" back Number, "secondary clearance: distance above the last depth where the feed begins again";
         "dwell" dwell Number, "dwell at the bottom in seconds";
-        "revs" revs Number, "the same in revolutions";
+        "revs" revs Number, "dwell at the bottom in revolutions";
         "rapto" rapto Number, "extra rapid below the clearance plane";
         "orient" orient Number, "spindle angle of a boring cycle";
         "offset" offset Number, "jog off the wall of a boring cycle";
@@ -225,16 +225,16 @@ objects! {
         "starts" starts Number, "starts of a tapped thread";
         "rigid" rigid bool, "a rigid tap";
         "times" times Number, "chip breaks between full retracts";
-        "decr" decr Number, "how much each peck is less than the one before";
+        "decr" decr Number, "decrease of each peck from the one before";
         "min_step" min_step Number, "least peck";
         "diameter" diameter Number, "diameter of a countersink";
         "angle" angle Number, "angle of a countersink";
         "hole_diameter" hole_diameter Number, "hole under a countersink";
         "webs" webs Few<Number>, "depths of a cycle through webs: end, start, end, ..";
-        "mode" mode Word<PeckMode>, "how a tap pecks";
+        "mode" mode Word<PeckMode>, "kind of pecks of a tap";
         "offset_y" offset_y Number, "jog off the wall along y; `offset` is then along x";
-        "step_from" step_from Word<StepFrom>, "where steps begin to count (clear)";
-        "emulate" emulate bool, "print single moves, whatever the form has";
+        "step_from" step_from Word<StepFrom>, "the plane from which steps are measured (clear)";
+        "emulate" emulate bool, "print single moves, even if the form has the cycle";
         "pecks" pecks Few<PeckObject>, "absolute steps";
         "norevr" norevr bool, "a tap that does not reverse";
         "rapout" rapout bool, "a tap that rapids out";
@@ -255,7 +255,7 @@ impl Value for super::values::Point {
     }
 }
 
-/// `"leadin"` and the like, or `true` at the end of JSON Lines.
+/// The name of a section such as `"leadin"`, or `true` at the end of JSON Lines.
 #[derive(Clone, Copy, Debug)]
 pub enum EndWord {
     /// A part of the path ends.
@@ -349,11 +349,11 @@ impl schemars::JsonSchema for Values {
     }
 }
 
-/// Reads a key of a known list as its number; an unknown one is an error with a suggestion.
+/// Reads a key and returns its index in the list of known keys. An unknown key is an error with a suggestion.
 pub struct KeySeed<'c> {
-    /// Where we are.
+    /// The shared context.
     pub context: &'c Context,
-    /// What the object is called.
+    /// Name of the object in messages.
     pub object: &'static str,
     /// Keys of the object, in parts.
     pub keys: [&'static [&'static str]; 2],
@@ -383,23 +383,23 @@ impl Visitor<'_> for KeySeed<'_> {
     }
 }
 
-/// Notes that a key was seen; twice is an error.
+/// Records that a key occurred. A second time is an error.
 pub fn once<E: serde::de::Error>(seen: &mut u64, key: usize, name: &str, context: &Context) -> Result<(), E> {
     if *seen & 1 << key != 0 {
-        return Err(context.fail(Diag::new(Code::PJ010, format!("the key `{name}` is there twice")).help("keep one")));
+        return Err(context.fail(Diag::new(Code::PJ010, format!("the key `{name}` is given twice")).help("keep one")));
     }
     *seen |= 1 << key;
     Ok(())
 }
 
-/// Reads an object of the table.
+/// Reads an object from its table of keys.
 pub struct ObjectSeed<'c, T> {
     context: &'c Context,
     object: PhantomData<T>,
 }
 
 impl<'c, T> ObjectSeed<'c, T> {
-    /// In this context.
+    /// A seed in this context.
     pub fn new(context: &'c Context) -> Self {
         ObjectSeed { context, object: PhantomData }
     }
@@ -433,7 +433,7 @@ impl<'de, T: Object> Visitor<'de> for ObjectSeed<'_, T> {
 /// Reads a list of objects.
 struct ListSeed<'c, T> {
     context: &'c Context,
-    /// Most objects of the list.
+    /// The largest number of objects in the list.
     most: usize,
     object: PhantomData<T>,
 }
@@ -444,7 +444,7 @@ impl<'c, T> ListSeed<'c, T> {
     }
 }
 
-/// A list is longer than its most.
+/// An error for a list that is too long.
 fn too_many<E: serde::de::Error>(most: usize) -> E {
     E::custom(format!("a list of more than {most}: is a decimal point missing?"))
 }

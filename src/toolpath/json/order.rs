@@ -1,36 +1,36 @@
-//! Keys in any order: an object of JSON has none. Where a list stands before other keys of its object, the text is read in parts,
-//! the list last.
+//! Allows the keys of an object in any order, as JSON does. If a list comes before other keys of its object, the text is
+//! read in parts, with the list last.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
-/// A piece of the text, or a sign between two.
+/// A piece of the text, or a separator between two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Bytes from the first to before the last, and the line and column of the first, from 1.
+    /// Bytes `from..to`, with the line and column of the first byte, from 1.
     Text { from: u64, to: u64, line: u64, column: u32 },
     /// One byte of JSON.
     Sign(u8),
 }
 
-/// So many bytes at the end and at the beginning show how a writer orders keys.
+/// Number of bytes at the end of the text that show the order of keys.
 const TAIL: u64 = 512;
 const HEAD: u64 = 16 << 10;
 
-/// In which order the keys of a job stand.
+/// The order of the keys of a job.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Order {
-    /// It is read as it stands: its beginning and its end show the usual order, or it is no such document.
+    /// The text is read from start to end: its beginning and its end show the usual order, or it is not such a document.
     Usual,
-    /// Lists stand before other keys: it is read in these parts.
+    /// Lists come before other keys: the text is read in these parts.
     Late(Vec<Part>),
-    /// Lists stand before other keys, and it is no whole document of JSON, or lists hold what they can't.
+    /// Lists come before other keys, and the text is not a complete JSON document or has invalid lists.
     Broken,
 }
 
-/// In which order the keys of a job stand.
+/// Determines the order of the keys of a job.
 ///
 /// # Errors
-/// The input fails.
+/// Reading the input fails.
 pub fn order(input: &mut (impl Read + Seek)) -> io::Result<Order> {
     let length = input.seek(SeekFrom::End(0))?;
     input.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
@@ -54,7 +54,7 @@ pub fn order(input: &mut (impl Read + Seek)) -> io::Result<Order> {
     })
 }
 
-/// Does a job end with the list of its operations, and the last of them with its path?
+/// Whether a job ends with the list of its operations, and the last operation ends with its path.
 fn ends_as_usual(tail: &[u8]) -> bool {
     let mut signs = tail.iter().rev().filter(|byte| !byte.is_ascii_whitespace());
     let mut next = || signs.next().copied();
@@ -76,13 +76,13 @@ struct Scan<R> {
     at: u64,
     line: u64,
     column: u32,
-    /// A list was found that stands before another key of its object.
+    /// Whether a list comes before another key of its object.
     is_late: bool,
 }
 
 /// A key with its value.
 struct Entry {
-    /// Which list it is, by its number; `None`: another key.
+    /// Index of the list; `None`: the key is not a list.
     list: Option<usize>,
     parts: Vec<Part>,
 }
@@ -93,12 +93,12 @@ impl<R: Read> Scan<R> {
         Scan { input, next: None, at: 0, line: 1, column: 1, is_late: false }
     }
 
-    /// The parts of a job; `None`: it is none, or not all of it is here.
+    /// The parts of a job; `None`: the text is not a job, or is not complete.
     fn job(&mut self) -> io::Result<Option<Vec<Part>>> {
         self.begin()?;
         let mut parts = Vec::new();
         let whole = self.object(&mut parts, &["subprograms", "operations"], true)?;
-        // what stands after it is for the reader to see
+        // the reader handles any text after the job
         let (from, line, column) = self.here();
         parts.push(Part::Text { from, to: u64::MAX, line, column });
         Ok(whole.map(|_| parts))
@@ -116,7 +116,7 @@ impl<R: Read> Scan<R> {
         }
     }
 
-    /// Passes over the mark of UTF-8.
+    /// Skips the byte order mark of UTF-8.
     fn begin(&mut self) -> io::Result<()> {
         self.next = self.read()?;
         if self.next == Some(0xef) {
@@ -146,7 +146,7 @@ impl<R: Read> Scan<R> {
         Ok(())
     }
 
-    /// Takes this byte after blanks; `false`: another is next.
+    /// Takes this byte after skipping spaces. Returns `false` if another byte is next.
     fn takes(&mut self, sign: u8) -> io::Result<bool> {
         self.blanks()?;
         let is_next = self.next == Some(sign);
@@ -156,7 +156,7 @@ impl<R: Read> Scan<R> {
         Ok(is_next)
     }
 
-    /// The text between two quotes, as it is written, as far as keys go; `None`: there is none.
+    /// A string as written, cut to the length of keys; `None`: there is no string.
     fn string(&mut self) -> io::Result<Option<Vec<u8>>> {
         const LONGEST: usize = 64;
         if !self.takes(b'"')? {
@@ -169,7 +169,7 @@ impl<R: Read> Scan<R> {
                 Some(b'"') => break,
                 Some(b'\\') => {
                     self.pass()?;
-                    text.push(b'\\'); // no key of a job has one
+                    text.push(b'\\'); // no key of a job has a backslash
                 }
                 Some(byte) if text.len() < LONGEST => text.push(byte),
                 Some(_) => {}
@@ -180,7 +180,7 @@ impl<R: Read> Scan<R> {
         Ok(Some(text))
     }
 
-    /// Passes over a value of any kind; `false`: the text ends before.
+    /// Skips a value of any kind. Returns `false` if the text ends first.
     fn value(&mut self) -> io::Result<bool> {
         self.blanks()?;
         let mut depth = 0u64;
@@ -217,8 +217,8 @@ impl<R: Read> Scan<R> {
         Part::Text { from, to: self.at, line, column }
     }
 
-    /// The parts of an object, its lists last. Says whether one stood before another key, or does so within a list; `None`: it is
-    /// no object.
+    /// Adds the parts of an object, its lists last. Returns whether a list comes before another key, here or in a nested
+    /// object; `None`: this is not an object.
     fn object(&mut self, parts: &mut Vec<Part>, lists: &[&str], is_job: bool) -> io::Result<Option<bool>> {
         let start = {
             self.blanks()?;
@@ -237,7 +237,7 @@ impl<R: Read> Scan<R> {
                     return Ok(None);
                 }
                 let list = lists.iter().position(|list| list.as_bytes() == key);
-                // the usual order of a job: other keys, `subprograms`, `operations`
+                // the usual order of a job is: other keys, `subprograms`, `operations`
                 is_late |=
                     listed && list.is_none() || entries.iter().any(|entry: &Entry| entry.list > list && list.is_some());
                 listed |= list.is_some();
@@ -278,7 +278,7 @@ impl<R: Read> Scan<R> {
         Ok(Some(true))
     }
 
-    /// The parts of a list of objects with its key.
+    /// Adds the parts of a list of objects with its key.
     fn list(&mut self, begin: (u64, u64, u32), parts: &mut Vec<Part>) -> io::Result<Option<bool>> {
         self.takes(b'[')?;
         parts.push(self.text(begin));
@@ -301,21 +301,22 @@ impl<R: Read> Scan<R> {
     }
 }
 
-/// The text in its parts.
+/// A text that is read in parts.
 pub struct InParts<'p, R> {
     input: R,
     parts: std::slice::Iter<'p, Part>,
-    /// What is left of the part that is read.
+    /// Remaining bytes of the current part.
     left: u64,
 }
 
 impl<'p, R: Read + Seek> InParts<'p, R> {
-    /// A text that is read in these parts.
+    /// A reader for these parts of the input.
     pub fn new(input: R, parts: &'p [Part]) -> InParts<'p, R> {
         InParts { input, parts: parts.iter(), left: 0 }
     }
 
-    /// Reads on, no further than the end of a part. At the beginning of a part it says the line and column of its first byte.
+    /// Reads bytes, but not beyond the end of a part. At the beginning of a part, also returns the line and column of its
+    /// first byte.
     pub fn read_part(&mut self, out: &mut [u8]) -> io::Result<(usize, Option<(u64, u32)>)> {
         let mut begins = None;
         if self.left == 0 {
@@ -334,7 +335,7 @@ impl<'p, R: Read + Seek> InParts<'p, R> {
         }
         let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(out.len());
         let count = self.input.read(&mut out[..most])?;
-        // a file that has become shorter ends in the middle of a value
+        // a file that was shortened meanwhile ends in the middle of a value
         self.left = if count == 0 { 0 } else { self.left - count as u64 };
         Ok((count, begins))
     }
@@ -376,7 +377,7 @@ mod tests {
             reordered(r#"{"operations": [], "name": "]}\"", "subprograms": [ ] , "units": "mm" }"#).unwrap(),
             r#"{"name": "]}\"","units": "mm","subprograms": [],"operations": []}"#
         );
-        // the end alone would show the usual order
+        // the end of the text by itself would indicate the usual order
         assert_eq!(
             reordered(r#"{"operations": [{"path": [], "tool": 1}], "subprograms": [{"number": 1, "path": []}]}"#)
                 .unwrap(),

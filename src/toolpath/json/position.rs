@@ -12,7 +12,7 @@ use crate::toolpath::Hole;
 
 /// Reads a point: a position, or an object with a depth of its own.
 pub struct PointSeed<'c> {
-    /// Where we are.
+    /// The shared context.
     pub context: &'c Context,
 }
 
@@ -53,7 +53,7 @@ impl<'de> Visitor<'de> for PointSeed<'_> {
 
 /// Reads a list of points.
 pub struct PointsSeed<'c> {
-    /// Where we are.
+    /// The shared context.
     pub context: &'c Context,
 }
 

@@ -1,11 +1,11 @@
-//! The JSON Schema of a job document, from the tables that read it.
+//! The JSON Schema of a job document, made from the tables of its reader.
 
 use serde_json::{Value, json};
 
 use super::objects::{CycleObject, ItemObject, JobHead, OperationHead, SubprogramHead};
 use super::values::{Point, Position};
 
-/// The schema as a document. The lists that are read as streams are not in the tables and are added here.
+/// The schema as a document. Lists that are read as streams are not in the tables and are added by this function.
 pub fn schema() -> Value {
     let mut generator = schemars::SchemaGenerator::default();
     let list =
@@ -35,7 +35,7 @@ pub fn schema() -> Value {
     root
 }
 
-/// A key may be left out, but not be null; only the coordinates of a position may.
+/// Removes null: a key may be left out but must not be null. Only coordinates of a position may be null.
 fn without_null(schema: &mut Value) {
     let Value::Object(object) = schema else { return };
     for (key, value) in object.iter_mut() {

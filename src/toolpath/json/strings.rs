@@ -1,21 +1,21 @@
-//! Strings of a job are short: a longer one is refused before it is in memory.
+//! Limits the length of strings in a job. A longer string is refused before it is in memory.
 
 use crate::diag::{Code, Diag};
 
-/// Longest string, in bytes as written.
+/// The longest string, in bytes as written.
 pub const LONGEST: usize = 1 << 20;
 
-/// Follows the strings of JSON text.
+/// Tracks the strings of a JSON text.
 #[derive(Default)]
 pub struct Strings {
     /// Bytes of the open string so far.
     open: Option<usize>,
-    /// The next byte stands after a backslash.
+    /// Whether the next byte comes after a backslash.
     escaped: bool,
 }
 
 impl Strings {
-    /// Takes the next bytes. `false`: a string is too long.
+    /// Takes the next bytes. Returns `false` if a string is too long.
     pub fn take(&mut self, bytes: &[u8]) -> bool {
         let mut from = 0;
         while from < bytes.len() {
@@ -48,9 +48,9 @@ impl Strings {
     }
 }
 
-/// What is said of one that is too long.
+/// The finding for a string that is too long.
 pub fn too_long() -> Diag {
-    Diag::new(Code::PJ003, "a string of over 1 MB").help("shorten it: names and comments are printed on one line")
+    Diag::new(Code::PJ003, "a string of more than 1 MB").help("shorten it: names and comments are printed on one line")
 }
 
 #[cfg(test)]
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn strings_are_followed_over_all_borders() {
-        // bytes that each way of cutting the text takes
+        // feeds the text in chunks of each size
         let taken = |text: &str, parts: usize| {
             text.as_bytes().chunks(parts).all({
                 let mut strings = Strings::default();
@@ -71,7 +71,7 @@ mod tests {
             assert!(taken(&format!("{{\"{long}\":[\"{long}\",\"\\\\\"],\"\\\"\":1}}"), parts));
             assert!(!taken(&format!("[\"\\\"\",\"{long}a\"]"), parts));
             assert!(!taken(&format!("\"{}\"", "\\\"".repeat(LONGEST / 2 + 1)), parts));
-            // outside strings nothing is counted
+            // bytes outside strings are not counted
             assert!(taken(&" ".repeat(2 * LONGEST), parts));
         }
     }

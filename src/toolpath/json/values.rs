@@ -37,7 +37,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// A number, a text, or `true` and `false`, which are yes and no.
+/// A number, a text, or `true` or `false`, which are read as `yes` and `no`.
 impl<'de> Deserialize<'de> for Given {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct GivenVisitor;
@@ -68,7 +68,7 @@ impl<'de> Deserialize<'de> for Given {
 
 /// A value that is written as a word of a fixed list.
 pub trait Words: Copy + 'static {
-    /// The words and what they mean.
+    /// The words and their values.
     const WORDS: &'static [(&'static str, Self)];
 }
 
@@ -161,10 +161,12 @@ impl<'de> Deserialize<'de> for Kinds {
                 let mut all: Option<Coolant> = None;
                 while let Some(Word(kind)) = seq.next_element::<Word<Coolant>>()? {
                     if kind == Coolant::OFF || all == Some(Coolant::OFF) {
-                        return Err(de::Error::custom("a list of coolants names what is on: write \"off\" alone"));
+                        return Err(de::Error::custom(
+                            "a list of coolants contains only coolants that are on: write \"off\" without a list",
+                        ));
                     }
                     if all.is_some_and(|all| all.holds(kind)) {
-                        return Err(de::Error::custom(format!("the list names {} twice", kind.name())));
+                        return Err(de::Error::custom(format!("{} is in the list twice", kind.name())));
                     }
                     all = Some(all.unwrap_or(Coolant::OFF).and(kind));
                 }
@@ -191,7 +193,7 @@ impl schemars::JsonSchema for Kinds {
     }
 }
 
-/// What a spindle speed counts.
+/// The mode of a spindle speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum SpeedMode {
@@ -199,7 +201,7 @@ pub enum SpeedMode {
     Css,
 }
 
-/// How a tap pecks.
+/// Kind of pecks of a tap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum PeckMode {
@@ -207,7 +209,7 @@ pub enum PeckMode {
     Chipbreak,
 }
 
-/// Where the steps of a peck cycle begin to count.
+/// The start position for the steps of a peck cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum StepFrom {
@@ -215,7 +217,7 @@ pub enum StepFrom {
     Point,
 }
 
-/// A list that one hole needs whole: as long as the most pecks of a hole.
+/// A list that a single hole needs in memory. It has at most `MOST_PECKS` entries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Few<T>(pub Vec<T>);
 
@@ -233,11 +235,11 @@ impl<T: schemars::JsonSchema> schemars::JsonSchema for Few<T> {
     }
 }
 
-/// A position: up to six numbers, `null` keeps an axis.
+/// A position of up to six numbers. `null` keeps the position of the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position(pub Axes);
 
-/// Reads a position from a sequence that has begun.
+/// Reads a position from an open sequence.
 pub fn position<'de, A: SeqAccess<'de>>(mut seq: A) -> Result<Position, A::Error> {
     let mut axes = Axes::default();
     let mut axis = 0;
@@ -276,7 +278,8 @@ impl schemars::JsonSchema for Position {
     }
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         schemars::json_schema!({
-            "description": "h v d of the part's frame, then rotary a b c in degrees; null or left out keeps the tool's last position",
+            "description": "h v d in the frame of the part, then rotary a b c in degrees; null or a missing value \
+                keeps the last position of the tool",
             "type": "array", "maxItems": 6, "items": { "type": ["number", "null"] }
         })
     }
@@ -294,7 +297,7 @@ impl schemars::JsonSchema for Point {
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let position = generator.subschema_for::<Position>();
         schemars::json_schema!({
-            "description": "a point of a cycle, with its own depth where it differs",
+            "description": "a point of a cycle, with its own depth if it differs",
             "anyOf": [position.clone(), {
                 "type": "object", "additionalProperties": false, "required": ["at"],
                 "properties": { "at": position, "depth": { "type": "number" } }

@@ -1,4 +1,4 @@
-//! A torch or a laser is on while it cuts and off while it goes elsewhere, and does not go there at the height of the cuts.
+//! Checks that a torch or laser is on in cuts and off in rapids, and that rapids do not move at the height of the cuts.
 
 use super::Program;
 use crate::control::Control;
@@ -6,19 +6,19 @@ use crate::diag::Code;
 use crate::lang::Beam;
 use crate::nc::{Position, Rotation};
 
-/// What is known of the torch or laser of a program.
+/// State of the torch or laser of a program.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switched {
     beam: Beam,
-    /// The control turns a laser off in rapids, as Grbl does in its laser mode.
+    /// Whether the control turns a laser off in rapids, as Grbl does in its laser mode.
     is_off_in_rapids: bool,
-    /// The height of the last cut, where the program says it.
+    /// Height of the last cut, if the program contains it.
     cut: Option<f64>,
-    /// A rapid has gone higher than that cut since, or home.
+    /// Whether a rapid has since gone higher than that cut, or home.
     is_up: bool,
-    /// A rapid goes across higher than the cut before it.
+    /// Whether a rapid has gone across higher than the cut before it.
     lifts: bool,
-    /// The line of the first rapid that goes across at the height of the cut before it.
+    /// Line of the first rapid that goes across at the height of the cut before it.
     low: Option<u64>,
 }
 
@@ -30,23 +30,23 @@ impl Switched {
 }
 
 impl Program<'_> {
-    /// Is the torch or the laser on? `None`: there is none.
+    /// Whether the torch or laser is on; `None`: the program has none.
     pub(super) fn beam_is_on(&self) -> Option<bool> {
         self.beam.map(|switched| self.is_on(switched.beam))
     }
 
-    /// Is the torch or the laser on? A laser of no power is off.
+    /// Whether the torch or laser is on. A laser without power is off.
     fn is_on(&self, beam: Beam) -> bool {
         self.state.rotation != Some(Rotation::Stop) && (beam == Beam::Torch || self.state.speed != Some(0.0))
     }
 
-    /// A cut to there, in the program's own numbers.
+    /// Checks a cut to `to`, in the program's own numbers.
     pub(super) fn beam_cuts(&mut self, to: &Position, line: u64) {
         let Some(switched) = &mut self.beam else { return };
         let height_is_known = self.simulator.state().at_machine() & 0b100 == 0;
         (switched.cut, switched.is_up) = (height_is_known.then_some(to[2]), false);
         let beam = switched.beam;
-        // M4 turns the other way, and lights no torch
+        // M4 is the other direction, which does not light a torch
         let is_lit = beam != Beam::Torch || self.state.rotation != Some(Rotation::Ccw);
         if !self.is_on(beam) || !is_lit {
             let message = format!("the {} is off in this cut", beam.name());
@@ -55,7 +55,7 @@ impl Program<'_> {
         }
     }
 
-    /// A rapid to there, in the program's own numbers; `across`: along X or Y; `machine`: the axes that go home.
+    /// Checks a rapid to `to`, in the program's own numbers. `across`: along X or Y. `machine`: the axes that go home.
     pub(super) fn beam_goes(&mut self, to: &Position, across: bool, machine: u8, line: u64) {
         let Some(switched) = &mut self.beam else { return };
         switched.is_up |= machine & 0b100 != 0 || switched.cut.is_some_and(|cut| to[2] > cut);
@@ -68,9 +68,12 @@ impl Program<'_> {
             None => {}
         }
         let (beam, is_off) = (switched.beam, switched.is_off_in_rapids);
-        // a form that lifts the tool somewhere lifts it everywhere
+        // a form that lifts the tool in one rapid must lift it in all
         if let Some(low) = switched.low.take_if(|_| switched.lifts) {
-            let message = format!("the {} goes across at the height of its cuts, and is lifted elsewhere", beam.name());
+            let message = format!(
+                "the {} moves across at cutting height, although the form lifts it at other moves",
+                beam.name()
+            );
             self.hazard(Code::PV028, low, &message, "lift it in EndCut, before the rapid");
         }
         if !is_off && self.is_on(beam) {

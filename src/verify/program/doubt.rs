@@ -1,31 +1,31 @@
-//! Why nothing can be said of a cut of the program.
+//! Reasons why a cut of the program can't be compared.
 
 use crate::verify::passage::TOO_LONG;
 
-/// Why nothing can be said of a cut.
+/// The reason why a cut can't be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// More lies before it than is held.
+    /// The passage before the cut is too long.
     TooLong,
-    /// This line leads on by an increment from a position that is unknown.
+    /// This line has an increment from an unknown position.
     Astray(u64),
-    /// The move of this line at feed ends at a position that only the machine knows.
+    /// The feed move of this line ends at a position that is known only at the machine.
     Home(u64),
 }
 
 impl Doubt {
-    /// Why, what to do, and the program's line; 0: of no line.
+    /// The reason, the correction, and the program's line; 0 if there is no line.
     pub fn told(self) -> (&'static str, &'static str, u64) {
         match self {
             Doubt::TooLong => (TOO_LONG, "split the job", 0),
             Doubt::Astray(line) => (
-                "an increment leads on from a position that only the machine knows",
+                "an increment from an unknown machine position",
                 "write the position under G90, or go there by G53",
                 line,
             ),
             Doubt::Home(line) => (
-                "a move at feed goes to a position that only the machine knows",
-                "write G0 with G53; what a probe touches is known at the machine alone",
+                "a feed move goes to an unknown machine position",
+                "write G0 with G53; the position of a probe touch is known only at the machine",
                 line,
             ),
         }

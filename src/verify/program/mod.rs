@@ -1,4 +1,4 @@
-//! The program's side: its cuts, each with what lies before it.
+//! The program's side: its cuts, each with everything before it.
 
 mod beam;
 mod doubt;
@@ -24,7 +24,7 @@ use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
-/// A program that is run as far as it was asked for.
+/// A program that is run as far as requested.
 pub(super) struct Program<'a> {
     simulator: Simulator<'a>,
     control: &'static Control,
@@ -32,44 +32,44 @@ pub(super) struct Program<'a> {
     next: usize,
     over: bool,
     recent: Recent,
-    /// Where the tool is.
+    /// Position of the tool.
     at: Place,
     unknown: u8,
-    /// Those of them whose place in machine coordinates the program says.
+    /// Those of the `unknown` axes whose machine position is given in the program.
     placed: u8,
     state: Shared,
     spin: Spin,
     mode: FeedMode,
     cycle: bool,
-    /// How the spindle turned before a control's tap, which turns it itself.
+    /// Rotation of the spindle before a tap of the control, which starts the spindle itself.
     before_tap: Option<Option<Rotation>>,
     due: Due,
     scale: Scale,
-    /// What is known of its torch or laser.
+    /// State of the torch or laser.
     beam: Option<Switched>,
-    /// Codes of the form that thread and cut a wire.
+    /// The form's codes for threading and cutting a wire.
     pub wire: Codes,
-    /// Codes of the coolant that are the form's own: on, off, mist.
+    /// Coolant codes of the form: on, off, mist.
     coolant: [f64; 3],
-    /// What lies before the cut.
+    /// Everything before the cut.
     pub passage: Passage,
     cuts: bool,
-    /// Why nothing can be said of the cut.
+    /// The reason why the cut can't be compared.
     doubt: Option<Doubt>,
-    /// A code ended the program.
+    /// Whether a code ended the program.
     ended: bool,
-    /// Why it can't go on, met before anything asked for it.
+    /// An error of running ahead. It is returned at the next request for a cut.
     failed: Option<RunError>,
     cut: Option<Cut>,
-    /// Hazards on the way.
+    /// Hazards found so far.
     pub hazards: Vec<Finding>,
 }
 
 impl<'a> Program<'a> {
-    /// A program that runs with these settings, and by what a form says of its words.
+    /// A program that runs with these settings and with the form's meaning of its words.
     pub fn new(input: impl Read + Seek + 'a, settings: RunSettings, expectation: &Expectation) -> Program<'a> {
         let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
-        // as switched on
+        // the state at power-up
         let state = State {
             side: Some(None),
             rotation: Some(Rotation::Stop),
@@ -118,18 +118,18 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Gives the units in which the program counts before it says so.
+    /// Sets the units that are in force until the program sets its own.
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
         self.scale.units = units;
     }
 
-    /// So many subprograms stand before the main program, each with its O word.
+    /// Sets the number of subprograms before the main program. Each has its O word.
     pub fn begin_behind(&mut self, subprograms: usize) {
         self.simulator.begin_behind(subprograms);
     }
 
-    /// It is a lathe's; before the first block.
+    /// Runs the program as a lathe program. Call this before the first block.
     pub fn is_of_lathe(&mut self, by_diameter: bool) {
         self.scale.lathe = true;
         self.simulator.is_of_lathe(by_diameter);
@@ -138,7 +138,7 @@ impl<'a> Program<'a> {
         self.begins(0b101);
     }
 
-    /// It is a wire EDM machine's; before the first block.
+    /// Runs the program as a wire EDM program. Call this before the first block.
     pub fn is_of_wire(&mut self) {
         self.scale.wire = Some(0b1100);
         self.simulator.is_of_wire();
@@ -146,25 +146,25 @@ impl<'a> Program<'a> {
         self.begins(0b011);
     }
 
-    /// It begins at a place that only the machine knows.
+    /// Begins the program at a position that is known only at the machine.
     fn begins(&mut self, unknown: u8) {
         self.unknown = unknown;
         let start = Rapid { to: place(&[0.0; 6]), unknown, spin: None };
         self.passage = Passage::new(Some(start), self.frame());
     }
 
-    /// Gives the units in which places are wanted.
+    /// Sets the units of compared positions.
     pub fn want(&mut self, units: Units) {
         self.scale.wanted = units;
     }
 
-    /// The cut to which the program was run.
+    /// The cut that the program has reached.
     pub fn cut(&self) -> Option<&Cut> {
         self.cut.as_ref()
     }
 
-    /// Runs the program to its next cut, which stays until it is taken; `None` at the program's end, or where more lies before the
-    /// cut than is held ([`Doubt::TooLong`]).
+    /// Runs the program to its next cut. The cut stays until it is taken. `None`: the program has ended, or the passage
+    /// before the cut is too long ([`Doubt::TooLong`]).
     ///
     /// # Errors
     /// The program can't be read, or its control refuses a block.
@@ -176,14 +176,14 @@ impl<'a> Program<'a> {
         Ok(self.cut())
     }
 
-    /// Why nothing can be said of the cut to which the program was run.
+    /// The reason why the reached cut can't be compared.
     #[inline]
     pub fn doubt(&self) -> Option<Doubt> {
         self.doubt
     }
 
-    /// Runs the program on while more of it waits, as far as its next cut: nothing that the job does before its own is needed
-    /// for that.
+    /// Runs the program up to its next cut while more text waits. This does not depend on the job's events before its own
+    /// next cut.
     pub fn run_on(&mut self, waits: &dyn Fn() -> bool) {
         while self.failed.is_none() && waits() {
             match self.goes_on() {
@@ -194,13 +194,13 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Could the program not be run on?
+    /// Whether the program failed to run on.
     pub fn has_failed(&self) -> bool {
         self.failed.is_some()
     }
 
-    /// Takes what the last block did as far as its next cut, and runs the next block if there was none; `false`: at a cut, at
-    /// the end, or where the passage is too long.
+    /// Takes the actions of the last block up to its next cut. If there is no cut, runs the next block. Returns `false`
+    /// at a cut, at the end, or if the passage is too long.
     #[inline]
     fn goes_on(&mut self) -> Result<bool, RunError> {
         if self.next < self.items.len() {
@@ -216,7 +216,7 @@ impl<'a> Program<'a> {
                 self.doubt = Some(Doubt::TooLong);
             }
         }
-        // a Grbl would take more blocks, if its sender goes on
+        // a Grbl would accept more blocks if its sender continued
         if self.cut.is_some() || self.over || self.ended || self.doubt == Some(Doubt::TooLong) {
             return Ok(false);
         }
@@ -230,19 +230,19 @@ impl<'a> Program<'a> {
         Ok(true)
     }
 
-    /// The cut is dealt with.
+    /// Ends the current cut.
     pub fn take(&mut self) {
         if let Some(cut) = &self.cut {
             self.at = cut.end();
             (self.cut, self.doubt) = (None, None);
-            // a cut may say a height that was unknown
+            // a cut may contain a height that was unknown before
             self.unknown = self.scale.unknown(self.simulator.state().at_machine());
             self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });
             self.cuts = true;
         }
     }
 
-    /// The cut counts for nothing: what lies before it lies before the next.
+    /// Passes over the current cut: the passage before it continues to the next cut.
     pub fn pass_over(&mut self) {
         if let Some(cut) = self.cut.take() {
             self.at = cut.end();
@@ -250,17 +250,17 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Where the way began: at the end of the last cut.
+    /// The beginning of the path: the end of the last cut.
     pub fn start(&self) -> Rapid {
         self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, spin: None })
     }
 
-    /// The control that runs it.
+    /// The control that runs the program.
     pub fn control(&self) -> &'static Control {
         self.control
     }
 
-    /// Warnings of the simulator.
+    /// Takes the warnings of the simulator.
     pub fn warnings(&mut self) -> Vec<Diag> {
         self.simulator.take_warnings()
     }
@@ -313,7 +313,7 @@ impl<'a> Program<'a> {
                 self.passage.waits.push(mark);
             }
             Action::Stop(kind) => self.stop(*kind, item),
-            // Grbl reads M1 and goes on, as other controls do with their switch off
+            // Grbl reads M1 and continues, as other controls do with the optional stop off
             Action::LeftOut(_, Meaning::StopOptional) => self.stop(StopKind::Optional, item),
             // a speed alone starts nothing
             Action::Spindle(_, speed) if !item.by_cycle && self.simulator.only_says_speed() => {
@@ -337,9 +337,8 @@ impl<'a> Program<'a> {
                     && self.control.traits().tool_length == ToolLength::None
                     && !self.control.is_lathe()
                 {
-                    let message =
-                        "the program turns on the length of a tool, which the job counts from the work offset";
-                    self.hazard(Code::PV014, item.line, message, "take G43 out, or name a control that has lengths");
+                    let message = "the program turns a tool length offset on, but this control has none";
+                    self.hazard(Code::PV014, item.line, message, "remove G43, or name a control with tool lengths");
                 }
                 self.due.length_changes(self.state.length, *register);
                 self.state.length = *register;
@@ -355,11 +354,11 @@ impl<'a> Program<'a> {
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
             Action::Frame if self.scale.flat && !self.frame_goes_across() => {}
-            // reported at the first move in it
+            // this is reported at the first move in the frame
             Action::Frame if self.scale.axes(self.simulator.state().frame_unknown()) != 0 => {}
             Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
-                let message = "the program moves its coordinate frame: the job's places lie elsewhere then";
-                self.hazard(Code::PV021, item.line, message, "take G10, G52 or G92 out");
+                let message = "the program moves its coordinate frame, so the positions of the job are shifted";
+                self.hazard(Code::PV021, item.line, message, "remove G10, G52 or G92");
             }
             Action::FeedMode(mode) => self.mode = *mode,
             Action::Work(code) if self.state.work != Some(*code) => {
@@ -382,7 +381,7 @@ impl<'a> Program<'a> {
             }
             Action::CycleOff => {
                 self.cycle = false;
-                // no code of the program says that it turns now
+                // no code of the program turns the spindle now
                 if let Some(before) = self.before_tap.take()
                     && before != self.state.rotation
                 {
@@ -394,7 +393,7 @@ impl<'a> Program<'a> {
             Action::End => {
                 self.ended = true;
                 if self.cycle {
-                    let message = "a canned cycle is still in force at the end";
+                    let message = "a canned cycle is still active at the end";
                     self.hazard(Code::PV013, item.line, message, "end it with G80");
                 }
             }
@@ -421,7 +420,7 @@ impl<'a> Program<'a> {
     fn stop(&mut self, kind: StopKind, item: &Item) {
         let mark = self.passage.mark(kind, item.line, toolpath::Place::default());
         self.passage.stops.push(mark);
-        // a Haas stops the spindle, and no form may count on another control's going on
+        // a Haas stops the spindle; on other controls a form must not rely on its running on
         if kind == StopKind::Program && !item.by_cycle && !self.control.is_linuxcnc() {
             self.state.rotation = Some(Rotation::Stop);
             self.state.coolant = Some(Cooling::Off);
@@ -431,7 +430,7 @@ impl<'a> Program<'a> {
 
     fn tool(&mut self, number: f64, line: u64) {
         if self.cycle {
-            let message = "a canned cycle is still in force at a tool change";
+            let message = "a canned cycle is still active at a tool change";
             self.hazard(Code::PV013, line, message, "end it with G80");
         }
         if self.state.tool != Some(number) {
@@ -444,7 +443,7 @@ impl<'a> Program<'a> {
             }
         }
         if self.control.is_lathe() {
-            self.unknown |= 0b101; // a turret turns, and the spindle with it
+            self.unknown |= 0b101; // the turret indexes, and the active spindle changes with it
             return;
         }
         self.state.rotation = Some(Rotation::Stop);
@@ -452,7 +451,7 @@ impl<'a> Program<'a> {
         self.unknown |= 0b100;
     }
 
-    /// A code that is not simulated may be the form's own for coolant, or make the next tap rigid.
+    /// Handles a code that is not simulated. It may be a coolant code of the form, or make the next tap rigid.
     fn left_out(&mut self, code: control::Code, meaning: Meaning) {
         self.passage.codes.push((code.letter, code.tenths));
         if meaning == Meaning::RigidAhead && self.state.rigid.is_some() {

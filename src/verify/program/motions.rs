@@ -1,4 +1,4 @@
-//! Rapids and cuts of the program, with what must hold before them.
+//! Rapids and cuts of the program, with checks before them.
 
 use super::{Doubt, Program};
 use crate::nc::{Action, Item, Position};
@@ -16,7 +16,7 @@ impl Program<'_> {
             return; // nothing moves
         }
         self.check_frame(unknown, line);
-        // a mill's height says how the tool comes; of a lathe both axes do
+        // on a mill the height must be known, on a lathe both axes
         let heights = if self.scale.lathe { 0b101 } else { 0b100 };
         let watched = if self.scale.wire.is_some() { 0b11 } else { heights };
         if self.scale.axes(astray) & watched != 0 {
@@ -25,9 +25,9 @@ impl Program<'_> {
         }
         if unknown & heights != heights {
             if (to[2] != self.at[2] || self.unknown & 0b100 != 0) && self.length_is_due() {
-                self.without_length(line, "the tool goes down, and its length offset is not on");
+                self.without_length(line, "the tool goes down without its length offset");
             }
-            self.units_are_due(line, "the program moves before it says its units");
+            self.units_are_due(line, "the program moves before its unit code");
             let length = self.state.length;
             if let Some(leg) = self.passage.leg()
                 && leg.lengths.last() != Some(&length)
@@ -43,9 +43,9 @@ impl Program<'_> {
     pub(super) fn cuts_now(&mut self, what: What, home: u8, feed: f64, lead: Option<f64>, item: &Item) {
         self.check_frame(0, item.line);
         if self.length_is_due() {
-            self.without_length(item.line, "the tool cuts, and its length offset is not on");
+            self.without_length(item.line, "the tool cuts without its length offset");
         }
-        self.units_are_due(item.line, "the program cuts before it says its units");
+        self.units_are_due(item.line, "the program cuts before its unit code");
         if home != 0 {
             self.doubt.get_or_insert(Doubt::Home(item.line));
         }

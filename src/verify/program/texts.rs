@@ -4,12 +4,12 @@ use super::Program;
 use crate::verify::recent_lines::Recent;
 
 impl Program<'_> {
-    /// The text of the line that is being run.
+    /// The text of the current line.
     pub fn text(&self) -> String {
         String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
     }
 
-    /// The text of a line not long before; else empty.
+    /// The text of a recent line; empty if the line is too old.
     pub fn text_of(&self, line: u64) -> String {
         let now = || (line == self.simulator.line()).then(|| self.text());
         self.recent.text(line).or_else(now).unwrap_or_default()

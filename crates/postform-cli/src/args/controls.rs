@@ -1,4 +1,4 @@
-//! How a program is run.
+//! Options for running a program.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -14,28 +14,28 @@ use postform::toolpath::Units;
 
 use super::super::files;
 
-/// How a program is run.
+/// Options for running a program.
 #[derive(Clone, Debug, Args)]
 pub struct ControlArgs {
-    /// By whose rules: a control, or a file that describes one, as `my-vf2.toml` [default: the form's Control, else fanuc]
+    /// The control: its name, or a file that describes it, such as `my-vf2.toml` [default: the form's Control, else fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub control: Option<&'static Control>,
     /// Leave out blocks with a slash
     #[arg(long)]
     pub block_delete: bool,
-    /// How far G73 backs off, and how near the last depth G83 goes back [default: as the control]
+    /// Retract of G73, and distance to the last depth at which the rapid of G83 ends [default: that of the control]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub back_off: Option<f64>,
-    /// What a length without a point means on a Fanuc [default: it is an error]
+    /// Meaning of a length without a decimal point on a Fanuc [default: it is an error]
     #[arg(long, value_name = "MEANING")]
     pub no_point: Option<NoPoint>,
 }
 
-/// A length of an option.
+/// Reads a length as the value of an option.
 pub fn length(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(length) if length.is_finite() && length >= 0.0 => Ok(length),
-        _ => Err("a length is a number from 0 on".into()),
+        _ => Err("write a length as a number, 0 or more".into()),
     }
 }
 
@@ -63,7 +63,7 @@ impl TypedValueParser for ControlParser {
     }
 }
 
-/// Lengths without a point.
+/// The meaning of lengths without a decimal point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum NoPoint {
     /// Whole inches or millimetres
@@ -73,7 +73,7 @@ pub enum NoPoint {
 }
 
 impl NoPoint {
-    /// The choice as the library has it.
+    /// Converts the choice to the library's type.
     pub fn unpointed(self) -> Unpointed {
         match self {
             NoPoint::Whole => Unpointed::Whole,
@@ -83,7 +83,7 @@ impl NoPoint {
 }
 
 impl ControlArgs {
-    /// How a program is run to be proven.
+    /// The settings for a proof.
     pub fn proof(&self, tolerance: Option<f64>) -> Proof {
         let mut proof = Proof::default();
         proof.control = self.control;
@@ -94,7 +94,7 @@ impl ControlArgs {
         proof
     }
 
-    /// The settings of a run as the library has them; `form` is the form's own control.
+    /// The settings for a run; `form` is the form's own control.
     pub fn settings(&self, form: Option<&'static Control>, units: Units) -> RunSettings {
         let control = self.control.or(form).unwrap_or_else(Control::usual);
         let unpointed = self.no_point.map_or(Unpointed::Refused, NoPoint::unpointed);

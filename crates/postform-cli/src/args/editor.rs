@@ -1,11 +1,11 @@
-//! What editors start.
+//! Commands for editors.
 
 use clap::Args;
 
 /// `postform lsp`.
 #[derive(Debug, Args)]
 pub struct LspArgs {
-    /// Talk over standard input and output, as it always does
+    /// Use standard input and output, which is always the case
     #[arg(long, hide = true)]
     pub stdio: bool,
 }

@@ -1,4 +1,4 @@
-//! What is done with forms: look at them, lay them out, explain them, begin one.
+//! Commands for forms: lint, fmt, explain, properties, new.
 
 use std::path::PathBuf;
 
@@ -13,14 +13,14 @@ use postform::internals::sema::Limits;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LimitsArg {
     #[default]
-    /// 15 words a line, 150 lines a form
+    /// 15 words per line, 150 lines per form
     Classic,
-    /// The same as warnings
+    /// The same limits, but as warnings
     Extended,
 }
 
 impl LimitsArg {
-    /// The limits as the library has them.
+    /// Converts the choice to the library's type.
     pub fn limits(self) -> Limits {
         match self {
             LimitsArg::Classic => Limits::Classic,
@@ -29,10 +29,10 @@ impl LimitsArg {
     }
 }
 
-/// How findings are shown.
+/// The output format of findings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// With the lines they are about
+    /// With the lines of the form
     Pretty,
     /// One JSON document, version 1
     Json,
@@ -48,22 +48,22 @@ pub struct LintArgs {
     /// Forms, folders of forms, or - for standard input
     #[arg(required = true, value_name = "FORM")]
     pub forms: Vec<PathBuf>,
-    /// Fix what can be fixed without changing any program
+    /// Apply all fixes that change no program
     #[arg(long)]
     pub fix: bool,
-    /// Show what the other fixes change in a program; with --fix, make them
+    /// Show the effect of the other fixes on a program; with --fix, apply them
     #[arg(long)]
     pub unsafe_fixes: bool,
-    /// The job on which --unsafe-fixes shows it [default: a sample for the form's machine]
+    /// The job for --unsafe-fixes [default: a sample for the form's machine]
     #[arg(long, value_name = "JOB", requires = "unsafe_fixes")]
     pub job: Option<PathBuf>,
-    /// How findings are shown
+    /// Output format of the findings
     #[arg(long, value_name = "FORMAT", default_value = "pretty")]
     pub format: Format,
-    /// Limits of the form [default: of postform.toml, else classic]
+    /// Limits of the form [default: those in postform.toml, else classic]
     #[arg(long, value_name = "LIMITS")]
     pub limits: Option<LimitsArg>,
-    /// Which post of a form that holds several, by its Name
+    /// The post to use from a form that contains several, by its Name
     #[arg(long, value_name = "NAME", conflicts_with = "fix")]
     pub post: Option<String>,
     /// Report again whenever a form is changed
@@ -77,10 +77,10 @@ pub struct FmtArgs {
     /// Forms, folders of forms, or - to filter standard input
     #[arg(required = true, value_name = "FORM")]
     pub forms: Vec<PathBuf>,
-    /// Write nothing, name the forms that are laid out otherwise
+    /// Write nothing; print the names of forms that would change
     #[arg(long)]
     pub check: bool,
-    /// Lay out files that are no forms by their names, and files with lines that make no sense
+    /// Also format files without the extension of a form, and files with lines that make no sense
     #[arg(long)]
     pub force: bool,
 }
@@ -88,10 +88,10 @@ pub struct FmtArgs {
 /// `postform explain`.
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// As PC003, cycle.depth.missing, Rapid, [vclear], Drill or deep
+    /// A name, such as PC003, cycle.depth.missing, Rapid, [vclear], Drill or deep
     #[arg(required_unless_present = "list")]
     pub what: Vec<String>,
-    /// Name everything that can be asked for
+    /// List all names that can be explained
     #[arg(long, conflicts_with = "what")]
     pub list: bool,
 }
@@ -101,18 +101,18 @@ pub struct ExplainArgs {
 pub struct PropertiesArgs {
     /// The form, or - for standard input
     pub form: PathBuf,
-    /// Which post of a form that holds several, by its Name
+    /// The post to use from a form that contains several, by its Name
     #[arg(long, value_name = "NAME")]
     pub post: Option<String>,
-    /// How they are shown
+    /// Output format of the properties
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: PropertiesFormat,
 }
 
-/// How properties are shown.
+/// The output format of properties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PropertiesFormat {
-    /// For people
+    /// Text
     Text,
     /// One JSON document, version 1
     Json,
@@ -121,16 +121,16 @@ pub enum PropertiesFormat {
 /// `postform new`.
 #[derive(Debug, Args)]
 pub struct NewArgs {
-    /// For which control or machine
+    /// The control or machine of the new form
     #[arg(long, value_name = "NAME", ignore_case = true, required_unless_present_any = ["control_file", "machine"])]
     pub control: Option<NewPost>,
-    /// A file that describes a control like this one, instead of a form
+    /// Write a file that describes a control like this one, instead of a form
     #[arg(long, value_name = "NAME", value_parser = ControlParser, conflicts_with = "control")]
     pub control_file: Option<&'static Control>,
-    /// The commented file of a machine with this control, instead of a form
+    /// Write a commented machine file for this control, instead of a form
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser, conflicts_with_all = ["control", "control_file"])]
     pub machine: Option<&'static Control>,
-    /// Where the form goes, or - for standard output; a file that is there stays
+    /// Output file, or - for standard output; an existing file is not replaced
     #[arg(short, long, value_name = "FORM", default_value = "-")]
     pub output: PathBuf,
 }

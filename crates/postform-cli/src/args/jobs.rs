@@ -1,4 +1,4 @@
-//! What is done with jobs: read them, print their programs.
+//! Commands for jobs: render, check; and options for reading and rendering them.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use postform::internals::nc::Unpointed;
 use super::super::clock;
 use super::{ControlArgs, ControlParser, LimitsArg, MachineArg, NoPoint};
 
-/// A file by its format.
+/// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum From {
     /// One JSON document
@@ -34,46 +34,46 @@ pub enum From {
     Nci,
 }
 
-/// How a job is read.
+/// Options for reading a job.
 #[derive(Debug, Default, Args)]
 pub struct ReadArgs {
     /// The job's format [default: by its extension]
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<From>,
-    /// Which job of a FreeCAD document that has several, by its name or label
+    /// The job to read from a FreeCAD document with several, by its name or label
     #[arg(long = "job", value_name = "NAME")]
     pub job_name: Option<String>,
-    /// Who wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl, autodesk [default: by its first lines]
+    /// The system that wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl, autodesk [default: by its first lines]
     #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
     pub dialect: Option<Dialect>,
-    /// Units of a CL file, NCI file or program that does not give them
+    /// Units of a CL file, NCI file or program that contains none
     #[arg(long, value_name = "UNITS")]
     pub assume_units: Option<UnitsArg>,
-    /// Tool number of a CL file or program that loads none; of a CL file that names several: NAME=1,OTHER=2
+    /// Tool number of a CL file or program without a tool change; for a CL file with several tool names: NAME=1,OTHER=2
     #[arg(long, value_name = "NUMBER", value_parser = Assumed::parse)]
     pub assume_tool: Option<Assumed>,
-    /// Spindle of tools for which a CL file says none: revolutions a minute, with ,CCLW for left-hand tools
+    /// Spindle speed of tools without one in a CL file: revolutions per minute, with ,CCLW for left-hand tools
     #[arg(long, value_name = "RPM", value_parser = AssumedSpeed::parse)]
     pub assume_speed: Option<AssumedSpeed>,
-    /// Feed of a CL file that says none: units of the file a minute
+    /// Feed of a CL file that contains none, in units of the file per minute
     #[arg(long, value_name = "FEED", value_parser = positive)]
     pub assume_feed: Option<f64>,
-    /// Where the tool is before a CL file or program that begins with a cut
+    /// Position of the tool before a CL file or program that begins with a cut
     #[arg(long, visible_alias = "start", value_name = "X,Y,Z", value_parser = parse_position, allow_hyphen_values = true)]
     pub assume_start: Option<[f64; 3]>,
-    /// A CL file is whole, though it does not end as its system ends files
+    /// Accept a CL file without the usual end statement of its system as complete
     #[arg(long)]
     pub assume_end: bool,
-    /// Which setup of a CL file whose tool points several ways: `check` lists them
+    /// The setup to read from a CL file with several tool directions: `check` lists them
     #[arg(long, value_name = "N", value_parser = setup)]
     pub setup: Option<usize>,
-    /// Which operations are taken
+    /// The operations to read
     #[command(flatten)]
     pub select: SelectArgs,
-    /// Whose rules a job that is an NC program follows [default: fanuc]
+    /// The control of a job that is an NC program [default: fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub job_control: Option<&'static Control>,
-    /// What a length without a point means in a job that is an NC program [default: it is an error]
+    /// Meaning of a length without a decimal point in a job that is an NC program [default: it is an error]
     #[arg(long, value_name = "MEANING")]
     pub job_no_point: Option<NoPoint>,
 }
@@ -81,7 +81,7 @@ pub struct ReadArgs {
 /// The number of a setup.
 fn setup(text: &str) -> Result<usize, String> {
     let number = text.parse().ok().filter(|n| *n > 0);
-    number.ok_or_else(|| "write its number, from 1 on; `postform check` lists the setups of a file".to_owned())
+    number.ok_or_else(|| "write the number of a setup, from 1; `postform check` lists the setups of a file".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -90,7 +90,7 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 impl From {
-    /// The format as the library has it.
+    /// Converts the choice to the library's type.
     pub fn format(self) -> Format {
         match self {
             From::Json => Format::Json,
@@ -104,7 +104,7 @@ impl From {
 }
 
 impl ReadArgs {
-    /// The options of reading as the library has them.
+    /// Converts the options to the library's type.
     pub fn reading(&self) -> Reading {
         let mut reading = Reading::default();
         reading.dialect = self.dialect;
@@ -122,25 +122,25 @@ impl ReadArgs {
         reading
     }
 
-    /// Is something assumed that only a CL file can leave open?
+    /// Is an option given that only applies to a CL file?
     pub fn assumes_of_cl(&self) -> bool {
         self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_end || self.setup.is_some()
     }
 }
 
-/// Which operations of a job are taken.
+/// The operations of a job to read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct SelectArgs {
-    /// Take the operations from the first with this tool on
+    /// Read only operations from the first one with this tool on
     #[arg(long, value_name = "TOOL")]
     pub from_tool: Option<u32>,
-    /// Take the operations up to those with this tool
+    /// Read only operations up to those with this tool
     #[arg(long, value_name = "TOOL")]
     pub until: Option<u32>,
-    /// Take the operations with these tools, as `3,5`
+    /// Read only operations with these tools, such as `3,5`
     #[arg(long, value_name = "TOOLS", value_delimiter = ',', value_parser = tool)]
     pub only: Vec<u32>,
-    /// Leave out the operations with these tools
+    /// Skip operations with these tools
     #[arg(long, value_name = "TOOLS", value_delimiter = ',', value_parser = tool)]
     pub skip: Vec<u32>,
 }
@@ -152,12 +152,12 @@ impl SelectArgs {
     }
 }
 
-/// `3` or `T3`.
+/// Reads `3` or `T3`.
 pub(super) fn tool(text: &str) -> Result<u32, String> {
-    text.strip_prefix(['T', 't']).unwrap_or(text).parse().map_err(|_| "a tool is written 3 or T3".into())
+    text.strip_prefix(['T', 't']).unwrap_or(text).parse().map_err(|_| "write a tool as 3 or T3".into())
 }
 
-/// Where cycles come from.
+/// The source of canned cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CyclesArg {
     /// The form's sequences
@@ -166,12 +166,12 @@ pub enum CyclesArg {
     Emulated,
 }
 
-/// How deep a countersink of a diameter and an angle is.
+/// The depth of a countersink with a diameter and an angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SinkArg {
     /// Half the diameter over the tangent of half the angle
     Geometry,
-    /// Half the diameter times that tangent, as GENER's manual prints it: the same at 90 degrees only
+    /// Half the diameter times that tangent, as in GENER's manual: correct at 90 degrees only
     Printed,
 }
 
@@ -185,7 +185,7 @@ pub enum UnitsArg {
 }
 
 impl UnitsArg {
-    /// The units as the library has them.
+    /// Converts the choice to the library's type.
     pub fn units(self) -> Units {
         match self {
             UnitsArg::Inch => Units::Inch,
@@ -194,48 +194,48 @@ impl UnitsArg {
     }
 }
 
-/// How a job is rendered with a form.
+/// Options for rendering a job with a form.
 #[derive(Debug, Args)]
 pub struct RenderOptions {
     /// The program's number [default: the job's]
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(..=99_999_999))]
     pub program: Option<u32>,
-    /// Which post of a form that holds several, by its Name
+    /// The post to use from a form that contains several, by its Name
     #[arg(long, value_name = "NAME")]
     pub post: Option<String>,
     /// A value for a variable, prompt or property of the form
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Ask for the form's properties too, where somebody can answer
+    /// Also prompt for the form's properties, if standard input is a terminal
     #[arg(long)]
     pub ask: bool,
-    /// The day, or day and time, that the program says [default: SOURCE_DATE_EPOCH, else now]
+    /// Date, or date and time, in the program [default: SOURCE_DATE_EPOCH, else now]
     #[arg(long, value_name = "DATE", value_parser = clock::parse)]
     pub date: Option<Clock>,
-    /// Where canned cycles come from
+    /// Source of canned cycles
     #[arg(long, value_name = "WHERE", default_value = "form")]
     pub cycles: CyclesArg,
-    /// How deep countersinks are
+    /// Depth of countersinks
     #[arg(long, value_name = "FORMULA", default_value = "geometry")]
     pub csink_depth: SinkArg,
     /// Units of the program [default: those of the job]
     #[arg(long, value_name = "UNITS")]
     pub units: Option<UnitsArg>,
-    /// Limits of the form [default: of postform.toml, else classic]
+    /// Limits of the form [default: those in postform.toml, else classic]
     #[arg(long, value_name = "LIMITS")]
     pub limits: Option<LimitsArg>,
-    /// Print a program of over 100 MB also if it is over 1,000 times as long as its job
+    /// Also print a program of over 100 MB that is over 1,000 times as long as its job
     #[arg(long)]
     pub huge: bool,
     /// Show errors only
     #[arg(short, long)]
     pub quiet: bool,
-    /// What keeps a program from being printed, besides errors
+    /// Treat these as errors
     #[arg(long, value_name = "WHAT")]
     pub deny: Option<DenyArg>,
 }
 
-/// What counts as an error.
+/// Findings that count as errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DenyArg {
     /// Warnings of the form, the job and the renderer
@@ -243,7 +243,7 @@ pub enum DenyArg {
 }
 
 impl RenderOptions {
-    /// The options of rendering as the library has them, without the values of variables.
+    /// Converts the options to the library's type, without the values of variables.
     pub fn options(&self) -> Options {
         let mut options = Options::default();
         options.program = self.program;
@@ -255,12 +255,12 @@ impl RenderOptions {
         options
     }
 
-    /// Does a warning keep a program from being printed?
+    /// Does a warning prevent printing?
     pub fn denies_warnings(&self) -> bool {
         self.deny == Some(DenyArg::Warnings)
     }
 
-    /// Which findings are shown: with --quiet those alone that keep a program from being printed.
+    /// Is a finding shown? With --quiet, only findings that prevent printing are.
     pub fn shows(&self, diag: &Diag) -> bool {
         diag.is_error() || !self.quiet || self.denies_warnings() && diag.severity == Severity::Warning
     }
@@ -272,49 +272,50 @@ pub struct RenderArgs {
     /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input; with --out-dir several, or folders of jobs
     #[arg(required = true, value_name = "JOB")]
     pub jobs: Vec<PathBuf>,
-    /// The form of the machine [default: that of postform.toml]
+    /// The form of the machine [default: that in postform.toml]
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
-    /// Where the program goes: a file, a folder in which the form names it, or - for standard output; it appears there when it is complete
+    /// Output: a file, a folder (the form sets the file name), or - for standard output; written only when the program is complete
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
-    /// Print each job into this folder, which is made if it is not there
+    /// Print each job into this folder, which is created if it does not exist
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "trace", "stream", "watch"])]
     pub out_dir: Option<PathBuf>,
-    /// Leave out programs that are newer than their job, form, machine and postform.toml
+    /// Skip programs that are newer than their job, form, machine and postform.toml
     #[arg(long, requires = "out_dir")]
     pub changed: bool,
-    /// Print a program of its own for each of these parts of a job
+    /// Print a separate program for each of these parts of a job
     #[arg(long, value_name = "PART", requires = "out_dir")]
     pub split: Option<SplitArg>,
-    /// Names of the programs: {job}, {part}, {tool}, {operation}, {work}, {setup}, {number} [default: of the form; with --split {job}-{part}]
+    /// Program names from {job}, {part}, {tool}, {operation}, {work}, {setup}, {number} [default: the form's; with --split
+    /// {job}-{part}]
     #[arg(long, value_name = "PATTERN", requires = "out_dir")]
     pub name: Option<String>,
-    /// How many programs are printed at a time [default: one a core]
+    /// Number of programs that are printed at the same time [default: one per core]
     #[arg(long = "jobs", value_name = "N", requires = "out_dir")]
     pub at_a_time: Option<NonZeroUsize>,
-    /// How it is rendered
+    /// Options for rendering
     #[command(flatten)]
     pub options: RenderOptions,
-    /// How the job is read
+    /// Options for reading the job
     #[command(flatten)]
     pub read: ReadArgs,
     /// Write the source map here: for each program line its form line and job item, as JSON Lines
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
-    /// Print to standard output as it comes, not verified, even if an error cuts the program short
+    /// Print to standard output while rendering, not verified, even if an error cuts the program short
     #[arg(long, conflicts_with = "deny")]
     pub stream: bool,
-    /// Print the program without running it to see whether it does what the job asks for
+    /// Print the program without verifying it
     #[arg(long)]
     pub no_verify: bool,
-    /// Print the program only if it is proven: `not proven` is not enough
+    /// Print the program only if it is proven; `not proven` is then an error
     #[arg(long, alias = "verify", conflicts_with_all = ["no_verify", "stream"])]
     pub require_proof: bool,
-    /// Print again whenever the form or the job is changed
+    /// Print again whenever the form or the job changes
     #[arg(long)]
     pub watch: bool,
-    /// How the program is run to prove it
+    /// Options for running the program to prove it
     #[command(flatten)]
     pub control: ControlArgs,
     /// The machine
@@ -322,7 +323,7 @@ pub struct RenderArgs {
     pub machine: MachineArg,
 }
 
-/// What a job is split by.
+/// The parts into which a job is split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SplitArg {
     /// A program for each tool
@@ -331,7 +332,7 @@ pub enum SplitArg {
     Operation,
     /// A program for each work offset
     Work,
-    /// A program for each setup of a CL file whose tool points several ways
+    /// A program for each setup of a CL file with several tool directions
     Setup,
 }
 
@@ -341,7 +342,7 @@ pub struct CheckArgs {
     /// The job, or - for standard input; or several jobs, or folders of jobs
     #[arg(required_unless_present = "schema", value_name = "JOB")]
     pub jobs: Vec<PathBuf>,
-    /// How the job is read
+    /// Options for reading the job
     #[command(flatten)]
     pub read: ReadArgs,
     /// Print the JSON Schema of job files instead

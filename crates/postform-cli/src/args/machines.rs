@@ -1,4 +1,4 @@
-//! Machines: their files, and programs that must fit into them.
+//! Machine files, and programs that must fit into machines.
 
 use std::path::PathBuf;
 
@@ -6,10 +6,10 @@ use clap::{Args, Subcommand};
 
 use super::{ControlArgs, UnitsArg, VerifyFormat};
 
-/// `--machine`, of commands that look at programs.
+/// `--machine`, for commands that check programs.
 #[derive(Clone, Debug, Args)]
 pub struct MachineArg {
-    /// The file of the machine into which the program must fit [default: the form's MachineFile, else that of postform.toml]
+    /// The file of the machine into which the program must fit [default: the form's MachineFile, else that in postform.toml]
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
 }
@@ -22,13 +22,13 @@ pub struct FitArgs {
     /// The machine
     #[command(flatten)]
     pub machine: MachineArg,
-    /// How it is run
+    /// Options for running the program
     #[command(flatten)]
     pub control: ControlArgs,
     /// Units before the first G20 or G21
     #[arg(long, value_name = "UNITS", default_value = "mm")]
     pub units: UnitsArg,
-    /// How the answer is shown
+    /// Output format of the result
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: VerifyFormat,
 }
@@ -36,15 +36,15 @@ pub struct FitArgs {
 /// `postform machine`.
 #[derive(Debug, Args)]
 pub struct MachineArgs {
-    /// What to do with it
+    /// The command
     #[command(subcommand)]
     pub command: MachineCommand,
 }
 
-/// What is done with the file of a machine.
+/// Commands for machine files.
 #[derive(Debug, Subcommand)]
 pub enum MachineCommand {
-    /// List the values in the file, and what is not checked for want of one
+    /// List the values in the file, and the checks that missing values prevent
     Check {
         /// The file
         file: PathBuf,

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! The arguments of the command line.
 
 mod controls;
 mod editor;
@@ -27,11 +27,11 @@ pub use restarts::RestartArgs;
 pub use sheets::{SheetArgs, SheetFormat};
 pub use tests::{TestArgs, TestFormat};
 
-/// The compiler for POSTFORM files: NC programs from toolpaths, by a template of your machine's code.
+/// The compiler for POSTFORM files: it prints NC programs from toolpaths, with a template of your machine's code.
 #[derive(Debug, Parser)]
 #[command(name = "postform", version, max_term_width = 100)]
 pub struct Arguments {
-    /// What to do.
+    /// The command to run
     #[command(subcommand)]
     pub command: Command,
     /// When to use colour
@@ -46,37 +46,37 @@ pub enum Command {
     Render(RenderArgs),
     /// Report every finding of every form
     Lint(LintArgs),
-    /// Read a job, report what is wrong, and print what is in it
+    /// Read a job, report its errors, and print a summary
     Check(CheckArgs),
     /// Prove that a program makes the motions of its job
     Verify(VerifyArgs),
-    /// Print the jobs of a folder, and compare the programs with those that are expected
+    /// Print the jobs of a folder, and compare the programs with the expected ones
     Test(TestArgs),
-    /// Show what changed between two NC programs
+    /// Show the differences between two NC programs
     Diff(DiffArgs),
-    /// Run an NC program and print what the machine does
+    /// Run an NC program and print the actions of the machine
     Simulate(SimulateArgs),
-    /// Say whether a program fits into a machine, and which offsets and lengths would do
+    /// Check whether a program fits into a machine, and print the allowed offsets and lengths
     Fit(FitArgs),
-    /// Write a program that begins in the middle of another one, with everything in force that is in force there
+    /// Write a program that begins in the middle of another one, with the same modal state
     Restart(RestartArgs),
     /// Write the setup sheet of a job: offsets, tools, operations, stops, pictures
     Sheet(SheetArgs),
-    /// Look at the file of a machine
+    /// Check the file of a machine
     Machine(MachineArgs),
-    /// Draw the backplot of a job's program, or of a program that is there
+    /// Draw the backplot of a job's program, or of an existing program
     Plot(PlotArgs),
-    /// Show form, program and backplot in a browser, again with every change
+    /// Show form, program and backplot in a browser, and update them after every change
     Watch(WatchArgs),
     /// Write forms in the canonical layout
     Fmt(FmtArgs),
-    /// Say what a code, command, variable, sequence, cycle or control means
+    /// Explain a code, command, variable, sequence, cycle or control
     Explain(ExplainArgs),
     /// Write a commented form, or a control's file, to start from
     New(NewArgs),
-    /// List what a form leaves to the shop, by names that `--set` takes
+    /// List the settings that a form offers to the shop, by their names for `--set`
     Properties(PropertiesArgs),
-    /// List the controls, with what is known of each
+    /// List the controls, with the known facts of each
     Controls,
     /// Print the completions of a shell
     Completions(CompletionsArgs),
@@ -89,6 +89,6 @@ pub enum Command {
 /// `postform completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
-    /// Which shell
+    /// The shell
     pub shell: clap_complete::Shell,
 }

@@ -1,4 +1,4 @@
-//! What is done with pictures, and the page.
+//! Commands for pictures and the page.
 
 use std::path::PathBuf;
 
@@ -8,23 +8,23 @@ use postform::internals::picture::View;
 
 use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions};
 
-/// From where a picture is looked at.
+/// The view of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ViewArg {
     /// From above
     Top,
-    /// From the operator's side
+    /// From the front, as the operator sees it
     Front,
     /// From the right
     Side,
     /// From the right, front and above
     Iso,
-    /// A lathe's: Z to the right, X up
+    /// A lathe: Z to the right, X up
     Lathe,
 }
 
 impl ViewArg {
-    /// As the library has it.
+    /// Converts the choice to the library's type.
     pub fn view(self) -> View {
         match self {
             ViewArg::Top => View::Top,
@@ -39,27 +39,27 @@ impl ViewArg {
 /// `postform plot`.
 #[derive(Debug, Args)]
 pub struct PlotArgs {
-    /// The job, printed with --form or the form of postform.toml; or an NC program
+    /// The job, printed with --form or the form in postform.toml; or an NC program
     pub file: PathBuf,
-    /// Print the file, a job, with this form
+    /// Print the file, which is a job, with this form
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
-    /// Where the picture goes, or - for standard output
+    /// Output file of the picture, or - for standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
-    /// From where it is looked at [default: iso, for lathes lathe]
+    /// View [default: iso, for lathes lathe]
     #[arg(long, value_name = "VIEW")]
     pub view: Option<ViewArg>,
-    /// Its width in pixels
+    /// Width in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 960, value_parser = clap::value_parser!(u16).range(240..=8000))]
     pub width: u16,
-    /// How the program is run
+    /// Options for running the program
     #[command(flatten)]
     pub control: ControlArgs,
-    /// How a job is rendered
+    /// Options for rendering a job
     #[command(flatten)]
     pub options: RenderOptions,
-    /// How a job is read
+    /// Options for reading a job
     #[command(flatten)]
     pub read: ReadArgs,
 }
@@ -70,10 +70,10 @@ pub struct PlotArgs {
 pub struct WatchArgs {
     /// The form
     pub form: PathBuf,
-    /// A job that is printed with it; several are tabs [default: those of postform.toml, else a sample job]
+    /// A job to print with it; several jobs become tabs [default: those in postform.toml, else a sample job]
     #[arg(long, value_name = "JOB")]
     pub job: Vec<PathBuf>,
-    /// A program of the job to compare with
+    /// A program of the job for comparison
     #[arg(long, value_name = "PROGRAM")]
     pub against: Option<PathBuf>,
     /// The machine into which programs must fit
@@ -85,13 +85,13 @@ pub struct WatchArgs {
     /// The port of this machine [default: a free one]
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     pub port: u16,
-    /// How programs are run
+    /// Options for running programs
     #[command(flatten)]
     pub control: ControlArgs,
-    /// How jobs are rendered
+    /// Options for rendering jobs
     #[command(flatten)]
     pub options: RenderOptions,
-    /// How jobs are read
+    /// Options for reading jobs
     #[command(flatten)]
     pub read: ReadArgs,
 }

@@ -1,9 +1,9 @@
-//! The names of the forms that ship, for `postform new`.
+//! The names of the shipped forms, for `postform new`.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParserFactory};
 use postform::internals::post::shipped::{FORMS, Shipped};
 
-/// A form that ships, as the command line names it.
+/// A shipped form, by its name on the command line.
 #[derive(Clone, Copy)]
 pub struct NewPost(pub &'static Shipped);
 
@@ -21,7 +21,7 @@ impl ValueParserFactory for NewPost {
         let is = |form: &&Shipped, name: &str| {
             form.name.eq_ignore_ascii_case(name) || form.also.iter().any(|also| also.eq_ignore_ascii_case(name))
         };
-        // the parser lets no other name through
+        // the parser accepts only these names
         let find = move |name: String| NewPost(FORMS.iter().find(|form| is(form, &name)).unwrap_or(&FORMS[0]));
         PossibleValuesParser::new(values).map(find).into()
     }

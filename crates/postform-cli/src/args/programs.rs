@@ -1,4 +1,4 @@
-//! What is done with programs: prove, compare, run them.
+//! Commands for programs: verify, simulate, diff.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -8,10 +8,10 @@ use clap::{Args, ValueEnum};
 use super::controls::length;
 use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions, UnitsArg};
 
-/// How a verdict is shown.
+/// The output format of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum VerifyFormat {
-    /// A sentence; findings on standard error
+    /// One sentence; findings on standard error
     Text,
     /// One JSON document
     Json,
@@ -23,50 +23,50 @@ pub struct VerifyArgs {
     /// The job, or - for standard input; or several jobs, or folders of jobs
     #[arg(required = true, value_name = "JOB")]
     pub jobs: Vec<PathBuf>,
-    /// The form that prints the program; with --nc, what it says of the job's defaults
+    /// The form that prints the program; with --nc, the source of the job's default values
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
-    /// A program that is there already
+    /// An existing program
     #[arg(long, value_name = "NC")]
     pub nc: Option<PathBuf>,
-    /// How near places must be, in the job's units [default: 0.0001 inch, 0.002 mm]
+    /// Largest difference of positions, in the job's units [default: 0.0001 inch, 0.002 mm]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub tolerance: Option<f64>,
-    /// How the verdict is shown
+    /// Output format of the verdict
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: VerifyFormat,
-    /// How many of several jobs are verified at a time [default: one a core]
+    /// Number of jobs that are verified at the same time [default: one per core]
     #[arg(long = "jobs", value_name = "N")]
     pub at_a_time: Option<NonZeroUsize>,
-    /// How the program is run
+    /// Options for running the program
     #[command(flatten)]
     pub control: ControlArgs,
     /// The machine
     #[command(flatten)]
     pub machine: MachineArg,
-    /// How it is rendered
+    /// Options for rendering
     #[command(flatten)]
     pub options: RenderOptions,
-    /// How the job is read
+    /// Options for reading the job
     #[command(flatten)]
     pub read: ReadArgs,
 }
 
-/// How the motions of a program are shown.
+/// The output format of motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MotionFormat {
-    /// A line an action
+    /// One line per action
     Text,
     /// JSON Lines
     Json,
 }
 
-/// Where a run begins.
+/// The position at the start of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StartArg {
     /// At 0 on all axes, as rs274 does
     Zero,
-    /// Where only the machine knows: what depends on that is shown as `?`, in JSON as null
+    /// At an unknown position: values that depend on it are shown as `?`, in JSON as null
     Unknown,
 }
 
@@ -75,41 +75,41 @@ pub enum StartArg {
 pub struct SimulateArgs {
     /// The NC program, or - for standard input
     pub program: PathBuf,
-    /// Where the tool is at the beginning, and its height after a tool change
+    /// Position of the tool at the beginning, and its height after a tool change
     #[arg(long, value_name = "PLACE", default_value = "zero")]
     pub start: StartArg,
-    /// How it is run
+    /// Options for running the program
     #[command(flatten)]
     pub control: ControlArgs,
     /// Units before the first G20 or G21
     #[arg(long, value_name = "UNITS", default_value = "mm")]
     pub units: UnitsArg,
-    /// How motions are shown
+    /// Output format of the motions
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: MotionFormat,
     /// The machine
     #[command(flatten)]
     pub machine: MachineArg,
-    /// Only count: blocks, moves, holes, extents, distances, time
+    /// Print only totals: blocks, moves, holes, extents, distances, time
     #[arg(long)]
     pub dry: bool,
 }
 
-/// How a comparison is shown.
+/// The output format of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DiffFormat {
     /// Unified, or side by side on a wide terminal, with changed words marked
     Text,
     /// One JSON document
     Json,
-    /// A page that stands alone
+    /// A self-contained page
     Html,
 }
 
-/// How blocks of both programs are laid out.
+/// The layout of the blocks of both programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Layout {
-    /// Side by side where the terminal has 140 columns or more
+    /// Side by side if the terminal has 140 columns or more
     Auto,
     /// One below the other
     Unified,
@@ -123,40 +123,40 @@ pub struct DiffArgs {
     /// OLD and NEW program; with --form the JOB; with --forms OLD.pf, NEW.pf and the JOB, or several jobs or folders of jobs
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// What does not count, of numbers, comments, spaces, case, format, order, all, none
+    /// Differences to ignore: numbers, comments, spaces, case, format, order, all, none
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = "numbers,spaces,case,format")]
     pub ignore: Vec<String>,
-    /// By how much numbers may differ and be the same
+    /// Largest difference at which numbers are equal
     #[arg(long, value_name = "NUMBER", value_parser = length, default_value = "0")]
     pub tolerance: f64,
-    /// Compare what the machine does, not what is written
+    /// Compare the motions of the machine, not the text
     #[arg(long)]
     pub motion: bool,
     /// Unchanged blocks around changed ones
     #[arg(long, value_name = "BLOCKS", default_value_t = 3)]
     pub context: usize,
-    /// How the comparison is shown
+    /// Output format of the comparison
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: DiffFormat,
-    /// How text is laid out
+    /// Layout of the text
     #[arg(long, value_name = "LAYOUT", default_value = "auto")]
     pub layout: Layout,
     /// Print the JOB with this form, and compare it with --against
     #[arg(long, value_name = "FORM", requires = "against", conflicts_with = "forms")]
     pub form: Option<PathBuf>,
-    /// The program of before
+    /// The old program
     #[arg(long, value_name = "OLD", requires = "form")]
     pub against: Option<PathBuf>,
-    /// Print the JOB with both forms, and compare
+    /// Print the JOB with both forms, and compare the programs
     #[arg(long)]
     pub forms: bool,
-    /// How programs are run for --motion
+    /// Options for running programs with --motion
     #[command(flatten)]
     pub control: ControlArgs,
-    /// How jobs are rendered
+    /// Options for rendering jobs
     #[command(flatten)]
     pub options: RenderOptions,
-    /// How jobs are read
+    /// Options for reading jobs
     #[command(flatten)]
     pub read: ReadArgs,
 }

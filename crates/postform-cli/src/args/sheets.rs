@@ -6,10 +6,10 @@ use clap::{Args, ValueEnum};
 
 use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions};
 
-/// How a sheet is written.
+/// The output format of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SheetFormat {
-    /// A page that stands alone, for paper too
+    /// A self-contained page, also for printing
     Html,
     /// Markdown, without pictures
     Md,
@@ -22,25 +22,25 @@ pub enum SheetFormat {
 pub struct SheetArgs {
     /// The job, or an NC program
     pub job: PathBuf,
-    /// The form of the machine [default: that of postform.toml]
+    /// The form of the machine [default: that in postform.toml]
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
-    /// Where the sheet goes: .html, .md or .json, or - for standard output
+    /// Output file of the sheet: .html, .md or .json, or - for standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
-    /// How it is written [default: by the output's extension, else html]
+    /// Output format [default: by the output's extension, else html]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<SheetFormat>,
     /// The machine
     #[command(flatten)]
     pub machine: MachineArg,
-    /// How the program is run to prove it
+    /// Options for running the program to prove it
     #[command(flatten)]
     pub control: ControlArgs,
-    /// How it is rendered
+    /// Options for rendering
     #[command(flatten)]
     pub options: RenderOptions,
-    /// How the job is read
+    /// Options for reading the job
     #[command(flatten)]
     pub read: ReadArgs,
 }

@@ -8,38 +8,38 @@ use clap::{Args, ValueEnum};
 /// `postform test`.
 #[derive(Debug, Args)]
 pub struct TestArgs {
-    /// Folders with cases, searched to their bottom, or jobs [default: tests, else the working folder]
+    /// Folders with cases, searched with their subfolders, or jobs [default: tests, else the working folder]
     #[arg(value_name = "FOLDER")]
     pub paths: Vec<PathBuf>,
-    /// The form, or a folder of forms; in place of those of [test] in postform.toml. May be given several times
+    /// The form, or a folder of forms, in place of those under [test] in postform.toml; may be given several times
     #[arg(long = "form", value_name = "FORM")]
     pub forms: Vec<PathBuf>,
-    /// Write what the forms print now as what is expected, after the differences are shown
+    /// Show the differences, then write the printed programs as the expected ones
     #[arg(long)]
     pub update: bool,
-    /// Write the standard cases for this form into the folder, with what it prints of each, to be looked through once
+    /// Write the standard cases for this form, with the programs that it prints, into this folder; check them once by hand
     #[arg(long, value_name = "FORM", conflicts_with_all = ["update", "forms", "coverage"])]
     pub new: Option<PathBuf>,
     /// List the lines of the forms that no case prints
     #[arg(long)]
     pub coverage: bool,
-    /// How many programs are printed at a time [default: one a core]
+    /// Number of programs that are printed at the same time [default: one per core]
     #[arg(long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
-    /// How the result is shown
+    /// Output format of the result
     #[arg(long, value_enum, default_value_t = TestFormat::Pretty)]
     pub format: TestFormat,
 }
 
-/// How the result of the cases is shown.
+/// The output format of the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TestFormat {
     /// Differences, and a line with the counts
     Pretty,
     /// One JSON document
     Json,
-    /// The XML that CI systems read
+    /// JUnit XML, for CI systems
     Junit,
-    /// Marks at the lines of expected programs, for a run on GitHub
+    /// Annotations at the lines of expected programs, for a run on GitHub
     Github,
 }

@@ -1,4 +1,4 @@
-//! What a change of a form does to many jobs.
+//! The effect of a form's change on many jobs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -15,19 +15,19 @@ use super::super::{Ending, files, many, output};
 use super::sides::printed_by;
 use super::{Shown, difference};
 
-/// Jobs of one kind that are named.
+/// Maximum number of jobs of one kind that are named.
 const MOST_NAMED: usize = 20;
 
-/// Programs that change in the same words.
+/// Programs with changes in the same words.
 #[derive(Default)]
 struct Kind {
-    /// Their jobs, by their rows.
+    /// The indices of their jobs.
     jobs: Vec<usize>,
-    /// The first of them, and what differs in its program.
+    /// The first of them, and the differences in its program.
     example: Option<(usize, String)>,
 }
 
-/// Prints each job with both forms, and shows the programs that differ by the kind of their difference.
+/// Prints each job with both forms, and shows the different programs, grouped by the kind of their difference.
 ///
 /// # Errors
 /// A message: a form or a folder can't be read.
@@ -39,7 +39,7 @@ pub fn run(
     reporter: &Reporter,
 ) -> Result<Ending, String> {
     if args.format == DiffFormat::Html {
-        return Err("error: --format html shows one job\n  help: take text or json for several".into());
+        return Err("error: --format html shows one job\n  help: use --format text or json for several jobs".into());
     }
     let jobs = many::jobs(jobs)?;
     let [old, new] = forms.map(|form| prepare(form, &args.options, &jobs[0], reporter));
@@ -90,7 +90,7 @@ pub fn run(
     Ok(if ending == Ending::Clean && differs.into_inner() { Ending::Findings } else { ending })
 }
 
-/// All kinds as text, the commonest first, and how many of the programs that could be compared change.
+/// All kinds as text, the most common first, and the share of the compared programs that change.
 fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf], compared: usize) -> String {
     let mut kinds: Vec<(String, Kind)> = kinds.into_iter().collect();
     for (_, kind) in &mut kinds {

@@ -1,4 +1,4 @@
-//! A comparison as one HTML page that stands alone: it can be mailed, and needs nothing from the network.
+//! A comparison as one self-contained HTML page: it can be mailed, and loads nothing from the network.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -26,7 +26,7 @@ td.origin{color:#57606a;background:#f6f8fa;text-align:right;font-size:12px}
 td.old{background:#49202499}td.new{background:#12361f}td.moved{background:#12304d}mark{background:#8e3a36}td.new mark{background:#1f6f35}}
 ";
 
-/// The paths of both programs, the old one under the new; empty where there is nothing to draw.
+/// The paths of both programs, the old one below the new one; empty if there is nothing to draw.
 pub fn path(programs: [&Program; 2], settings: [RunSettings; 2]) -> String {
     let [old, new] = [0, 1].map(|side| draw(Cursor::new(programs[side].bytes()), settings[side]).ok());
     let (Some(old), Some(new)) = (old, new) else { return String::new() };
@@ -79,7 +79,7 @@ fn table(old: &Side, new: &Side, hunks: &[Hunk], context: usize, options: &Optio
     for hunk in hunks {
         unchanged(old, new, at.0..hunk.old.start, at.1..hunk.new.start, out);
         hunk.edits.iter().for_each(|edit| row(old, new, edit, options, out));
-        // who printed what is new
+        // the origin of the new lines
         if let Some(origin) = hunk.new.clone().next().and_then(|line| new.origin(line)) {
             _ = writeln!(
                 out,
@@ -94,9 +94,9 @@ fn table(old: &Side, new: &Side, hunks: &[Hunk], context: usize, options: &Optio
     out.push_str("</table>\n");
 }
 
-/// Lines that are the same, as far as both sides have them.
+/// Equal lines, up to the length of the shorter side.
 fn unchanged(old: &Side, new: &Side, before: Range<usize>, after: Range<usize>, out: &mut String) {
-    // what does not count may make one side longer: the last lines stand together
+    // ignored lines may make one side longer: both sides are aligned at their last lines
     let both = before.len().min(after.len());
     let (a, b) = (before.end - both, after.end - both);
     for i in 0..both {
@@ -142,7 +142,7 @@ fn cell(line: Option<usize>, text: &[u8], marked: &[Range<usize>], class: &str) 
     format!("<td class=\"n\">{number}</td><td class=\"{class}\">{body}</td>")
 }
 
-/// Text of a program in a page: nothing of it is markup.
+/// Text of a program in a page, escaped so that it contains no markup.
 fn safe(text: &[u8]) -> String {
     let mut out = String::new();
     for c in escaped(&String::from_utf8_lossy(text)).chars() {

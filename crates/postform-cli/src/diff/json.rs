@@ -1,4 +1,4 @@
-//! A comparison for programs: JSON, version 1. Lines count from 1.
+//! A comparison as JSON for other programs, version 1. Lines are counted from 1.
 
 use serde_json::{Value, json};
 
@@ -49,7 +49,7 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
     })
 }
 
-/// The first difference of motions, if there is one, and what was left out.
+/// The first difference of motions, if there is one, and everything that was not judged.
 pub fn motion(old: &Side, new: &Side, found: &Motions) -> Value {
     let first = found.difference.as_ref().map(|difference| {
         let [(a, before), (b, after)] = &difference.blocks;

@@ -23,10 +23,10 @@ pub use sides::Side;
 use sides::sides;
 pub use text::unified;
 
-/// Compares two programs, or of each of several jobs the programs of two forms.
+/// Compares two programs; for several jobs, compares the programs of two forms for each job.
 pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
     if args.motion && args.format == DiffFormat::Html {
-        return Err("error: --motion has one difference, which --format text or json shows".into());
+        return Err("error: --motion reports one difference: use --format text or json".into());
     }
     let reporter = Reporter::new(colour.on_stderr());
     if let (true, [old, new, jobs @ ..]) = (args.forms, args.files.as_slice())
@@ -48,10 +48,10 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
     Ok(if difference.is_none() { Ending::Clean } else { Ending::Findings })
 }
 
-/// What differs in two programs.
+/// The differences between two programs.
 struct Difference {
     shown: Shown,
-    /// Its kind, alike for programs that differ in the same words; empty: nothing differs.
+    /// Its kind, equal for programs that differ in the same words; empty: no difference.
     kind: String,
 }
 
@@ -67,7 +67,7 @@ impl Difference {
     }
 }
 
-/// Compares two programs as the options ask for. `Err` within: it was shown why they can't be compared.
+/// Compares two programs by the options. The inner `Err`: they can't be compared, and the reason has been shown.
 fn difference(
     args: &DiffArgs,
     old: &Side,
@@ -79,7 +79,7 @@ fn difference(
     if args.motion {
         return Ok(match motions(args, old, new, reporter)? {
             Outcome::Refused => {
-                say(&format!("not proven: {} and {} can't be compared to their ends\n", old.name, new.name));
+                say(&format!("not proven: {} and {} can't be compared as far as their ends\n", old.name, new.name));
                 Err(Ending::Findings)
             }
             Outcome::Compared(found) => {
@@ -88,7 +88,7 @@ fn difference(
                     DiffFormat::Text => Shown::Text(text::motion(old, new, &found)),
                     _ => Shown::Document(json::motion(old, new, &found)),
                 };
-                let kind = if found.difference.is_some() { "the machine does something else" } else { "" };
+                let kind = if found.difference.is_some() { "the motions differ" } else { "" };
                 Ok(Difference { shown, kind: kind.to_owned() })
             }
         });
@@ -113,7 +113,7 @@ fn difference(
     Ok(Ok(Difference { shown, kind }))
 }
 
-/// Columns for programs side by side; `None`: one below the other.
+/// The width for programs side by side; `None`: one below the other.
 fn columns(layout: Layout) -> Option<usize> {
     const WIDE: usize = 140;
     let terminal = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
@@ -124,7 +124,7 @@ fn columns(layout: Layout) -> Option<usize> {
     }
 }
 
-/// The names of `--ignore`.
+/// Reads the names of `--ignore`.
 pub fn ignored(names: &[String]) -> Result<Ignore, String> {
     let mut ignore = Ignore::default();
     for name in names {
@@ -135,7 +135,7 @@ pub fn ignored(names: &[String]) -> Result<Ignore, String> {
             name => {
                 let known = Ignore::NAMES.join(", ");
                 return Err(format!(
-                    "error: there is no `{name}` to ignore\n  help: take some of {known}, all or none"
+                    "error: --ignore has no value `{name}`\n  help: use some of {known}, or all or none"
                 ));
             }
         }
@@ -143,7 +143,7 @@ pub fn ignored(names: &[String]) -> Result<Ignore, String> {
     Ok(ignore)
 }
 
-/// What the first G20 or G21 of a program says.
+/// The units of the first G20 or G21 of a program.
 fn units_of(program: &Program) -> Option<Units> {
     (0..program.len()).flat_map(|line| tokens(program.line(line))).find_map(|token| match token.kind {
         Kind::Word(b'G', number) if number.value == 20.0 => Some(Units::Inch),
@@ -157,15 +157,15 @@ enum Outcome {
     Refused,
 }
 
-/// How both programs are run.
+/// The run settings of both programs.
 fn settings(args: &DiffArgs, old: &Side, new: &Side) -> (Units, [RunSettings; 2]) {
-    // a program that does not say its units counts in those of --units, or millimetres
+    // a program without units uses those of --units, else millimetres
     let said = || units_of(&old.program).or_else(|| units_of(&new.program));
     let units = args.options.units.map(|units| units.units()).or_else(said).unwrap_or(Units::Mm);
     (units, [old, new].map(|side| args.control.settings(side.control, units)))
 }
 
-/// What both machines do.
+/// Compares the motions of both programs.
 fn motions(args: &DiffArgs, old: &Side, new: &Side, reporter: &Reporter) -> Result<Outcome, String> {
     let (units, settings) = settings(args, old, new);
     let tolerance = if args.tolerance > 0.0 { args.tolerance } else { 1e-6 };

@@ -1,4 +1,4 @@
-//! Where the two programs come from.
+//! Gets the two programs of a comparison.
 
 use std::fs::File;
 use std::io::Read;
@@ -16,15 +16,15 @@ use super::super::prepare::{Prepared, prepare};
 use super::super::rendered::rendered;
 use super::super::report::Reporter;
 
-/// A program, and what is known of it.
+/// A program, and the information about it.
 pub struct Side {
-    /// What the program is called.
+    /// The name of the program.
     pub name: String,
     /// The text of the program.
     pub program: Program,
     /// The control of the form that printed it.
     pub control: Option<&'static Control>,
-    /// Where lines of the program come from, and the form's text.
+    /// The origin of the program's lines, and the form's text.
     pub trace: Option<(Trace, Vec<Source>)>,
 }
 
@@ -53,7 +53,7 @@ impl Side {
     }
 }
 
-/// Both programs of a comparison. `None`: one can't be rendered, which was shown.
+/// Both programs of a comparison. `None`: one can't be rendered; the reason has been shown.
 pub fn sides(args: &DiffArgs, reporter: &Reporter) -> Result<Option<[Side; 2]>, String> {
     match (&args.form, &args.against, args.files.as_slice()) {
         (Some(form), Some(old), [job]) => {
@@ -62,7 +62,7 @@ pub fn sides(args: &DiffArgs, reporter: &Reporter) -> Result<Option<[Side; 2]>, 
             Ok(Some([old, new]))
         }
         (Some(_), ..) => {
-            Err("error: with --form and --against comes one job: postform diff --form FORM --against OLD JOB".into())
+            Err("error: --form and --against take one job: postform diff --form FORM --against OLD JOB".into())
         }
         (None, _, [old, new, job]) if args.forms => printed([old, new], job, args, reporter),
         (None, _, [old, new]) if !args.forms => {
@@ -107,7 +107,7 @@ fn printed<const N: usize, P: AsRef<Path>>(
     printed_by(&made, job, args, reporter)
 }
 
-/// The job printed by forms that are made ready. `None`: one can't, which was shown.
+/// The job printed by prepared forms. `None`: one can't print it; the reason has been shown.
 pub fn printed_by<const N: usize>(
     forms: &[(&Path, Prepared); N],
     job: &Path,

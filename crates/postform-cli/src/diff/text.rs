@@ -1,4 +1,4 @@
-//! A comparison for people: unified, the changed words marked under their block.
+//! A comparison as text: unified, with the changed words marked below their block.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -37,7 +37,7 @@ pub fn unified(
     page.text
 }
 
-/// A comparison as two columns, old and new side by side, `columns` characters wide together.
+/// A comparison in two columns, old and new side by side; `columns` is the total width in characters.
 pub fn side_by_side(
     old: &Side,
     new: &Side,
@@ -90,10 +90,10 @@ pub fn side_by_side(
     text + &sentence(summary)
 }
 
-/// In hunks of more edits than this the changed words are not marked: their lines alone are printed.
+/// In hunks with more edits than this, only the lines are printed, without marks for the changed words.
 const MOST_MARKED: usize = 1_000;
 
-/// Hunks whose contexts meet stand together.
+/// Groups hunks whose contexts meet.
 pub fn grouped(hunks: &[Hunk], context: usize) -> impl Iterator<Item = &[Hunk]> {
     hunks.chunk_by(move |a, b| b.old.start.saturating_sub(a.old.end) <= 2 * context)
 }
@@ -156,10 +156,10 @@ impl Page<'_> {
         }
     }
 
-    /// Marks the words that differ, under their line.
+    /// Marks the changed words, below their line.
     fn marks(&mut self, line: &[u8], spans: &[Range<usize>]) {
         if spans.is_empty() || line.iter().any(|byte| !(b' '..=b'~').contains(byte)) {
-            return; // places are columns only where a byte is one
+            return; // bytes are columns only in ASCII text
         }
         let mut marks = vec![b' '; line.len()];
         spans.iter().for_each(|span| marks[span.clone()].fill(b'^'));
@@ -167,7 +167,7 @@ impl Page<'_> {
         self.line(CYAN, &format!("?{text}"));
     }
 
-    /// Who printed what is new.
+    /// Prints the origin of the new lines.
     fn origin(&mut self, hunk: &Hunk) {
         let line = hunk.new.clone().find(|_| true).filter(|&line| line < self.new.program.len());
         if let Some(origin) = line.and_then(|line| self.new.origin(line)) {
@@ -192,7 +192,7 @@ impl Page<'_> {
     }
 }
 
-/// Text in a column: what does not fit is seen to be missing.
+/// Text in a column; text that is too long ends with an ellipsis.
 fn fitted(text: &str, width: usize) -> String {
     if text.chars().count() <= width {
         return text.to_owned();
@@ -204,10 +204,10 @@ fn shown(line: &[u8]) -> String {
     escaped(&String::from_utf8_lossy(line))
 }
 
-/// Kinds of changes that the summary names.
+/// Maximum number of kinds of changes in the summary.
 const MOST_KINDS: usize = 20;
 
-/// What changed, by kinds.
+/// The changes, by kind.
 pub fn sentence(summary: &Summary) -> String {
     let blocks = [
         (summary.changed, "changed"),
@@ -237,12 +237,12 @@ pub fn sentence(summary: &Summary) -> String {
     format!("{}{kinds}\n", blocks.join(", "))
 }
 
-/// What changed, without numbers: alike for programs that one change of a form concerns.
+/// The kinds of changes without numbers: equal for all programs that one change of a form affects.
 pub fn kind(summary: &Summary) -> String {
     let mut kinds: Vec<String> = Vec::new();
     kinds.extend(summary.letters.keys().map(|letter| format!("other {}", escaped(&letter.to_string()))));
     for (words, how) in [(&summary.more, "more"), (&summary.less, "less")] {
-        // texts of comments are the jobs' own
+        // the text of comments differs between jobs
         let word = |word: &String| if word.starts_with('(') { "comments".to_owned() } else { escaped(word) };
         kinds.extend(words.keys().map(|name| format!("{} {how}", word(name))));
     }
@@ -258,10 +258,10 @@ pub fn kind(summary: &Summary) -> String {
     if kinds.is_empty() { "other blocks".to_owned() } else { kinds.join(", ") }
 }
 
-/// What a comparison of motions saw and did not judge; nothing, where there was nothing.
+/// Differences of motions that were found but not judged; empty if there are none.
 fn left_out(found: &Motions) -> String {
     let list = [
-        (found.ways, "way", "otherwise and nowhere lower"),
+        (found.ways, "path", "between cuts different, but nowhere lower"),
         (found.codes, "cut", "after other codes that are not simulated"),
     ];
     let seen = list.iter().filter(|(n, ..)| *n > 0);
@@ -269,32 +269,32 @@ fn left_out(found: &Motions) -> String {
     if list.is_empty() { String::new() } else { format!("the same cuts; not compared: {}\n", list.join(", ")) }
 }
 
-/// How the comparison of motions came out, in a line.
+/// The result of the comparison of motions, in one line.
 pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
     if found.difference.is_some() {
-        return format!("different: {} does something else than {}\n", new.name, old.name);
+        return format!("different: the motions of {} differ from those of {}\n", new.name, old.name);
     }
     let cuts = count(found.cuts as usize, "cut");
     let counted = [
         (found.pecks, "hole", "with other pecks"),
         (found.feeds, "feed", "rounded"),
-        (found.ways, "way", "otherwise and nowhere lower"),
+        (found.ways, "path", "between cuts different, but nowhere lower"),
     ];
     let counted = counted.iter().filter(|(n, ..)| *n > 0);
     let list: Vec<String> = counted.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();
     match list.is_empty() {
         true => format!("identical: {} makes the motions of {} ({cuts})\n", new.name, old.name),
-        false => format!("equivalent: {} cuts what {} cuts ({cuts}): {}\n", new.name, old.name, list.join(", ")),
+        false => format!("equivalent: {} makes the cuts of {} ({cuts}): {}\n", new.name, old.name, list.join(", ")),
     }
 }
 
-/// The first difference of motions, or what was left out.
+/// The first difference of motions, or everything that was not judged.
 pub fn motion(old: &Side, new: &Side, found: &Motions) -> String {
     let Some(difference) = &found.difference else { return left_out(found) };
-    let mut text = format!("the machine does something else: {}\n", escaped(&difference.message));
+    let mut text = format!("the motions differ: {}\n", escaped(&difference.message));
     for (sign, side, (line, block)) in [('-', old, &difference.blocks[0]), ('+', new, &difference.blocks[1])] {
         _ = match line {
-            0 => writeln!(text, "{sign} {}: its end", side.name),
+            0 => writeln!(text, "{sign} {}: the program ends", side.name),
             _ => writeln!(text, "{sign} {}, line {line}: {}", side.name, escaped(block)),
         };
     }

@@ -1,4 +1,4 @@
-//! `--fix` and `--unsafe-fixes`: forms fixed in place.
+//! `--fix` and `--unsafe-fixes`: fix forms in place.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -18,11 +18,11 @@ use super::super::forms::FormFile;
 use super::super::output;
 use super::Linted;
 
-/// Mends a form: safe fixes with `--fix`, all with `--fix --unsafe-fixes`. What unsafe ones change in a program is shown
-/// before anything is written; where nothing can be shown, they are not made.
+/// Fixes a form: safe fixes with `--fix`, all with `--fix --unsafe-fixes`. The effect of unsafe fixes on a program is shown
+/// before anything is written. If it can't be shown, they are not applied.
 pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, String> {
     if file.path == Path::new("-") {
-        return Err("error: fixes change files, and standard input is none".into());
+        return Err("error: fixes change files: standard input can't be fixed".into());
     }
     let original = file.analyse(&Changed::new());
     let mended = |unsafe_too| mend(levels, unsafe_too, &mut |changed| file.analyse(changed));
@@ -37,8 +37,8 @@ pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, 
     }
     if !callers::is_form(&file.path)? {
         let name = files::name(&file.path);
-        let why = format!("error: {name} is no form by its name, and no form calls it: it stays as it is");
-        return Err(format!("{why}\n  help: forms end in .pf"));
+        let why = format!("error: {name} does not end in .pf, and no form calls it: it is not changed");
+        return Err(format!("{why}\n  help: the names of forms end in .pf"));
     }
     for (name, text) in &mended.changed {
         output::write_whole(&file.place(name), text.as_bytes())?;
@@ -46,7 +46,7 @@ pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, 
     Ok(Linted { story, mended: mended.made.len(), ..Linted::new(mended.checked, mended.findings) })
 }
 
-/// All fixes, or the safe ones where nobody can see what the others do; and what is told of them.
+/// All fixes, or only the safe ones if the effect of the others can't be shown; and a text about them.
 fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Result<(Mended, String), String> {
     let unseen: Vec<&Diag> = all.made.iter().filter(|diag| diag.fix.as_ref().is_some_and(|fix| !fix.safe)).collect();
     if unseen.is_empty() {
@@ -60,7 +60,7 @@ fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Res
     let done = match (&new, args.fix) {
         (Err(_), _) => "not made",
         (_, true) => "made",
-        (_, false) => "that --fix --unsafe-fixes would make",
+        (_, false) => "(made by --fix --unsafe-fixes)",
     };
     let fixes = if unseen.len() == 1 { "1 unsafe fix".to_owned() } else { format!("{} unsafe fixes", unseen.len()) };
     let mut story = format!("{}: {} {done}:\n", original.files[0].name, fixes);
@@ -73,14 +73,16 @@ fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Res
         (Ok(old), Ok(new)) => {
             format!("the program of {job}:\n{}", escaped_lines(&unified(&old, new)))
         }
-        (Err(why), Ok(new)) => format!("{job} could not be printed ({why}); now it is\n{}", escaped_lines(new)),
-        (_, Err(why)) => format!("it is unknown what they change: {job} is not printed with them ({why})\n"),
+        (Err(why), Ok(new)) => {
+            format!("{job} could not be printed ({why}); after the fixes it prints\n{}", escaped_lines(new))
+        }
+        (_, Err(why)) => format!("the effect of these fixes is unknown: with them {job} can't be printed ({why})\n"),
     };
     story.push('\n');
     Ok((if new.is_ok() { all } else { safe }, story))
 }
 
-/// What changes in a program, as a unified diff with two lines around each change.
+/// The changes in a program, as a unified diff with two lines around each change.
 fn unified(old: &str, new: &str) -> String {
     let [old, new]: [Vec<&str>; 2] = [old, new].map(|text| text.lines().collect());
     let range = |range: Range<usize>| match range.len() {

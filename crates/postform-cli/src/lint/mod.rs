@@ -20,22 +20,22 @@ use super::report::{Reporter, count};
 use super::say::{message, say};
 use super::{Ending, output};
 
-/// What lint found in a form, and what was done about it.
+/// The findings of lint in a form, and the fixes that were applied.
 pub struct Linted {
-    /// Findings; without the form's text where there are none.
+    /// Findings; if there are none, without the form's text.
     findings: Findings,
-    /// What was done to the form's files, in words.
+    /// The changes of the form's files, in words.
     story: String,
-    /// How many fixes were made.
+    /// The number of applied fixes.
     mended: usize,
 }
 
-/// Every finding of every form, with --watch again when one of them is changed.
+/// Shows every finding of every form; with --watch, again whenever a form changes.
 pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     if args.watch { poll::repeat(|| inputs(args), || report(args, colour)) } else { report(args, colour) }
 }
 
-/// The forms, the folders in which others may appear, and what they call and follow.
+/// The files and folders to watch: the forms, folders in which others may appear, called forms, and postform.toml.
 fn inputs(args: &LintArgs) -> Vec<PathBuf> {
     let mut paths = args.forms.clone();
     for form in forms::named(&args.forms).unwrap_or_default() {
@@ -56,7 +56,7 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     };
     let files: Vec<_> = each(forms::named(&args.forms)?, |path| read(&path, args));
     let files = forms::wholes(files.into_iter().filter_map(|file| file.map_err(&mut said).ok()).collect());
-    // forms may share a file that they call: fixes are made one after the other
+    // forms may share a called file, so fixes are applied one form after the other
     let results: Vec<Result<Linted, String>> = match args.fix || args.unsafe_fixes {
         true => files.into_iter().map(|file| one(file, args)).collect(),
         false => each(files, |file| one(file, args)),
@@ -91,13 +91,13 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     })
 }
 
-/// The text of a form, with the limits that hold for it.
+/// The text of a form, with its limits.
 fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
     let limits = args.limits.map(LimitsArg::limits).or(Config::near(path)?.limits).unwrap_or_default();
     FormFile::read(path, limits)?.of_post(args.post.as_deref())
 }
 
-/// One form: fixed if that is asked for, and looked at.
+/// Fixes one form if requested, and checks it.
 fn one(file: FormFile, args: &LintArgs) -> Result<Linted, String> {
     let levels = Config::near(&file.path)?.levels;
     if args.fix || args.unsafe_fixes {
@@ -116,10 +116,10 @@ impl Linted {
     }
 }
 
-/// The last lines for people.
+/// The summary lines for people.
 fn summary(linted: &[Linted], unread: usize, args: &LintArgs) -> String {
     if linted.is_empty() {
-        return String::new(); // nothing was read, which was said
+        return String::new(); // no form was read, and the error has been reported
     }
     let all = [Severity::Error, Severity::Warning, Severity::Note].map(|severity| {
         let number = linted.iter().map(|form| form.findings.count(severity)).sum();
@@ -142,10 +142,10 @@ fn summary(linted: &[Linted], unread: usize, args: &LintArgs) -> String {
     let safe = fixes().filter(|fix| fix.safe).count();
     let others = fixes().count() - safe;
     if safe > 0 && !args.fix {
-        text += &format!("--fix can fix {safe} of them and changes no program\n");
+        text += &format!("--fix can fix {safe} of them without changing a program\n");
     }
     if others > 0 && !args.unsafe_fixes {
-        text += &format!("--unsafe-fixes shows what fixing {others} of them would change in a program\n");
+        text += &format!("--unsafe-fixes shows how the fixes of {others} of them would change a program\n");
     }
     text
 }

@@ -1,4 +1,4 @@
-//! What can be done about findings: fixes, with what unsafe ones do to the program; allowances; formats in order.
+//! Actions for findings: fixes, with the effect of unsafe ones on the program; allowances; ordering of formats.
 
 use std::collections::HashMap;
 
@@ -11,14 +11,14 @@ use super::convert::{diagnostic, range, span};
 use super::server::Server;
 use super::view::View;
 
-/// All that is safe, at once: what editors do when a form is saved.
+/// All safe fixes at once: editors apply them when a form is saved.
 const FIX_ALL: &str = "source.fixAll.postform";
-/// Letter formats in order.
+/// Puts the letter formats in order.
 const ORGANISE: &str = "source.organizeFormats";
 
-/// Programs that are printed for one answer: one before all fixes, one for each of the first.
+/// Maximum number of programs printed for one answer: one before all fixes, and one for each of the first fixes.
 const MOST_PROGRAMS: usize = 17;
-/// Actions of one answer: whoever selects a whole form has no list of thousands in mind.
+/// Maximum number of actions in one answer, for example if the whole form is selected.
 const MOST_ACTIONS: usize = 300;
 
 /// The kinds of actions.
@@ -26,7 +26,7 @@ pub fn kinds() -> Vec<lsp::CodeActionKind> {
     vec![lsp::CodeActionKind::QuickFix, FIX_ALL.to_owned().into(), ORGANISE.to_owned().into()]
 }
 
-/// What can be done in a range.
+/// The actions for a range.
 pub fn actions(server: &Server, params: &lsp::CodeActionParams) -> Vec<lsp::CodeActionResponse> {
     let Some(view) = server.view(&params.text_document.uri) else { return Vec::new() };
     let only = params.context.only.as_deref();
@@ -47,7 +47,7 @@ pub fn actions(server: &Server, params: &lsp::CodeActionParams) -> Vec<lsp::Code
         });
         found.extend(all.into_iter().take(MOST_ACTIONS).filter_map(|action| quick(server, &view, action)));
     }
-    // what fixes a whole form stands in no line: it is asked for by name
+    // actions for the whole form belong to no line: editors request them by kind
     if only.is_some() && asked(FIX_ALL) {
         found.extend(fix_all(server, &view));
     }
@@ -75,7 +75,7 @@ fn quick(server: &Server, view: &View, action: Action) -> Option<lsp::CodeAction
         let text = match &action.preview {
             Some(preview) if preview.blocks == 0 => "The program of the current job stays the same.".to_owned(),
             Some(preview) => format!("In the program of the current job:\n{}", preview.text),
-            None => "What this changes in the program is not known.".to_owned(),
+            None => "The effect on the program is unknown.".to_owned(),
         };
         edit = confirmed(edit, &action.title, text);
     }
@@ -89,7 +89,7 @@ fn quick(server: &Server, view: &View, action: Action) -> Option<lsp::CodeAction
     })
 }
 
-/// An edit that the editor shows before it is made.
+/// An edit that the editor shows for confirmation.
 fn confirmed(edit: lsp::WorkspaceEdit, label: &str, description: String) -> lsp::WorkspaceEdit {
     const ID: &str = "program";
     let changes = edit.changes.unwrap_or_default().into_iter().map(|(uri, edits)| {
@@ -114,7 +114,7 @@ fn confirmed(edit: lsp::WorkspaceEdit, label: &str, description: String) -> lsp:
     }
 }
 
-/// Edits of spans; a line that becomes empty goes with its end, as `lint --fix` has it.
+/// Edits of spans; an emptied line is removed with its line end, as in `lint --fix`.
 fn edit_of(server: &Server, view: &View, edits: &[(Span, String)]) -> lsp::WorkspaceEdit {
     super::convert::edit(edits.iter().filter_map(|(place, text)| {
         let source = view.document.files().get(place.file as usize)?;
@@ -130,7 +130,7 @@ fn edit_of(server: &Server, view: &View, edits: &[(Span, String)]) -> lsp::Works
     }))
 }
 
-/// All safe fixes, as `lint --fix` makes them.
+/// All safe fixes, as in `lint --fix`.
 fn fix_all(server: &Server, view: &View) -> Option<lsp::CodeAction> {
     let mended = mend(&view.config.levels, false, &mut |changed| view.analyse(changed));
     let files = view.document.files();
@@ -140,7 +140,7 @@ fn fix_all(server: &Server, view: &View) -> Option<lsp::CodeAction> {
     });
     let edits: Vec<(Span, String)> = edits.collect();
     (!edits.is_empty()).then(|| lsp::CodeAction {
-        title: "Mend all that can be fixed without changing a program".to_owned(),
+        title: "Fix all findings whose fixes do not change a program".to_owned(),
         kind: Some(FIX_ALL.to_owned().into()),
         edit: Some(edit_of(server, view, &edits)),
         ..lsp::CodeAction::default()

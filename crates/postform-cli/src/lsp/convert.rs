@@ -1,4 +1,4 @@
-//! Places, findings and edits as the protocol has them.
+//! Converts locations, findings and edits to and from the protocol.
 
 use std::collections::HashMap;
 
@@ -8,12 +8,12 @@ use postform::Span;
 use postform::diag::{Diag, Severity};
 use postform::internals::ide::utf16;
 
-/// A place.
+/// A position in the protocol.
 pub fn position(place: utf16::Place) -> lsp::Position {
     lsp::Position { line: place.line, character: place.character }
 }
 
-/// The byte of a place.
+/// The byte offset of a position.
 pub fn offset(source: &Source, position: lsp::Position) -> u32 {
     utf16::offset(source, utf16::Place { line: position.line, character: position.character })
 }
@@ -24,7 +24,7 @@ pub fn range(source: &Source, span: Span) -> lsp::Range {
     lsp::Range { start: position(start), end: position(end) }
 }
 
-/// A span of a text from a range of it.
+/// A span from a range of the protocol.
 pub fn span(source: &Source, file: u32, range: lsp::Range) -> Span {
     Span { file, start: offset(source, range.start), end: offset(source, range.end) }
 }
@@ -55,7 +55,7 @@ pub fn diagnostic(diag: &Diag, range: lsp::Range, source: &str) -> lsp::Diagnost
     }
 }
 
-/// A message that no code stands for.
+/// A message without a code.
 pub fn trouble(message: &str, range: lsp::Range) -> lsp::Diagnostic {
     lsp::Diagnostic {
         range,
@@ -71,7 +71,7 @@ pub fn markdown(text: String) -> lsp::MarkupContent {
     lsp::MarkupContent { kind: lsp::MarkupKind::Markdown, value: text }
 }
 
-/// Edits of files, each with the name of its file.
+/// Edits of files, each with the URI of its file.
 pub fn edit(edits: impl IntoIterator<Item = (lsp::Uri, lsp::TextEdit)>) -> lsp::WorkspaceEdit {
     let mut changes: HashMap<lsp::Uri, Vec<lsp::TextEdit>> = HashMap::new();
     for (uri, edit) in edits {

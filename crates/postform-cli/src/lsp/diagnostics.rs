@@ -1,4 +1,4 @@
-//! What is found in a text, as its editor shows it.
+//! The findings of a text, for the editor.
 
 use std::io::Cursor;
 
@@ -16,10 +16,10 @@ use super::view::View;
 use crate::config::Config;
 use crate::machine;
 
-/// Findings of one text that are sent.
+/// Maximum number of findings of one text that are sent.
 const MOST: usize = 1000;
 
-/// What is found in an open text.
+/// The findings of an open text.
 pub fn of(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let mut found = match text.kind {
         Kind::Form => server.view(&text.uri).map(|view| form(&view, server)).unwrap_or_default(),
@@ -31,14 +31,14 @@ pub fn of(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     found
 }
 
-/// A form: what lint says, with the levels of its folder.
+/// A form: the findings of lint, with the levels of its folder.
 fn form(view: &View, server: &Server) -> Vec<lsp::Diagnostic> {
     let mut found: Vec<lsp::Diagnostic> = view.trouble.iter().map(|message| trouble(message, line(0))).collect();
     for (index, diag) in view.document.findings().iter().enumerate() {
         let Some(label) = diag.labels.first() else { continue };
         let (span, place) = match label.span.file == view.file {
             true => (label.span, None),
-            // what is wrong in a file that is called is told where the call stands
+            // a finding in a called file is shown at the call
             false => match diag.labels.iter().find(|other| other.span.file == view.file) {
                 Some(other) => (other.span, Some(label.span)),
                 None if view.file == 0 => (call_of(view, label.span.file), Some(label.span)),
@@ -75,7 +75,7 @@ fn call_of(view: &View, file: u32) -> postform::Span {
     calls.find(of).map(|statement| statement.line.span).unwrap_or_default()
 }
 
-/// A program: what its control refuses and warns of.
+/// A program: the errors and warnings of its control.
 fn nc(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let (control, mut found) = match server.control_of(text) {
         Ok((control, _)) => (control, Vec::new()),
@@ -90,7 +90,7 @@ fn nc(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     found
 }
 
-/// Whether a program fits into the machine that the folder's postform.toml names.
+/// The findings of the machine in the folder's postform.toml: does the program fit into it?
 fn fits(text: &Text, control: &'static Control) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Some(file) = Config::near(path).ok().and_then(|config| config.machine) else { return Vec::new() };
@@ -115,7 +115,7 @@ fn at_location(diag: &Diag, source: &Source, by: &str) -> lsp::Diagnostic {
     diagnostic(diag, range(source, span), by)
 }
 
-/// A job that the folder's postform.toml names: what is wrong in it, and what its form can't print of it.
+/// A job in the folder's postform.toml: its errors, and the parts that its form can't print.
 fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Ok(config) = Config::near(path) else { return Vec::new() };
@@ -155,11 +155,11 @@ fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     diags.iter().map(in_job).collect()
 }
 
-/// postform.toml: what makes no sense in it.
+/// postform.toml: its errors.
 fn settings(text: &Text) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Err(message) = Config::from_text(path, &text.source.text) else { return Vec::new() };
-    // the reader of the file says `at line 3, column 5`
+    // the error contains `at line 3, column 5`
     let number = message.split("at line ").nth(1).and_then(|rest| rest.split(|c: char| !c.is_ascii_digit()).next());
     let number = number.and_then(|digits| digits.parse::<u32>().ok()).unwrap_or(1);
     vec![trouble(&message, line(number.saturating_sub(1)))]

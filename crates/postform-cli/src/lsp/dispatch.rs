@@ -1,4 +1,4 @@
-//! Which function serves a message.
+//! Assigns messages to functions.
 
 use gen_lsp_types as lsp;
 use lsp_server::ErrorCode;
@@ -8,17 +8,17 @@ use serde_json::Value;
 use super::server::{Client, Server, Settings};
 use super::{actions, convert, margin, places, programs, reading, structure, uri};
 
-/// Why a request has no answer.
+/// The reason why a request fails.
 #[derive(Debug)]
 pub struct Failure {
-    /// As the protocol counts.
+    /// The protocol's error code.
     pub code: ErrorCode,
-    /// For people.
+    /// The text for people.
     pub message: String,
 }
 
 impl Failure {
-    /// With these words.
+    /// A failure with this message.
     pub fn new(code: ErrorCode, message: impl Into<String>) -> Failure {
         Failure { code, message: message.into() }
     }
@@ -27,7 +27,7 @@ impl Failure {
 /// The parameters of a message.
 ///
 /// # Errors
-/// They are none of it.
+/// The parameters do not fit the message.
 pub fn parse<P: DeserializeOwned>(method: &str, params: Value) -> Result<P, Failure> {
     serde_json::from_value(params)
         .map_err(|error| Failure::new(ErrorCode::InvalidParams, format!("`{method}` can't be read: {error}")))
@@ -38,7 +38,7 @@ fn done(result: impl serde::Serialize) -> Result<Value, Failure> {
     serde_json::to_value(result).map_err(|error| Failure::new(ErrorCode::InternalError, error.to_string()))
 }
 
-/// `initialize`: what the editor can do, and what the server does.
+/// `initialize`: exchanges the capabilities of editor and server.
 pub fn initialize(server: &mut Server, params: Value) -> Result<Value, Failure> {
     let has = |path: &str| params.pointer(path).and_then(Value::as_bool) == Some(true);
     server.client = Client {
@@ -62,7 +62,7 @@ pub fn initialize(server: &mut Server, params: Value) -> Result<Value, Failure> 
     })
 }
 
-/// The settings of postform in what the editor says: by themselves, or under `postform`.
+/// The settings of postform in the editor's data: at the top, or under `postform`.
 fn settings(said: &Value) -> Option<Settings> {
     let own = said.get("postform").unwrap_or(said);
     serde_json::from_value(own.clone()).ok()
@@ -125,7 +125,7 @@ fn capabilities() -> lsp::ServerCapabilities {
     }
 }
 
-/// The files whose changes on the disk matter: forms, settings, jobs.
+/// The files to watch for changes on the disk: forms, settings, jobs.
 pub fn watched() -> Value {
     let globs = ["**/*.pf", "**/postform.toml", "**/*.{json,jsonl,cl,apt,aptsource,ncl,cls}"];
     let watchers = globs.map(|glob| serde_json::json!({ "globPattern": glob }));
@@ -134,12 +134,12 @@ pub fn watched() -> Value {
     serde_json::json!({ "registrations": [{ "id": "files", "method": method, "registerOptions": options }] })
 }
 
-/// A place in a text: the parameters of most requests, whatever else they say.
+/// A location in a text: part of the parameters of most requests.
 fn place(method: &str, params: Value) -> Result<lsp::TextDocumentPositionParams, Failure> {
     parse(method, params)
 }
 
-/// Only a text.
+/// The text in the parameters.
 fn text(method: &str, params: &Value) -> Result<lsp::Uri, Failure> {
     let document: lsp::TextDocumentIdentifier = parse(method, params["textDocument"].clone())?;
     Ok(document.uri)
@@ -194,11 +194,11 @@ pub fn request(server: &Server, method: &str, params: Value) -> Result<Value, Fa
         }
         "postform/jobs" => done(programs::jobs(server, &text(method, &params)?)),
         "postform/program" => done(programs::program(server, &parse(method, params)?)),
-        _ => Err(Failure::new(ErrorCode::MethodNotFound, format!("postform does not know `{method}`"))),
+        _ => Err(Failure::new(ErrorCode::MethodNotFound, format!("`{method}` is not supported"))),
     }
 }
 
-/// A notice of a running session; one that makes no sense changes nothing, and has no answer.
+/// A notification in a running session; an invalid one has no effect and no answer.
 pub fn notice(server: &mut Server, method: &str, params: Value) {
     match method {
         "textDocument/didOpen" => {
@@ -208,7 +208,7 @@ pub fn notice(server: &mut Server, method: &str, params: Value) {
             server.forget();
         }
         "textDocument/didChange" => {
-            // the last of several whole texts counts
+            // the last of several whole texts is used
             let Ok(id) = parse::<lsp::VersionedTextDocumentIdentifier>(method, params["textDocument"].clone()) else {
                 return;
             };
@@ -240,7 +240,7 @@ pub fn notice(server: &mut Server, method: &str, params: Value) {
     }
 }
 
-/// A text was closed: which one.
+/// The text that was closed.
 pub fn closed(server: &mut Server, params: Value) -> Option<lsp::Uri> {
     let params: lsp::DidCloseTextDocumentParams = parse("textDocument/didClose", params).ok()?;
     let uri = params.text_document.uri;

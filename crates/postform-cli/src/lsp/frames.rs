@@ -4,17 +4,17 @@ use std::io::{BufRead, Read, Write};
 
 use lsp_server::Message;
 
-/// Longest message: a longer one is a mistake, and must not be room that is asked for.
+/// Largest message: a longer one is an error, and no memory is allocated for it.
 const LARGEST: usize = 64 << 20;
 /// Longest line of a header.
 const LONGEST_HEADER: u64 = 4096;
 
-/// What came in.
+/// The result of a read.
 #[derive(Debug)]
 pub enum Frame {
     /// A message.
     Message(Message),
-    /// What is no message; the next one can be read all the same.
+    /// Invalid text; the next message can still be read.
     Malformed(String),
     /// The editor has closed the connection between two messages.
     Closed,
@@ -23,7 +23,7 @@ pub enum Frame {
 /// Reads a message.
 ///
 /// # Errors
-/// Why nothing more can be read: where the next message begins is not known.
+/// The reason why no further message can be read: its beginning is unknown.
 pub fn read(input: &mut impl BufRead) -> Result<Frame, String> {
     let mut length = None;
     let mut first = true;
@@ -42,17 +42,18 @@ pub fn read(input: &mut impl BufRead) -> Result<Frame, String> {
             break;
         }
         let Some((name, value)) = line.split_once(':') else {
-            return Err(format!("`{}` is no header: `Content-Length: 123` is", shown(line)));
+            return Err(format!("`{}` is not a header, as `Content-Length: 123`", shown(line)));
         };
         if name.eq_ignore_ascii_case("Content-Length") {
             let value = value.trim();
-            let number = value.parse::<usize>().map_err(|_| format!("`{}` is no length of a message", shown(value)))?;
+            let number =
+                value.parse::<usize>().map_err(|_| format!("`{}` is not the length of a message", shown(value)))?;
             length = Some(number);
         }
     }
     let length = length.ok_or("a message without Content-Length")?;
     if length > LARGEST {
-        return Err(format!("a message of {length} bytes: the longest has {} MB", LARGEST >> 20));
+        return Err(format!("a message of {length} bytes: the limit is {} MB", LARGEST >> 20));
     }
     let mut body = Vec::new();
     let got = input.by_ref().take(length as u64).read_to_end(&mut body).map_err(|error| error.to_string())?;
@@ -61,12 +62,12 @@ pub fn read(input: &mut impl BufRead) -> Result<Frame, String> {
     }
     Ok(match serde_json::from_slice(&body) {
         Ok(message) => Frame::Message(message),
-        Err(error) => Frame::Malformed(format!("this is no message of JSON-RPC: {error}")),
+        Err(error) => Frame::Malformed(format!("this is not a JSON-RPC message: {error}")),
     })
 }
 
 fn cut_off(what: &str) -> String {
-    format!("the connection was cut off inside {what}")
+    format!("the connection ended inside {what}")
 }
 
 fn shown(text: &str) -> String {
@@ -99,11 +100,11 @@ mod tests {
     #[test]
     fn what_is_no_message_is_said() {
         assert!(matches!(frame("Content-Length: 2\r\n\r\n[]"), Ok(Frame::Malformed(_))));
-        assert!(frame("Content-Length: 99\r\n\r\n{").unwrap_err().contains("cut off inside a message"));
-        assert!(frame("Content-Len").unwrap_err().contains("cut off inside a header"));
-        assert!(frame("Content-Length: 99999999999\r\n\r\n").unwrap_err().contains("the longest has 64 MB"));
-        assert!(frame("Content-Length: -1\r\n\r\n").unwrap_err().contains("no length"));
+        assert!(frame("Content-Length: 99\r\n\r\n{").unwrap_err().contains("ended inside a message"));
+        assert!(frame("Content-Len").unwrap_err().contains("ended inside a header"));
+        assert!(frame("Content-Length: 99999999999\r\n\r\n").unwrap_err().contains("the limit is 64 MB"));
+        assert!(frame("Content-Length: -1\r\n\r\n").unwrap_err().contains("not the length"));
         assert!(frame("\r\n").unwrap_err().contains("without Content-Length"));
-        assert!(frame("hello\r\n").unwrap_err().contains("no header"));
+        assert!(frame("hello\r\n").unwrap_err().contains("not a header"));
     }
 }

@@ -1,4 +1,4 @@
-//! What stands beside the text: hints after words, and the verdict of each job above the form.
+//! Texts in the margin: hints after words, and the verdict of each job above the form.
 
 use gen_lsp_types as lsp;
 use postform::internals::ide::program;
@@ -9,10 +9,10 @@ use super::server::Server;
 use super::texts::{Kind, Text};
 use super::view::View;
 
-/// Lines of a form over which hints are shown only when the settings say `on`.
+/// Forms with more lines show hints only with the setting `on`.
 const MOST_LINES: usize = 500;
 
-/// What the words in a range print in the current job.
+/// The text that the words in a range print in the current job.
 pub fn hints(server: &Server, view: &View, within: lsp::Range) -> Vec<lsp::InlayHint> {
     let source = view.source();
     let shown = match server.settings.inlay_hints.as_deref() {
@@ -26,7 +26,7 @@ pub fn hints(server: &Server, view: &View, within: lsp::Range) -> Vec<lsp::Inlay
         let repeats = hint.text.is_empty();
         let label = if repeats { "→ ·".to_owned() } else { format!("→ {}", hint.text) };
         let tooltip = match repeats {
-            true => format!("left out in {}: the control holds it already", current.name),
+            true => format!("not printed again in {}: modal in the control", current.name),
             false => format!("the first block of this line in {}", current.name),
         };
         lsp::InlayHint {
@@ -46,7 +46,7 @@ pub fn hints(server: &Server, view: &View, within: lsp::Range) -> Vec<lsp::Inlay
 /// The command that opens a program.
 pub const OPEN_PROGRAM: &str = "postform.openProgram";
 
-/// A verdict for each job above a form; above a program, by which control it was run.
+/// Above a form, a verdict for each job; above a program, the control by which it was run.
 pub fn lenses(server: &Server, uri: &lsp::Uri) -> Vec<lsp::CodeLens> {
     let Some(text) = server.texts.get(uri) else { return Vec::new() };
     match text.kind {
@@ -75,7 +75,7 @@ fn of_form(view: &View, uri: &lsp::Uri) -> Vec<lsp::CodeLens> {
     let jobs = view.jobs.iter().enumerate().map(|(index, job)| match (&job.bytes, view.printed(index)) {
         (Err(why), _) => lens(format!("{}: {}", job.name, why.trim_start_matches("error: ")), index),
         (Ok(_), Some(current)) => lens(format!("{}: {}", job.name, current.outcome()), index),
-        (Ok(_), None) => lens(format!("{}: can't tell what kind of job it is", job.name), index),
+        (Ok(_), None) => lens(format!("{}: the format of the job is unknown", job.name), index),
     });
     let jobs: Vec<_> = jobs.collect();
     match (jobs.is_empty(), view.printed(jobs.len())) {
@@ -98,7 +98,7 @@ fn of_program(server: &Server, text: &Text) -> lsp::CodeLens {
             let end = match (checked.refused, checked.cut) {
                 (1, _) => "refuses 1 block".to_owned(),
                 (2.., _) => format!("refuses {} blocks", checked.refused),
-                (0, true) => format!("runs {blocks}, and more that were not looked at"),
+                (0, true) => format!("runs {blocks}; the rest was not checked"),
                 (0, false) => format!("runs {blocks}"),
             };
             format!("{} ({who}) {end}", control.name())

@@ -1,7 +1,7 @@
 //! `postform lsp`: a language server for forms and programs, over standard input and output.
 //!
-//! One thread reads messages, one answers them in their order. Findings of changed texts are sent when no message waits: who
-//! types fast is answered about the last key.
+//! One thread reads messages, another answers them in their order. Findings of changed texts are sent when no message waits, so
+//! that fast typing does not delay the answers.
 
 mod actions;
 mod convert;
@@ -34,25 +34,25 @@ use dispatch::Failure;
 use frames::Frame;
 use server::{Client, Server};
 
-/// Messages that wait to be answered; more wait in the pipe.
+/// Number of messages that wait in memory; further messages wait in the pipe.
 const WAITING: usize = 256;
 
-/// How a session goes on.
+/// The step after a message.
 enum Next {
-    /// The next message.
+    /// Continue with the next message.
     Go,
-    /// The editor said `exit`.
+    /// The editor sent `exit`.
     Exit,
 }
 
-/// Serves one editor until it says `exit`, or is gone.
+/// Serves one editor until it sends `exit` or ends the connection.
 ///
 /// # Errors
-/// A message: nobody is at the other end, or what comes in is no language server protocol.
+/// A message: there is no editor at the other end, or the input does not follow the language server protocol.
 pub fn run(_: &LspArgs) -> Result<Ending, String> {
     if io::stdin().is_terminal() {
         return Err(
-            "error: editors start `postform lsp`, and talk to it over standard input\n  help: docs/editors.md says how"
+            "error: `postform lsp` is started by an editor, which uses standard input\n  help: see docs/editors.md"
                 .into(),
         );
     }
@@ -72,14 +72,14 @@ pub fn run(_: &LspArgs) -> Result<Ending, String> {
     let mut session = Session { server: Server::default(), state: State::New, next_id: 1 };
     match session.serve(&frames) {
         Ok(ending) => Ok(ending),
-        // whoever no longer listens is gone
+        // the editor has closed the pipe
         Err(Stop::Out(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Ending::Findings),
         Err(Stop::Out(error)) => Err(format!("error: can't write standard output: {error}")),
         Err(Stop::In(why)) => Err(format!("error: {why}")),
     }
 }
 
-/// Where the session stands.
+/// The state of the session.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     /// Before `initialize`.
@@ -90,7 +90,7 @@ enum State {
     Over,
 }
 
-/// Why it ends before its time.
+/// The reason for an early end.
 enum Stop {
     Out(io::Error),
     In(String),
@@ -139,13 +139,13 @@ impl Session {
                         return Ok(self.ending());
                     }
                 }
-                // answers of the editor: it showed a program, or asked for hints again
+                // answers of the editor to the server's requests
                 Frame::Message(Message::Response(_)) => {}
             }
         }
     }
 
-    /// `exit` without `shutdown` is an error, says the protocol.
+    /// By the protocol, `exit` without `shutdown` is an error.
     fn ending(&self) -> Ending {
         if self.state == State::Over { Ending::Clean } else { Ending::Findings }
     }
@@ -161,13 +161,17 @@ impl Session {
                 self.state = State::Running;
                 dispatch::initialize(&mut self.server, params)
             }
-            (State::New, _) => Err(Failure::new(ErrorCode::ServerNotInitialized, "`initialize` comes first")),
-            (State::Over, _) => Err(Failure::new(ErrorCode::InvalidRequest, "after `shutdown` comes `exit`")),
+            (State::New, _) => {
+                Err(Failure::new(ErrorCode::ServerNotInitialized, "the first request must be `initialize`"))
+            }
+            (State::Over, _) => Err(Failure::new(ErrorCode::InvalidRequest, "only `exit` may follow `shutdown`")),
             (State::Running, "shutdown") => {
                 self.state = State::Over;
                 Ok(Value::Null)
             }
-            (State::Running, "initialize") => Err(Failure::new(ErrorCode::InvalidRequest, "`initialize` comes once")),
+            (State::Running, "initialize") => {
+                Err(Failure::new(ErrorCode::InvalidRequest, "`initialize` may be sent only once"))
+            }
             (State::Running, "workspace/executeCommand") => self.command(params),
             (State::Running, _) => dispatch::request(&self.server, &method, params),
         };
@@ -197,7 +201,7 @@ impl Session {
         Ok(Next::Go)
     }
 
-    /// The findings of all texts that changed.
+    /// Sends the findings of all changed texts.
     fn publish(&mut self) -> io::Result<()> {
         if self.server.stale.is_empty() {
             return Ok(());
@@ -224,25 +228,25 @@ impl Session {
         self.write(&json!({ "jsonrpc": "2.0", "method": "textDocument/publishDiagnostics", "params": params }))
     }
 
-    /// Asks the editor for something; its answer changes nothing.
+    /// Sends a request to the editor; its answer is ignored.
     fn ask(&mut self, method: &str, params: Value) -> io::Result<()> {
         let id = format!("postform-{}", self.next_id);
         self.next_id += 1;
         self.write(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }))
     }
 
-    /// `postform.openProgram`: the editor is asked to show the program of a form.
+    /// `postform.openProgram`: requests the editor to show the program of a form.
     fn command(&mut self, params: Value) -> Result<Value, Failure> {
         let params: lsp::ExecuteCommandParams = dispatch::parse("workspace/executeCommand", params)?;
         if params.command != margin::OPEN_PROGRAM {
-            let message = format!("there is no command `{}`: {} is one", params.command, margin::OPEN_PROGRAM);
+            let message = format!("there is no command `{}`: the command is {}", params.command, margin::OPEN_PROGRAM);
             return Err(Failure::new(ErrorCode::InvalidParams, message));
         }
         let mut arguments = params.arguments.unwrap_or_default().into_iter();
         let uri = arguments.next().and_then(|uri| uri.as_str().map(lsp::Uri::from));
         let job = arguments.next().and_then(|job| job.as_u64()).unwrap_or(0) as usize;
         let uri =
-            uri.ok_or_else(|| Failure::new(ErrorCode::InvalidParams, "its first argument is the name of a form"))?;
+            uri.ok_or_else(|| Failure::new(ErrorCode::InvalidParams, "the first argument must be the name of a form"))?;
         let opened = programs::opened(&self.server, &uri, job);
         let opened = opened.ok_or_else(|| Failure::new(ErrorCode::RequestFailed, "the form prints no program"))?;
         if self.server.client.shows {

@@ -1,4 +1,4 @@
-//! Where else a thing stands, and other names for it.
+//! Other locations of a name, and renaming.
 
 use gen_lsp_types as lsp;
 use postform::Span;
@@ -11,12 +11,12 @@ use super::view::View;
 
 fn location(server: &Server, view: &View, span: Span) -> Option<lsp::Location> {
     let source = view.document.files().get(span.file as usize)?;
-    // a form that was never saved has no file, and is the one that is open
+    // a form that was never saved has no file; it is the open one
     let uri = view.uri(span.file, &server.texts)?;
     Some(lsp::Location { uri, range: range(source, span) })
 }
 
-/// All places of the thing that stands there.
+/// All locations of the name at a position.
 pub fn references(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::Location> {
     let Some(view) = server.view(&at.text_document.uri) else { return Vec::new() };
     let place = offset(view.source(), at.position);
@@ -24,7 +24,7 @@ pub fn references(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     spans.into_iter().filter_map(|span| location(server, &view, span)).collect()
 }
 
-/// The same name at all its places within the open text.
+/// All locations of the name within the open text.
 pub fn highlights(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::DocumentHighlight> {
     let Some(view) = server.view(&at.text_document.uri) else { return Vec::new() };
     let place = offset(view.source(), at.position);
@@ -32,8 +32,9 @@ pub fn highlights(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     spans.map(|span| lsp::DocumentHighlight { range: range(view.source(), span), kind: None }).collect()
 }
 
-/// Where the thing is said: a called file, the sequence Cancel, the question of a variable, the format of a letter. A block of a
-/// program is said by a line of its form; a line of a form that says nothing else leads to the blocks that it printed.
+/// The definition of the name at a position: a called file, the sequence Cancel, the prompt of a variable, the format of a
+/// letter. The definition of a program block is its form line. A form line without a definition leads to the blocks that it
+/// printed.
 pub fn definition(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::Location> {
     let uri = &at.text_document.uri;
     let Some(text) = server.texts.get(uri) else { return Vec::new() };
@@ -54,7 +55,7 @@ pub fn definition(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     }
 }
 
-/// The blocks that a line of a form printed; the item of the job that a block makes.
+/// The blocks that a form line printed, or the job item of a block.
 pub fn implementation(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::Location> {
     let uri = &at.text_document.uri;
     let Some(text) = server.texts.get(uri) else { return Vec::new() };
@@ -67,7 +68,7 @@ pub fn implementation(server: &Server, at: &lsp::TextDocumentPositionParams) -> 
     }
 }
 
-/// The file that the line of a place calls.
+/// The file that the line at a location calls.
 fn called(view: &View, place: u32) -> Option<u32> {
     let tree = view.document.checked().trees.get(view.file as usize)?;
     let on_line = |statement: &&postform::internals::syntax::Statement| {
@@ -82,7 +83,7 @@ fn called(view: &View, place: u32) -> Option<u32> {
         .map(|file| file as u32)
 }
 
-/// The name that may become another one.
+/// The name at a position, if it can be renamed.
 pub fn renameable(
     server: &Server,
     at: &lsp::TextDocumentPositionParams,
@@ -94,7 +95,7 @@ pub fn renameable(
     Ok(Some(lsp::PrepareRenameResult::PrepareRenamePlaceholder(lsp::PrepareRenamePlaceholder { range, placeholder })))
 }
 
-/// The edits of another name.
+/// The edits for a renaming.
 pub fn rename(
     server: &Server,
     at: &lsp::TextDocumentPositionParams,

@@ -1,4 +1,4 @@
-//! Printed programs as files that the editor can open, and the way between a block and its line of the form.
+//! Printed programs as files for the editor, and links between a block and its form line.
 
 use std::collections::HashMap;
 use std::fs;
@@ -16,7 +16,7 @@ use super::uri;
 use super::view::View;
 use crate::config::Config;
 
-/// Where programs are written: a folder of this server, which goes with it.
+/// The folder in which this server writes programs; it is deleted with the server.
 #[derive(Debug, Default)]
 pub struct Programs {
     folder: Option<TempDir>,
@@ -25,7 +25,7 @@ pub struct Programs {
 }
 
 impl Programs {
-    /// Writes a program, unless it is there as it is.
+    /// Writes a program, unless the same file exists.
     fn write(&mut self, form: &lsp::Uri, job: usize, current: &Current) -> Option<PathBuf> {
         if self.folder.is_none() {
             self.folder = tempfile::Builder::new().prefix("postform-").tempdir().ok();
@@ -43,10 +43,10 @@ impl Programs {
     }
 }
 
-/// The scheme of programs that are in no file.
+/// The URI scheme of programs without a file.
 const SCHEME: &str = "postform-program:";
 
-/// The form and the job of a program that this server printed: one that it wrote, or one that an extension shows.
+/// The form and the job of a program that this server printed: written to a file, or shown by an extension.
 pub fn form_of(server: &Server, text: &Text) -> Option<(lsp::Uri, usize)> {
     if let Some(path) = &text.path {
         return server.programs.borrow().written.get(path).cloned();
@@ -56,20 +56,20 @@ pub fn form_of(server: &Server, text: &Text) -> Option<(lsp::Uri, usize)> {
     Some((server.texts.of_path(&form)?.uri.clone(), job.parse().ok()?))
 }
 
-/// `postform/program`: which program.
+/// Parameters of `postform/program`.
 #[derive(Debug, Deserialize)]
 pub struct ProgramParams {
     /// The form.
     uri: lsp::Uri,
-    /// Which of its jobs, from 0; else the current one.
+    /// Its job, counted from 0; the default is the current job.
     #[serde(default)]
     job: Option<usize>,
-    /// The text of the form, where it is not the open one: what the committed one printed.
+    /// A text of the form in place of the open one, such as the committed text.
     #[serde(default)]
     text: Option<String>,
 }
 
-/// A program, as the editor's extension shows it.
+/// A program for the editor's extension.
 #[derive(Debug, Serialize)]
 pub struct ProgramAnswer {
     name: String,
@@ -94,12 +94,12 @@ fn answer(current: &Current) -> Option<ProgramAnswer> {
     Some(ProgramAnswer { name: current.name.clone(), text: current.text().to_owned(), outcome: current.outcome() })
 }
 
-/// `postform/jobs`: the files of the jobs that a form prints, the current one first; none for the built-in one.
+/// `postform/jobs`: the files of the jobs that a form prints, the current one first; empty for the built-in job.
 pub fn jobs(server: &Server, form: &lsp::Uri) -> Vec<lsp::Uri> {
     server.view(form).map(|view| view.jobs.iter().map(|job| uri::of_path(&job.path)).collect()).unwrap_or_default()
 }
 
-/// The name of the current program of a form, as the editor opens it; lines count from 1.
+/// The URI of the current program of a form.
 fn name_of(server: &Server, form: &lsp::Uri, job: usize, current: &Current) -> Option<lsp::Uri> {
     if server.client.virtual_programs {
         let path = uri::path(form)?;
@@ -109,12 +109,12 @@ fn name_of(server: &Server, form: &lsp::Uri, job: usize, current: &Current) -> O
     Some(uri::of_path(&server.programs.borrow_mut().write(form, job, current)?))
 }
 
-/// Which job of a form is its current one.
+/// The number of the current job of a form.
 fn current_job(view: &View) -> Option<(usize, &Current)> {
     (0..=view.jobs.len()).find_map(|job| Some((job, view.printed(job)?)))
 }
 
-/// Blocks that are gone to at most: a list of thousands helps nobody.
+/// Maximum number of blocks in a list of targets: a longer list is of no use.
 const MOST_BLOCKS: usize = 200;
 
 /// The blocks that a line of a form printed.
@@ -131,13 +131,13 @@ pub fn blocks(server: &Server, form: &lsp::Uri, offset: u32) -> Vec<lsp::Locatio
     printed.first.iter().map(at).collect()
 }
 
-/// Where a program opens that `postform.openProgram` asks for.
+/// The URI of the program for `postform.openProgram`.
 pub fn opened(server: &Server, form: &lsp::Uri, job: usize) -> Option<lsp::Uri> {
     let view = server.view(form)?;
     name_of(server, form, job, view.printed(job)?)
 }
 
-/// Where a block of a program came from: the line of the form, and the item of the job.
+/// The origin of a block: the form line and the job item.
 pub struct Origin {
     /// The line of the form.
     pub form: Option<lsp::Location>,
@@ -145,7 +145,7 @@ pub struct Origin {
     pub item: Option<lsp::Location>,
 }
 
-/// Where a block of an open program came from, if a form of its folder prints just this program.
+/// The origin of a block of an open program, if a form of its folder prints exactly this program.
 pub fn origin(server: &Server, text: &Text, number: u32) -> Option<Origin> {
     let (view, job) = match form_of(server, text) {
         Some((form, job)) => (server.view(&form)?, job),
@@ -171,7 +171,7 @@ pub fn origin(server: &Server, text: &Text, number: u32) -> Option<Origin> {
     Some(Origin { form, item })
 }
 
-/// Are two programs the same, whatever their line ends?
+/// Are two programs equal, apart from their line ends?
 fn same_lines(one: &str, other: &str) -> bool {
     one.lines().eq(other.lines())
 }

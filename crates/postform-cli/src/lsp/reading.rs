@@ -1,4 +1,4 @@
-//! What is told while somebody reads and types: hover, completion, the word of a command.
+//! Help during reading and typing: hover, completion, signatures of commands.
 
 use gen_lsp_types as lsp;
 use postform::internals::ide::{Completion, CompletionKind, about, program};
@@ -8,7 +8,7 @@ use super::convert::{markdown, offset, range};
 use super::server::Server;
 use super::texts::{Kind, Text};
 
-/// What is known of the thing under the pointer.
+/// The help for the word under the pointer.
 pub fn hover(server: &Server, at: &lsp::TextDocumentPositionParams) -> Option<lsp::Hover> {
     let text = server.texts.get(&at.text_document.uri)?;
     let place = offset(&text.source, at.position);
@@ -24,14 +24,14 @@ pub fn hover(server: &Server, at: &lsp::TextDocumentPositionParams) -> Option<ls
     Some(lsp::Hover { contents: lsp::Contents::MarkupContent(markdown(hover.text)), range: Some(range) })
 }
 
-/// What could stand here.
+/// The possible words at a location.
 pub fn completion(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::CompletionItem> {
     let Some(text) = server.texts.get(&at.text_document.uri) else { return Vec::new() };
     let place = offset(&text.source, at.position);
     let list = match text.kind {
         Kind::Form => {
             let Some(view) = server.view(&text.uri) else { return Vec::new() };
-            // a form with a half-typed word prints nothing: the values are those of the last time it did
+            // a form with an incomplete word prints nothing: the values are those of its last program
             let last = server.last_view(&text.uri);
             view.document.complete(view.file, place, view.current().or(last.as_ref().and_then(|view| view.current())))
         }
@@ -45,7 +45,7 @@ pub fn completion(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     list.into_iter().enumerate().map(|(i, item)| shown(item, i, width, text, server)).collect()
 }
 
-/// A completion that somebody looks at: with what is known of it.
+/// A completion with its documentation, once the user selects it.
 pub fn resolved(server: &Server, mut item: lsp::CompletionItem) -> lsp::CompletionItem {
     let known = || {
         let data = item.data.as_ref()?;
@@ -77,9 +77,9 @@ fn shown(item: Completion, index: usize, width: usize, text: &Text, server: &Ser
             CompletionKind::Finding => lsp::CompletionItemKind::Event,
         }),
         detail: Some(item.detail).filter(|detail| !detail.is_empty()),
-        // what is known of it is asked for when somebody looks at it
+        // the documentation is computed only when the user selects the item
         data: CompletionKind::ALL.iter().position(|kind| *kind == item.kind).map(|kind| json!([kind, uri])),
-        // in the order of the tables, which is that of manuals
+        // in the order of the tables, which is the order of the manuals
         sort_text: Some(format!("{index:0width$}")),
         filter_text: Some(item.label.clone()),
         label: item.label,
@@ -89,7 +89,7 @@ fn shown(item: Completion, index: usize, width: usize, text: &Text, server: &Ser
     }
 }
 
-/// Which word of a command is meant.
+/// The current argument of a command.
 pub fn signature(server: &Server, at: &lsp::TextDocumentPositionParams) -> Option<lsp::SignatureHelp> {
     let view = server.view(&at.text_document.uri)?;
     let signature = view.document.signature(view.file, offset(view.source(), at.position))?;

@@ -1,4 +1,4 @@
-//! What the server knows: the open texts, what was found out about them, and what the editor can do.
+//! The state of the server: the open texts, the results for them, and the editor's capabilities.
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
@@ -16,20 +16,20 @@ use super::view::{View, root_of};
 use crate::config::Config;
 use crate::files;
 
-/// What the editor's settings may say, under `postform`.
+/// The editor's settings under `postform`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub struct Settings {
-    /// The control of programs that name none, where no postform.toml does: a name, or a file.
+    /// The control of programs that name none, if no postform.toml does: a name or a file.
     pub control: Option<String>,
-    /// The current job of forms, before those of postform.toml: a path.
+    /// The current job of forms, ranked before those of postform.toml: a path.
     pub job: Option<PathBuf>,
     /// Hints after words: `on`, `off`, or `auto`, which is off in files over 500 lines.
     pub inlay_hints: Option<String>,
 }
 
 impl Settings {
-    /// What is said again; what is not said stays.
+    /// Takes over the values that are set; the others stay.
     pub fn take(&mut self, said: Settings) {
         self.control = said.control.or(self.control.take());
         self.job = said.job.or(self.job.take());
@@ -37,26 +37,26 @@ impl Settings {
     }
 }
 
-/// What the editor can do.
+/// The capabilities of the editor.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Client {
-    /// Completions may have places to fill in.
+    /// Completions may contain placeholders.
     pub snippets: bool,
-    /// Edits may be looked at before they are made.
+    /// Edits may be shown for confirmation.
     pub annotations: bool,
-    /// The editor opens a file that it is asked to show.
+    /// The editor can open a file on request.
     pub shows: bool,
-    /// The editor asks for programs by `postform/program` itself, and needs no files of them.
+    /// The editor requests programs with `postform/program` and needs no files.
     pub virtual_programs: bool,
-    /// The editor tells of files that change on the disk, when it is asked to.
+    /// The editor can report changes of files on the disk.
     pub watches: bool,
-    /// The editor asks for hints again when it is told to.
+    /// The editor can refresh its hints on request.
     pub refreshes_hints: bool,
-    /// The editor asks for lenses again when it is told to.
+    /// The editor can refresh its lenses on request.
     pub refreshes_lenses: bool,
 }
 
-/// Everything between two messages.
+/// The state between two messages.
 #[derive(Default)]
 pub struct Server {
     pub texts: Texts,
@@ -66,30 +66,30 @@ pub struct Server {
     pub folders: Vec<PathBuf>,
     /// Texts whose findings must be sent.
     pub stale: BTreeSet<String>,
-    /// Something changed beside the form that is looked at: its hints and lenses may be others.
+    /// A change outside the viewed form: its hints and lenses may have changed.
     pub beside: bool,
-    /// Programs that were written for the editor to open.
+    /// Programs that were written as files for the editor.
     pub programs: RefCell<Programs>,
     views: RefCell<HashMap<String, Rc<View>>>,
-    /// What was found out when a form printed last: while a word is half typed it prints nothing.
+    /// The results from the last time that a form printed a program; a form with an incomplete word prints none.
     last: RefCell<HashMap<String, Rc<View>>>,
     roots: RefCell<HashMap<PathBuf, PathBuf>>,
 }
 
 impl Server {
-    /// A text changed: what was found out about forms may be wrong, because it may be one, a part of one, or its job.
+    /// A text changed: results for forms are dropped, because the text may be a form, a called form, or a job.
     pub fn changed(&mut self, uri: &lsp::Uri) {
         let kind = self.texts.get(uri).map(|text| text.kind);
         let views = std::mem::take(self.views.get_mut());
         self.last.get_mut().extend(views.into_iter().filter(|(_, view)| view.document.post().is_some()));
-        // a form may be called by others and print jobs; a program is read by itself
+        // a form may be called by others and print jobs; a program is checked on its own
         let touched = |text: &&Text| kind == Some(Kind::Form) && matches!(text.kind, Kind::Form | Kind::Other);
         self.stale.extend(self.texts.all().filter(touched).map(|text| text.uri.as_ref().to_owned()));
         self.stale.insert(uri.as_ref().to_owned());
         self.beside |= kind != Some(Kind::Form);
     }
 
-    /// Texts came or went, files changed on the disk, settings are others: nothing that was found out holds.
+    /// Texts were opened or closed, files or settings changed: all results are dropped.
     pub fn forget(&mut self) {
         self.roots.get_mut().clear();
         self.views.get_mut().clear();
@@ -97,7 +97,7 @@ impl Server {
         self.beside = true;
     }
 
-    /// An open form, looked at.
+    /// The results for an open form.
     pub fn view(&self, uri: &lsp::Uri) -> Option<Rc<View>> {
         let text = self.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
         if let Some(view) = self.views.borrow().get(uri.as_ref()) {
@@ -109,12 +109,12 @@ impl Server {
         Some(view)
     }
 
-    /// The form as it was when it printed last.
+    /// The results for the form from the last time that it printed a program.
     pub fn last_view(&self, uri: &lsp::Uri) -> Option<Rc<View>> {
         self.last.borrow().get(uri.as_ref()).cloned()
     }
 
-    /// A form by its file, whether it is open or not.
+    /// The results for a form by its file, open or not.
     pub fn view_of_form(&self, path: &Path) -> Option<Rc<View>> {
         let path = std::path::absolute(path).ok()?;
         if let Some(open) = self.texts.of_path(&path) {
@@ -137,16 +137,17 @@ impl Server {
         })
     }
 
-    /// The job that the settings name, from the first open folder.
+    /// The job in the settings, relative to the first open folder.
     fn job(&self) -> Option<PathBuf> {
         let job = self.settings.job.as_ref().filter(|job| !job.as_os_str().is_empty())?;
         Some(self.folders.first().map_or_else(|| job.clone(), |folder| folder.join(job)))
     }
 
-    /// The control of a program, and who named it: a comment of its own, its form, postform.toml, the editor's settings, nobody.
+    /// The control of a program, and its source: a comment in the program, its form, postform.toml, the editor's settings, or
+    /// the default.
     ///
     /// # Errors
-    /// A message: there is no such control, or its file can't be read.
+    /// A message: the control does not exist, or its file can't be read.
     pub fn control_of(&self, text: &Text) -> Result<(&'static Control, &'static str), String> {
         let folder = text.path.as_deref().map(files::folder).unwrap_or(Path::new("."));
         if let Some(name) = program::named_control(&text.source.text) {
@@ -165,7 +166,7 @@ impl Server {
             Some(name) => {
                 Ok((self.named(name, self.folders.first().map_or(folder, PathBuf::as_path))?, "of the settings"))
             }
-            None => Ok((Control::usual(), "none was named")),
+            None => Ok((Control::usual(), "default: no control is named")),
         }
     }
 

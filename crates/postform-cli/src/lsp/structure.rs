@@ -1,4 +1,4 @@
-//! The shape of a form: outline, folding, colours, layout.
+//! The structure of a form: outline, folding, colours, layout.
 
 use gen_lsp_types as lsp;
 use postform::Span;
@@ -37,12 +37,12 @@ fn kind(kind: SymbolKind) -> lsp::SymbolKind {
     }
 }
 
-/// Forms of the open folders that are looked at for their parts.
+/// Maximum number of forms in the open folders that are searched for their parts.
 const MOST_FORMS: usize = 500;
-/// Parts that are listed at most.
+/// Maximum number of parts in a list.
 const MOST_SYMBOLS: usize = 2000;
 
-/// The parts of all forms in the open folders whose name holds this text, whatever its case.
+/// The parts of all forms in the open folders whose name contains this text, in any case.
 pub fn everywhere(server: &Server, asked: &str) -> Vec<lsp::WorkspaceSymbol> {
     let asked = asked.to_ascii_lowercase();
     let mut paths = forms::named(&server.folders).unwrap_or_default();
@@ -81,7 +81,7 @@ pub fn everywhere(server: &Server, asked: &str) -> Vec<lsp::WorkspaceSymbol> {
     found
 }
 
-/// What can be folded away.
+/// The ranges that can be folded.
 pub fn folding(view: &View) -> Vec<lsp::FoldingRange> {
     let folds = view.document.folding(view.file).into_iter();
     folds
@@ -94,7 +94,7 @@ pub fn folding(view: &View) -> Vec<lsp::FoldingRange> {
         .collect()
 }
 
-/// What editors colour, by the protocol's names.
+/// The kinds of tokens for colouring, by the protocol's names.
 pub const TOKEN_TYPES: [&str; 9] =
     ["keyword", "parameter", "type", "function", "variable", "macro", "number", "string", "comment"];
 
@@ -112,7 +112,7 @@ fn token_type(kind: TokenKind) -> &'static str {
     }
 }
 
-/// What is lost after two blanks is marked as such.
+/// Marks words that are ignored after two spaces.
 pub const TOKEN_MODIFIERS: [&str; 1] = ["deprecated"];
 
 /// The words of a form with their kinds.
@@ -142,7 +142,7 @@ pub fn tokens(view: &View, within: Option<Span>) -> lsp::SemanticTokens {
     lsp::SemanticTokens { result_id: None, data }
 }
 
-/// The canonical layout, as one edit; none where the form is laid out so.
+/// The canonical layout as one edit; none if the form already has this layout.
 pub fn format(server: &Server, uri: &lsp::Uri) -> Option<Vec<lsp::TextEdit>> {
     let text = server.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
     let laid_out = postform::internals::fmt::format(&text.source);

@@ -1,4 +1,4 @@
-//! The texts that are open in the editor: they stand for those of the disk.
+//! The texts that are open in the editor; they are used in place of the files on the disk.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use postform::Source;
 use super::uri;
 use crate::files;
 
-/// What a file is, by its name or by what the editor says.
+/// The kind of a file, by its name or by the editor's language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A form.
@@ -22,22 +22,22 @@ pub enum Kind {
     Other,
 }
 
-/// A text that is open.
+/// An open text.
 #[derive(Debug)]
 pub struct Text {
-    /// As the editor names it.
+    /// The URI in the editor.
     pub uri: Uri,
-    /// The file of the text, where it has one.
+    /// Its file, if there is one.
     pub path: Option<PathBuf>,
-    /// How often it was changed, as the editor counts.
+    /// Its version number in the editor.
     pub version: i32,
-    /// What the text is.
+    /// The kind of the text.
     pub kind: Kind,
     /// The text.
     pub source: Source,
 }
 
-/// All that are open, by their names.
+/// All open texts, by their URIs.
 #[derive(Debug, Default)]
 pub struct Texts(BTreeMap<String, Text>);
 
@@ -59,12 +59,12 @@ impl Texts {
         true
     }
 
-    /// A text was closed: that of the disk counts again.
+    /// A text was closed: from now on the file on the disk is used.
     pub fn close(&mut self, uri: &Uri) {
         self.0.remove(uri.as_ref());
     }
 
-    /// A text by its name.
+    /// A text by its URI.
     pub fn get(&self, uri: &Uri) -> Option<&Text> {
         self.0.get(uri.as_ref())
     }
@@ -80,7 +80,7 @@ impl Texts {
     }
 }
 
-/// What a file is: what the editor says counts before its name.
+/// The kind of a file: the editor's language ranks before the file name.
 fn kind(path: &Path, language: &str) -> Kind {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     let extension = extension.as_deref().unwrap_or("");

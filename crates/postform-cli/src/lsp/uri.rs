@@ -1,10 +1,10 @@
-//! Names of files as editors give them: `file:///home/ann/my%20post.pf`.
+//! File URIs as editors send them: `file:///home/ann/my%20post.pf`.
 
 use std::path::{Path, PathBuf};
 
 use gen_lsp_types::Uri;
 
-/// The file of a name; `None`: it is no file of this machine, as `untitled:Untitled-1`.
+/// The file of a URI; `None`: it is no file of this machine, such as `untitled:Untitled-1`.
 pub fn path(uri: &Uri) -> Option<PathBuf> {
     let rest = uri.as_ref().strip_prefix("file://")?;
     let rest = rest.strip_prefix("localhost").unwrap_or(rest);
@@ -15,7 +15,7 @@ pub fn path(uri: &Uri) -> Option<PathBuf> {
     Some(of_bytes(bytes))
 }
 
-/// The name of a file.
+/// The URI of a file.
 pub fn of_path(path: &Path) -> Uri {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let mut text = String::from("file://");
@@ -32,7 +32,7 @@ pub fn of_path(path: &Path) -> Uri {
     Uri(text)
 }
 
-/// Without its escapes; `None`: one of them is none.
+/// The text without its escapes; `None`: an escape is invalid.
 fn decoded(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -61,7 +61,7 @@ fn bytes_of(path: &Path) -> Vec<u8> {
     path.as_os_str().as_bytes().to_vec()
 }
 
-/// `/c:/posts` is `c:\posts`.
+/// `/c:/posts` becomes `c:\posts`.
 #[cfg(not(unix))]
 fn of_bytes(bytes: Vec<u8>) -> PathBuf {
     let text = String::from_utf8_lossy(&bytes).into_owned();

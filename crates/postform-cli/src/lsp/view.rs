@@ -1,4 +1,4 @@
-//! A form that is open, looked at: checked with the texts of the editor, printed with the jobs of its folder.
+//! An open form: checked with the texts of the editor, and printed with the jobs of its folder.
 
 use std::cell::OnceCell;
 use std::fs;
@@ -18,29 +18,29 @@ use crate::config::Config;
 use crate::files;
 use crate::forms::FormFile;
 
-/// Largest job that is printed while somebody types.
+/// Largest job that is printed while the user types.
 const LARGEST_JOB: u64 = 32 << 20;
 
 /// A job of the form.
 #[derive(Clone, Debug)]
 pub struct JobText {
-    /// For people: `bracket`.
+    /// Its display name: `bracket`.
     pub name: String,
     /// The file of the job.
     pub path: PathBuf,
-    /// The text of the job; `Err`: why there is none.
+    /// The text of the job; `Err`: the reason why it can't be read.
     pub bytes: Result<Vec<u8>, String>,
 }
 
-/// A form, looked at.
+/// The results for an open form.
 pub struct View {
-    /// The form, with those that it calls. For a part it is the form that calls it.
+    /// The form, with the forms that it calls. For a called form it is the caller.
     pub document: Document,
     /// The file of the document that is open.
     pub file: u32,
-    /// What its folder says.
+    /// The settings of its folder.
     pub config: Config,
-    /// What is wrong with the folder's postform.toml.
+    /// An error in the folder's postform.toml.
     pub trouble: Option<String>,
     /// The jobs that it prints, the current one first.
     pub jobs: Vec<JobText>,
@@ -51,7 +51,7 @@ pub struct View {
 }
 
 impl View {
-    /// Looks at an open form. `root` is the form that calls it, itself for most; `job` the job that the editor's settings name.
+    /// Checks an open form. `root` is the form that calls it, usually itself; `job` is the job in the editor's settings.
     pub fn new(text: &Text, root: Option<&Path>, texts: &Texts, job: Option<&Path>) -> View {
         let Some(root) = root else { return View::without_file(text) };
         let (config, trouble) = match Config::near(root) {
@@ -66,7 +66,7 @@ impl View {
         let checked = form.analyse(&open);
         let own = text.path.as_deref().map(files::name).unwrap_or_default();
         let file = checked.files.iter().position(|source| source.name == own);
-        // a form that says that it calls this one, and can't
+        // the root contains a call of this form, but the call fails
         let Some(file) = file.map(|file| file as u32) else { return View::new(text, text.path.as_deref(), texts, job) };
         let document = Document::of(checked, &config.levels).with_properties(&config.properties);
         let jobs: Vec<JobText> = job
@@ -79,7 +79,7 @@ impl View {
         View { document, file, config, trouble, jobs, currents, sample: OnceCell::new(), form: Some(form), open }
     }
 
-    /// A form that was never saved: it calls none.
+    /// A form that was never saved; it can't call other forms.
     fn without_file(text: &Text) -> View {
         let config = Config::default();
         let limits = config.limits.unwrap_or_default();
@@ -102,7 +102,7 @@ impl View {
         &self.document.files()[self.file as usize]
     }
 
-    /// The name of one of its files.
+    /// The URI of one of its files.
     pub fn uri(&self, file: u32, texts: &Texts) -> Option<Uri> {
         let path = self.path(file)?;
         Some(texts.of_path(&path).map_or_else(|| uri::of_path(&path), |text| text.uri.clone()))
@@ -113,8 +113,8 @@ impl View {
         Some(self.form.as_ref()?.place(&source.name))
     }
 
-    /// A job printed with the form; jobs count from 0, and what is after the last is the built-in one. `None`: the form has
-    /// errors, or the job can't be read.
+    /// A job printed with the form; jobs are counted from 0, and the number after the last one is the built-in job. `None`: the
+    /// form has errors, or the job can't be read.
     pub fn printed(&self, job: usize) -> Option<&Current> {
         let Some(text) = self.jobs.get(job) else {
             return self.sample.get_or_init(|| self.document.print_sample()).as_ref();
@@ -127,7 +127,7 @@ impl View {
         self.currents[job].get_or_init(print).as_ref()
     }
 
-    /// The current job: the first that can be printed.
+    /// The current job: the first job that can be printed.
     pub fn current(&self) -> Option<&Current> {
         (0..=self.jobs.len()).find_map(|job| self.printed(job))
     }
@@ -150,7 +150,7 @@ impl View {
         }
     }
 
-    /// The form with other texts for some of its files.
+    /// The form, with the changed texts in place of some files.
     pub fn analyse(&self, changed: &Changed) -> Checked {
         let mut all = self.open.clone();
         all.extend(changed.iter().map(|(name, text)| (name.clone(), text.clone())));
@@ -161,13 +161,13 @@ impl View {
                 let text = all.get(&name).cloned().unwrap_or_else(|| self.source().text.clone());
                 let limits = self.config.limits.unwrap_or_default();
                 postform::internals::sema::analyse(Source::from_text(name, text), limits, &mut |_| {
-                    Err("is in no folder yet".into())
+                    Err("is not saved in a folder yet".into())
                 })
             }
         }
     }
 
-    /// What the current job prints with other texts; blocks have no numbers.
+    /// The program of the current job with the changed texts, without block numbers.
     pub fn program(&self, changed: &Changed) -> Option<String> {
         let checked = self.analyse(changed);
         let named = self.jobs.iter().find_map(|job| Some((&job.path, job.bytes.as_ref().ok()?)));
@@ -195,17 +195,17 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// What people call a job: its file without extension, its folder where every job is called `job`.
+/// The display name of a job: its file without extension; for a file called `job`, its folder.
 fn job_name(path: &Path) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
     postform::internals::terminal::escaped(&if stem == "job" { folder.unwrap_or(stem) } else { stem })
 }
 
-/// The form of a folder that calls this file, directly or by another one; itself where none does.
+/// The form of a folder that calls this file, directly or through another form; the file itself if none does.
 pub fn root_of(path: &Path, texts: &Texts) -> PathBuf {
     let mut root = path.to_path_buf();
-    // no deeper than forms call each other
+    // the maximum depth of calls
     for _ in 0..8 {
         let text = |other: &Path| match texts.of_path(other) {
             Some(open) => open.source.text.clone(),

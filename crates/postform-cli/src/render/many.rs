@@ -1,4 +1,4 @@
-//! Many jobs, or the parts of jobs, printed into a folder.
+//! Prints many jobs, or the parts of jobs, into a folder.
 
 use std::collections::HashMap;
 use std::fs;
@@ -17,19 +17,19 @@ use super::print::{self, Task};
 use super::split::{self, Part};
 use super::{Ready, form_of};
 
-/// A program that is to be printed.
+/// A program to print.
 struct Planned {
     job: PathBuf,
     part: Option<Part>,
-    /// The number of the program; `None`: the job's.
+    /// The number of the program; `None`: from the job.
     number: Option<u32>,
-    /// The form, by its row.
+    /// The index of the form.
     ready: usize,
-    /// Where the program goes, or why there will be none.
+    /// The path of the program, or the reason why it can't be printed.
     to: Result<PathBuf, Refused>,
 }
 
-/// A job of which nothing can be printed.
+/// A job that can't be printed.
 #[derive(Debug)]
 struct Refused {
     messages: String,
@@ -48,7 +48,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         pattern.fits(args.split)?;
     }
     if folder.exists() && !folder.is_dir() {
-        return Err(format!("error: {} is no folder", files::output_name(folder)));
+        return Err(format!("error: {} is not a folder", files::output_name(folder)));
     }
     let jobs = many::jobs(&args.jobs)?;
     let mut forms = Forms::default();
@@ -81,7 +81,10 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         if !args.options.quiet {
             let current = all - planned.len();
             let (is, its) = if current == 1 { ("is", "its") } else { ("are", "their") };
-            message(&format!("{current} of {} {is} newer than {its} job and form", count(all, "program")));
+            message(&format!(
+                "{current} of {} {is} newer than {its} job and form: not printed again",
+                count(all, "program")
+            ));
         }
     }
     let called = |program: &Planned| {
@@ -109,16 +112,16 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     })
 }
 
-/// The forms of the jobs, each made ready once.
+/// The forms of the jobs; each is prepared once.
 #[derive(Default)]
 struct Forms {
-    /// By the form and the postform.toml of the job.
+    /// Indices by the form and the postform.toml of the job.
     rows: HashMap<(PathBuf, Option<PathBuf>), usize>,
     ready: Vec<Ready>,
 }
 
 impl Forms {
-    /// The form of a job, by its row. `None`: it has errors, which were shown.
+    /// The index of a job's form. `None`: the form has errors, which have been shown.
     fn of(&mut self, job: &Path, args: &RenderArgs, reporter: &Reporter) -> Result<Option<usize>, String> {
         let config = Config::near(job)?;
         let form = form_of(job, args, &config)?;
@@ -133,7 +136,7 @@ impl Forms {
     }
 }
 
-/// Keeps the messages of work that ends a job.
+/// Keeps the messages of work that makes a job fail.
 fn refused<R>(work: impl FnOnce() -> Result<Result<R, Ending>, String>) -> Result<R, Refused> {
     let (done, messages) = kept(work);
     match done {
@@ -149,7 +152,7 @@ fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) ->
     let Some(by) = args.split else { return vec![planned(None, None, Ok(PathBuf::new()))] };
     let found = refused(|| match split::parts(&mut files::job(job, &args.read, true)?, by) {
         Ok(found) if found.parts.is_empty() => {
-            let what = if by == SplitArg::Setup { "setups, which CL files have alone" } else { "operations" };
+            let what = if by == SplitArg::Setup { "setups: only CL files have setups" } else { "operations" };
             Err(format!("error: {} has no {what}\n  help: choose another --split", files::name(job)))
         }
         Ok(found) => Ok(Ok(found)),
@@ -192,7 +195,7 @@ fn name(
     pattern.name(&Values { job, part: program.part, number, extension }).map(Ok)
 }
 
-/// The name of a job's file; one that is called `job` has the name of its folder.
+/// The file name of a job; a file called `job` gets the name of its folder.
 fn job_name(job: &Path) -> String {
     let name = job.file_name().unwrap_or_default().to_string_lossy();
     let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
@@ -203,29 +206,30 @@ fn job_name(job: &Path) -> String {
     }
 }
 
-/// No program may replace another one.
+/// Checks that no program replaces another one.
 fn apart(planned: &[Planned]) -> Result<(), String> {
     let mut names = HashMap::new();
     for program in planned {
         let Ok(to) = &program.to else { continue };
-        // some file systems take them for one
+        // some file systems ignore the case of names
         let key = to.to_string_lossy().to_lowercase();
         if let Some(other) = names.insert(key, &program.job) {
             let (to, job, other) = (files::output_name(to), files::name(&program.job), files::name(other));
             let whose = match (job == other, program.part) {
                 (true, Some(_)) => format!("two parts of {job}"),
-                (true, None) => format!("{job}, which is named twice"),
+                (true, None) => format!("{job}, given twice"),
                 (false, _) => format!("{other} and {job}"),
             };
             return Err(format!(
-                "error: {to} would be the program of {whose}: nothing was printed\n  help: name the programs apart, as --name '{{job}}-{{number}}'; a job that is called `job` has the name of its folder"
+                "error: {to} would be the file of {whose}: nothing was printed\n  help: give the programs different \
+                 names, as --name '{{job}}-{{number}}'; a job file named `job` takes the name of its folder"
             ));
         }
     }
     Ok(())
 }
 
-/// Is a program there, and newer than all that it comes from?
+/// Does a program exist that is newer than all of its sources?
 fn is_current(program: &Planned, newest: Option<SystemTime>) -> bool {
     let changed = |path: &Path| fs::metadata(path).and_then(|meta| meta.modified()).ok();
     let made = program.to.as_ref().ok().and_then(|to| changed(to));

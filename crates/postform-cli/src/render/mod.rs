@@ -23,7 +23,7 @@ use super::prepare::{Prepared, prepare};
 use super::report::Reporter;
 use print::Task;
 
-/// Renders a job to its output, with --watch again when a file of it is changed; or several jobs into a folder.
+/// Renders a job to its output, or several jobs into a folder; with --watch, again whenever one of its files changes.
 pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     if args.out_dir.is_some() {
         return many::run(args, colour);
@@ -45,7 +45,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     if args.watch { poll::repeat(|| inputs(job, args), || one(job, args, colour)) } else { one(job, args, colour) }
 }
 
-/// The job, the form and those that it calls, and what they follow.
+/// The files to watch: the job, the form, called forms, and postform.toml.
 fn inputs(job: &Path, args: &RenderArgs) -> Vec<PathBuf> {
     let config = Config::near(job).unwrap_or_default();
     let form = args.form.clone().or(config.form);
@@ -72,17 +72,18 @@ fn one(job: &Path, args: &RenderArgs, colour: bool) -> Result<Ending, String> {
 /// The form that prints a job.
 ///
 /// # Errors
-/// A message: neither the command line nor postform.toml names one.
+/// A message: neither the command line nor postform.toml contains a form.
 fn form_of(job: &Path, args: &RenderArgs, config: &Config) -> Result<PathBuf, String> {
     args.form.clone().or(config.form.clone()).ok_or_else(|| {
         format!(
-            "error: which form prints {}?\n  help: give --form, or name one in a postform.toml in the folder of the job or above: form = \"fanuc.pf\"",
+            "error: no form is given to print {}\n  help: give --form, or name a form in a postform.toml in the \
+             folder of the job or above: form = \"fanuc.pf\"",
             files::name(job)
         )
     })
 }
 
-/// A form that prints, and its machine.
+/// A form that can print, and its machine.
 struct Ready {
     form: PathBuf,
     prepared: Prepared,
@@ -92,7 +93,7 @@ struct Ready {
 }
 
 impl Ready {
-    /// `None`: the form has errors, which were shown.
+    /// `None`: the form has errors, which have been shown.
     fn of(
         form: &Path,
         job: &Path,
@@ -107,15 +108,15 @@ impl Ready {
     }
 }
 
-/// One output must not replace the other.
+/// Checks that no output replaces the other.
 fn distinct(args: &RenderArgs) -> Result<(), String> {
     let outputs = [Some(&args.output), args.trace.as_ref()].map(|path| Some((path?, Identity::of_output(path?)?)));
     if let [Some((program, a)), Some((trace, b))] = &outputs
         && a == b
-        // both as text to standard output is what was asked for
+        // both on standard output was requested explicitly
         && [program, trace].iter().any(|path| path.as_os_str() != "-")
     {
-        return Err("error: program and source map can't be one file".into());
+        return Err("error: the program and the source map can't be the same file".into());
     }
     Ok(())
 }

@@ -1,21 +1,21 @@
-//! Names of programs by a pattern: `{job}-{tool}.nc`.
+//! Program names from a pattern: `{job}-{tool}.nc`.
 
 use super::super::args::SplitArg;
 use super::split::Part;
 
-/// What stands in braces in a pattern.
+/// The allowed fields in the braces of a pattern.
 const FIELDS: [&str; 7] = ["job", "part", "tool", "operation", "work", "setup", "number"];
 
-/// A pattern: texts and fields.
+/// A pattern: a sequence of texts and fields.
 pub struct Pattern(Vec<Piece>);
 
 enum Piece {
     Text(String),
-    /// A row of [`FIELDS`].
+    /// An index into [`FIELDS`].
     Field(usize),
 }
 
-/// What the fields of a name are filled with.
+/// The values for the fields of a name.
 pub struct Values<'a> {
     /// The job's file without its extension.
     pub job: &'a str,
@@ -23,7 +23,7 @@ pub struct Values<'a> {
     pub part: Option<Part>,
     /// The number of the program.
     pub number: Option<u32>,
-    /// The extension that the form gives its programs.
+    /// The file extension from the form.
     pub extension: &'a str,
 }
 
@@ -31,7 +31,7 @@ impl Pattern {
     /// Reads a pattern.
     ///
     /// # Errors
-    /// A message: a brace is open, a field is unknown, or a character is none of a file's name.
+    /// A message: a brace is not closed, a field is unknown, or a character is not allowed in a file name.
     pub fn parse(text: &str) -> Result<Pattern, String> {
         let wrong = |why: String| format!("error: --name {text:?}: {why}");
         let (mut pieces, mut rest) = (Vec::new(), text);
@@ -39,7 +39,7 @@ impl Pattern {
             let (typed, field) = rest.split_once('{').map_or((rest, None), |(typed, rest)| (typed, Some(rest)));
             if let Some(c) = typed.chars().find(|c| !c.is_ascii_alphanumeric() && !"_-.".contains(*c)) {
                 return Err(wrong(format!(
-                    "`{}` stands in no name of a program\n  help: take letters, digits and _ - . ",
+                    "`{}` can't be part of a file name\n  help: use letters, digits and _ - . ",
                     c.escape_debug()
                 )));
             }
@@ -51,18 +51,21 @@ impl Pattern {
                 return Err(wrong("a `{` without its `}`".to_owned()));
             };
             let Some(row) = FIELDS.iter().position(|known| *known == name) else {
-                return Err(wrong(format!("there is no {{{name}}}\n  help: there are {{{}}}", FIELDS.join("}, {"))));
+                return Err(wrong(format!(
+                    "there is no field {{{name}}}\n  help: the fields are {{{}}}",
+                    FIELDS.join("}, {")
+                )));
             };
             pieces.push(Piece::Field(row));
             rest = after;
         }
-        if pieces.is_empty() { Err(wrong("it is empty".to_owned())) } else { Ok(Pattern(pieces)) }
+        if pieces.is_empty() { Err(wrong("the name is empty".to_owned())) } else { Ok(Pattern(pieces)) }
     }
 
-    /// Do all fields have values where jobs are split so?
+    /// Do all fields have values if jobs are split in this way?
     ///
     /// # Errors
-    /// A message: one has none.
+    /// A message: a field has no value.
     pub fn fits(&self, split: Option<SplitArg>) -> Result<(), String> {
         let needs = |field: &str| match field {
             "part" => split.is_none(),
@@ -100,9 +103,9 @@ impl Pattern {
                     let field = FIELDS[*row];
                     let value = values.of(field).ok_or_else(|| {
                         let help = match field {
-                            "number" => "give --program, or name the files by something else",
+                            "number" => "give --program, or use another field in --name",
                             "part" => "give --split",
-                            _ => "a field of this name needs --split by it",
+                            _ => "a field needs --split of the same name",
                         };
                         format!("error: --name: {{{field}}} has no value here\n  help: {help}")
                     })?;
@@ -120,7 +123,7 @@ impl Pattern {
 impl Values<'_> {
     fn of(&self, field: &str) -> Option<String> {
         let part = match (field, self.part) {
-            // as names by a form are spelt: controls, networks and memory cards know no other characters
+            // only these characters, as in names from a form: controls, networks and memory cards may not allow others
             ("job", _) => {
                 let spelt = |c: char| if c.is_ascii_alphanumeric() || "_-.".contains(c) { c } else { '_' };
                 return Some(self.job.chars().map(spelt).collect());
@@ -155,10 +158,10 @@ mod tests {
     #[test]
     fn a_wrong_pattern_is_an_error() {
         for (pattern, part, why) in [
-            ("", None, "it is empty"),
+            ("", None, "the name is empty"),
             ("{job", None, "a `{` without its `}`"),
-            ("{tol}", None, "there is no {tol}"),
-            ("../{job}", None, "`/` stands in no name"),
+            ("{tol}", None, "there is no field {tol}"),
+            ("../{job}", None, "`/` can't be part of a file name"),
             ("{tool}", Some(Part::Operation(1)), "{tool} has no value here"),
         ] {
             let error = name(pattern, part).unwrap_err();

@@ -12,39 +12,42 @@ use super::super::files::{self, io_message};
 use super::super::output::Target;
 use super::super::say::message;
 
-/// A folder, in which the program gets the name that form and job give it.
+/// Is the output a folder? The program then gets its name from the form and the job.
 fn is_folder(output: &Path) -> bool {
     output.is_dir() || output.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR])
 }
 
-/// Who closes standard output has seen enough; what was named must be whole.
+/// A closed standard output is no error, but a named output must be complete.
 fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
     match error.kind() {
         io::ErrorKind::BrokenPipe if path == Path::new("-") => Ok(Ending::Clean),
         io::ErrorKind::BrokenPipe => {
-            message(&format!("error: {} was closed by its reader before all was written", files::output_name(path)));
+            message(&format!(
+                "error: the reader of {} closed it before everything was written",
+                files::output_name(path)
+            ));
             Ok(Ending::Findings)
         }
         _ => Err(io_message("write", path, error)),
     }
 }
 
-/// The program and its source map while they are written.
+/// The program and its source map while they are being written.
 pub struct Output<'p> {
     path: PathBuf,
     target: Target,
     trace: Option<(PathBuf, Target)>,
     files: &'p [Source],
-    /// The source map could not be written, not the program.
+    /// The write error is that of the source map, not of the program.
     trace_failed: bool,
 }
 
 impl<'p> Output<'p> {
-    /// Prepares the outputs; `files` are those of the form. In a folder the program gets its name from [`Output::name`]; `name` is that
-    /// name where it is known before.
+    /// Prepares the outputs; `files` are those of the form. In a folder the program gets its name from [`Output::name`]; `name`
+    /// is this name if it is already known.
     ///
     /// # Errors
-    /// A message: one can't be made, or is an input.
+    /// A message: an output can't be created, or is also an input.
     pub fn open(
         (path, name): (&Path, Option<&str>),
         trace: Option<&Path>,
@@ -56,10 +59,10 @@ impl<'p> Output<'p> {
         Ok(Output { path: path.to_path_buf(), target, trace, files, trace_failed: false })
     }
 
-    /// Gives the program in a folder its name, and returns its path. `None`: it has one.
+    /// Sets the name of a program in a folder, and returns its path. `None`: it already has a name.
     ///
     /// # Errors
-    /// A message: a file that has this name must not be replaced.
+    /// A message: the existing file with this name must not be replaced.
     pub fn name(&mut self, file_name: &str) -> Result<Option<PathBuf>, String> {
         if !is_folder(&self.path) {
             return Ok(None);
@@ -73,7 +76,7 @@ impl<'p> Output<'p> {
     /// Writes a part.
     ///
     /// # Errors
-    /// As the system reports them.
+    /// As reported by the system.
     pub fn write(&mut self, part: &Part<'_>) -> io::Result<()> {
         self.target.write(part.text)?;
         let Some((_, target)) = &mut self.trace else { return Ok(()) };
@@ -84,7 +87,7 @@ impl<'p> Output<'p> {
         target.write(&text).inspect_err(|_| self.trace_failed = true)
     }
 
-    /// A part could not be written.
+    /// Handles a part that could not be written.
     ///
     /// # Errors
     /// A message.
@@ -93,12 +96,12 @@ impl<'p> Output<'p> {
         output_failed(trace.map_or(&self.path, |(path, _)| path), error)
     }
 
-    /// The program is complete.
+    /// Completes the program.
     ///
     /// # Errors
     /// A message.
     pub fn finish(self) -> Result<Ending, String> {
-        // the map first: a program without its map is whole, a map without its program is not
+        // the map first: a program without its map is complete, a map without its program is not
         if let Some((path, trace)) = self.trace
             && let Err(error) = trace.complete()
         {

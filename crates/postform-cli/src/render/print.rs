@@ -1,4 +1,4 @@
-//! A job printed to its output, and proven.
+//! Prints a job to its output, and proves it.
 
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -23,19 +23,19 @@ use super::Ready;
 use super::output::Output;
 use super::split::Part;
 
-/// What is printed, and where.
+/// A program to print.
 pub struct Task<'a> {
     /// The job.
     pub job: &'a Path,
-    /// Where the program goes: a file, a folder, or `-`.
+    /// The output of the program: a file, a folder, or `-`.
     pub output: &'a Path,
-    /// The name of the program's file in that folder. `None`: that of the form.
+    /// The file name in that folder. `None`: the name from the form.
     pub name: Option<&'a str>,
-    /// What messages call the program.
+    /// The name of the program in messages.
     pub called: &'a str,
-    /// The part of the job that is printed. `None`: what the options take.
+    /// The part of the job to print. `None`: the selection in the options.
     pub part: Option<Part>,
-    /// The program's number. `None`: that of the command line, else the job's.
+    /// The program number. `None`: from the command line, else from the job.
     pub number: Option<u32>,
 }
 
@@ -46,13 +46,16 @@ pub struct Task<'a> {
 pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Reporter) -> Result<Ending, String> {
     let Ready { prepared, machine, .. } = ready;
     if machine.is_some() && args.stream {
-        return Err("error: with --stream the program is out before it is known whether it fits into the machine\n  help: render without --stream".into());
+        return Err("error: --stream writes the program before the check that it fits into the machine\n  help: \
+            render without --stream"
+            .into());
     }
     let error = |error: Error| format!("error: {error}");
     if args.stream && prepared.post.reads_ahead(&prepared.options).map_err(error)? {
         let or = prepared.post.reads_once_with().map(|set| format!(", or with --set {set}")).unwrap_or_default();
         return Err(format!(
-            "error: {} says what lies ahead in the job, which must be read to its end first\n  help: render without --stream{or}",
+            "error: {} prints values from later in the job, so the whole job must be read first\n  help: render \
+             without --stream{or}",
             files::name(&ready.form)
         ));
     }
@@ -84,7 +87,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
     };
     drop(progress);
     if task.part.is_none() && !args.read.reading().select.is_all() && !args.options.quiet {
-        message("a part of the job is taken: its other operations are not in the program");
+        message("only a part of the job is printed: its other operations are not in the program");
     }
     let mut notes = match &printed {
         Ok(rendered) => rendered.notes.clone(),
@@ -103,7 +106,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         };
     }
     if denied {
-        message("nothing was printed: --deny warnings");
+        message("nothing was printed, because of --deny warnings");
         return Ok(Ending::Findings);
     }
     if let Some((proof, proven)) = proven {
@@ -115,7 +118,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
             ending => return Ok(ending),
         }
     } else if args.stream && !args.options.quiet {
-        message("not verified: with --stream the program is out before it is known what it does");
+        message("not verified: --stream writes the program before it can be verified");
     }
     if let (Some(machine), Some(program)) = (machine, program) {
         let program = program.into_file().map_err(|error| kept(&error))?;
@@ -128,7 +131,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
             say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
         }
         if stops {
-            message("nothing was printed: --no-verify prints it all the same");
+            message("nothing was printed: --no-verify prints the program anyway");
             return Ok(Ending::Findings);
         }
     }
@@ -141,17 +144,17 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
     output.finish()
 }
 
-/// What is said of a proof.
+/// The output about a proof.
 struct Told<'a> {
-    /// What is not proven is not printed.
+    /// A program that is not proven is not printed.
     required: bool,
-    /// Only what keeps the program from being printed is said.
+    /// Only errors that prevent printing are shown.
     quiet: bool,
     form: &'a Path,
 }
 
 impl Told<'_> {
-    /// Says the verdict; `Clean`: the program may be printed.
+    /// Shows the verdict; `Clean`: the program may be printed.
     fn verdict(&self, proven: Result<Proven, Error>, sides: &Sides<'_>, reporter: &Reporter) -> Result<Ending, String> {
         let proven = match sides.tried(proven, self.quiet, reporter)? {
             Ok(proven) => proven,

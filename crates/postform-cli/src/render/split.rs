@@ -1,4 +1,4 @@
-//! Parts of a job that get a program each.
+//! Parts of a job that become separate programs.
 
 use postform::diag::{Code, Diag};
 use postform::toolpath::{Event, Flow, Place, Sink};
@@ -11,16 +11,16 @@ use super::super::args::SplitArg;
 pub enum Part {
     /// The operations with a tool.
     Tool(u32),
-    /// An operation, from 1 on.
+    /// An operation, counted from 1.
     Operation(u64),
-    /// The operations in a work offset; `None`: before the job names one.
+    /// The operations in a work offset; `None`: those before the first work offset.
     Work(Option<f64>),
-    /// A setup of a CL file, from 1 on.
+    /// A setup of a CL file, counted from 1.
     Setup(usize),
 }
 
 impl Part {
-    /// Only this part of a job is read.
+    /// Restricts the reading of a job to this part.
     pub fn select(self, reading: &mut Reading) {
         match self {
             Part::Tool(tool) => reading.select.only = vec![tool],
@@ -30,12 +30,12 @@ impl Part {
         }
     }
 
-    /// Its name in names of files: `T3`, `OP02`, `G54`, `SETUP1`.
+    /// Its name in file names: `T3`, `OP02`, `G54`, `SETUP1`.
     pub fn name(self) -> String {
         match self {
             Part::Tool(tool) => format!("T{tool}"),
             Part::Operation(operation) => format!("OP{operation:02}"),
-            // below 50 it is the number of a fixture
+            // a number below 50 is a fixture number
             Part::Work(Some(work)) if work < 50.0 => format!("W{work}"),
             Part::Work(Some(work)) => format!("G{work}"),
             Part::Work(None) => "W0".to_owned(),
@@ -44,7 +44,7 @@ impl Part {
     }
 }
 
-/// What a job consists of.
+/// The parts of a job.
 pub struct Parts {
     /// In the order of the job.
     pub parts: Vec<Part>,
@@ -55,11 +55,11 @@ pub struct Parts {
 /// Reads a job and lists its parts.
 ///
 /// # Errors
-/// The job can't be read, or a part has no name of its own.
+/// The job can't be read, or a part has no distinct name.
 pub fn parts(job: &mut Job<'_>, by: SplitArg) -> Result<Parts, Error> {
     let setups = if by == SplitArg::Setup { job.setups()?.len() } else { 0 };
     if setups > 0 {
-        // each is a job of its own, with the same head
+        // each setup is a job of its own, with the same head
         job.reading.setup = Some(1);
     }
     let mut seen =
@@ -96,7 +96,7 @@ impl Sink for Seen {
                         Some(number) if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 => {
                             Part::Tool(number as u32)
                         }
-                        _ => return wrong("it names no tool", "split the job by operation", place),
+                        _ => return wrong("it has no tool", "split the job by operation", place),
                     },
                     SplitArg::Operation => Part::Operation(self.operations),
                     SplitArg::Work => Part::Work(self.work),
@@ -108,8 +108,8 @@ impl Sink for Seen {
                 return Flow::Continue(());
             }
             Event::Work(work) if self.by == SplitArg::Work && self.work != Some(work) && !self.in_subprogram => {
-                let help = "write an operation for each work offset, or split the job by tool or operation";
-                return wrong("the work offset changes inside of it", help, place);
+                let help = "make one operation per work offset, or split the job by tool or operation";
+                return wrong("its work offset changes", help, place);
             }
             _ => return Flow::Continue(()),
         };
@@ -121,6 +121,6 @@ impl Sink for Seen {
 }
 
 fn wrong(why: &str, help: &str, place: Place) -> Flow {
-    let message = format!("the operation belongs to no one part of the job: {why}");
+    let message = format!("the operation can't be put into one part of the job: {why}");
     Flow::Break(Diag::new(Code::PR061, message).help(help).place(place).into())
 }

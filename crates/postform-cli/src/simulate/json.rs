@@ -4,7 +4,7 @@ use postform::internals::nc::{Action, Item};
 
 use super::{plane_name, stop_name, turn_name};
 
-/// One action as a JSON object. `unknown`: positions that only the machine knows are null.
+/// One action as a JSON object. `unknown`: unknown positions are null.
 pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let start = out.len();
@@ -57,14 +57,14 @@ pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
     out.extend_from_slice(b"}\n");
 }
 
-/// Which axes go to a place of the machine.
+/// The axes at a machine position.
 fn in_machine(axes: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(b",\"machine\":\"");
     out.extend((0..6).filter(|axis| axes & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
     out.push(b'"');
 }
 
-/// Numbers; those of the bits in `unknown` are null.
+/// A list of numbers; numbers whose bit in `unknown` is set are null.
 fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     for (i, value) in values.iter().enumerate() {
@@ -79,7 +79,7 @@ fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.push(b']');
 }
 
-/// A number so that it reads back as the same double.
+/// A number with enough digits to be read back as the same double.
 fn number(before: &[u8], value: f64, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     if value.fract() == 0.0 && value.abs() < 1e15 {

@@ -18,14 +18,14 @@ use super::machine::{self, Fitting};
 use super::report::{Reporter, place_in};
 use super::say::{message, say};
 
-/// How much text waits before it is written.
+/// Size of the text buffer before it is written.
 const CHUNK: usize = 64 * 1024;
-/// Warnings that are shown; more are counted.
+/// Maximum number of warnings shown; further ones are only counted.
 const MOST_WARNINGS: usize = 20;
-/// Refused blocks after which a program is not run on.
+/// The run stops after this number of refused blocks.
 const MOST_REFUSED: usize = 20;
 
-/// Runs a program and prints what the machine does.
+/// Runs a program and prints the actions of the machine.
 pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let config = super::config::Config::near(&args.program)?;
     let machine = machine::named(&args.machine, None, &config)?;
@@ -118,12 +118,12 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     refused.iter_mut().for_each(|diag| place_in(&name, diag));
     say(&reporter.text(&refused, &[]));
     if refused.len() == MOST_REFUSED {
-        message(&format!("{MOST_REFUSED} blocks are refused: the rest is not run"));
+        message(&format!("{MOST_REFUSED} blocks are refused: the rest of the program is not run"));
     }
     Ok(Ending::Findings)
 }
 
-/// `false`: whoever read it has seen enough.
+/// Writes the text; `false`: the reader has closed the pipe.
 fn write(out: &mut impl Write, text: &mut Vec<u8>) -> Result<bool, String> {
     let written = out.write_all(text);
     text.clear();

@@ -1,11 +1,11 @@
-//! What is in a program, counted.
+//! Counts the contents of a program.
 
 use std::fmt::Write as _;
 
 use postform::internals::nc::{Tally, clock, rapid_rate};
 use postform::internals::preflight::Times;
 
-/// The summary as a machinist reads it.
+/// The summary as text for a machinist.
 pub fn describe(tally: &Tally, blocks: u64) -> String {
     let mut text = String::new();
     let unit = tally.units.name();
@@ -35,7 +35,7 @@ pub fn describe(tally: &Tally, blocks: u64) -> String {
     if tally.timeless > 0 {
         _ = writeln!(
             text,
-            "          {} feed moves not counted: their feed follows a spindle without speed",
+            "          {} feed moves not counted: their feed is per revolution, and the spindle has no speed",
             tally.timeless
         );
     }

@@ -5,12 +5,12 @@ use postform::internals::number::quantise;
 
 use super::{plane_name, stop_name, turn_name};
 
-/// How positions are shown.
+/// The display of positions.
 #[derive(Clone, Copy)]
 pub struct Shown {
-    /// Positions that only the machine knows are shown as `?`.
+    /// Unknown positions are shown as `?`.
     pub unknown: bool,
-    /// Of a lathe: X as its programs count it, in radii; no Y.
+    /// Lathes only: the factor from the radius to X as programs write it; Y is then left out.
     pub across: Option<f64>,
     /// Axes, in the order of a position.
     axes: &'static Axes,
@@ -19,18 +19,18 @@ pub struct Shown {
 /// Axes of a machine.
 #[derive(Debug)]
 struct Axes {
-    /// Their letters as they are written, in the order of a position.
+    /// Their letters in the text, in the order of a position.
     letters: [&'static [u8]; 6],
-    /// How many of them are always shown; the others where they are not 0.
+    /// Number of leading axes that are always shown; the others are shown only if they are not 0.
     always: usize,
 }
 
 const USUAL: Axes = Axes { letters: [b"X", b" Y", b" Z", b" A", b" B", b" C"], always: 3 };
-/// X Y of the lower guide, U V of the upper one.
+/// X Y of the lower guide, U V of the upper guide.
 const WIRE: Axes = Axes { letters: [b"X", b" Y", b" U", b" V", b" A", b" B"], always: 4 };
 
 impl Shown {
-    /// For a program that is run so.
+    /// The display for a program with these run settings.
     pub fn of(settings: &RunSettings) -> Shown {
         let by_diameter = settings.by_diameter.unwrap_or(true);
         let across = settings.control.is_lathe().then_some(if by_diameter { 2.0 } else { 1.0 });
@@ -42,7 +42,7 @@ impl Shown {
     }
 }
 
-/// A line that is written from its end to its beginning: digits come that way, and nothing is copied twice.
+/// A line that is written backwards, from its end to its beginning: digits are produced in this order, and nothing is copied twice.
 struct Backwards {
     bytes: [u8; 320],
     at: usize,
@@ -124,7 +124,7 @@ impl Backwards {
         }
     }
 
-    /// Which axes go to a place of the machine; before the position, as all is written from the end.
+    /// The axes at a machine position. Called before the position, because the line is written backwards.
     fn in_machine(&mut self, bits: u8, axes: &Axes) {
         self.text(b" in machine coordinates)");
         let named = (0..6).rev().filter(|axis| bits & 1 << axis != 0);
@@ -132,9 +132,9 @@ impl Backwards {
         self.text(b"  (");
     }
 
-    /// The line's number and what is done, before the rest.
+    /// The line number and the name of the action, before the rest.
     fn head(&mut self, line: u64, what: &[u8]) {
-        // the line end alone needs no column
+        // the column is padded only if text follows
         if self.at < self.bytes.len() - 1 {
             self.text(&b"        "[what.len()..]);
         }

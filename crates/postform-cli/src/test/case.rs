@@ -1,4 +1,4 @@
-//! A case: what a form prints of a job, beside what is expected.
+//! A test case: the program that a form prints for a job, compared with the expected one.
 
 use std::fs;
 use std::io::Cursor;
@@ -19,43 +19,43 @@ use super::super::output::write_whole;
 use super::super::report::{Reporter, place_in};
 use super::posts::{Posts, Ready};
 
-/// Blocks around a difference.
+/// Number of blocks shown around a difference.
 const CONTEXT: usize = 2;
 
-/// A job, a form, and what is expected of them.
+/// A job, a form, and the expected result.
 pub struct Case {
     /// The job's file.
     pub job: PathBuf,
     /// The form, by its number.
     pub form: usize,
-    /// The file of the expected program, or of the code of an error that is right.
+    /// The file of the expected program, or of the expected error code.
     pub expected: PathBuf,
-    /// Cycles are printed as the form has them, or as moves.
+    /// Whether cycles are printed by the form's sequences or as moves.
     pub cycles: Cycles,
-    /// What is expected.
+    /// The kind of the expected result.
     pub wanted: Wanted,
-    /// What is no difference.
+    /// Ignored differences.
     pub ignore: Ignore,
-    /// How near numbers must be.
+    /// Largest allowed difference of numbers.
     pub tolerance: f64,
-    /// The day on which the program is printed.
+    /// The date with which the program is printed.
     pub clock: Clock,
-    /// A program that is not proven fails.
+    /// A program that is not proven makes the case fail.
     pub require_proof: bool,
 }
 
-/// What is expected of a case.
+/// The kind of the expected result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// A program.
     Program,
     /// An error, by its code.
     Refusal,
-    /// Not yet known: what comes is written.
+    /// Unknown: the result is written as the expected one.
     Nothing,
 }
 
-/// What a form printed.
+/// The program that a form printed.
 pub struct Program {
     /// The text of the program.
     pub text: Vec<u8>,
@@ -63,11 +63,11 @@ pub struct Program {
     verdict: Verdict,
 }
 
-/// Why no program came, or none that does what the job asks for.
+/// The reason why there is no program, or why it differs from its job.
 pub struct Refused {
-    /// Errors, or what the program does otherwise.
+    /// The errors, or the differences from the job.
     pub diags: Vec<Diag>,
-    /// Where there are none.
+    /// The message, if there are no findings.
     pub message: String,
 }
 
@@ -78,32 +78,32 @@ impl Refused {
     }
 }
 
-/// How a case came out.
+/// The outcome of a case.
 pub struct Tried {
     /// The case.
     pub case: Case,
-    /// What was found.
+    /// The result.
     pub end: End,
-    /// Why the program was not proven to do what the job asks for; `None`: it was, or there is none.
+    /// The reason why the program is not proven; `None`: it is proven, or there is no program.
     pub unproven: Option<String>,
-    /// The lines of the form that printed, each by its first byte in its file.
+    /// The lines of the form that printed, each by its file and its first byte.
     pub printed: Vec<(u32, u32)>,
 }
 
-/// What was found.
+/// The result of a case.
 pub enum End {
     /// As expected.
     Passed,
-    /// Another program. The text for people, and the first line of the expected program that differs, from 1.
+    /// A different program: the text for people, and the first different line of the expected program, from 1.
     Differs { text: String, line: usize },
-    /// No program, or one that is wrong: why, for people.
+    /// No program, or a wrong one: the reason, for people.
     Failed(String),
-    /// What is expected was written: why, for people, and into which file.
+    /// The expected result was written: the reason, for people, and the file.
     Written { text: String, file: PathBuf },
 }
 
 impl End {
-    /// The word for it in reports.
+    /// The word in reports.
     pub fn name(&self) -> &'static str {
         match self {
             End::Passed => "passed",
@@ -113,14 +113,14 @@ impl End {
         }
     }
 
-    /// Is it as it should be?
+    /// Is the result acceptable?
     pub fn is_right(&self) -> bool {
         matches!(self, End::Passed | End::Written { .. })
     }
 }
 
 impl Case {
-    /// A job of which nothing is expected yet.
+    /// A case without an expected result.
     pub fn new(job: PathBuf, expected: PathBuf) -> Case {
         let (ignore, tolerance) = (Ignore::default(), 0.0);
         let clock = Clock { date: "2000-01-01".into(), time: "00:00".into() };
@@ -128,7 +128,7 @@ impl Case {
         Case { job, form: 0, expected, cycles, wanted, ignore, tolerance, clock, require_proof: false }
     }
 
-    /// Prints the case and compares it. `update`: what is expected is written where it differs.
+    /// Prints the case and compares it. `update`: a different result is written as the expected one.
     pub fn tried(self, posts: &Posts, reporter: &Reporter, update: bool, colour: bool) -> Tried {
         let entry = posts.get(self.form);
         let ready = match &entry.ready {
@@ -155,7 +155,7 @@ impl Case {
         Tried { case: self, end, unproven, printed: spans }
     }
 
-    /// What the form prints, proven while it is printed. `Err` outside: the job can't be read.
+    /// The program of the form, proven while it is printed. The outer `Err`: the job can't be read.
     pub fn print(&self, ready: &Ready) -> Result<Result<Program, Refused>, String> {
         let read = ReadArgs::default();
         let mut job = files::job(&self.job, &read, true).map_err(|why| why.trim_start_matches("error: ").to_owned())?;
@@ -163,7 +163,7 @@ impl Case {
         options.cycles = self.cycles;
         options.clock = Some(self.clock.clone());
         options.job_file = self.job.file_name().map(|name| name.to_string_lossy().into_owned());
-        // a CL file says no number
+        // a CL file contains no program number
         if Format::of_name(&self.job.to_string_lossy()) == Some(Format::Cl) {
             options.program = Some(1);
         }
@@ -177,7 +177,7 @@ impl Case {
         if let Err(error) = rendered {
             return Ok(Err(Refused::by(&error)));
         }
-        // what calls or repeats parts of itself is proven in a file
+        // a program that calls or repeats parts of itself is proven from a file
         let proven = proven.and_then(|proven| match &proven.verdict {
             Verdict::NotProven(why) if why.in_a_file => {
                 ready.post.verify_with(job.again(), Cursor::new(text.as_slice()), &options, &ready.proof)
@@ -211,7 +211,10 @@ impl Case {
 
     fn program(&self, program: &Program, ready: &Ready, update: bool, colour: bool) -> Result<End, String> {
         if let (Verdict::NotProven(why), true) = (&program.verdict, self.require_proof) {
-            return Ok(End::Failed(format!("the program is not proven, and postform.toml asks for that: {}", why.why)));
+            return Ok(End::Failed(format!(
+                "the program is not proven, and postform.toml requires a proof: {}",
+                why.why
+            )));
         }
         let write = |why: String| {
             let target = match self.wanted {
@@ -228,7 +231,7 @@ impl Case {
             Wanted::Nothing => return write(String::new()),
             Wanted::Refusal => {
                 let code = self.code()?;
-                let why = format!("a program is printed, where {code} was expected");
+                let why = format!("a program is printed, but {code} was expected");
                 return if update { write(why) } else { Ok(End::Failed(why)) };
             }
             Wanted::Program => {}
@@ -237,7 +240,7 @@ impl Case {
         let old = side(&self.expected, bytes)?;
         let new = Side {
             name: format!(
-                "what {} prints of {}",
+                "the program of {} for {}",
                 files::name(Path::new(&ready.post.files()[0].name)),
                 files::name(&self.job)
             ),
@@ -250,14 +253,14 @@ impl Case {
         if comparison.is_same() {
             return Ok(End::Passed);
         }
-        // shown without what one more block changes in all others: block numbers
+        // shown without block numbers, because one additional block changes all later numbers
         let unnumbered = diff::Options { ignore: Ignore { numbers: true, ..self.ignore }, ..options };
         let unspaced = diff::Options { ignore: Ignore { numbers: true, spaces: true, ..self.ignore }, ..options };
         let without = compare(&old.program, &new.program, &unnumbered);
         let mut note = "";
         if compare(&old.program, &new.program, &unspaced).is_same() {
             let blanks = without.is_same();
-            note = if blanks { "block numbers alone differ\n" } else { "blanks or line ends alone differ\n" };
+            note = if blanks { "only block numbers differ\n" } else { "only spaces or line ends differ\n" };
         } else if !without.is_same() {
             comparison = without;
         }
@@ -281,7 +284,7 @@ impl Case {
             if codes.contains(&code.as_str()) && may_be_expected(&code) {
                 return Ok(End::Passed);
             }
-            expected = format!("{code} was expected, {first} came\n");
+            expected = format!("{code} was expected, but {first} was reported\n");
         }
         diags.iter_mut().for_each(|diag| place_in(&files::name(&self.job), diag));
         let shown =
@@ -294,18 +297,18 @@ impl Case {
         Ok(End::Written { text: expected + &shown, file: target })
     }
 
-    /// The code of an error that is expected.
+    /// The expected error code.
     fn code(&self) -> Result<String, String> {
         let text = fs::read_to_string(&self.expected).map_err(|error| io_message("read", &self.expected, &error))?;
         let code = text.split_whitespace().next().unwrap_or_default();
         if code.is_empty() {
-            return Err(format!("{} says no code, as PR010", files::name(&self.expected)));
+            return Err(format!("{} contains no code, as PR010", files::name(&self.expected)));
         }
         Ok(code.to_owned())
     }
 }
 
-/// May a form end with this error, and be right? A job that can't be read and a program that does something else are wrong.
+/// Can this error be an expected result? Not if the job can't be read or the program differs from its job.
 pub fn may_be_expected(code: &str) -> bool {
     !["PJ", "PV", "PX"].iter().any(|family| code.starts_with(family))
 }

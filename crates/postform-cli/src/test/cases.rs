@@ -1,4 +1,4 @@
-//! The standard cases: a job for each thing that a program has. The files are in `cases/`.
+//! The standard cases: one job for each feature of programs. The files are in `cases/`.
 
 /// A job by its name.
 pub type Standard = (&'static str, &'static str);

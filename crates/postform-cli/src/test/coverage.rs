@@ -1,4 +1,4 @@
-//! Which lines of the forms the cases printed.
+//! The form lines that the test cases printed.
 
 use std::collections::HashSet;
 
@@ -7,17 +7,17 @@ use postform::internals::source::Source;
 use super::case::Tried;
 use super::posts::Posts;
 
-/// A form and what no case printed of it.
+/// A form, and its lines that no case printed.
 pub struct Covered {
     /// The form's name.
     pub form: String,
-    /// How many of its lines print.
+    /// The number of its lines that can print.
     pub lines: usize,
-    /// Those that no case printed: file, line from 1, text.
+    /// The lines that no case printed: file, line from 1, text.
     pub missing: Vec<(String, u32, String)>,
 }
 
-/// Of each form that the cases print: the lines of its sequences, those under conditions each for itself.
+/// For each tested form, the lines of its sequences; lines under conditions are counted separately.
 pub fn of(posts: &Posts, tried: &[Tried]) -> Vec<Covered> {
     let mut all = Vec::new();
     for (at, entry) in posts.all().iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Cases in folders: jobs, and the programs expected of them.
+//! Test cases in folders: jobs and their expected programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,33 +14,35 @@ use super::super::folders::{DEEPEST, below, is_expected, is_job, jobs_expected, 
 use super::case::{Case, Wanted};
 use super::posts::Posts;
 
-/// What was found.
+/// The result of the search.
 #[derive(Default)]
 pub struct Found {
     /// The cases, in the order of their paths.
     pub cases: Vec<Case>,
-    /// What can't be a case, for people.
+    /// Files that can't be a case, with the reason.
     pub problems: Vec<String>,
 }
 
-/// The day on which programs are printed, unless [test] says another: nothing in them depends on the day of the test.
+/// The date with which programs are printed, unless [test] sets another one: tests must not depend on the current date.
 const DAY: &str = "2000-01-01T00:00";
 
 impl Found {
-    /// Adds the cases of a folder and of those below it, or those of one job.
+    /// Adds the cases of a folder and its subfolders, or those of one job.
     ///
     /// # Errors
-    /// A message: it can't be read, or its postform.toml says something that makes no sense.
+    /// A message: the path can't be read, or its postform.toml contains a value that makes no sense.
     pub fn search(&mut self, path: &Path, posts: &mut Posts, args: &TestArgs) -> Result<(), String> {
         let meta = fs::metadata(path).map_err(|error| io_message("read", path, &error))?;
         if meta.is_file() {
             let files = listed(files::folder(path))?;
             let name = files::name(path);
             if files::is_form(path) {
-                return Err(format!("error: {name} is a form\n  help: `postform test FOLDER --form {name}` tries it"));
+                return Err(format!(
+                    "error: {name} is a form\n  help: `postform test FOLDER --form {name}` tests the form"
+                ));
             }
             if is_expected(path) {
-                return Err(format!("error: {name} is an expected program: give its job, or its folder"));
+                return Err(format!("error: {name} is an expected program: give the job or the folder instead"));
             }
             return self.job(path, &files, posts, args);
         }
@@ -55,7 +57,7 @@ impl Found {
             if let Some(other) = jobs[..at].iter().find(|other| other.file_stem() == job.file_stem()) {
                 let (job, other) = (files::name(job), files::name(other));
                 self.problems.push(format!(
-                    "{job} and {other} would share their expected programs\n  help: give one another name"
+                    "{job} and {other} would have the same expected programs\n  help: rename one of them"
                 ));
                 continue;
             }
@@ -64,7 +66,7 @@ impl Found {
         for path in entries.iter().filter(|path| is_expected(path)) {
             let stem = stem_of_expected(path);
             if !jobs.iter().any(|job| job.file_stem().is_some_and(|own| own.to_string_lossy() == stem)) {
-                self.problems.push(format!("{} has no {stem} beside it: no job of that name", files::name(path)));
+                self.problems.push(format!("{} has no job: there is no {stem} in its folder", files::name(path)));
             }
         }
         for folder in below(&entries).filter(|_| deeper > 0) {
@@ -87,7 +89,7 @@ impl Found {
         let clock =
             clock::parse(day).map_err(|why| in_file(&config, &format!("date = {day:?} under [test]: {why}")))?;
         if !(0.0..=1e3).contains(&config.test.tolerance) {
-            let message = format!("tolerance = {} under [test]: it is 0 or more", config.test.tolerance);
+            let message = format!("tolerance = {} under [test]: it must be 0 or more", config.test.tolerance);
             return Err(in_file(&config, &message));
         }
         let mut count = 0;
@@ -119,7 +121,7 @@ impl Found {
             };
             match form {
                 Some(form) => add(self, form, path.clone(), cycles, wanted),
-                // the forms of the command line are those that are tried
+                // with forms on the command line, only these are tested
                 None if posts.are_named() => {}
                 None => self.problems.push(no_form(path, form_name, &config)),
             }
@@ -137,7 +139,8 @@ impl Found {
         if count == 0 {
             let name = files::name(job);
             self.problems.push(format!(
-                "{name} has no expected program beside it\n  help: `postform test --update --form FORM {name}` writes {head}FORM.nc"
+                "{name} has no expected program in its folder\n  help: `postform test --update --form FORM {name}` \
+                 writes {head}FORM.nc"
             ));
         }
         Ok(())
@@ -147,11 +150,12 @@ impl Found {
 fn no_form(expected: &Path, form: &str, config: &Config) -> String {
     let name = files::name(expected);
     if form.is_empty() {
-        return format!("{name}: there is no form.pf beside it, and no one form under [test]");
+        return format!("{name}: there is no form.pf in its folder, and [test] does not name exactly one form");
     }
     let file = config.path.clone().map_or("a postform.toml".to_owned(), |path| files::name(&shortened(path)));
     format!(
-        "{name}: there is no form called {form}\n  help: add its file to forms under [test] in {file}, or name it by --form"
+        "{name}: there is no form called {form}\n  help: add its file to forms under [test] in {file}, or give it \
+         with --form"
     )
 }
 

@@ -1,4 +1,4 @@
-//! `postform test`: the programs that forms print, beside those that are expected.
+//! `postform test`: compares the programs that forms print with the expected ones.
 
 mod case;
 mod cases;
@@ -22,7 +22,7 @@ use case::Tried;
 use find::Found;
 use posts::Posts;
 
-/// Prints every case and compares it with what is expected.
+/// Prints every case and compares it with the expected result.
 pub fn run(args: &TestArgs, colour: Colour) -> Result<Ending, String> {
     if let Some(form) = &args.new {
         let folders = folders(args);
@@ -35,7 +35,7 @@ pub fn run(args: &TestArgs, colour: Colour) -> Result<Ending, String> {
         found.search(&path, &mut posts, args)?;
     }
     if args.coverage && matches!(args.format, TestFormat::Junit | TestFormat::Github) {
-        return Err("error: --coverage is shown by --format pretty and json".to_owned());
+        return Err("error: --coverage needs --format pretty or json".to_owned());
     }
     if found.cases.is_empty() && found.problems.is_empty() {
         return Err(nothing(args));
@@ -83,8 +83,9 @@ fn nothing(args: &TestArgs) -> String {
         );
     }
     format!(
-        "error: there are no cases in {}\n  help: a case is a job (job.json, or any other) and beside it expected.NAME.nc, the program that NAME.pf prints; \
-         `postform test --new FORM` writes the standard ones, `postform test --update --form FORM FOLDER` those of the jobs in a folder",
+        "error: there are no cases in {}\n  help: a case is a job (job.json, or another) and, in the same folder, \
+         expected.NAME.nc: the program that NAME.pf prints; `postform test --new FORM` writes the standard cases, \
+         `postform test --update --form FORM FOLDER` writes the cases of the jobs in a folder",
         names.join(", ")
     )
 }

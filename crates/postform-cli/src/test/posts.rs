@@ -1,4 +1,4 @@
-//! The forms under test: each is read once.
+//! The tested forms; each is read once.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,44 +13,44 @@ use super::super::files::{self, io_message};
 use super::super::forms::FormFile;
 use super::super::report::Reporter;
 
-/// A form under test.
+/// A tested form.
 pub struct Entry {
     /// Its file.
     pub path: PathBuf,
-    /// The file's name without its ending: expected programs have it in theirs.
+    /// The file's name without its extension; names of expected programs contain it.
     pub name: String,
-    /// Which post of a file that holds several.
+    /// The name of the post, if the file contains several.
     of_post: Option<String>,
-    /// It prints, or why not.
+    /// The compiled form, or the reason why it can't print.
     pub ready: Result<Ready, String>,
 }
 
-/// A form that prints.
+/// A form that can print.
 pub struct Ready {
-    /// What prints.
+    /// The compiled form.
     pub post: Post,
-    /// How it prints.
+    /// The options for printing.
     pub options: Options,
-    /// How its programs are proven.
+    /// The settings for proofs.
     pub proof: Proof,
-    /// What its files mean.
+    /// The analysis of its files.
     pub checked: Checked,
 }
 
 /// Forms, each once.
 pub struct Posts {
     entries: Vec<Entry>,
-    /// Those of the command line, which go before those of postform.toml.
+    /// The forms of the command line, which replace those of postform.toml.
     named: Option<Vec<usize>>,
-    /// Those that are named one by one, not by their folder.
+    /// The forms that are given one by one, not by their folder.
     pub single: Vec<usize>,
 }
 
 impl Posts {
-    /// The forms of the command line, which may be none.
+    /// The forms of the command line; there may be none.
     ///
     /// # Errors
-    /// A message: a form is not there.
+    /// A message: a form does not exist.
     pub fn named(forms: &[PathBuf]) -> Result<Posts, String> {
         let mut posts = Posts { entries: Vec::new(), named: None, single: Vec::new() };
         if !forms.is_empty() {
@@ -59,7 +59,7 @@ impl Posts {
         Ok(posts)
     }
 
-    /// Were forms named on the command line?
+    /// Are there forms on the command line?
     pub fn are_named(&self) -> bool {
         self.named.is_some()
     }
@@ -67,7 +67,7 @@ impl Posts {
     /// The forms for jobs under this configuration.
     ///
     /// # Errors
-    /// A message: a form is not there.
+    /// A message: a form does not exist.
     pub fn under(&mut self, config: &Config) -> Result<Vec<usize>, String> {
         if let Some(named) = &self.named {
             return Ok(named.clone());
@@ -100,10 +100,10 @@ impl Posts {
         Ok(all)
     }
 
-    /// A form by its path; read where it was not yet.
+    /// The number of a form by its path; the form is read if it is new.
     ///
     /// # Errors
-    /// A message: it is not there.
+    /// A message: the form does not exist.
     pub fn entry(&mut self, path: &Path, post: Option<&str>) -> Result<usize, String> {
         let path = &shortened(path.canonicalize().map_err(|error| io_message("read", path, &error))?);
         if let Some(at) = self.entries.iter().position(|entry| entry.path == *path && entry.of_post.as_deref() == post)
@@ -128,7 +128,7 @@ impl Posts {
 }
 
 impl Ready {
-    /// Reads a form. `Err`: why it can't print, for people.
+    /// Reads a form. `Err`: the reason why it can't print, for people.
     pub fn of(path: &Path, post: Option<&str>) -> Result<Ready, String> {
         let config = Config::near(path)?;
         let limits: Limits = config.limits.unwrap_or_default();

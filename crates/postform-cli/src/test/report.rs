@@ -1,4 +1,4 @@
-//! How the result is shown: to people, as JSON, as JUnit's XML, as marks on GitHub.
+//! Shows the result: as text, as JSON, as JUnit XML, or as annotations on GitHub.
 
 use std::fmt::Write as _;
 
@@ -15,20 +15,20 @@ use super::case::{Case, End, Tried};
 use super::coverage::Covered;
 use super::posts::Posts;
 
-/// All that was tried.
+/// The results of all cases.
 pub struct Report<'a> {
     /// The cases.
     pub tried: &'a [Tried],
-    /// What can't be a case.
+    /// Files that can't be a case.
     pub problems: &'a [String],
     /// The forms.
     pub posts: &'a Posts,
-    /// What no case prints, where it was asked for.
+    /// The lines that no case prints, if requested.
     pub covered: Option<&'a [Covered]>,
 }
 
 impl Report<'_> {
-    /// Is all as expected?
+    /// Are all results as expected?
     pub fn is_clean(&self) -> bool {
         self.problems.is_empty() && self.tried.iter().all(|tried| tried.end.is_right())
     }
@@ -61,7 +61,7 @@ impl Report<'_> {
         text
     }
 
-    /// For people.
+    /// The text for people.
     pub fn pretty(&self) -> String {
         let mut text = String::new();
         for (form, entry) in self.posts.all().iter().enumerate() {
@@ -69,13 +69,13 @@ impl Report<'_> {
             if let (Err(why), true) = (&entry.ready, own > 0) {
                 _ = writeln!(
                     text,
-                    "{}\nnone of its {} is printed",
+                    "{}\nnone of the {} of this form is printed",
                     escaped_lines(why.trim_start_matches("error: ")),
                     count(own, "program")
                 );
             }
             if own == 0 && self.posts.single.contains(&form) {
-                _ = writeln!(text, "{}: no job has an expected program of it", files::name(&entry.path));
+                _ = writeln!(text, "{}: no job has an expected program of this form", files::name(&entry.path));
             }
         }
         for tried in self.tried.iter().filter(|tried| self.posts.get(tried.case.form).ready.is_ok()) {
@@ -117,7 +117,7 @@ impl Report<'_> {
         for covered in self.covered.unwrap_or_default() {
             let missing = covered.missing.len();
             let printed = covered.lines - missing;
-            _ = writeln!(text, "{}: {printed} of {} lines are printed by a case", covered.form, covered.lines);
+            _ = writeln!(text, "{}: the cases print {printed} of {} lines", covered.form, covered.lines);
             for (file, line, shown) in &covered.missing {
                 _ = writeln!(text, "  {file}:{line}: {}", escaped(shown));
             }
@@ -160,7 +160,7 @@ impl Report<'_> {
         }))
     }
 
-    /// The XML of JUnit, as CI systems read it.
+    /// JUnit XML, for CI systems.
     pub fn junit(&self) -> String {
         self.xml().map(|bytes| String::from_utf8_lossy(&bytes).into_owned() + "\n").unwrap_or_default()
     }
@@ -190,7 +190,7 @@ impl Report<'_> {
         Ok(writer.into_inner())
     }
 
-    /// Commands of GitHub's runners: each marks a line of a file.
+    /// Commands for GitHub's runners; each marks a line of a file.
     pub fn github(&self) -> String {
         let mut text = String::new();
         for tried in self.tried.iter().filter(|tried| !tried.end.is_right()) {
@@ -214,7 +214,7 @@ impl Report<'_> {
     }
 }
 
-/// What is said of an end without colour, and the line of the expected program.
+/// The text of a result without colour, and the line of the expected program.
 fn said(end: &End) -> (String, Option<usize>) {
     match end {
         End::Passed => (String::new(), None),
@@ -233,7 +233,7 @@ fn case(writer: &mut Writer<Vec<u8>>, form: &str, name: &str, failure: Option<&s
     let short = message.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default();
     failure.push_attribute(("message", short));
     writer.write_event(Event::Start(failure))?;
-    // what XML has no character for is escaped
+    // characters that XML does not allow are escaped
     writer.write_event(Event::Text(BytesText::new(&escaped_lines(message))))?;
     writer.write_event(Event::End(BytesEnd::new("failure")))?;
     writer.write_event(Event::End(BytesEnd::new("testcase")))

@@ -1,4 +1,4 @@
-//! `postform test --new`: the standard cases for a form, with what it prints of each.
+//! `postform test --new`: the standard cases for a form, with the programs that it prints.
 
 use std::borrow::Cow;
 use std::fs;
@@ -14,7 +14,7 @@ use super::case::{Case, may_be_expected};
 use super::cases::{BEAM, LATHE, MILL, WIRE};
 use super::posts::Ready;
 
-/// Writes the cases into a folder: for each a job, and beside it what the form prints of it. Files that are there stay.
+/// Writes the cases into a folder: each is a job with the program that the form prints. Existing files stay.
 pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
     let ready = Ready::of(form, None)?;
     let name = form.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
@@ -62,7 +62,7 @@ pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
     let mut text = format!("{}: {printed} programs of {} jobs\n", files::name(folder), cases.len());
     if !refused.is_empty() {
         text += &format!(
-            "{} does not print the others, which is then expected:\n{}\n",
+            "{} refuses the other jobs; these refusals are now the expected results:\n{}\n",
             files::name(form),
             refused.join("\n")
         );
@@ -70,27 +70,29 @@ pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
     if !others.is_empty() {
         let text_of = others.join("\n");
         text += &format!(
-            "other jobs have these names, and stay; nothing was written beside them:\n{text_of}\n  help: give this form a folder of its own\n"
+            "other jobs with these names exist and are kept; no expected programs were written for \
+             them:\n{text_of}\n  help: give this form a folder of its own\n"
         );
     }
     if !written && !fs::read_to_string(&config).is_ok_and(|there| there.contains(&said)) {
-        text += &format!("{} was there: add {said} to its forms under [test]\n", files::name(&config));
+        text += &format!("{} existed already: add {said} to its forms under [test]\n", files::name(&config));
     }
     if !wrong.is_empty() {
         let list = wrong.join("\n");
         text += &format!(
-            "{} prints programs of these that do something else than the job:\n{list}\n  help: fix the form, then run this again\n",
+            "{} prints programs of these jobs that are different from the job:\n{list}\n  help: fix the form, then \
+             run this again\n",
             files::name(form)
         );
         output::standard_output(|out| io::Write::write_all(out, text.as_bytes()))?;
         return Ok(Ending::Findings);
     }
-    text += &format!("look the programs through once, then: postform test {}\n", files::name(folder));
+    text += &format!("check the programs once, then run: postform test {}\n", files::name(folder));
     output::standard_output(|out| io::Write::write_all(out, text.as_bytes()))?;
     Ok(Ending::Clean)
 }
 
-/// A job in units that the form prints. The numbers stay: it is a smaller part, or a larger one.
+/// A job in units that the form prints. The numbers stay the same, so the part becomes smaller or larger.
 fn in_units(job: &str, printed: UnitChoice) -> Cow<'_, str> {
     let units = ["\"units\": \"mm\"", "\"units\": \"inch\""];
     let [from, to] = match printed {
@@ -101,7 +103,7 @@ fn in_units(job: &str, printed: UnitChoice) -> Cow<'_, str> {
     job.replacen(from, to, 1).into()
 }
 
-/// Writes a file that is not there yet. `false`: it is, and stays.
+/// Writes a file if it does not exist yet. `false`: it exists and stays.
 fn new(path: &Path, bytes: &[u8]) -> Result<bool, String> {
     match write_new(path, bytes) {
         Ok(()) => Ok(true),
@@ -110,7 +112,7 @@ fn new(path: &Path, bytes: &[u8]) -> Result<bool, String> {
     }
 }
 
-/// The path of a file as seen from a folder.
+/// The path of a file relative to a folder.
 fn relative(folder: &Path, file: &Path) -> Result<PathBuf, String> {
     let whole = |path: &Path| path.canonicalize().map_err(|error| io_message("read", path, &error));
     let (folder, file) = (whole(folder)?, whole(file)?);
@@ -119,7 +121,7 @@ fn relative(folder: &Path, file: &Path) -> Result<PathBuf, String> {
     Ok(up.chain(file.components().skip(shared)).collect())
 }
 
-/// A text in TOML.
+/// A text as a TOML string.
 fn toml_string(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "/").replace('"', "\\\""))
 }

@@ -1,4 +1,4 @@
-//! Blocks that move and switch: `L X+10 R0 F500 M3`, `CC`, `C`, `CR`, `CP`, `LP`, `RND`, `CHF`, `CYCL CALL`.
+//! Blocks that move or switch: `L X+10 R0 F500 M3`, `CC`, `C`, `CR`, `CP`, `LP`, `RND`, `CHF`, `CYCL CALL`.
 
 use super::super::cursor::Cursor;
 use super::super::formula::{Values, formula};
@@ -12,13 +12,13 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 use crate::toolpath::Side;
 
-const FEED_WANTED: &str = "write F with it, or FMAX; after a cycle too: no feed is known there";
+const FEED_WANTED: &str = "write F or FMAX in the block; after a cycle too, because the feed is unknown";
 
-/// Words of a polar position: whether it is the angle, and an increment.
+/// Words of a polar position: the word, whether it is the angle, and whether it is an increment.
 const POLAR: [(&[u8], bool, bool); 4] =
     [(b"PR", false, false), (b"PA", true, false), (b"IPR", false, true), (b"IPA", true, true)];
 
-/// Words of the tool's side.
+/// Words of the compensation side.
 const SIDES: [(&[u8], Side, Meaning); 2] =
     [(b"RL", Side::Left, Meaning::SideLeft), (b"RR", Side::Right, Meaning::SideRight)];
 
@@ -29,7 +29,7 @@ pub struct Words<'s> {
     pub block: &'s mut Block,
 }
 
-/// What kind of path a block names.
+/// The kind of a path block.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Path {
     Line,
@@ -71,7 +71,7 @@ impl Words<'_> {
         match self.own.value(&name) {
             Some(value) => Ok(sign * value),
             None => {
-                let help = "give it a number in the program before: what the machine holds in it is unknown here";
+                let help = "set it earlier in the program: its value in the machine is unknown";
                 Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
             }
         }
@@ -99,7 +99,7 @@ impl Words<'_> {
         Ok(Some((axis, self.number(cursor)?, by)))
     }
 
-    /// The words of a path.
+    /// Reads the words of a path block.
     pub fn path(&mut self, path: Path, cursor: &mut Cursor<'_>) -> Done {
         let at = self.state.place.position;
         let letters = *self.state.control.axes();
@@ -186,10 +186,14 @@ impl Words<'_> {
             if path == Path::Line {
                 self.corner_ahead(at)?;
             } else if self.own.ahead.is_some() {
-                return refuse(Code::PN016, "a rounding or chamfer beside an arc is not run", "program it as moves");
+                return refuse(
+                    Code::PN016,
+                    "a rounding or chamfer next to an arc is not supported",
+                    "program it as moves",
+                );
             }
         }
-        // the last call ends those after every block
+        // M99 makes the last call and ends the calls after every block
         if calls || goes && self.own.calls_always {
             self.call()?;
         }
@@ -206,11 +210,11 @@ impl Words<'_> {
     fn center(&self) -> Done<[f64; 2]> {
         match self.own.center {
             Some(center) => Ok(center),
-            None => refuse(Code::PN009, "no CC says where the centre is", "write CC X.. Y.. before it"),
+            None => refuse(Code::PN009, "the centre is missing: there is no CC", "write CC X.. Y.. before it"),
         }
     }
 
-    /// A polar position about the centre. Its angle counts from +X.
+    /// The position for polar words about the centre. The angle is measured from +X.
     fn polar(&mut self, at: [f64; 6], words: [Option<(f64, bool)>; 2], keeps: bool) -> Done<[f64; 2]> {
         let center = self.center()?;
         let now = [at[0] - center[0], at[1] - center[1]];
@@ -233,7 +237,7 @@ impl Words<'_> {
         Ok([center[0] + radius * cos, center[1] + radius * sin])
     }
 
-    /// The words of an arc, from where the tool is.
+    /// Sets the words of an arc that begins at the tool position.
     fn arc(
         &mut self,
         path: Path,
@@ -259,7 +263,11 @@ impl Words<'_> {
                 }
                 let turns = by.abs() / 360.0;
                 if turns > 1e6 {
-                    return refuse(Code::PN018, format!("IPA {by} is over a million turns"), "write a smaller angle");
+                    return refuse(
+                        Code::PN018,
+                        format!("IPA {by} is more than a million turns"),
+                        "write a smaller angle",
+                    );
                 }
                 if by % 360.0 == 0.0 {
                     to = [at[0], at[1]];
@@ -273,7 +281,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// `F500`, `FMAX`, `F AUTO`; `true`: a rapid.
+    /// Reads `F500`, `FMAX`, `F AUTO`. Returns `true` for a rapid.
     pub(super) fn feed(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
         if cursor.takes_word("MAX") {
             return Ok(true);
@@ -283,16 +291,16 @@ impl Words<'_> {
             return Ok(false);
         }
         if cursor.peek().is_some_and(|byte| matches!(byte.to_ascii_uppercase(), b'U' | b'Z' | b'N')) {
-            let message = "feeds a tooth or a turn are not run";
-            return Err(Fault::at(Code::PN016, cursor.at(), message, "write the feed a minute"));
+            let message = "feeds per tooth or per turn are not supported";
+            return Err(Fault::at(Code::PN016, cursor.at(), message, "write the feed per minute"));
         }
         let value = self.number(cursor)?;
-        // inches count tenths
+        // in inch programs, feeds are in tenths of an inch
         self.own.feed = Some(if self.own.inch { value / 10.0 } else { value });
         Ok(false)
     }
 
-    /// `M3`; `true`: the cycle is called.
+    /// Reads an M code such as `M3`. Returns `true` if the cycle is called.
     fn switch(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
         let begin = cursor.at();
         *cursor = cursor.from(begin + 1);
@@ -312,12 +320,12 @@ impl Words<'_> {
         Ok(false)
     }
 
-    /// `M140 MB MAX`: up to the end of the travel. `MB50`, so far along the tool, is not run.
+    /// `M140 MB MAX` moves to the end of the travel. `MB50`, a distance along the tool, is not run.
     fn back_along_tool(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let begin = cursor.at();
         if !cursor.takes_word("MB") || !cursor.takes_word("MAX") {
             let help = "write M140 MB MAX, or the height with L";
-            return Err(Fault::at(Code::PN016, begin, "M140 is run with MB MAX alone", help));
+            return Err(Fault::at(Code::PN016, begin, "M140 is supported only with MB MAX", help));
         }
         self.code(Meaning::Machine)?;
         self.block.word(b'Z', 0.0, false, begin, self.state.settings.control)?;
@@ -331,12 +339,12 @@ impl Words<'_> {
         };
         self.block.call = Some(call.clone());
         self.block.is_empty = false;
-        // no text says whether the F of the moves or Q206 of the cycle is in force after it
+        // no manual states whether the feed of the moves or Q206 of the cycle is in force afterwards
         self.own.feed = None;
         Ok(())
     }
 
-    /// `CYCL CALL`, with M codes.
+    /// Reads `CYCL CALL` with M codes.
     pub fn cycle_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
         if cursor.takes_word("POS") {
             self.path(Path::Line, cursor)?;
@@ -345,7 +353,7 @@ impl Words<'_> {
         if cursor.takes_word("PAT") {
             return refuse(
                 Code::PN016,
-                "patterns of PATTERN DEF are not run",
+                "patterns of PATTERN DEF are not supported",
                 "call the cycle at each position by M99",
             );
         }
@@ -359,7 +367,7 @@ impl Words<'_> {
         self.call()
     }
 
-    /// A rounding or chamfer comes next: the line ends where it begins.
+    /// Shortens the line if a rounding or chamfer follows: the line then ends at the start of the corner.
     fn corner_ahead(&mut self, at: [f64; 6]) -> Done {
         let Some([rounding, next]) = self.own.ahead.take() else { return Ok(()) };
         let target = |words: &Self, from: [f64; 2]| -> Done<[f64; 2]> {
@@ -367,7 +375,11 @@ impl Words<'_> {
             let mut cursor = Cursor::new(&next, 0);
             super::flow::skip_number(&mut cursor);
             if !cursor.takes_word("L") {
-                return refuse(Code::PN016, "a rounding or chamfer beside an arc is not run", "program it as moves");
+                return refuse(
+                    Code::PN016,
+                    "a rounding or chamfer next to an arc is not supported",
+                    "program it as moves",
+                );
             }
             while let Some((axis, value, by)) = words.axis(&mut cursor)? {
                 match axis {
@@ -375,7 +387,7 @@ impl Words<'_> {
                     _ => {
                         return refuse(
                             Code::PN016,
-                            "a rounding or chamfer out of its plane is not run",
+                            "a rounding or chamfer outside its plane is not supported",
                             "program it as moves",
                         );
                     }
@@ -384,7 +396,11 @@ impl Words<'_> {
             Ok(to)
         };
         if [b'Z', b'A', b'B', b'C'].iter().any(|letter| self.block.get(*letter).is_some()) {
-            return refuse(Code::PN016, "a rounding or chamfer out of its plane is not run", "program it as moves");
+            return refuse(
+                Code::PN016,
+                "a rounding or chamfer outside its plane is not supported",
+                "program it as moves",
+            );
         }
         let mut corner = [at[0], at[1]];
         for (axis, letter) in [(0, b'X'), (1, b'Y')] {
@@ -407,7 +423,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// `RND R3 F200` and `CHF 2`, which the line before prepared.
+    /// Runs `RND R3 F200` and `CHF 2`, which the previous line has prepared.
     pub fn rounding(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let Some(corner) = self.own.corner.take() else {
             return refuse(Code::PN009, "a rounding or chamfer without a line before it", "write it between two lines");
@@ -416,7 +432,7 @@ impl Words<'_> {
         self.number(cursor)?;
         let mut feed = self.own.feed;
         if cursor.takes(b"F") {
-            // it holds here alone
+            // this feed is in force for the corner only
             let held = feed;
             self.feed(cursor)?;
             feed = self.own.feed;
@@ -440,7 +456,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// `CC X+10 Y+20`; alone it is where the tool is.
+    /// Reads `CC X+10 Y+20`. `CC` alone sets the centre to the tool position.
     pub fn circle_center(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let at = self.state.place.position;
         let mut center = if cursor.is_over() { [at[0], at[1]] } else { self.own.center.unwrap_or([at[0], at[1]]) };
@@ -456,7 +472,7 @@ impl Words<'_> {
     }
 }
 
-/// Does a polar path lack its words?
+/// Whether a polar path lacks its words.
 fn is_astray(path: Path, words: [Option<(f64, bool)>; 2]) -> bool {
     match path {
         Path::Polar => words == [None; 2],

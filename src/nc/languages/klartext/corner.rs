@@ -3,22 +3,22 @@
 use crate::diag::Code;
 use crate::nc::fault::{Done, refuse};
 
-/// A corner that is rounded or cut off.
+/// A rounded or chamfered corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
-    /// Where the first line ends now.
+    /// The new end of the first line.
     pub start: [f64; 2],
-    /// Where the second one begins.
+    /// The new start of the second line.
     pub end: [f64; 2],
     /// The centre of the arc, and whether it turns counter-clockwise; `None`: a straight chamfer.
     pub arc: Option<([f64; 2], bool)>,
 }
 
 impl Corner {
-    /// The corner of the lines from `from` to `at` and on to `to`. `size`: the radius, or the length of a chamfer's side.
+    /// The corner between the lines `from`-`at` and `at`-`to`. `size`: the radius, or the length of a chamfer's side.
     ///
     /// # Errors
-    /// The lines are too short, or make no corner.
+    /// The lines are too short, or do not meet at an angle.
     pub fn new(from: [f64; 2], at: [f64; 2], to: [f64; 2], size: f64, rounds: bool) -> Done<Corner> {
         let unit = |a: [f64; 2], b: [f64; 2]| {
             let length = (b[0] - a[0]).hypot(b[1] - a[1]);
@@ -30,14 +30,14 @@ impl Corner {
         if before.min(after) == 0.0 || cross.abs() < 1e-9 {
             return refuse(
                 Code::PN009,
-                "a rounding or chamfer where no corner is",
+                "a rounding or chamfer without a corner",
                 "write it between two lines that meet at an angle",
             );
         }
         let cut = if rounds { size * (cross.atan2(dot) / 2.0).tan().abs() } else { size };
         if size <= 0.0 || cut > before.min(after) + 1e-9 {
-            let message = format!("a rounding or chamfer of {size} is longer than a line beside it");
-            return refuse(Code::PN009, message, "write a smaller one, or longer lines");
+            let message = format!("a rounding or chamfer of {size} is longer than an adjacent line");
+            return refuse(Code::PN009, message, "use a smaller size, or longer lines");
         }
         let start = [at[0] - cut * u[0], at[1] - cut * u[1]];
         let end = [at[0] + cut * v[0], at[1] + cut * v[1]];

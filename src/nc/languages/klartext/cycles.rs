@@ -1,4 +1,5 @@
-//! Drilling cycles of Klartext: 200 to 203, 205 to 207, 209 and 240, by the "cycle run" of each in the manuals of TNC 320, 620 and 640.
+//! Drilling cycles of Klartext: 200 to 203, 205 to 207, 209 and 240. Each follows its section "cycle run" in the manuals
+//! of TNC 320, 620 and 640.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +11,7 @@ use crate::nc::call::{Canned, Plan, Stand, Step};
 use crate::nc::fault::{Done, refuse};
 use crate::toolpath::Units;
 
-/// The parameters that each cycle needs, and those that it may have.
+/// For each cycle: the required parameters and the optional ones.
 const CYCLES: [(u16, &[u16], &[u16]); 9] = [
     (200, &[200, 201, 206, 202, 203, 204], &[210, 211, 395]),
     (201, &[200, 201, 206, 203, 204], &[211, 208]),
@@ -26,22 +27,22 @@ const CYCLES: [(u16, &[u16], &[u16]); 9] = [
 /// A definition of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
-    /// Its number.
+    /// The number of the cycle.
     pub number: u16,
-    /// Its parameters by their numbers; infinite: `MAX`.
+    /// The parameters by number. `MAX` is stored as infinity.
     pub words: BTreeMap<u16, f64>,
 }
 
 impl Cycle {
-    /// Is there a drilling cycle of this number?
+    /// Whether there is a drilling cycle of this number.
     pub fn is_known(number: u16) -> bool {
         CYCLES.iter().any(|(own, ..)| *own == number)
     }
 
-    /// Has the definition all that it needs, and nothing that is not run?
+    /// Checks that the definition has all required parameters, and none that is not run.
     ///
     /// # Errors
-    /// A parameter that is missing or unknown.
+    /// A parameter is missing or unknown.
     pub fn check(&self) -> Done {
         let Some((number, needs, takes)) = CYCLES.iter().find(|(own, ..)| *own == self.number) else { return Ok(()) };
         if let Some(missing) = needs.iter().find(|word| !self.words.contains_key(word)) {
@@ -51,13 +52,13 @@ impl Cycle {
         for (word, value) in &self.words {
             let is_run = needs.contains(word) || takes.contains(word) && !matches!(word, 379 | 395);
             if !is_run && *value != 0.0 {
-                let message = format!("Q{word}={value} in CYCL DEF {number} is not run");
+                let message = format!("Q{word}={value} in CYCL DEF {number} is not supported");
                 return refuse(Code::PN016, message, "write 0, or leave it out");
             }
         }
         if self.get(201) > 0.0 {
             let message = format!("the depth Q201={} is above the surface", self.get(201));
-            return refuse(Code::PN011, message, "write it with a minus: it counts from Q203");
+            return refuse(Code::PN011, message, "write it with a minus: it is measured from Q203");
         }
         if self.number == 240 && self.get(343) != 0.0 {
             let help = "write the depth Q201, with Q343=0";
@@ -70,10 +71,10 @@ impl Cycle {
         self.words.get(&word).copied().unwrap_or(0.0)
     }
 
-    /// Works the hole out; `None`: its depth is 0, and nothing is done.
+    /// Works out the hole. `None`: the depth is 0, and the cycle does nothing.
     ///
     /// # Errors
-    /// What the cycle refuses.
+    /// The cycle refuses its parameters.
     fn hole(&self, stand: &Stand) -> Done<Option<Canned>> {
         let (surface, depth) = (self.get(203), self.get(201));
         if depth == 0.0 {
@@ -84,14 +85,14 @@ impl Cycle {
         let (r, bottom) = (surface + self.get(200), surface + depth);
         let clear = r.max(surface + self.get(204));
         let (turning, speed) = (stand.turning, stand.speed);
-        // a feed in inches counts tenths
+        // in inch programs, feeds are in tenths of an inch
         let of_feed = |word: u16| if inch { self.get(word) / 10.0 } else { self.get(word) };
         let into = of_feed(206);
         let mut feed = into;
         let mut steps = vec![Step::Rapid(r)];
         let at_bottom = dwell(self.get(211));
         let mut peck = 0.0;
-        // infinite: as a rapid; none: as it went in
+        // an infinite feed is a rapid; 0 means the feed of the way in
         let out_feed = if self.get(208) == 0.0 { into } else { of_feed(208) };
         let retract = |steps: &mut Vec<Step>, height: f64| match out_feed.is_finite() && out_feed < 99_999.0 {
             true => steps.push(Step::Feed(height, out_feed)),
@@ -121,7 +122,7 @@ impl Cycle {
                     2 => [0.0, -by, 0.0],
                     3 => [by, 0.0, 0.0],
                     4 => [0.0, by, 0.0],
-                    other => return refuse(Code::PN018, format!("Q214={other} is no direction"), "write 0 to 4"),
+                    other => return refuse(Code::PN018, format!("Q214={other} is not a direction"), "write 0 to 4"),
                 };
                 steps.extend([Step::Orient(self.get(336)), Step::Aside(aside)]);
                 match out_feed.is_finite() && out_feed < 99_999.0 {
@@ -260,13 +261,13 @@ impl Cycle {
         Ok(Some(Canned { hole, steps }))
     }
 
-    /// The stroke after one: shorter by Q212, and at least Q205.
+    /// The length of the next stroke: shorter by Q212, but at least Q205.
     fn shorter(&self) -> impl Fn(f64, f64) -> f64 + use<> {
         let (less, least) = (self.get(212), self.get(205));
         move |stroke, _| if less > 0.0 { (stroke - less).max(least) } else { stroke }
     }
 
-    /// Strokes with the tool out of the hole after each but the last.
+    /// Adds the strokes of a hole. The tool leaves the hole after each stroke except the last.
     fn pecks(
         &self,
         all: &[f64],

@@ -1,4 +1,4 @@
-//! Blocks that define: `TOOL CALL`, `CYCL DEF`, `TRANS DATUM`.
+//! Definition blocks: `TOOL CALL`, `CYCL DEF`, `TRANS DATUM`.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::diag::Code;
 use crate::nc::fault::{Done, Fault, refuse};
 
 impl Words<'_> {
-    /// `TOOL CALL 5 Z S2000 F300 DL+0.1`; without a tool it sets the speed.
+    /// Reads `TOOL CALL 5 Z S2000 F300 DL+0.1`. Without a tool, the block sets the speed only.
     pub fn tool_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let tool = match cursor.peek() {
             Some(b'"') => {
@@ -34,7 +34,7 @@ impl Words<'_> {
             match (rest.first(), rest.get(1)) {
                 (Some(b'Z'), None | Some(b' ')) => skip(1, cursor),
                 (Some(b'X' | b'Y'), None | Some(b' ')) => {
-                    let message = "a tool along X or Y is not run";
+                    let message = "a tool along X or Y is not supported";
                     return Err(Fault::at(Code::PN016, begin, message, "write TOOL CALL with Z"));
                 }
                 (Some(b'D'), Some(b'L' | b'R')) => {
@@ -79,8 +79,8 @@ impl Words<'_> {
         let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
         let (cycle, part) = (number.trunc() as u16, (number.fract() * 10.0).round() as u16);
         let unknown = |what: &str| {
-            let message = format!("CYCL DEF {number} is not run{what}");
-            Err(Fault::at(Code::PN016, begin, message, "run the program without it, or write what it does as moves"))
+            let message = format!("CYCL DEF {number} is not supported{what}");
+            Err(Fault::at(Code::PN016, begin, message, "run the program without it, or write it as moves"))
         };
         if Cycle::is_known(cycle) {
             let cycle = Cycle { number: cycle, words: self.parameters(cursor)? };
@@ -94,8 +94,8 @@ impl Words<'_> {
                 let words = self.parameters(cursor)?;
                 let datum = words.get(&339).copied().unwrap_or(0.0);
                 if datum.fract() != 0.0 || !(1.0..=999.0).contains(&datum) {
-                    let message = format!("datum {datum} is not run");
-                    return Err(Fault::at(Code::PN016, begin, message, "take datum 1 to 999"));
+                    let message = format!("datum {datum} is not supported");
+                    return Err(Fault::at(Code::PN016, begin, message, "use datum 1 to 999"));
                 }
                 self.block.work = Some(datum);
             }
@@ -110,7 +110,7 @@ impl Words<'_> {
                 let Some(seconds) = seconds else { return Err(cursor.unreadable()) };
                 self.dwell(seconds)?;
             }
-            // what turns and scales nothing
+            // accepted only with values that do not rotate or scale
             (10 | 11, _) => {
                 let text = cursor.rest();
                 let neutral = if cycle == 10 { 0.0 } else { 1.0 };
@@ -126,19 +126,19 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// A dwell of so many seconds.
+    /// Sets a dwell in seconds.
     pub fn dwell(&mut self, seconds: f64) -> Done {
         self.code(Meaning::Dwell)?;
         self.block.put(b'P', seconds);
         Ok(())
     }
 
-    /// `Q200=2 Q201=-20`: the text before them is the name of the cycle.
+    /// Reads parameters such as `Q200=2 Q201=-20`. Text before the first one is the name of the cycle.
     fn parameters(&mut self, cursor: &mut Cursor<'_>) -> Done<BTreeMap<u16, f64>> {
         let mut words = BTreeMap::new();
         while !cursor.is_over() {
             let begin = cursor.at();
-            // the name of the cycle stands before the first of them, and has no `=`
+            // the name of the cycle comes before the first parameter and has no `=`
             let astray = !words.is_empty() || cursor.peek() == Some(b'=');
             let Some(name) = cursor.name() else {
                 if astray {
@@ -160,7 +160,7 @@ impl Words<'_> {
             } else if cursor.takes_word("AUTO") {
                 self.own
                     .tool_feed
-                    .map_or_else(|| refuse(Code::PN008, "AUTO, and TOOL CALL gave no feed", "write the feed"), Ok)?
+                    .map_or_else(|| refuse(Code::PN008, "AUTO, but TOOL CALL has no feed", "write the feed"), Ok)?
             } else {
                 self.number(cursor)?
             };
@@ -191,12 +191,12 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// M codes that stand without a path: `M5`, `STOP M9`.
+    /// Reads M codes without a path: `M5`, `STOP M9`.
     pub fn switches(&mut self, cursor: &mut Cursor<'_>) -> Done {
         self.path(Path::Line, cursor)
     }
 
-    /// The units of `BEGIN PGM NAME MM`.
+    /// Sets the units of `BEGIN PGM NAME MM`.
     pub fn units(&mut self, inch: bool) -> Done {
         self.own.inch = inch;
         self.code(if inch { Meaning::Inch } else { Meaning::Mm })

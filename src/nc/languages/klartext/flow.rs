@@ -1,4 +1,4 @@
-//! Blocks and the way through them: labels, parts that are repeated, conditions.
+//! Blocks and program flow: labels, repeated parts, conditions.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -12,7 +12,7 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
 
-/// Passes over a block's number.
+/// Skips the number of a block.
 pub fn skip_number(cursor: &mut Cursor<'_>) {
     if cursor.takes(b"/") {
         skip_number(cursor);
@@ -21,7 +21,7 @@ pub fn skip_number(cursor: &mut Cursor<'_>) {
     }
 }
 
-/// Without its comment; a decimal comma is a point.
+/// The line without its comment, with decimal commas changed to points.
 fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     let line = line.trim_ascii_end();
     if memchr::memchr2(b',', b';', line).is_none() {
@@ -40,7 +40,7 @@ fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(plain)
 }
 
-/// The label that a line sets: `LBL 5`, `LBL "POCKET"`.
+/// The label that a line defines: `LBL 5`, `LBL "POCKET"`.
 fn label(line: &[u8]) -> Option<String> {
     let line = plain(line);
     let mut cursor = Cursor::new(&line, 0);
@@ -48,7 +48,7 @@ fn label(line: &[u8]) -> Option<String> {
     if cursor.takes_word("LBL") { name(&mut cursor) } else { None }
 }
 
-/// A label's number or name.
+/// The number or name of a label.
 fn name(cursor: &mut Cursor<'_>) -> Option<String> {
     match cursor.quoted() {
         Some(name) => Some(String::from_utf8_lossy(name).into_owned()),
@@ -57,7 +57,7 @@ fn name(cursor: &mut Cursor<'_>) -> Option<String> {
 }
 
 impl Simulator<'_> {
-    /// Reads the lines of a block: those that end with `~` go on. Looks whether a rounding follows.
+    /// Reads the lines of a block: a line that ends with `~` is continued. Also checks whether a rounding follows.
     pub(in crate::nc) fn read_klartext_lines(&mut self) -> Result<bool, RunError> {
         self.klartext.begin = self.at;
         if !self.read_line()? {
@@ -71,14 +71,14 @@ impl Simulator<'_> {
                 whole.extend_from_slice(&plain(text.strip_suffix(b"~").unwrap_or(text)));
                 whole.push(b' ');
                 if whole.len() > 1 << 16 {
-                    let help = "look for a `~` that should not be there";
-                    return Err(self.refused(Fault::new(Code::PN001, "a block of over 65536 bytes", help)));
+                    let help = "check for a `~` too many";
+                    return Err(self.refused(Fault::new(Code::PN001, "a block of more than 65536 bytes", help)));
                 }
                 if !goes_on {
                     break;
                 }
                 if !self.read_line()? {
-                    let help = "write the lines that follow it";
+                    let help = "write the lines that continue the block";
                     return Err(self.refused(Fault::new(Code::PN010, "the program ends after `~`", help)));
                 }
             }
@@ -91,9 +91,9 @@ impl Simulator<'_> {
         Ok(true)
     }
 
-    /// Is the next block a rounding or a chamfer?
+    /// Whether the next block is a rounding or chamfer.
     fn corner_follows(&mut self) -> Result<bool, RunError> {
-        // most of the time the next line is at hand
+        // the next line is usually in the buffer already
         let found = is_corner(self.input.buffer());
         if let Some(found) = found {
             return Ok(found);
@@ -106,7 +106,7 @@ impl Simulator<'_> {
         Ok(found)
     }
 
-    /// The rounding that follows, and the block after it.
+    /// Reads the rounding that follows, and the block after it.
     fn read_corner(&mut self) -> Result<(), RunError> {
         let (back, text) = (self.at, self.line.clone());
         let mut ahead = [Vec::new(), Vec::new()];
@@ -127,7 +127,7 @@ impl Simulator<'_> {
         self.rewind(back)
     }
 
-    /// Back to where it was, which is no jump of the program.
+    /// Goes back to an earlier position in the input. This is not a jump of the program.
     fn rewind(&mut self, back: Spot) -> Result<(), RunError> {
         let offset = i128::from(back.byte) - i128::from(self.at.byte);
         self.input.seek_relative(i64::try_from(offset).unwrap_or(0))?;
@@ -135,7 +135,7 @@ impl Simulator<'_> {
         Ok(())
     }
 
-    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
     pub(in crate::nc) fn read_klartext(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         let line = std::mem::take(&mut self.line);
@@ -163,7 +163,7 @@ impl Simulator<'_> {
             return Ok(self.block.comment.is_none().then_some(Jump::On));
         }
         if cursor.takes(b"*") {
-            // the heading of a part
+            // the heading of a program section
             let start = cursor.at().min(line.len());
             self.block.comment = Some((start, end.max(start)));
             return Ok(None);
@@ -180,7 +180,7 @@ impl Simulator<'_> {
         match word.as_ref() {
             "BEGIN" => {
                 if words.own.begun {
-                    let help = "give each program a file of its own";
+                    let help = "put each program into a separate file";
                     return refuse(Code::PN010, "a second program begins before the first one ends", help);
                 }
                 words.own.begun = true;
@@ -258,20 +258,15 @@ impl Simulator<'_> {
                 return Ok(Some(Jump::On));
             }
             _ => {
-                let message = format!("`{word}` is not known");
-                return Err(Fault::at(
-                    Code::PN016,
-                    begin,
-                    message,
-                    "run the program without it, or write what it does as moves",
-                ));
+                let message = format!("`{word}` is unknown");
+                return Err(Fault::at(Code::PN016, begin, message, "run the program without it, or write it as moves"));
             }
         }
         self.block.is_empty = false;
         Ok(None)
     }
 
-    /// `CALL LBL 1`, and `CALL LBL 1 REP 3`, which runs the part before it so often again.
+    /// Runs `CALL LBL 1`, and `CALL LBL 1 REP 3`, which runs the part before it 3 more times.
     fn call_label(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let Some(label) = name(cursor) else { return Err(cursor.unreadable()) };
         if !cursor.takes_word("REP") && !cursor.takes(b"REP") {
@@ -283,7 +278,7 @@ impl Simulator<'_> {
         let words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
         let times = words.value(cursor)?;
         if times.fract() != 0.0 || !(0.0..=65_534.0).contains(&times) {
-            return refuse(Code::PN018, format!("REP {times} is no number of repeats"), "write 1 to 65534");
+            return refuse(Code::PN018, format!("REP {times} is not a number of repeats"), "write 1 to 65534");
         }
         let line = self.at.line;
         match self.klartext.repeats.last_mut() {
@@ -298,7 +293,7 @@ impl Simulator<'_> {
         Ok(Jump::Search(Search::Label(label, None)))
     }
 
-    /// `FN 1: Q2 = +Q1 + +5`, `FN 9: IF +Q1 EQU +Q2 GOTO LBL 5`.
+    /// Runs `FN 1: Q2 = +Q1 + +5` and `FN 9: IF +Q1 EQU +Q2 GOTO LBL 5`.
     fn function(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let begin = cursor.at();
         let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
@@ -308,7 +303,7 @@ impl Simulator<'_> {
             return self.condition(number, cursor);
         }
         if !matches!(number, 0..=8 | 13) {
-            let message = format!("FN {number} is not run");
+            let message = format!("FN {number} is not supported");
             return Err(Fault::at(Code::PN016, begin, message, "run the program without it"));
         }
         let name = parameter(cursor)?;
@@ -342,7 +337,7 @@ impl Simulator<'_> {
             _ => both(cursor, "ANG").map(|(a, b)| a.atan2(b).to_degrees())?,
         };
         if !value.is_finite() {
-            return refuse(Code::PN014, format!("the result is {value}, and no number"), "look for a division by zero");
+            return refuse(Code::PN014, format!("the result is {value}, not a number"), "check for a division by zero");
         }
         if !cursor.is_over() {
             return Err(cursor.unreadable());
@@ -375,7 +370,7 @@ impl Simulator<'_> {
         Ok(if is_so { Jump::Search(Search::Label(label, None)) } else { Jump::On })
     }
 
-    /// Goes where a search leads.
+    /// Searches for the target and jumps to it.
     pub(in crate::nc) fn search_klartext(&mut self, search: Search) -> Result<(), RunError> {
         if self.klartext.labels.is_none() {
             let (back, farthest, text) = (self.at, self.farthest, self.line.clone());
@@ -396,7 +391,7 @@ impl Simulator<'_> {
             Search::Part(_) => return Ok(()),
         };
         let Some(start) = self.klartext.labels.as_ref().and_then(|labels| labels.get(&label)).copied() else {
-            let fault = Fault::new(Code::PN015, format!("there is no LBL {label}"), "look for a misprint");
+            let fault = Fault::new(Code::PN015, format!("there is no LBL {label}"), "check the spelling");
             return Err(self.refused(fault));
         };
         if calls {
@@ -419,7 +414,7 @@ fn parameter(cursor: &mut Cursor<'_>) -> Done<String> {
     }
 }
 
-/// `PLANE RESET`, and `PLANE SPATIAL` with three zeros.
+/// Whether the block is `PLANE RESET`, or `PLANE SPATIAL` with three zeros.
 fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
     if cursor.takes_word("RESET") {
         return true;
@@ -430,7 +425,7 @@ fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
     [&b"SPA"[..], b"SPB", b"SPC"].iter().all(|word| cursor.takes(word) && cursor.signed() == Some(0.0))
 }
 
-/// Is the first line here a rounding or chamfer? `None`: it is not here as a whole.
+/// Whether the first line of the text is a rounding or chamfer. `None`: the text does not contain the whole line.
 fn is_corner(text: &[u8]) -> Option<bool> {
     let line = match memchr::memchr(b'\n', text) {
         Some(end) => &text[..end],

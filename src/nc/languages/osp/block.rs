@@ -18,24 +18,24 @@ pub struct Words<'s> {
     pub own: &'s mut Osp,
     pub state: &'s State,
     pub block: &'s mut Block,
-    /// A cycle that the block begins, and what else it says of cycles.
+    /// The block's words that concern cycles and offsets.
     pub said: Said,
 }
 
-/// What a block says beside its words.
+/// Words of a block that have no field in `Block`.
 #[derive(Default)]
 pub struct Said {
     /// The code of a cycle.
     pub cycle: Option<Name>,
-    /// G80, or a motion.
+    /// Whether the block ends the cycle: by G80 or a motion.
     pub ends: bool,
     /// NCYL: no hole is made.
     pub no_hole: bool,
     /// NOEX: no axis moves.
     pub no_move: bool,
-    /// FA.
+    /// FA: the feed out.
     pub feed_out: Option<f64>,
-    /// G15, an offset from here on, or G16, for this block.
+    /// G15, which selects an offset from here on, or G16, which selects it for this block.
     pub offset: Option<Meaning>,
     /// G71: the level to which cycles return.
     pub level: bool,
@@ -45,7 +45,7 @@ impl Words<'_> {
     /// Reads the words of a block.
     ///
     /// # Errors
-    /// A word that is not known.
+    /// A word is unknown.
     pub fn read(&mut self, cursor: &mut Cursor<'_>) -> Done {
         while !cursor.is_over() {
             self.word(cursor)?;
@@ -77,7 +77,7 @@ impl Words<'_> {
                     self.said.feed_out = Some(self.value(cursor)?);
                 }
                 _ => {
-                    let message = format!("`{name}` is not known");
+                    let message = format!("`{name}` is unknown");
                     return Err(Fault::at(
                         Code::PN016,
                         column,
@@ -145,7 +145,7 @@ impl Words<'_> {
             Some(Meaning::ToR) => self.own.back = Some(Back::R),
             Some(Meaning::ToLevel) => {
                 let Some(level) = self.own.level else {
-                    let message = "a return to the level of G71, and none was said";
+                    let message = "a return to the level of G71, but G71 is missing";
                     return Err(Fault::at(Code::PN007, column, message, "write G71 Z and its height before it"));
                 };
                 self.own.back = Some(Back::Level(level));
@@ -156,7 +156,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// What the words of a block are to those of the simulator.
+    /// Converts the words of a block to those of the simulator.
     fn settle(&mut self) -> Done {
         if let Some(meaning) = self.said.offset {
             self.offset(meaning)?;
@@ -167,7 +167,7 @@ impl Words<'_> {
             };
             self.own.level = Some(level);
             self.block.given &= !bit(b'Z');
-            // a return to it goes to the new one
+            // a return to the level now goes to the new level
             if let Some(Back::Level(_)) = self.own.back {
                 self.own.back = Some(Back::Level(level));
             }
@@ -176,13 +176,13 @@ impl Words<'_> {
             let Some(seconds) = self.block.get(b'F').or(self.block.get(b'P')) else {
                 return refuse(Code::PN007, "G4 without its time", "write G4 F2 for two seconds");
             };
-            self.block.given &= !bit(b'F'); // it stays as it was
+            self.block.given &= !bit(b'F'); // the feed in force does not change
             self.block.put(b'P', seconds);
         }
         self.cycle()
     }
 
-    /// G15 H1, an offset from here on; G16 H0, positions of the machine in this block.
+    /// Handles G15 H1, an offset from here on, and G16 H0, machine positions in this block.
     fn offset(&mut self, meaning: Meaning) -> Done {
         let said = self.block.get(b'H').filter(|number| number.fract() == 0.0 && (0.0..=105.0).contains(number));
         let Some(number) = said else {
@@ -204,7 +204,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// The cycle in force, and the hole that the block makes.
+    /// Sets the cycle in force and the hole that the block makes.
     fn cycle(&mut self) -> Done {
         if self.said.ends {
             if self.said.cycle.is_some() {
@@ -213,7 +213,7 @@ impl Words<'_> {
             let cancels = self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd);
             if let Some(cycle) = self.own.cycle.filter(|_| !cancels) {
                 let message =
-                    format!("a motion code while {} is in force: whether it ends the cycle is unknown", cycle.code);
+                    format!("a motion code while {} is active: whether it ends the cycle is unknown", cycle.code);
                 return refuse(Code::PN016, message, "write G80 in a block before it");
             }
             self.own.cycle = None;
@@ -225,7 +225,7 @@ impl Words<'_> {
         let begins = self.said.cycle.is_some();
         if let Some(code) = self.said.cycle {
             let Some(motions) = self.state.settings.control.row(code).and_then(|row| row.runs.motions) else {
-                return refuse(Code::PN016, format!("{code} is not run"), "program its moves");
+                return refuse(Code::PN016, format!("{code} is not supported"), "program its moves");
             };
             let back = self.own.back;
             let (depth, r, step) = (None, None, None);
@@ -236,15 +236,15 @@ impl Words<'_> {
         };
         let block = &mut *self.block;
         if !self.state.modes.absolute || block.g_meaning(Group::Distance) == Some(Meaning::Increments) {
-            let help = "write G90 and positions: how R and Z count under G91 is unknown";
-            return refuse(Code::PN016, format!("{} under G91 is not run", cycle.code), help);
+            let help = "write G90 and positions: the meaning of R and Z under G91 is unknown";
+            return refuse(Code::PN016, format!("{} under G91 is not supported", cycle.code), help);
         }
         if let Some(dwell) = block.get(b'P').filter(|dwell| *dwell != 0.0) {
-            let message = format!("P{dwell} of {}: posts differ whether it counts seconds or thousandths", cycle.code);
-            return refuse(Code::PN016, message, "write P0, and the dwell by hand");
+            let message = format!("P{dwell} of {}: its unit is unknown, seconds or milliseconds", cycle.code);
+            return refuse(Code::PN016, message, "write P0, and write the dwell as a block of its own");
         }
         if block.has(letters("EK")) {
-            return refuse(Code::PN016, format!("E and K of {} are not run", cycle.code), "leave them out");
+            return refuse(Code::PN016, format!("E and K of {} are not supported", cycle.code), "leave them out");
         }
         cycle.depth = block.get(b'Z').or(cycle.depth);
         cycle.r = block.get(b'R').or(cycle.r);
@@ -261,7 +261,7 @@ impl Words<'_> {
             return Ok(());
         }
         if block.has(letters("XY")) {
-            // to the hole
+            // the block moves to the hole at rapid
             let control = self.state.settings.control;
             if let Some(row) = control.first(Meaning::Rapid) {
                 block.put_g(row, group(row, control.rules()), takes_axes(row, control.rules()));

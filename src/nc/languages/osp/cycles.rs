@@ -1,4 +1,4 @@
-//! Drilling cycles: G73 to G89, G274 and G284. Their heights are absolute; M52, M53 and M54 say where they return to.
+//! Drilling cycles: G73 to G89, G274 and G284. Their heights are absolute. M52, M53 and M54 select the return level.
 
 use super::super::strokes::depths;
 use crate::control::{Code as Name, Motions};
@@ -7,23 +7,23 @@ use crate::nc::action::{Cycle as Drill, Drilling, Heights, Rotation};
 use crate::nc::call::{Canned, Plan, Stand, Step};
 use crate::nc::fault::{Done, refuse};
 
-/// Where a cycle returns to.
+/// The return level of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Back {
-    /// M52: to the upper limit of the axis, which only the machine knows.
+    /// M52: the upper limit of the axis, which is known only at the machine.
     Top,
-    /// M53: to the level of `G71 Z`.
+    /// M53: the level of `G71 Z`.
     Level(f64),
-    /// M54: to R.
+    /// M54: R.
     R,
 }
 
 /// A cycle with the words that are in force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Its code.
+    /// The code of the cycle.
     pub code: Name,
-    /// How it moves.
+    /// The motions of the cycle.
     pub motions: Motions,
     /// The bottom, Z.
     pub depth: Option<f64>,
@@ -34,26 +34,26 @@ pub struct Cycle {
     pub parts: [Option<f64>; 2],
     /// FA: the feed out.
     pub feed_out: Option<f64>,
-    /// Where it returns to.
+    /// The return level.
     pub back: Option<Back>,
 }
 
 impl Cycle {
-    /// Works the hole out.
+    /// Works out the hole.
     ///
     /// # Errors
-    /// What the cycle lacks, or what no text says for certain.
+    /// The cycle lacks a word, or the documentation leaves the result open.
     fn hole(&self, stand: &Stand) -> Done<Canned> {
         let name = self.code;
         let lacks = |what: &str, help: &'static str| refuse(Code::PN007, format!("{name} without {what}"), help);
         let Some(r) = self.r else { return lacks("R", "write R and Z in the cycle's first block") };
         let Some(bottom) = self.depth else { return lacks("its depth", "write R and Z in the cycle's first block") };
         if bottom > r {
-            return refuse(Code::PN011, format!("R {r} is below the bottom {bottom}"), "look at R and Z");
+            return refuse(Code::PN011, format!("R {r} is below the bottom {bottom}"), "check R and Z");
         }
         let back = match self.back {
             None => {
-                let help = "write M53 with G71 Z, or M54: where it goes back to without them is unknown";
+                let help = "write M53 with G71 Z, or M54: without them the return level is unknown";
                 return lacks("M52, M53 or M54", help);
             }
             Some(Back::Level(level)) if level < r => {
@@ -105,8 +105,8 @@ impl Cycle {
                 if self.step.is_some() {
                     return refuse(
                         Code::PN016,
-                        format!("{name} with Q is not run"),
-                        "leave Q out: pecks of taps are unknown",
+                        format!("{name} with Q is not supported"),
+                        "leave Q out: the pecks of a tap are unknown",
                     );
                 }
                 if turning != inwards {
@@ -147,7 +147,7 @@ impl Cycle {
                 steps.push(Step::Turn(turning, speed));
             }
             Motions::Back | Motions::ByHand => {
-                return refuse(Code::PN016, format!("{name} is not run"), "program its moves");
+                return refuse(Code::PN016, format!("{name} is not supported"), "program its moves");
             }
         }
         let came = steps.iter().rev().find_map(|step| match step {

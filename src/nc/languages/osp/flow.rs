@@ -1,4 +1,4 @@
-//! Blocks and the way through them: labels, jumps, subprograms, variables.
+//! Blocks and program flow: labels, jumps, subprograms, variables.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -11,14 +11,14 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
 
-/// Where the first comment of a line stands; its closing mark may be missing at the end.
+/// The columns of the first comment of a line. Its closing bracket may be missing at the end of the line.
 fn comment(line: &[u8]) -> Option<(usize, usize)> {
     let open = memchr::memchr(b'(', line)?;
     let close = line[open..].iter().position(|byte| *byte == b')').map(|at| open + at);
     Some((open + 1, close.unwrap_or(line.trim_ascii_end().len())))
 }
 
-/// The line with blanks for its comments.
+/// The line with its comments replaced by spaces.
 fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     if memchr::memchr(b'(', line).is_none() {
         return Cow::Borrowed(line.trim_ascii_end());
@@ -35,9 +35,9 @@ fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(plain)
 }
 
-/// The name of a program that begins: `O100` alone in its block.
+/// The name of a program that begins at this line: `O100` alone in its block.
 fn program(line: &[u8]) -> Option<String> {
-    memchr::memchr2(b'O', b'o', line)?; // most lines have none
+    memchr::memchr2(b'O', b'o', line)?; // most lines have no O
     let line = plain(line);
     let line = line.trim_ascii();
     let is_name =
@@ -45,20 +45,20 @@ fn program(line: &[u8]) -> Option<String> {
     is_name.then(|| String::from_utf8_lossy(line).to_ascii_uppercase())
 }
 
-/// The name of a block, `N10`, `NLOOP`, which a blank ends. Leading zeros of a number do not count.
+/// The name of a block, `N10` or `NLOOP`, up to the next space. Leading zeros of a number are ignored.
 fn block_name(cursor: &mut Cursor<'_>) -> Option<String> {
     let name = capitals(pass_block_name(cursor)?);
     let number = name.get(1..)?.parse::<u32>().ok();
     Some(number.map_or_else(|| name.to_string(), |number| format!("N{number}")))
 }
 
-/// Passes over the name of a block, which is as it stands.
+/// Skips the name of a block and returns it as written.
 fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<&'l [u8]> {
     let rest = cursor.rest();
     if !rest.first()?.eq_ignore_ascii_case(&b'N') {
         return None;
     }
-    // `N10G0`, and words as NCYL
+    // handles `N10G0`, and words such as NCYL
     let length = match rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count() {
         0 => rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count(),
         numbered => 1 + numbered,
@@ -72,12 +72,12 @@ fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<&'l [u8]> {
 }
 
 impl Simulator<'_> {
-    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
     pub(in crate::nc) fn read_osp(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.osp.at_depth(self.frames.len());
         if self.line.trim_ascii_start().starts_with(b"$") || self.line.trim_ascii() == b"%" {
-            return Ok(Some(Jump::On)); // the head of a transfer
+            return Ok(Some(Jump::On)); // header of a file transfer
         }
         self.block.comment = comment(&self.line);
         let line = std::mem::take(&mut self.line);
@@ -86,7 +86,7 @@ impl Simulator<'_> {
         jump
     }
 
-    /// A line without its comments.
+    /// Reads a line without its comments.
     fn osp_line(&mut self, line: &[u8], items: &mut Vec<Item>) -> Done<Option<Jump>> {
         if program(line).is_some() {
             return match self.frames.last() {
@@ -121,7 +121,7 @@ impl Simulator<'_> {
         Ok((nothing && block.comment.is_none()).then_some(Jump::On))
     }
 
-    /// Statements that lead through the program, or set a variable. `None`: the block is none of them.
+    /// Runs statements that control the program flow or set a variable. `None`: the block is not such a statement.
     fn osp_way(&mut self, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
@@ -159,12 +159,12 @@ impl Simulator<'_> {
                     arguments.insert(name, words.value(cursor)?);
                 }
                 if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
-                    return refuse(Code::PN018, format!("Q{times} is no number of calls"), "write Q1 to Q9999");
+                    return refuse(Code::PN018, format!("Q{times} is not a number of calls"), "write Q1 to Q9999");
                 }
                 words.own.arguments = arguments;
                 Jump::Search(Search::Call(program, Vec::new(), times as u32))
             }
-            // `VC1=..`, `LOOP=..`; words of one letter are axes and others
+            // `VC1=..`, `LOOP=..`; words of one letter are axes or other words
             name if name.len() > 1 && cursor.peek() == Some(b'=') && name != "FA" && !is_word(name) => {
                 let common = name.strip_prefix("VC").is_some_and(|number| number.parse::<u16>().is_ok());
                 if name.starts_with('V') && !common {
@@ -201,7 +201,7 @@ impl Simulator<'_> {
         if cursor.is_over() { Ok(Some(jump)) } else { Err(cursor.unreadable()) }
     }
 
-    /// Goes where a search leads.
+    /// Searches for the target and jumps to it.
     pub(in crate::nc) fn search_osp(&mut self, search: Search) -> Result<(), RunError> {
         if self.osp.labels.is_none() {
             let (back, farthest, text) = (self.at, self.farthest, self.line.clone());
@@ -236,7 +236,7 @@ impl Simulator<'_> {
         });
         let (spot, missing) = match &search {
             Search::Label(label, _) => {
-                // a main program may have a name or none
+                // a main program may have no name
                 let spot = match &here {
                     Some(program) => found(program, label),
                     None => labels.and_then(|labels| {
@@ -251,7 +251,7 @@ impl Simulator<'_> {
         };
         let Some(start) = spot else {
             let code = if matches!(search, Search::Label(..)) { Code::PN015 } else { Code::PN016 };
-            return Err(self.refused(Fault::new(code, missing, "look for a misprint, or add it to the file")));
+            return Err(self.refused(Fault::new(code, missing, "check the spelling, or add it to the file")));
         };
         if let Search::Call(label, _, times) = search {
             let frame = Frame::Call { label, back: self.at, start, times, arguments: false };
@@ -263,7 +263,7 @@ impl Simulator<'_> {
     }
 }
 
-/// Is it a letter with its number, as `X1` of `X1=5`?
+/// Whether the name is a letter with a number, such as `X1` of `X1=5`.
 fn is_word(name: &str) -> bool {
     let bytes = name.as_bytes();
     matches!(bytes[0], b'G' | b'M' | b'N' | b'O') && bytes[1..].iter().all(u8::is_ascii_digit)

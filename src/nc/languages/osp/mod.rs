@@ -1,6 +1,6 @@
-//! The language of Okuma OSP controls of mills.
+//! The language of Okuma OSP controls for mills.
 //!
-//! Sources: OSP-P200 and OSP-P300 manuals as public notes give them, and what public programs and posts show.
+//! Sources: OSP-P200 and OSP-P300 manuals as quoted in public notes, and public programs and posts.
 
 mod block;
 mod cycles;
@@ -11,22 +11,22 @@ use std::collections::HashMap;
 use crate::nc::way::Spot;
 use cycles::{Back, Cycle};
 
-/// What a program keeps besides the state of the machine.
+/// State of a program besides the state of the machine.
 #[derive(Debug, Default)]
 pub struct Osp {
     /// Common variables, `VC1`.
     common: HashMap<String, f64>,
-    /// Local variables, those of the main program first, one map for each subprogram that runs.
+    /// Local variables, one map for each running subprogram; the main program is first.
     local: Vec<HashMap<String, f64>>,
-    /// The arguments of a call that comes next.
+    /// The arguments of the next call.
     arguments: HashMap<String, f64>,
-    /// The cycle in force, with its words.
+    /// The cycle in force with its words.
     cycle: Option<Cycle>,
-    /// Where cycles return to; `None`: M52, M53 or M54 was not said since the last G80.
+    /// The return level of cycles; `None`: no M52, M53 or M54 since the last G80.
     back: Option<Back>,
     /// The level of `G71 Z`.
     level: Option<f64>,
-    /// Labels with their places, by the program that they stand in; and the programs.
+    /// Positions of labels, by program and name. A program itself has an empty label name.
     labels: Option<HashMap<(String, String), Spot>>,
 }
 
@@ -35,7 +35,7 @@ impl Osp {
         self.local.last().and_then(|own| own.get(name)).or_else(|| self.common.get(name)).copied()
     }
 
-    /// Variables of so many subprograms inside each other are kept, and those of the one that runs are there.
+    /// Keeps the variables of this many nested subprograms, and creates those of the running one.
     fn at_depth(&mut self, depth: usize) {
         self.local.truncate(depth + 1);
         while self.local.len() < depth + 1 {

@@ -15,9 +15,9 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 use crate::toolpath::Units;
 
-/// Words of path control and look-ahead, which change nothing that is compared.
+/// Words of path control and look-ahead. They change nothing that is compared.
 const HARMLESS: [&str; 27] = [
-    // they take back what no program that is run has turned on
+    // these turn off features that no program that is run can have turned on
     "TRAFOOF",
     "FNORM",
     "DIAMOF",
@@ -47,7 +47,7 @@ const HARMLESS: [&str; 27] = [
     "RTLIOF",
 ];
 
-/// Words that begin what is not run, and what that is.
+/// Words of features that are not run, with the name of the feature.
 const NOT_RUN: [(&str, &str); 22] = [
     ("TRAORI", "a transformation of five axes"),
     ("TRANSMIT", "polar coordinate interpolation"),
@@ -66,23 +66,23 @@ const NOT_RUN: [(&str, &str); 22] = [
     ("CSPLINE", "a spline"),
     ("POLY", "a polynomial"),
     ("DIAMON", "X as a diameter"),
-    ("LIMS", "the highest speed of the spindle under G96"),
+    ("LIMS", "the speed limit of the spindle under G96"),
     ("SPOS", "a stop of the spindle at an angle"),
     ("SPOSA", "a stop of the spindle at an angle"),
     ("SETMS", "another master spindle"),
     ("WHENEVER", "a synchronised action"),
 ];
 
-/// What a word begins that is not run.
+/// The name of the feature of a word, if the feature is not run.
 pub(super) fn not_run(name: &str) -> Option<&'static str> {
     NOT_RUN.iter().find(|(word, _)| *word == name).map(|(_, what)| *what)
 }
 
-/// Reads the words of a block that moves and switches.
+/// Reads the words of a block that moves or switches.
 pub struct Words<'s> {
     pub own: &'s mut Siemens,
     pub state: &'s State,
-    /// Positions of words of one axis: absolute by `AC`, incremental by `IC`.
+    /// The block. It also marks axis words as absolute (`AC`) or incremental (`IC`).
     pub block: &'s mut Block,
 }
 
@@ -90,7 +90,7 @@ impl Words<'_> {
     /// Reads the rest of a block.
     ///
     /// # Errors
-    /// A word that is not known.
+    /// A word is unknown.
     pub fn read(&mut self, cursor: &mut Cursor<'_>) -> Done {
         while !cursor.is_over() {
             if cursor.takes(b",") {
@@ -119,7 +119,7 @@ impl Words<'_> {
             }
             let Some(value) = cursor.signed() else { return Err(cursor.unreadable()) };
             if cursor.takes(b"=") {
-                // `M1=3`, `S1=1000`: of the first spindle
+                // `M1=3`, `S1=1000`: words of the first spindle
                 return match letter {
                     b'M' | b'S' | b'T' if value == 1.0 => self.assigned(letter, cursor, column),
                     b'M' | b'S' | b'T' => {
@@ -127,7 +127,7 @@ impl Words<'_> {
                         Err(Fault::at(Code::PN016, column, message, "write the words of the first spindle"))
                     }
                     _ => {
-                        let message = format!("`{}{value}` is not known", char::from(letter));
+                        let message = format!("`{}{value}` is unknown", char::from(letter));
                         Err(Fault::at(Code::PN016, column, message, "run the program without it"))
                     }
                 };
@@ -148,7 +148,7 @@ impl Words<'_> {
             "TURN" if cursor.takes(b"=") => {
                 let turns = self.value(cursor)?;
                 if turns.fract() != 0.0 || !(0.0..=999.0).contains(&turns) {
-                    return refuse(Code::PN018, format!("TURN={turns} is no number of turns"), "write 0 to 999");
+                    return refuse(Code::PN018, format!("TURN={turns} is not a number of turns"), "write 0 to 999");
                 }
                 self.block.turns = turns as u32;
                 Ok(())
@@ -159,16 +159,16 @@ impl Words<'_> {
             }
             _ => {
                 let message = match not_run(&name) {
-                    Some(what) => format!("`{name}`, {what}, is not run"),
-                    None => format!("`{name}` is not known"),
+                    Some(what) => format!("`{name}`, {what}, is not supported"),
+                    None => format!("`{name}` is unknown"),
                 };
-                let help = "run the program without it, or write what it does as moves";
+                let help = "run the program without it, or write it as moves";
                 Err(Fault::at(Code::PN016, column, message, help))
             }
         }
     }
 
-    /// A number, or what stands in `T="DRILL"`.
+    /// Reads a tool number, or the name in `T="DRILL"`.
     fn tool(&mut self, cursor: &mut Cursor<'_>) -> Done<f64> {
         if cursor.peek() != Some(b'"') {
             return self.value(cursor);
@@ -177,7 +177,7 @@ impl Words<'_> {
         Ok(self.own.tool(name))
     }
 
-    /// `X=R1*2`, `X=AC(10)`, `X=IC(-5)`.
+    /// Reads `X=R1*2`, `X=AC(10)`, `X=IC(-5)`.
     fn assigned(&mut self, letter: u8, cursor: &mut Cursor<'_>, column: usize) -> Done {
         let axis = self.state.control.axes().iter().position(|axis| *axis == letter);
         let center = b"IJK".iter().position(|own| *own == letter);
@@ -200,15 +200,15 @@ impl Words<'_> {
                 }
                 _ => {
                     let message = format!("{} takes no {mark}", char::from(letter));
-                    Err(Fault::at(Code::PN001, column, message, "write its number alone"))
+                    Err(Fault::at(Code::PN001, column, message, "write only its number"))
                 }
             };
         }
         if axis.is_some_and(|axis| axis > 2)
             && (cursor.takes_word("DC") || cursor.takes_word("ACP") || cursor.takes_word("ACN"))
         {
-            let message = "which way a rotary axis turns is not simulated";
-            return Err(Fault::at(Code::PN016, column, message, "write its angle alone"));
+            let message = "the direction of a rotary axis is not simulated";
+            return Err(Fault::at(Code::PN016, column, message, "write only its angle"));
         }
         let value = self.value(cursor)?;
         self.put(letter, value, column)
@@ -220,18 +220,18 @@ impl Words<'_> {
             b'G' => self.block.g_word(value, column, control),
             b'M' => self.block.m_word(value, column, control),
             b'R' | b'L' | b'P' | b'E' | b'O' | b'Q' | b'H' | b'U' | b'V' | b'W' => {
-                let message = format!("the word {} is not known here", char::from(letter));
+                let message = format!("the word {} is unknown here", char::from(letter));
                 Err(Fault::at(Code::PN016, column, message, "run the program without it"))
             }
             _ => self.block.word(letter, value, false, column, control),
         }
     }
 
-    /// What the words of a block are to those of the simulator.
+    /// Converts the words of a block to those of the simulator.
     fn settle(&mut self) -> Done {
         let block = &mut *self.block;
         if let Some(edge) = block.get(b'D') {
-            // an edge has the length and the radius of the tool in the spindle
+            // a cutting edge has the length and radius of the tool in the spindle
             let own = block.get(b'T').filter(|_| block.means(Meaning::ToolChange)).or(self.state.tool.loaded);
             let register = if edge == 0.0 { 0.0 } else { own.unwrap_or(0.0) + (edge - 1.0) / 100.0 };
             block.put(b'D', register);
@@ -243,7 +243,7 @@ impl Words<'_> {
                 (None, Some(turns)) if self.state.drive.speed > 0.0 => turns * 60.0 / self.state.drive.speed,
                 _ => return refuse(Code::PN007, "G4 without its time", "write G4 F2 for two seconds, or S for turns"),
             };
-            block.given &= !(bit(b'F') | bit(b'S')); // they stay as they were
+            block.given &= !(bit(b'F') | bit(b'S')); // the feed and speed in force do not change
             block.put(b'P', seconds);
         }
         if let Some(units) = block.g_meaning(Group::Units) {
@@ -251,7 +251,7 @@ impl Words<'_> {
                 .units(units == Meaning::Inch, block.row(Group::Units).is_some_and(|row| row.code.tenths >= 7000))?;
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Reference) {
-            // the numbers of its axes mean nothing
+            // the numbers of its axis words are ignored
             for (axis, letter) in self.state.control.axes().iter().enumerate() {
                 if block.get(*letter).is_some() {
                     block.put(*letter, 0.0);
@@ -276,7 +276,7 @@ impl Words<'_> {
         formula(cursor, values)
     }
 
-    /// The arguments of a call; `None` where one is left out.
+    /// Reads the arguments of a call. An omitted argument is `None`.
     pub fn arguments(&self, cursor: &mut Cursor<'_>) -> Done<Vec<Option<f64>>> {
         let mut arguments = Vec::new();
         if !cursor.takes(b"(") {
@@ -298,7 +298,7 @@ impl Words<'_> {
         }
     }
 
-    /// A cycle with its arguments; `None`: the name is none of a drilling cycle that is run.
+    /// Reads a cycle with its arguments. `None`: the name is not a drilling cycle that is run.
     pub fn cycle(&self, name: &str, cursor: &mut Cursor<'_>) -> Done<Option<Call>> {
         let number = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u16>().ok());
         let Some((number, most)) = number.and_then(|number| Some((number, Cycle::most_arguments(number)?))) else {
@@ -310,13 +310,13 @@ impl Words<'_> {
             arguments.pop();
         }
         if let Some(value) = arguments.get(most..).and_then(|more| more.iter().flatten().find(|value| **value != 0.0)) {
-            let message = format!("{name} has {most} arguments that are run, and {value} is one more");
+            let message = format!("{name} has {most} supported arguments, and {value} is one more");
             return Err(Fault::at(Code::PN016, begin, message, "leave it out"));
         }
         Ok(Some(Arc::new(Cycle { number, arguments })))
     }
 
-    /// `HOLES1(..)`, a row, and `HOLES2(..)`, a circle.
+    /// Reads `HOLES1(..)`, a row of holes, or `HOLES2(..)`, a circle of holes.
     pub fn pattern(&mut self, circle: bool, cursor: &mut Cursor<'_>) -> Done {
         let arguments = self.arguments(cursor)?;
         let name = if circle { "HOLES2" } else { "HOLES1" };
@@ -344,7 +344,7 @@ impl Words<'_> {
             };
             holes.map(place).collect()
         };
-        // a row begins with the end that is nearer
+        // a row begins at the nearer end
         let [x, y, _] = crate::nc::arcs::axes_of(self.state.modes.plane).map(|axis| self.state.place.position[axis]);
         let far = |place: Option<&[f64; 2]>| place.map_or(0.0, |place| (place[0] - x).hypot(place[1] - y));
         if !circle && far(at.back()) < far(at.front()) {
@@ -355,10 +355,10 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// `TRANS` and `ATRANS`: the frame is put elsewhere, or moved on.
+    /// Reads `TRANS`, which sets the frame, or `ATRANS`, which moves it further.
     pub fn translate(&mut self, adds: bool, cursor: &mut Cursor<'_>) -> Done {
         let Some(row) = self.state.control.first(Meaning::Frame) else {
-            return refuse(Code::PN016, "a moved frame is not run", "run the program without it");
+            return refuse(Code::PN016, "a moved frame is not supported", "run the program without it");
         };
         self.block.put_g(row, Group::Once, true);
         let mut by = if adds { *self.state.shift() } else { [0.0; 6] };
@@ -369,7 +369,12 @@ impl Words<'_> {
                 self.state.control.axes().iter().position(|axis| axis.eq_ignore_ascii_case(&letters[0]))
             });
             let Some(axis) = axis else {
-                return Err(Fault::at(Code::PN001, begin, "a frame is moved along its axes", "write TRANS X10 Y20"));
+                return Err(Fault::at(
+                    Code::PN001,
+                    begin,
+                    "a frame can be moved only along its axes",
+                    "write TRANS X10 Y20",
+                ));
             };
             let value = if cursor.takes(b"=") {
                 self.value(cursor)?
@@ -386,19 +391,19 @@ impl Words<'_> {
 }
 
 impl Siemens {
-    /// Notes the units of a block. By G70 and G71 feeds keep theirs, which are those of the machine.
+    /// Records the units of a block. G70 and G71 do not change the unit of feeds, which is that of the machine.
     fn units(&mut self, inch: bool, with_feed: bool) -> Done {
         let units = if inch { Units::Inch } else { Units::Mm };
         let before = self.units.replace(units);
         if !with_feed && before.is_some_and(|before| before != units) {
-            let message = "after G70 and G71 in one program the unit of feeds is that of the machine";
-            return refuse(Code::PN016, message, "write G700 or G710, which change feeds too");
+            let message = "G70 and G71 in one program: the unit of feeds depends on the machine";
+            return refuse(Code::PN016, message, "write G700 or G710: these change the unit of feeds too");
         }
         Ok(())
     }
 }
 
-/// Is the word one that changes nothing that is compared?
+/// Whether the word changes nothing that is compared.
 pub fn is_harmless(name: &str) -> bool {
     HARMLESS.contains(&name)
 }

@@ -1,4 +1,4 @@
-//! Drilling cycles of 840D and 828D: CYCLE81 to CYCLE89 and CYCLE840, by the Programming Guide Cycles, section 2.1.
+//! Drilling cycles of 840D and 828D: CYCLE81 to CYCLE89 and CYCLE840, from the Programming Guide Cycles, section 2.1.
 
 use super::super::strokes::{depths, dwell};
 use crate::control::{Code as Name, Motions};
@@ -36,25 +36,25 @@ const COARSE: [(f64, f64); 21] = [
 /// A call of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
-    /// 81 to 89, or 840.
+    /// The number: 81 to 89, or 840.
     pub number: u16,
-    /// Its arguments in order; `None`: left out.
+    /// The arguments in order. An omitted argument is `None`.
     pub arguments: Vec<Option<f64>>,
 }
 
 /// The levels that all cycles share.
 struct Levels {
-    /// RTP: where the tool comes back to.
+    /// RTP: the return level of the tool.
     back: f64,
-    /// RFP: where the part begins.
+    /// RFP: the reference plane, at the top of the part.
     reference: f64,
-    /// RFP + SDIS: where the feed begins.
+    /// RFP + SDIS: the level where the feed begins.
     r: f64,
     bottom: f64,
 }
 
 impl Cycle {
-    /// Is there a cycle of this number, and how many arguments has it?
+    /// The number of arguments of a cycle; `None`: there is no such cycle.
     pub fn most_arguments(number: u16) -> Option<usize> {
         Some(match number {
             81 | 82 | 87 => 6,
@@ -88,11 +88,9 @@ impl Cycle {
             (None, Some(below)) => reference - below.abs(),
             (Some(depth), Some(below)) if below == 0.0 || (depth - (reference - below.abs())).abs() < 1e-9 => depth,
             (Some(depth), Some(below)) => {
-                let message = format!(
-                    "{name} says two depths: DP {depth}, and DPR {below}, which is {}",
-                    reference - below.abs()
-                );
-                return refuse(Code::PN016, message, "write one of them: controls differ in which one they take");
+                let message =
+                    format!("{name} has two depths: DP {depth}, and DPR {below}, which is {}", reference - below.abs());
+                return refuse(Code::PN016, message, "write only one: controls differ in which one they use");
             }
             (None, None) => {
                 return refuse(Code::PN007, format!("{name} without its depth"), "write DP, its fourth argument");
@@ -106,10 +104,10 @@ impl Cycle {
         Ok(Levels { back, reference, r: reference + clearance, bottom })
     }
 
-    /// Works out the hole, with the feed and the spindle that are in force.
+    /// Works out the hole with the feed and spindle in force.
     ///
     /// # Errors
-    /// What the cycle refuses, or what no text says for certain.
+    /// The cycle refuses its arguments, or the documentation leaves the result open.
     fn hole(&self, stand: &Stand) -> Done<Canned> {
         let levels = self.levels()?;
         let (feed, speed, turning) = (stand.feed, stand.speed, stand.turning);
@@ -206,7 +204,8 @@ impl Cycle {
         Ok(Canned { hole, steps })
     }
 
-    /// CYCLE83: strokes that may become shorter, with a chip broken or brought out after each. The answer: the first stroke.
+    /// Adds the strokes of CYCLE83, which may become shorter. After each, the chip is broken or cleared. Returns the
+    /// first stroke.
     fn pecks(
         &self,
         levels: &Levels,
@@ -222,7 +221,7 @@ impl Cycle {
             (None, Some(by)) => by.abs(),
             (Some(depth), Some(by)) if (reference - depth - by.abs()).abs() < 1e-9 => by.abs(),
             (Some(_), Some(_)) => {
-                return refuse(Code::PN016, "CYCLE83 says two first depths", "write FDEP or FDPR, not both");
+                return refuse(Code::PN016, "CYCLE83 has two first depths", "write FDEP or FDPR, not both");
             }
             (None, None) => return refuse(Code::PN007, "CYCLE83 without its first depth", "write FDEP or FDPR"),
         };
@@ -233,7 +232,7 @@ impl Cycle {
                 factor if factor < 0.0 => stroke * -factor,
                 amount => {
                     let shorter = (stroke - amount).max(amount);
-                    // the last two are equal
+                    // the last two strokes are equal
                     if shorter < left && left < 2.0 * shorter { left / 2.0 } else { shorter }
                 }
             };
@@ -270,14 +269,14 @@ impl Cycle {
         Ok(first)
     }
 
-    /// The pitch of a tap in the program's units; negative: a left-hand thread.
+    /// The pitch of a tap in the program's units. A negative pitch is a left-hand thread.
     fn pitch(&self, size: usize, pitch: usize, table: usize, stand: &Stand) -> Done<f64> {
         let mm = if stand.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
         let by_size = match self.get(size) {
             0.0 => None,
             size => match COARSE.iter().find(|(diameter, _)| *diameter == size.abs()) {
                 Some((_, pitch)) => Some(pitch * size.signum() * mm),
-                None => return refuse(Code::PN018, format!("MPIT {size} is no thread from M3 to M48"), "write PIT"),
+                None => return refuse(Code::PN018, format!("MPIT {size} is not a thread from M3 to M48"), "write PIT"),
             },
         };
         let by_unit = match self.get(table) {
@@ -286,7 +285,7 @@ impl Cycle {
             other => {
                 return refuse(
                     Code::PN016,
-                    format!("PTAB {other} is not run"),
+                    format!("PTAB {other} is not supported"),
                     "write the pitch in the program's units",
                 );
             }
@@ -301,7 +300,7 @@ impl Cycle {
         }
     }
 
-    /// CYCLE84 and CYCLE840: in, back, and out. The answer: its motions, and its feed.
+    /// Adds the steps of CYCLE84 and CYCLE840: in, reverse, and out. Returns the motions and the feed.
     fn tap(
         &self,
         levels: &Levels,
@@ -345,9 +344,15 @@ impl Cycle {
             0 => vec![bottom],
             1 | 2 if self.get(16) > 0.0 => depths(r, bottom, self.get(16), |stroke, _| stroke)?,
             1 | 2 => {
-                return refuse(Code::PN007, "CYCLE84 by pecks without their depth", "write DAM, its 17th argument");
+                return refuse(
+                    Code::PN007,
+                    "CYCLE84 with pecks, but without their depth",
+                    "write DAM, its 17th argument",
+                );
             }
-            other => return refuse(Code::PN016, format!("CYCLE84 with VARI {other} is not run"), "write 0, 1 or 2"),
+            other => {
+                return refuse(Code::PN016, format!("CYCLE84 with VARI {other} is not supported"), "write 0, 1 or 2");
+            }
         };
         let last = all.len() - 1;
         for (count, depth) in all.into_iter().enumerate() {
@@ -363,7 +368,7 @@ impl Cycle {
         Ok((motions, feed))
     }
 
-    /// SDAC: how the spindle turns after a tap; a stop, where it says none.
+    /// SDAC: the rotation of the spindle after a tap. Without a direction, CYCLE84 stops the spindle.
     fn after_tap(&self, stand: &Stand) -> Option<Step> {
         let rotation = match (self.number, self.get(if self.number == 84 { 6 } else { 7 }) as i32) {
             (84 | 840, 3) => Rotation::Cw,

@@ -1,4 +1,4 @@
-//! Blocks that lead through a program: labels, conditions, loops, subprograms.
+//! Blocks that control the program flow: labels, conditions, loops, subprograms.
 
 use super::super::cursor::{Cursor, capitals};
 use super::block::Words;
@@ -11,7 +11,7 @@ use crate::nc::simulator::Simulator;
 use crate::nc::way::{Jump, Search};
 
 impl Simulator<'_> {
-    /// Reads the line into the block; a jump where there is nothing for the control to do.
+    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
     pub(in crate::nc) fn read_siemens(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.siemens.at_depth(self.frames.len());
@@ -31,7 +31,7 @@ impl Simulator<'_> {
         Ok(jump)
     }
 
-    /// A section begins: what ran before it ends here, unless it is the first, or called.
+    /// Begin of a section. The previous section ends here, unless this section is the first or is called.
     fn section_begins(&mut self) -> Done<Option<Jump>> {
         let is_proc = !self.line.trim_ascii_start().starts_with(b"%");
         if let (true, Some(arguments)) = (is_proc, self.siemens.arguments.take()) {
@@ -47,7 +47,7 @@ impl Simulator<'_> {
         self.return_from("a subprogram").map(Some)
     }
 
-    /// `PROC NAME(REAL A, REAL B)`: the arguments of the call get their names.
+    /// Assigns the arguments of the call to the names in `PROC NAME(REAL A, REAL B)`.
     fn bind(&mut self, arguments: &[Option<f64>]) -> Done {
         let line = self.line.clone();
         let mut cursor = Cursor::new(without_comment(&line).0, head(&line).start);
@@ -58,7 +58,7 @@ impl Simulator<'_> {
             while !cursor.takes(b")") {
                 let (Some(kind), Some(name)) = (cursor.name(), cursor.name()) else { return Err(cursor.unreadable()) };
                 if !["REAL", "INT", "BOOL"].iter().any(|known| kind.eq_ignore_ascii_case(known.as_bytes())) {
-                    let message = format!("an argument of type {} is not run", String::from_utf8_lossy(kind));
+                    let message = format!("an argument of type {} is not supported", String::from_utf8_lossy(kind));
                     return refuse(Code::PN016, message, "give the subprogram numbers");
                 }
                 let name = String::from_utf8_lossy(name).to_ascii_uppercase();
@@ -124,21 +124,21 @@ impl Simulator<'_> {
             _ if name.starts_with("CYCLE") => match words.cycle(&name, &mut cursor)? {
                 Some(call) if modal => words.own.modal = Some(call),
                 Some(call) => words.block.call = Some(call),
-                // alone it ends a tilted plane, which no block of a program that is run begins
+                // without arguments it ends a tilted plane, which no program that is run can have begun
                 None if name == "CYCLE800" && [&b""[..], b"()"].contains(&cursor.rest().trim_ascii()) => {
                     return Ok(None);
                 }
-                // smoothing
+                // CYCLE832 sets smoothing
                 None if name == "CYCLE832" => _ = words.arguments(&mut cursor)?,
                 None => {
-                    let message = format!("{name} is not run");
+                    let message = format!("{name} is not supported");
                     return Err(Fault::at(Code::PN016, at, message, "run the program without it, or write its moves"));
                 }
             },
             "HOLES1" | "HOLES2" if !modal => words.pattern(name == "HOLES2", &mut cursor)?,
             "TRANS" | "ATRANS" if !modal => words.translate(name == "ATRANS", &mut cursor)?,
             _ if modal => {
-                let message = format!("`MCALL {name}` is not run");
+                let message = format!("`MCALL {name}` is not supported");
                 return Err(Fault::at(Code::PN016, at, message, "MCALL takes CYCLE81 to CYCLE89 and CYCLE840"));
             }
             _ => {
@@ -149,7 +149,7 @@ impl Simulator<'_> {
         if cursor.is_over() { Ok(None) } else { Err(cursor.unreadable()) }
     }
 
-    /// Statements that lead through the program, or set what is known of it. `None`: the line is none of them.
+    /// Runs statements that control the program flow or set variables. `None`: the line is not such a statement.
     fn siemens_way(&mut self, head: &Head<'_>, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
@@ -173,7 +173,7 @@ impl Simulator<'_> {
                 }
                 let Some(to) = words.own.ends.get(&self.at.line).copied() else {
                     let help = "go to the line that opens it";
-                    return refuse(Code::PN015, format!("{} belongs to nothing that was begun", head.word), help);
+                    return refuse(Code::PN015, format!("{} has no beginning", head.word), help);
                 };
                 if head.word == "ENDFOR" {
                     words.own.next_round = Some(to.line + 1);
@@ -207,7 +207,7 @@ impl Simulator<'_> {
             "DEF" => {
                 let Some(kind) = cursor.name() else { return Err(cursor.unreadable()) };
                 if !["REAL", "INT", "BOOL"].iter().any(|known| kind.eq_ignore_ascii_case(known.as_bytes())) {
-                    let message = format!("variables of type {} are not run", String::from_utf8_lossy(kind));
+                    let message = format!("variables of type {} are not supported", String::from_utf8_lossy(kind));
                     return Err(Fault::at(Code::PN016, begin, message, "use REAL, INT or BOOL"));
                 }
                 loop {
@@ -241,7 +241,7 @@ impl Simulator<'_> {
                 cursor.takes(b"=");
                 let value = words.value(cursor)?;
                 words.own.set(name, value);
-                // several may stand in one block
+                // one block may set several
                 while let Some(name) = cursor.name() {
                     let name = String::from_utf8_lossy(name).to_ascii_uppercase();
                     cursor.needs(b"=")?;
@@ -249,8 +249,8 @@ impl Simulator<'_> {
                     if !words.own.set(&name, value) {
                         return refuse(
                             Code::PN016,
-                            format!("`{name}` beside a parameter is not known"),
-                            "write it in a block of its own",
+                            format!("`{name}` next to a parameter is unknown"),
+                            "write it in a separate block",
                         );
                     }
                 }
@@ -265,7 +265,7 @@ impl Simulator<'_> {
                     return Err(cursor.unreadable());
                 }
                 if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
-                    return refuse(Code::PN018, format!("P={times} is no number of calls"), "write P1 to P9999");
+                    return refuse(Code::PN018, format!("P={times} is not a number of calls"), "write P1 to P9999");
                 }
                 Jump::Search(Search::Call(name, arguments, times as u32))
             }
@@ -284,7 +284,7 @@ impl Simulator<'_> {
         Ok(Some(jump))
     }
 
-    /// A line opens a part, which is entered or passed over.
+    /// Handles a line that opens a part: the part is entered or skipped.
     fn opens(&self, enters: bool) -> Jump {
         match self.siemens.parts.get(&self.at.line) {
             Some(_) if enters => Jump::On,
@@ -293,7 +293,7 @@ impl Simulator<'_> {
         }
     }
 
-    /// `REPEAT LABEL P=3`: what stands between the label and this line runs so often again.
+    /// Runs `REPEAT LABEL P=3`: the lines between the label and this line run 3 more times.
     fn repeats(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let Some(label) = cursor.name() else { return Err(cursor.unreadable()) };
         let label = String::from_utf8_lossy(label).to_ascii_uppercase();
@@ -302,12 +302,12 @@ impl Simulator<'_> {
         if !cursor.is_over() {
             if !cursor.takes_word("P") || !cursor.takes(b"=") {
                 let help = "write REPEAT LABEL P=3 after the part that is repeated";
-                return refuse(Code::PN016, "REPEAT of a part with its end elsewhere is not run", help);
+                return refuse(Code::PN016, "REPEAT of a part between two labels is not supported", help);
             }
             times = words.value(cursor)?;
         }
         if times.fract() != 0.0 || !(0.0..=1e6).contains(&times) {
-            return refuse(Code::PN018, format!("P={times} is no number of repeats"), "write a whole number");
+            return refuse(Code::PN018, format!("P={times} is not a number of repeats"), "write a whole number");
         }
         let line = self.at.line;
         match self.siemens.repeats.last_mut() {
@@ -323,7 +323,7 @@ impl Simulator<'_> {
     }
 }
 
-/// `GOTOF LABEL`.
+/// Reads `GOTOF LABEL`.
 fn goes_to(cursor: &mut Cursor<'_>) -> Done<Jump> {
     let Some(word) = cursor.name() else { return Err(cursor.unreadable()) };
     let forwards = match String::from_utf8_lossy(word).to_ascii_uppercase().as_str() {
@@ -345,7 +345,7 @@ fn is_variable(name: &str, own: &Siemens) -> bool {
     own.value(name).is_some() || name.strip_prefix('R').is_some_and(|number| number.parse::<u32>().is_ok())
 }
 
-/// Is the name no address of words: at least two letters first, as `POCKET`, or L with its number?
+/// Whether the name can name a subprogram: it begins with two letters, such as `POCKET`, or is L with a number.
 fn line_name(name: &str) -> bool {
     let is_numbered =
         name.strip_prefix('L').is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()));
@@ -353,7 +353,7 @@ fn line_name(name: &str) -> bool {
     is_numbered || letters == 2
 }
 
-/// Does the name call a subprogram? It stands alone, or with its arguments.
+/// Whether the name calls a subprogram. A call is the name alone or with arguments.
 fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     let own = ["CYCLE", "HOLES", "TRANS", "ATRANS", "MCALL", "SUPA"];
     let rest = cursor.rest();
@@ -362,7 +362,7 @@ fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     is_name && alone && !is_known && !own.iter().any(|known| name.starts_with(known))
 }
 
-/// `P3` after a call: how often.
+/// The number of calls: `P3` after a call.
 fn calls(cursor: &mut Cursor<'_>) -> f64 {
     if cursor.takes(b"P") || cursor.takes(b"p") { cursor.unsigned().unwrap_or(-1.0) } else { 1.0 }
 }

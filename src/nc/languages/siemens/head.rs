@@ -1,34 +1,34 @@
-//! How a line begins: its number, its label, its first word; and what a word opens or ends.
+//! The beginning of a line: its number, its label, its first word; and the parts that a word opens or ends.
 
 use std::borrow::Cow;
 
 use super::super::cursor::{Cursor, capitals};
 
-/// Words that open a part, and what ends it.
+/// Words that open a part, each with the word that ends it.
 pub const PARTS: [(&str, &str); 5] =
     [("IF", "ENDIF"), ("WHILE", "ENDWHILE"), ("FOR", "ENDFOR"), ("LOOP", "ENDLOOP"), ("REPEAT", "UNTIL")];
 
 /// The beginning of a line.
 #[derive(Default)]
 pub struct Head<'l> {
-    /// Of `N100`.
+    /// The number of `N100`.
     number: Option<f64>,
     label: Option<Cow<'l, str>>,
-    /// The first word after them, in capital letters.
+    /// The first word after the number and label, in upper case.
     pub word: Cow<'l, str>,
-    /// Where the statement begins.
+    /// The byte where the statement begins.
     pub start: usize,
 }
 
 impl Head<'_> {
-    /// Does a jump to this label come here? A number is one as `N100`.
+    /// Whether this line is the target of a jump to the label. A block number is a label such as `N100`.
     pub fn is(&self, label: &str) -> bool {
         self.label.as_deref() == Some(label)
             || self.number.is_some_and(|number| label.strip_prefix('N').is_some_and(|own| own == number.to_string()))
     }
 }
 
-/// Without its comment, and where that is.
+/// The line without its comment, and the columns of the comment.
 pub fn without_comment(line: &[u8]) -> (&[u8], Option<(usize, usize)>) {
     if memchr::memchr(b';', line).is_none() {
         return (line, None);
@@ -80,7 +80,7 @@ pub fn head(line: &[u8]) -> Head<'_> {
     head
 }
 
-/// The name of a section that the line begins: `%_N_NAME_SPF`, `PROC NAME`.
+/// The name of the section that begins at this line: `%_N_NAME_SPF`, `PROC NAME`.
 pub fn section(line: &[u8]) -> Option<String> {
     let text = line.trim_ascii();
     let name = if let Some(name) = text.strip_prefix(b"%_N_") {
@@ -100,13 +100,13 @@ pub fn section(line: &[u8]) -> Option<String> {
     Some(String::from_utf8_lossy(name).to_ascii_uppercase())
 }
 
-/// Does the line open a part, and which?
+/// The index in `PARTS` of the part that the line opens.
 pub fn opens(head: &Head<'_>, line: &[u8]) -> Option<usize> {
     let at = PARTS.iter().position(|(open, _)| *open == head.word)?;
     let rest = String::from_utf8_lossy(without_comment(line).0).to_ascii_uppercase();
     match head.word.as_ref() {
         "IF" if rest.contains("GOTO") => None,
-        // `REPEAT LABEL P=3` repeats what stands before it
+        // `REPEAT LABEL P=3` repeats the lines before it
         "REPEAT" if rest[head.start.min(rest.len())..].trim() != "REPEAT" => None,
         _ => Some(at),
     }

@@ -1,6 +1,6 @@
-//! The language of Siemens 840D and 828D mills, native; their ISO mode is that of a Fanuc.
+//! The native language of Siemens 840D and 828D mills. Their ISO mode is read as Fanuc.
 //!
-//! Sources: SINUMERIK 840D/810D Programming Guide (fundamentals, job planning, cycles), and what public programs show.
+//! Sources: SINUMERIK 840D/810D Programming Guide (fundamentals, job planning, cycles), and public programs.
 
 mod block;
 mod cycles;

@@ -1,4 +1,4 @@
-//! Looks for labels, subprograms, and the ends of structured blocks.
+//! Searches for labels, subprograms, and the ends of structured blocks.
 
 use super::head::{PARTS, head, opens, section, without_comment};
 use super::ways::{Part, Section};
@@ -8,12 +8,12 @@ use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Search, Spot};
 
 impl Simulator<'_> {
-    /// Before the line that was read last.
+    /// Position in the input before the line that was read last.
     fn this_line(&self) -> Spot {
         Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 }
     }
 
-    /// Goes where a search leads.
+    /// Searches for the target and jumps to it.
     pub(in crate::nc::languages) fn search_siemens(&mut self, search: Search) -> Result<(), RunError> {
         let text = self.line.clone();
         let (back, farthest) = (self.at, self.farthest);
@@ -27,7 +27,7 @@ impl Simulator<'_> {
             Search::Call(name, arguments, times) => self.find_program(&name, arguments, times, back),
         };
         self.line = text;
-        // reading ahead is no way back
+        // reading ahead is not a jump back
         self.farthest = farthest;
         match found? {
             Ok(spot) => self.go(spot),
@@ -38,7 +38,7 @@ impl Simulator<'_> {
         }
     }
 
-    /// The lines from a place on, to the end of the input; `false` ends the reading.
+    /// Reads the lines from a position to the end of the input. `each` ends the reading by returning `false`.
     fn lines_from(&mut self, spot: Spot, each: &mut dyn FnMut(&[u8], Spot, Spot) -> bool) -> Result<(), RunError> {
         self.go(spot)?;
         while self.read_line()? {
@@ -54,7 +54,7 @@ impl Simulator<'_> {
         let mut sections = vec![Section { name: String::new(), start }];
         self.lines_from(start, &mut |line, before, _| {
             if let Some(name) = section(line) {
-                // `PROC NAME` after its own header begins nothing new
+                // `PROC NAME` after the header of the same name begins no new section
                 if sections.last().is_none_or(|last| last.name != name) {
                     sections.push(Section { name, start: before });
                 }
@@ -65,7 +65,7 @@ impl Simulator<'_> {
         Ok(())
     }
 
-    /// The number of the section of a line, and the line before which the next one begins.
+    /// The index of a line's section, and the line before which the next section begins.
     fn section_of(&self, line: u64) -> (usize, u64) {
         let sections = self.siemens.sections.as_deref().unwrap_or_default();
         let at = sections.iter().rposition(|section| section.start.line <= line).unwrap_or(0);
@@ -102,12 +102,12 @@ impl Simulator<'_> {
                     Some(false) => " before this block",
                     None => "",
                 };
-                refuse(Code::PN015, format!("there is no label {label}{way}"), "look for a misprint")
+                refuse(Code::PN015, format!("there is no label {label}{way}"), "check the spelling")
             }
         })
     }
 
-    /// Finds the end of what the line before `back` opens.
+    /// Finds the end of the part that the line before `back` opens.
     fn find_part(&mut self, text: &[u8], back: Spot, enters: bool) -> Result<Done<Spot>, RunError> {
         let own = head(text);
         let Some(kind) = opens(&own, text) else { return Ok(Ok(back)) };
@@ -141,7 +141,7 @@ impl Simulator<'_> {
             return Ok(refuse(Code::PN015, message, "end each part with its own word"));
         };
         let opening = Spot { byte: back.byte - text.len() as u64, line: line - 1 };
-        // where the lines at its middle and its end lead
+        // records the targets of the lines at the middle and at the end of the part
         let start = if matches!(own.word.as_ref(), "WHILE" | "FOR") { opening } else { back };
         if own.word != "IF" {
             self.siemens.ends.insert(end_line.line + 1, start);
@@ -170,7 +170,7 @@ impl Simulator<'_> {
             let help = "subprograms in other files are not simulated: add it after the main program, as %_N_NAME_SPF";
             return Ok(refuse(Code::PN016, format!("there is no subprogram {name} in this file"), help));
         };
-        // its header is passed over
+        // the header of the section is skipped
         let mut start = section.start;
         self.lines_from(section.start, &mut |line, before, after| {
             if line.trim_ascii_start().starts_with(b"%") {
@@ -192,7 +192,11 @@ impl Simulator<'_> {
             ));
         }
         if has_proc && times > 1 {
-            return Ok(refuse(Code::PN016, format!("{name} with PROC is called once a block"), "write the call again"));
+            return Ok(refuse(
+                Code::PN016,
+                format!("{name} with PROC can be called only once per block"),
+                "write the call again in the next block",
+            ));
         }
         self.siemens.arguments = has_proc.then_some(arguments);
         let frame = Frame::Call { label: name.to_owned(), back, start, times, arguments: false };

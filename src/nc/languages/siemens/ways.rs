@@ -1,4 +1,4 @@
-//! What a program of a Siemens keeps besides the state of the machine: parameters, the modal cycle, where its parts begin.
+//! State of a Siemens program besides the state of the machine: parameters, the modal cycle, positions of program parts.
 
 use std::collections::HashMap;
 
@@ -6,32 +6,32 @@ use crate::nc::call::Call;
 use crate::nc::way::Spot;
 use crate::toolpath::Units;
 
-/// What is kept from block to block.
+/// State that is kept from block to block.
 #[derive(Debug, Default)]
 pub struct Siemens {
     /// R parameters by their names, `R1`.
     pub(super) parameters: HashMap<String, f64>,
-    /// Variables of `DEF`, those of the main program first, one map for each subprogram that runs.
+    /// Variables of `DEF`, one map for each running subprogram; the main program is first.
     pub(super) variables: Vec<HashMap<String, f64>>,
     /// The cycle of `MCALL`.
     pub(super) modal: Option<Call>,
-    /// Names of tools in their order; they count from 1.
+    /// Tool names in order. They are numbered from 1.
     tools: Vec<Vec<u8>>,
-    /// Units as the program said them last.
+    /// The units that the program has set last.
     pub(super) units: Option<Units>,
-    /// Arguments of a call whose `PROC` comes next.
+    /// Arguments of a call until its `PROC` line is read.
     pub(super) arguments: Option<Vec<Option<f64>>>,
-    /// Where programs of the input begin, in order; `None`: not looked for yet.
+    /// The programs of the input in order; `None`: the input was not searched yet.
     pub(super) sections: Option<Vec<Section>>,
     /// Parts of structured blocks by the line that opens them.
     pub(super) parts: HashMap<u64, Part>,
-    /// Where the line goes that ends a part.
+    /// Jump targets of the lines that end a part, by line.
     pub(super) ends: HashMap<u64, Spot>,
-    /// A label with its places, by section and name.
+    /// The positions of a label, by section and name.
     pub(super) labels: HashMap<(usize, String), Vec<Spot>>,
-    /// `REPEAT` of a label: its line, and how often it still goes back.
+    /// `REPEAT` of a label: its line, and the number of repeats left.
     pub(super) repeats: Vec<(u64, u32)>,
-    /// The line of a `FOR` to which its `ENDFOR` went back.
+    /// The line of the `FOR` that its `ENDFOR` jumped back to.
     pub(super) next_round: Option<u64>,
 }
 
@@ -39,26 +39,26 @@ pub struct Siemens {
 #[derive(Clone, Debug)]
 pub struct Section {
     pub name: String,
-    /// Before its first line.
+    /// Position before the first line.
     pub start: Spot,
 }
 
 /// A structured block.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
-    /// After the `ELSE`.
+    /// Position after the `ELSE`.
     pub middle: Option<Spot>,
-    /// After the line that ends it.
+    /// Position after the line that ends it.
     pub end: Spot,
 }
 
 impl Siemens {
-    /// What a name stands for.
+    /// The value of a name.
     pub(super) fn value(&self, name: &str) -> Option<f64> {
         self.variables.last().and_then(|own| own.get(name)).or_else(|| self.parameters.get(name)).copied()
     }
 
-    /// Gives a variable or parameter a value; `false`: there is none of this name.
+    /// Sets a variable or parameter. Returns `false` if there is none of this name.
     pub(super) fn set(&mut self, name: &str, value: f64) -> bool {
         if let Some(own) = self.variables.last_mut().and_then(|own| own.get_mut(name)) {
             *own = value;
@@ -73,13 +73,13 @@ impl Siemens {
         is_parameter
     }
 
-    /// Variables of so many subprograms inside each other are kept, and those of the one that runs are there.
+    /// Keeps the variables of this many nested subprograms, and creates those of the running one.
     pub(super) fn at_depth(&mut self, depth: usize) {
         self.variables.truncate(depth + 1);
         self.variables.resize_with(depth + 1, HashMap::new);
     }
 
-    /// The number of a tool: its name as a number, else its place among the names of the program.
+    /// The number of a tool: its name if that is a number, else its index among the tool names of the program.
     pub(super) fn tool(&mut self, name: &[u8]) -> f64 {
         let number = std::str::from_utf8(name).ok().and_then(|name| name.parse::<u32>().ok());
         if let Some(number) = number {

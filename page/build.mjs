@@ -14,9 +14,16 @@ function policy(script, connects) {
     "style-src 'unsafe-inline'",
     "img-src data:",
     `connect-src ${connects.self ? "'self'" : "'none'"}`,
+    ...(connects.wasm ? ["worker-src 'self'"] : []),
     "base-uri 'none'",
     "form-action 'none'",
   ].join("; ");
+}
+
+/** A script of its own, for a thread of the playground. */
+async function script(entry, out) {
+  const options = { bundle: true, minify: true, format: "iife", target: "es2022", charset: "utf8", legalComments: "none" };
+  await build({ ...options, entryPoints: [here(`src/${entry}.ts`)], outfile: here(out) });
 }
 
 async function page(entry, out, connects, data = "") {
@@ -48,4 +55,5 @@ async function page(entry, out, connects, data = "") {
 
 await page("watch", "dist/watch.html", { self: true });
 await page("plot", "dist/plot.html", {}, '<script type="application/octet-stream" id="scene">SCENE</script>');
+await script("playground-worker", "../docs/playground/worker.js");
 await page("playground", "../docs/playground/index.html", { self: true, wasm: true });

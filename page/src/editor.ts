@@ -1,4 +1,4 @@
-// The form pane: CodeMirror, with findings under the words and the lines lit that printed the chosen block.
+// The form pane: CodeMirror, with findings under the words, and highlighted lines that printed the selected block.
 
 import { completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentLess, indentMore } from "@codemirror/commands";
@@ -18,7 +18,7 @@ import { base } from "./names.ts";
 import type { Finding, Place } from "./scene.ts";
 
 interface Lit {
-  /** Lines from 0: those of the chosen block, and those of a difference. */
+  /** Lines from 0: those of the selected block, and those of a difference. */
   lines: number[];
   bad: number[];
 }
@@ -45,7 +45,7 @@ function lines(doc: Text, { lines, bad }: Lit): DecorationSet {
   return builder.finish();
 }
 
-/** The words of a form, as far as one line tells them. */
+/** Tokens of a form, as far as they can be recognised from a single line. */
 const language = StreamLanguage.define<{ open: boolean }>({
   startState: () => ({ open: false }),
   token(stream, state) {
@@ -56,7 +56,7 @@ const language = StreamLanguage.define<{ open: boolean }>({
         state.open = false;
         return "keyword";
       }
-      // a sequence begins with its name alone, a setting has its value after it
+      // the name of a sequence is alone on its line, a setting is followed by its value
       if (!state.open && stream.match(/[A-Za-z0-9]+[ \t]*$/)) {
         state.open = true;
         return "keyword";
@@ -96,10 +96,10 @@ export class Editor {
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
   onLeave: () => void = () => {};
-  /** Esc was pressed once: what a second one does. */
+  /** Esc was pressed once: the page explains the second press. */
   onHint: () => void = () => {};
   private escaped = -Infinity;
-  /** What is known of a place in the file that is shown. */
+  /** The help for a location in the file that is shown. */
   onHelp: (at: At) => Promise<Help | null> = () => Promise.resolve(null);
 
   constructor(readonly isEditable: boolean) {
@@ -152,15 +152,15 @@ export class Editor {
     });
   }
 
-  /** Something was typed since the cursor came into the form. */
+  /** Text was typed since the cursor entered the form. */
   private writes = false;
 
-  /** Does Tab indent? Where nothing is selected and nothing was typed, it goes on to the next pane. */
+  /** Does Tab indent? Without a selection and without typed text, it moves to the next pane. */
   private indents(state: EditorState): boolean {
     return this.isEditable && (this.writes || !state.selection.main.empty);
   }
 
-  /** Twice in a row leaves the form: once may have been meant for a list that is closed already. */
+  /** Pressing Esc twice leaves the form, because a single press may only close a list. */
   private escape(): boolean {
     const now = performance.now();
     const again = now - this.escaped < 2000;
@@ -170,7 +170,7 @@ export class Editor {
     return false;
   }
 
-  /** The files of the form; texts that are there already stay as they were typed. */
+  /** Sets the files of the form; texts that already exist stay as typed. */
   setFiles(names: string[], texts: string[]): void {
     const same = names.length === this.names.length && names.every((name, i) => name === this.names[i]);
     names.forEach((name, i) => {
@@ -178,7 +178,7 @@ export class Editor {
     });
     if (same) return;
     const shown = this.name;
-    // what was typed, and what undoes it
+    // keeps the typed text and its undo history
     if (shown) this.states.set(shown, this.view.state);
     this.names = names;
     this.file = -1;
@@ -191,7 +191,7 @@ export class Editor {
     }));
   }
 
-  /** Another text for a file, as it is on the disk. */
+  /** Replaces the text of a file with the text on the disk. */
   replace(name: string, text: string): void {
     if (name === this.name) {
       this.quiet = true;
@@ -205,6 +205,18 @@ export class Editor {
     }
   }
 
+  /** Puts a text into the file, as if it were typed. */
+  type(text: string): void {
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+    this.view.focus();
+  }
+
+  /** Forgets all files. */
+  forget(): void {
+    this.states.clear();
+    [this.names, this.file] = [[], 0];
+  }
+
   private open(file: number): void {
     if (file === this.file || !this.names[file]) return;
     if (this.names[this.file]) this.states.set(this.name, this.view.state);
@@ -216,7 +228,7 @@ export class Editor {
     this.onOpen();
   }
 
-  /** The file that is shown is another one: findings and lit lines are to be said again. */
+  /** Another file is shown: findings and highlighted lines must be set again. */
   onOpen: () => void = () => {};
 
   private offset(line: number, column: number): number {
@@ -229,11 +241,11 @@ export class Editor {
   private range([, line, column, endLine, endColumn]: Place): [number, number] {
     const from = this.offset(line, column);
     const to = this.offset(endLine, endColumn);
-    // what is nowhere is shown at its line
+    // an empty range is shown as one character
     return to > from ? [from, to] : [from, Math.min(from + 1, this.view.state.doc.length)];
   }
 
-  /** Findings under their words, with what mends them. */
+  /** Marks findings under their words, with their fixes. */
   setFindings(findings: Finding[]): void {
     const here = findings.filter((finding) => finding.labels[0]?.at[0] === this.file);
     const diagnostics: Diagnostic[] = here.map((finding) => {
@@ -257,7 +269,7 @@ export class Editor {
     this.view.dispatch({ changes: here.map(({ at, text }) => ({ from: this.offset(at[1], at[2]), to: this.offset(at[3], at[4]), insert: text })) });
   }
 
-  /** Lines that printed the chosen block, and those of differences: file and line. */
+  /** Highlights lines that printed the selected block, and lines of differences: file and line. */
   light(lit: { file: number; line: number }[], bad: { file: number; line: number }[], scrolls: boolean): void {
     const first = lit[0];
     if (scrolls && first && first.file !== this.file) this.open(first.file);
@@ -273,7 +285,7 @@ export class Editor {
     this.head.textContent = first ? `line ${first.line + 1}` : "";
   }
 
-  /** Puts the cursor on a finding. */
+  /** Moves the cursor to a finding. */
   goTo(at: Place): void {
     this.open(at[0]);
     const [from, to] = this.range(at);

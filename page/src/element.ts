@@ -1,8 +1,8 @@
-// Elements of the page.
+// Creates elements of the page.
 
 type Child = Node | string;
 
-/** An element with attributes and what is in it. Text is text: nothing of it is markup. */
+/** An element with attributes and children. Strings become text, never markup. */
 export function element<K extends keyof HTMLElementTagNameMap>(
   name: K,
   attributes: Record<string, string>,

@@ -1,4 +1,4 @@
-// What the form pane knows of words: what could stand here, and what the one under the pointer is.
+// Help in the form pane: the possible words at a location, and the meaning of the word under the pointer.
 
 import { autocompletion, type Completion, type CompletionContext, type CompletionResult, snippet } from "@codemirror/autocomplete";
 import type { Extension } from "@codemirror/state";
@@ -7,7 +7,7 @@ import { type EditorView, hoverTooltip } from "@codemirror/view";
 import { element } from "./element.ts";
 import type { At, Help } from "./host.ts";
 
-/** Asks for help with a place of the file that is shown. */
+/** Requests help for a location in the file that is shown. */
 export type Ask = (at: Omit<At, "file">) => Promise<Help | null>;
 
 export function help(ask: Ask): Extension {
@@ -29,7 +29,7 @@ export function help(ask: Ask): Extension {
 async function complete(context: CompletionContext, ask: Ask): Promise<CompletionResult | null> {
   const line = context.state.doc.lineAt(context.pos);
   const before = line.text.slice(0, context.pos - line.from);
-  // where a word, a bracket or a code has begun, or when it is asked for
+  // only after the beginning of a word, bracket or code, or on explicit request
   if (!context.explicit && !/\[[\w#]*$|(^|\s)[GM]\d+$|^\s*\w{2,}$|^\s*(End|Control|Machine|Units)\s+\w*$|@\w*$|^\s*@for\s+\w*$/.test(before)) return null;
   const told = await ask({ line: line.number - 1, column: before.length, ask: "complete" }).catch(() => null);
   const list = told?.list ?? [];
@@ -55,7 +55,7 @@ function offset(view: EditorView, line: number, column: number): number {
   return Math.min(at.from + column, at.to);
 }
 
-/** As much of Markdown as postform writes: blocks of code, rules, code, bold and slanted words, and signs that stand for themselves. */
+/** Converts the Markdown that postform writes: code blocks, rules, code, bold and italic words, and escaped characters. */
 export function markdown(text: string): HTMLElement[] {
   return text.split(/^```.*$/m).flatMap((part, at): HTMLElement[] => {
     if (!part.trim()) return [];

@@ -9,6 +9,8 @@ export interface Ask {
   texts: Record<string, string>;
   /** The program that is shown already: it need not be sent again. */
   shown?: string | null;
+  /** Properties of the form and their values. */
+  properties?: [string, string][];
 }
 
 /** A place in a form, and what is asked of it: line and column from 0. */
@@ -32,9 +34,11 @@ export interface Host {
   /** What is known of a place in a form; null: nothing. */
   help(ask: Ask, at: At): Promise<Help | null>;
   /** The verdict of a job with the forms as they are saved. */
-  verdict(job: number): Promise<Verdict>;
+  verdict(job: number, properties: [string, string][]): Promise<Verdict>;
   /** Writes a form. Null: it is written; else why not. */
   save?(name: string, text: string, was: string): Promise<string | null>;
+  /** What is typed is kept without being saved. */
+  readonly keeps?: boolean;
   /** Something was changed elsewhere. */
   onChange?(changed: (connected: boolean) => void): void;
 }
@@ -55,8 +59,8 @@ export class Server implements Host {
     return (await this.post("help", { ...ask, at })).json();
   }
 
-  async verdict(job: number): Promise<Verdict> {
-    return (await this.post("verdict", { job, texts: {} })).json();
+  async verdict(job: number, properties: [string, string][]): Promise<Verdict> {
+    return (await this.post("verdict", { job, texts: {}, properties })).json();
   }
 
   async save(name: string, text: string, was: string): Promise<string | null> {

@@ -1,4 +1,4 @@
-// What keys do outside the form.
+// Key functions outside the form.
 
 import { VIEWS } from "./backplot/camera.ts";
 import { element } from "./element.ts";
@@ -13,6 +13,9 @@ const KEYS: Key[] = [
   ["f F", "next finding of the form, finding before", (page, back) => page.nextFinding(back ? -1 : 1)],
   ["d D", "next difference or change, the one before", (page, back) => page.nextDifference(back ? -1 : 1)],
   ["space", "play, stop", (page) => page.play()],
+  ["s", "the stock, cut by the tools", (page) => page.backplot.toggleStock()],
+  ["m", "measure between two points", (page) => page.backplot.toggleMeasure()],
+  ["/", "find in the program", (page) => page.listing.find.open()],
   ["z", "the chosen block from near", (page) => page.backplot.zoomToBlock()],
   ["0", "all of it", (page) => page.backplot.fit()],
   ["1 2 3 4 5", "from above, the front, the side, the corner, as a lathe", () => {}],
@@ -27,7 +30,7 @@ export function keys(page: Page): void {
   const help = element("dialog", { "aria-label": "Keys" }, element("table", {}, ...rows), close);
   close.onclick = () => help.close();
   document.body.append(help);
-  // a button that was clicked keeps no key for itself: space and the letters are those of the page
+  // a clicked button loses the focus, so that space and letters stay keys of the page
   document.addEventListener("click", (event) => {
     const button = (event.target as HTMLElement).closest("button");
     if (event.detail > 0 && button && button === document.activeElement && !button.closest("dialog, .cm-editor")) page.listing.focus();

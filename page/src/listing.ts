@@ -1,11 +1,13 @@
-// The program pane: only the lines in sight are elements, so that a million of them scroll.
+// The program pane: only visible lines are elements, so that a million lines can be scrolled.
 
+import { download } from "./download.ts";
 import { element } from "./element.ts";
+import { Find } from "./find.ts";
 import { type Marks, noMarks } from "./marks.ts";
 import type { Program } from "./program.ts";
 
 const ROW = 20;
-/** No browser lays out more pixels than this; a longer program scrolls by shares of itself. */
+/** Browsers lay out no more pixels than this; scrolling of a longer program is scaled. */
 const TALLEST = 8_000_000;
 
 export class Listing {
@@ -22,18 +24,29 @@ export class Listing {
   private line = 0;
   private lit = new Set<number>();
   private asked = 0;
-  /** The chosen block was brought into sight, and nobody has scrolled since. */
+  /** The selected block was scrolled into view, and the user has not scrolled since. */
   private follows = false;
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
+  /** A line was found: it is to be chosen and shown. */
+  onFound: (line: number) => void = () => {};
+  /** The name under which the program is saved. */
+  fileName = "program.nc";
+  readonly find = new Find();
 
   constructor() {
     this.view.append(this.spacer, this.rows);
     this.root = element("section", { class: "program", "aria-label": "Program" },
-      element("h2", {}, "Program", this.head), this.view, this.note);
+      element("h2", {}, "Program", this.head, this.tools()), this.find.root, this.view, this.note);
+    this.find.onFind = (text, by) => {
+      const line = this.program?.find(text, this.line, by) ?? 0;
+      if (line) this.onFound(line);
+      return line > 0;
+    };
+    this.find.onClose = () => this.focus();
     this.view.onscroll = () => this.redraw();
     new ResizeObserver(() => {
-      // what is said of the chosen block takes room from the list: the block stays in sight
+      // the note about the selected block makes the list smaller: the block stays visible
       if (this.follows) this.reveal(this.line);
       this.redraw();
     }).observe(this.view);
@@ -52,7 +65,7 @@ export class Listing {
 
   show(program: Program | null, marks: Marks, head: string): void {
     [this.program, this.marks] = [program, marks];
-    this.head.replaceChildren(element("span", { class: "gen" }, program?.isTraced ? "generated" : ""), ` ${head}`);
+    this.head.textContent = head;
     this.spacer.style.height = `${Math.min(TALLEST, this.height)}px`;
     this.view.setAttribute("aria-description", head);
     this.draw();
@@ -68,6 +81,21 @@ export class Listing {
     this.draw();
   }
 
+  private tools(): HTMLElement {
+    const button = (text: string, title: string, act: () => void) => {
+      const made = element("button", { title }, text);
+      made.onclick = act;
+      return made;
+    };
+    const copy = button("copy", "Copy the program", async () => {
+      await navigator.clipboard.writeText(this.program?.all() ?? "");
+      copy.textContent = "copied";
+      setTimeout(() => (copy.textContent = "copy"), 1500);
+    });
+    const save = button("save", "Save the program as a file", () => this.program && download(this.fileName, this.program.all()));
+    return element("span", { class: "tools" }, button("find", "Find in the program (/)", () => this.find.open()), copy, save);
+  }
+
   focus(): void {
     this.view.focus();
   }
@@ -76,7 +104,7 @@ export class Listing {
     return (this.program?.lines ?? 0) * ROW + 12;
   }
 
-  /** Pixels of the program a pixel that is scrolled. */
+  /** Pixels of the program per scrolled pixel. */
   private get stretch(): number {
     const room = this.view.clientHeight;
     const shown = Math.min(TALLEST, this.height);
@@ -136,7 +164,7 @@ export class Listing {
   }
 }
 
-/** Comments are dim. */
+/** Comments are dimmed. */
 function words(text: string): (Node | string)[] {
   const parts = text.slice(0, 400).split(/(\([^)]*\)?)/);
   return parts.filter(Boolean).map((part) => (part.startsWith("(") ? element("span", { class: "rem" }, part) : part));

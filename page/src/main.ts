@@ -2,38 +2,47 @@
 
 import "./style.css";
 import { Backplot } from "./backplot/pane.ts";
+import { download } from "./download.ts";
 import type { Editor } from "./editor.ts";
 import { element } from "./element.ts";
 import { Gone, type Host } from "./host.ts";
+import { sourcesOf } from "./formats.ts";
+import { Header, without } from "./header.ts";
 import { keys } from "./keys.ts";
+import { Kit } from "./kit.ts";
 import { Listing } from "./listing.ts";
 import { findingsOf, type Marks, marksOf, noMarks, stops } from "./marks.ts";
-import { base, jobName } from "./names.ts";
+import { base } from "./names.ts";
 import { fitNote, noteOf, stoppedNote, verdictNote, whereOf } from "./note.ts";
+import { withHandles } from "./panes.ts";
 import { Program } from "./program.ts";
 import { type Head, Scene, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
+import { Properties } from "./properties.ts";
+import { Timeline } from "./timeline.ts";
 
-/** In place of a verdict. */
-const without = (text: string): Verdict => ({ kind: "none", text, line: 0, help: "", allowed: [], findings: [] });
 const PROVING = without("proving…");
 const CHECKING = without("checking…");
 
-type From = "form" | "program" | "path" | "key" | "finding";
+/** A rapid through stock. */
+const CRASH = { text: "this rapid goes through stock that is not cut yet", help: "the stock is the box of the cuts, up to the top of the part: look whether the tool is high enough" };
+
+type From = "form" | "program" | "path" | "key" | "finding" | "time";
+
+/** Milliseconds between two blocks that are shown while the timeline plays. */
+const PACE = 100;
 
 export class Page {
   readonly listing = new Listing();
   readonly backplot = new Backplot();
+  readonly timeline = new Timeline();
+  private readonly header = new Header();
   private readonly state = new StateStrip();
-  private readonly title = element("h1", {});
-  private readonly verdict = element("button", { class: "verdict" });
-  private readonly fit = element("button", { class: "fit", hidden: "" });
-  private readonly lint = element("button", { class: "lint" });
-  private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
+  private readonly properties = new Properties();
+  private readonly kit = new Kit();
   private readonly foot = element("span", { class: "where", "aria-live": "polite" });
   private readonly timing = element("span", { class: "ms", title: "From the key to the new picture and verdict" });
   private readonly beside = element("span", { class: "beside" });
-  private readonly saving = element("button", { class: "save", hidden: "" }, "save");
   private readonly banner = element("div", { class: "banner", role: "alert", hidden: "" });
 
   private head: Head | null = null;
@@ -47,43 +56,72 @@ export class Page {
   private saved: Record<string, string> = {};
   private typed: Record<string, string> = {};
   /** Files that are other on the disk than what was typed began with, and nobody said yet which is to stay. */
+  /** Lines whose rapids go through the stock. */
+  private crashes = new Set<number>();
   private readonly conflicts = new Set<string>();
   /** What is shown in place of a verdict while there is none of the very text that is shown: it is being checked, or could not be. */
   private unchecked: Verdict | null = null;
   private running = false;
   private again: { key: number } | null = null;
-  private playing = 0;
   private next = { finding: 0, difference: 0 };
   /** When a key was pressed, and milliseconds from it until the new picture and the new verdict were painted: the last ones. */
   readonly painted: { key: number; picture: number; verdict: number }[] = [];
 
   /** Without a host the page shows one scene; without an editor it has two panes. */
   constructor(private readonly host: Host | null, readonly editor: Editor | null) {
-    const header = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs);
     const main = element("main", { class: editor ? "three" : "two" });
-    if (editor) main.append(editor.root);
-    main.append(this.listing.root, this.backplot.root);
+    this.backplot.root.append(this.timeline.root);
+    withHandles(main, [...(editor ? [editor.root] : []), this.listing.root, this.backplot.root]);
     const help = element("span", { class: "keys" }, "n p block · t T tool · i I item · f F finding · d D change · space play · ? keys");
     const footer = element("footer", {}, this.foot, help, this.timing, this.beside);
-    document.body.append(header, this.banner, main, this.state.root, footer);
+    document.body.append(this.header.root, this.banner, main, this.state.root, footer);
     this.wire();
   }
 
   private wire(): void {
     const { editor, listing, backplot } = this;
     listing.onPick = (line) => this.choose(line, "program");
+    listing.onFound = (line) => this.choose(line, "key");
     listing.onHover = (line) => this.tell(line ?? this.line, line !== null);
     backplot.onPick = (line) => this.choose(line, "path");
     backplot.onHover = (line) => this.tell(line ?? this.line, line !== null);
+    backplot.onCrash = (lines) => {
+      if (String(lines) === String([...this.crashes])) return;
+      this.crashes = new Set(lines);
+      this.mark();
+    };
+    backplot.onSay = (text) => (this.foot.textContent = text);
+    let told = 0;
+    this.timeline.onTime = (cursor) => {
+      backplot.drawTo(cursor);
+      const now = performance.now();
+      if (cursor.line === this.line || (this.timeline.isPlaying && now - told < PACE)) return;
+      told = now;
+      this.choose(cursor.line, "time");
+    };
+    this.timeline.onEnd = () => this.choose(this.program?.lines ?? 1, "key");
     this.state.onPick = (line) => this.choose(line, "key");
-    this.verdict.onclick = () => this.explain();
-    this.fit.onclick = () => {
+    this.header.verdict.onclick = () => this.explain();
+    this.header.fit.onclick = () => {
       const fit = this.head?.fit;
       if (fit) this.listing.note.replaceChildren(...fitNote(fit));
     };
-    this.lint.onclick = () => this.nextFinding(1);
-    this.saving.onclick = () => void this.save();
+    this.header.lint.onclick = () => this.nextFinding(1);
+    this.header.onJob = (job) => {
+      this.job = job;
+      this.program = null;
+      void this.load();
+    };
+    this.header.saving.onclick = () => void this.save();
     if (editor) {
+      editor.root.querySelector("h2")!.append(this.properties.button);
+      editor.root.insertBefore(this.properties.root, editor.root.querySelector(".editor"));
+      editor.root.insertBefore(this.kit.root, editor.root.querySelector(".editor"));
+      this.properties.onChange = () => {
+        void this.load();
+        void this.otherVerdicts();
+      };
+      this.kit.onPick = (text) => editor.type(text);
       editor.onEdit = (name, text) => this.edit(name, text);
       editor.onLine = (file, line) => this.chooseFormLine(file, line);
       editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
@@ -102,7 +140,7 @@ export class Page {
       } else this.failed("postform has ended, or can't be reached");
     });
     window.addEventListener("beforeunload", (event) => {
-      if (this.host?.save && Object.keys(this.typed).length) event.preventDefault();
+      if (this.host?.save && !this.host.keeps && Object.keys(this.typed).length) event.preventDefault();
     });
     keys(this);
   }
@@ -127,7 +165,7 @@ export class Page {
     this.running = true;
     try {
       let shown: Head | null = null;
-      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, shown: this.program && this.shown?.program })) {
+      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: this.properties.set, shown: this.program && this.shown?.program })) {
         const scene = new Scene(bytes);
         // a verdict of what was there before the last key is none of what is there now
         if (!this.again) this.unchecked = null;
@@ -151,11 +189,11 @@ export class Page {
   private pend(text: Verdict): void {
     this.unchecked = text;
     document.body.classList.add("pending");
-    this.sayVerdict(text);
-    this.fit.hidden = true;
+    this.header.tell(this.job, text);
+    this.header.showFit(null);
     if (!Object.keys(this.typed).length) return;
-    for (let job = 0; job < this.tabs.childElementCount; job++) {
-      if (job !== this.job) this.tabVerdict(job, without("checked when the form is saved"));
+    for (let job = 0; job < this.header.jobs; job++) {
+      if (job !== this.job) this.header.mark(job, without("checked when the form is saved"));
     }
   }
 
@@ -172,6 +210,8 @@ export class Page {
   }
 
   private sayingFailed = false;
+  /** A text was typed. */
+  onTyped: () => void = () => {};
 
   /** The form was deleted: it is written as it is shown here. */
   private async writeAgain(): Promise<void> {
@@ -187,8 +227,8 @@ export class Page {
 
   /** What is said of what is shown, and took longer than its picture: the verdict, and what changed. */
   private tellMore(head: Partial<Head>): void {
-    const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against } = head;
-    Object.assign(this.head!, { verdict, fit, saved, against });
+    const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = head;
+    Object.assign(this.head!, { verdict, fit, saved, against, toolSizes });
     this.mark();
     this.relight(false);
   }
@@ -211,12 +251,13 @@ export class Page {
     const first = !this.program;
     this.takeTexts(head);
     // the same program is not sent again
-    if (head.same) Object.assign(head, { picture: this.shown?.picture, "old/picture": this.shown?.["old/picture"] });
+    if (head.same) Object.assign(head, { picture: this.shown?.picture, "old/picture": this.shown?.["old/picture"], toolSizes: this.shown?.toolSizes });
     else if (head.picture) this.shown = head;
     document.body.classList.toggle("stale", !!head.stopped);
     if (head.same) {
       // as it was
     } else if (head.picture) {
+      this.crashes = new Set();
       this.program = new Program(scene, "", this.program);
       this.old = scene.has("old/text") ? new Program(scene, "old/", this.old) : null;
     } else if (first || !head.stopped) {
@@ -256,7 +297,7 @@ export class Page {
         this.sayConflict(name);
       } else delete this.typed[name];
     });
-    this.saving.hidden = !this.host?.save || !Object.keys(this.typed).length;
+    this.header.saving.hidden = !this.host?.save || !Object.keys(this.typed).length;
   }
 
   private sayConflict(name: string): void {
@@ -273,60 +314,23 @@ export class Page {
   }
 
   private titles(head: Head): void {
-    const form = head.form?.files[0];
-    const names = [form && base(form), head.job.name && base(head.job.name)].filter(Boolean);
-    document.title = `${names.join(" · ")} · postform`;
-    this.title.textContent = form ? base(form) : base(head.job.name);
-    if (head.form) {
-      const { errors, warnings, notes } = head.form;
-      const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
-      this.lint.textContent = `${count(errors, "error")}, ${count(warnings, "warning")}`;
-      this.lint.setAttribute("aria-label", `${errors} errors, ${warnings} warnings, ${notes} notes of the form: show the next`);
-      this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
-    } else this.lint.hidden = true;
-    const jobs = head.jobs ?? [];
-    if (this.tabs.childElementCount !== jobs.length) {
-      this.tabs.replaceChildren(...jobs.map((name, i) => {
-        const tab = element("button", { role: "tab", class: "tab", title: name }, jobName(name), element("span", {}));
-        tab.onclick = () => {
-          this.job = i;
-          this.program = null;
-          void this.load();
-        };
-        return tab;
-      }));
-    }
-    [...this.tabs.children].forEach((tab, i) => tab.setAttribute("aria-selected", String(i === this.job)));
-    this.tabs.hidden = jobs.length < 1;
+    this.header.show(head, this.job);
+    this.listing.fileName = `${base(head.job.name).replace(/\.[^.]*$/, "") || "program"}.nc`;
+    if (!head.form) return;
+    this.properties.show(head.form.properties, head.picture?.units ?? this.shown?.picture?.units ?? "");
+    this.kit.show(head.form.kit);
   }
 
   /** The verdicts of the jobs that are not shown. */
   private async otherVerdicts(): Promise<void> {
-    for (let job = 0; job < this.tabs.childElementCount; job++) {
+    for (let job = 0; job < this.header.jobs; job++) {
       if (job === this.job || !this.host) continue;
       try {
-        this.tabVerdict(job, await this.host.verdict(job));
+        this.header.mark(job, await this.host.verdict(job, this.properties.set));
       } catch (error) {
-        this.tabVerdict(job, without(error instanceof Error ? error.message : String(error)));
+        this.header.mark(job, without(error instanceof Error ? error.message : String(error)));
       }
     }
-  }
-
-  private tabVerdict(job: number, verdict: Verdict | undefined): void {
-    const mark = this.tabs.children[job]?.querySelector("span");
-    if (!mark) return;
-    const kind = verdict?.kind ?? "none";
-    [mark.textContent, mark.className] = { proven: ["✓", "ok"], unproven: ["?", "warn"], different: ["✗", "bad"], none: ["–", "dim"] }[kind];
-    mark.setAttribute("aria-label", verdict?.text ?? "no verdict");
-    this.tabs.children[job].setAttribute("title", verdict?.text ?? "");
-  }
-
-  private sayVerdict(verdict: Verdict | undefined, stopped?: Head["stopped"]): void {
-    const class_ = { proven: "ok", unproven: "warn", different: "bad", none: "dim" }[verdict?.kind ?? "none"];
-    this.verdict.className = `verdict ${stopped ? "bad" : class_}`;
-    this.verdict.textContent = stopped ? `${stopped.by === "form" ? "the form has errors" : "no program"}: ${stopped.findings[0]?.message ?? stopped.message}` : verdict?.text ?? "";
-    this.verdict.title = stopped ? (stopped.findings[0]?.help ?? "") : [verdict?.allowed.join("\n"), verdict?.help].filter(Boolean).join("\n");
-    this.tabVerdict(this.job, stopped ? undefined : verdict);
   }
 
   /** What is marked in the panes: differences, changes, findings. */
@@ -334,22 +338,21 @@ export class Page {
     const head = this.head!;
     const waits = !!this.host && !!head.picture && !head.stopped && !head.verdict;
     document.body.classList.toggle("pending", !!this.unchecked);
-    if (this.unchecked) this.sayVerdict(this.unchecked);
-    else this.sayVerdict(waits ? PROVING : head.verdict, head.stopped);
+    if (this.unchecked) this.header.tell(this.job, this.unchecked);
+    else this.header.tell(this.job, waits ? PROVING : head.verdict, head.stopped);
     if (!this.unchecked && this.sayingFailed) {
       this.sayingFailed = false;
       this.say("");
     }
-    this.fit.hidden = !head.fit || !!head.stopped || !!this.unchecked;
-    this.fit.className = `fit ${head.fit?.kind ?? "dim"}`;
-    this.fit.textContent = head.fit?.text ?? "";
-    this.fit.title = head.fit?.more.join("\n") ?? "";
+    this.header.showFit(head.stopped || this.unchecked ? null : head.fit);
     const marks = marksOf(head, this.old);
+    for (const line of this.crashes) if (!marks.bad.has(line)) marks.bad.set(line, CRASH);
     const picture = head.picture;
     const count = picture ? `${picture.blocks} blocks · ${picture.time}` : "";
     this.marks = marks;
     this.listing.show(this.program, marks, count);
-    this.backplot.show(this.program, this.old, [...marks.bad.keys()]);
+    this.backplot.show(this.program, this.old, [...marks.bad.keys()], head.toolSizes);
+    this.timeline.show(this.program);
     this.editor?.setFindings(findingsOf(head));
     const besides = [];
     if (head.saved?.blocks) besides.push(`${head.saved.blocks} block${head.saved.blocks > 1 ? "s" : ""} changed since the last save`);
@@ -369,7 +372,10 @@ export class Page {
     const sameLine = form ? this.program!.printedBy(form.file, form.line) : [];
     this.listing.choose(this.line, sameLine.length < 5000 ? sameLine : [], scrolls && from !== "program");
     this.backplot.choose(this.line, sameLine.length < 500 ? sameLine : []);
-    if (this.playing) this.backplot.drawTo(this.line);
+    if (from !== "time") {
+      this.timeline.chose(this.line);
+      this.backplot.drawTo(null);
+    }
     this.relight(scrolls && from !== "form");
     this.state.show(this.program, this.line);
     this.tell(this.line, false);
@@ -402,8 +408,21 @@ export class Page {
       this.foot.textContent = "";
       return;
     }
-    this.listing.note.replaceChildren(...stopped, ...noteOf(program, line, this.marks, this.formText(line)));
+    this.listing.note.replaceChildren(...stopped, ...noteOf(program, line, this.marks, this.formText(line)), ...this.decidedBy(line));
     this.foot.textContent = (hovers ? "pointer at " : "") + whereOf(program, line);
+  }
+
+  /** The lines of the form that decide how the words of a block look: a click goes there. */
+  private decidedBy(line: number): HTMLElement[] {
+    const head = this.head?.form;
+    if (!this.editor || !head?.formats || !this.program) return [];
+    const texts = head.files.map((name) => this.typed[name] ?? this.saved[name] ?? "");
+    const buttons = sourcesOf(this.program.text(line), head.formats, texts).map(({ word, file, line, text }) => {
+      const button = element("button", { title: `decides how ${word} is printed: line ${line + 1} of the form` }, element("code", {}, text));
+      button.onclick = () => this.editor!.goTo([file, line, 0, line, 0]);
+      return button;
+    });
+    return buttons.length ? [element("div", { class: "decided" }, "formats and commands: ", ...buttons)] : [];
   }
 
   /** The line of the form that printed a block. */
@@ -469,28 +488,47 @@ export class Page {
   }
 
   play(): void {
-    if (this.playing) {
-      clearInterval(this.playing);
-      this.playing = 0;
-      this.backplot.drawTo(Infinity);
-      return;
-    }
-    const last = this.program?.lines ?? 0;
-    if (this.line >= last) this.line = 0;
-    // a program takes at most a minute to play
-    const stride = Math.max(1, Math.round(last / 600));
-    this.playing = window.setInterval(() => {
-      if (this.line >= last) return this.play();
-      this.step(stride);
-    }, 100);
+    this.timeline.toggle();
+  }
+
+  /** Begins again with other files of the host, and with texts that are typed and not saved. */
+  async reopen(typed: Record<string, string>): Promise<void> {
+    this.program = this.old = this.head = this.shown = null;
+    [this.job, this.line, this.saved, this.typed] = [0, 1, {}, { ...typed }];
+    this.conflicts.clear();
+    this.header.forgetJobs();
+    this.editor?.forget();
+    this.properties.forget();
+    this.say("");
+    await this.load();
+  }
+
+  /** Texts of forms that are typed and not saved, by their names. */
+  get texts(): Record<string, string> {
+    return this.typed;
+  }
+
+  get shownJob(): number {
+    return this.job;
+  }
+
+  /** May what was typed be lost? */
+  mayLeave(): boolean {
+    const names = Object.keys(this.typed).map(base);
+    return !names.length || confirm(`What was typed in ${names.join(", ")} will be lost. Go on?`);
+  }
+
+  downloadForm(): void {
+    if (this.editor) download(base(this.editor.name), this.editor.text);
   }
 
   private edit(name: string, text: string): void {
     const key = performance.now();
     if (text === this.saved[name]) delete this.typed[name];
     else this.typed[name] = text;
-    this.saving.hidden = !this.host?.save || !Object.keys(this.typed).length;
+    this.header.saving.hidden = !this.host?.save || !Object.keys(this.typed).length;
     void this.load(key);
+    this.onTyped();
     if (!Object.keys(this.typed).length) void this.otherVerdicts();
   }
 
@@ -503,7 +541,7 @@ export class Page {
       this.saved[name] = text;
       delete this.typed[name];
     }
-    this.saving.hidden = true;
+    this.header.saving.hidden = true;
     this.say("");
     await this.load();
     void this.otherVerdicts();

@@ -1,15 +1,15 @@
-// What is marked in the panes: differences from the job, changes since the last save and against an old program, findings.
+// Marks in the panes: differences from the job, changes since the last save and against an old program, findings.
 
 import type { Program } from "./program.ts";
 import type { Finding, Head } from "./scene.ts";
 
-/** What is marked at lines of the program. */
+/** Marks at lines of the program. */
 export interface Marks {
   /** Changed since the form was saved. */
   saved: Set<number>;
-  /** Other than in the program that it is compared with; what stood there. */
+  /** Lines that differ from the compared program, with the old text. */
   against: Map<number, string[]>;
-  /** Differs from the job, or is refused; why, and what helps. */
+  /** Lines that differ from the job or are refused, with the reason and the help. */
   bad: Map<number, { text: string; help: string }>;
 }
 
@@ -23,7 +23,7 @@ export function marksOf(head: Head, old: Program | null): Marks {
     for (let line = from; line < Math.max(to, from + 1); line++) marks.saved.add(line + 1);
   }
   for (const [oldFrom, oldTo, from, to] of head.against?.hunks ?? []) {
-    // block by block; what is left over of the old program stood after the last
+    // block by block; the rest of the old program is shown after the last line
     for (let line = from; line < Math.max(to, from + 1); line++) {
       const first = oldFrom + line - from;
       const last = line + 1 >= to ? oldTo : Math.min(first + 1, oldTo);
@@ -39,7 +39,7 @@ export function marksOf(head: Head, old: Program | null): Marks {
   return marks;
 }
 
-/** Where to stop on the way through what is marked: the first line of each run. */
+/** The stops for stepping through the marks: the first line of each run. */
 export function stops(marks: Marks): number[] {
   const runs = [...marks.bad.keys(), ...starts(marks.against.keys()), ...starts(marks.saved)];
   return [...new Set(runs)].sort((a, b) => a - b);
@@ -50,7 +50,7 @@ function starts(lines: Iterable<number>): number[] {
   return sorted.filter((line, i) => i === 0 || sorted[i - 1] !== line - 1);
 }
 
-/** All findings of the form: lint's, those of printing, where it differs from the job, and where it does not fit into its machine. */
+/** All findings of the form: from lint, from printing, differences from the job, and errors of the machine. */
 export function findingsOf(head: Head): Finding[] {
   const printed = [...(head.notes ?? []), ...(head.stopped?.by === "job" ? head.stopped.findings : [])];
   const wrong = (head.verdict?.findings ?? []).map((found) => ({ severity: "error" as const, ...found }));

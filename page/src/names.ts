@@ -1,11 +1,11 @@
-// What files are called in little room.
+// Short file names.
 
-/** Without its folders. */
+/** The name without its folders. */
 export function base(name: string): string {
   return name.split(/[/\\]/).pop() ?? name;
 }
 
-/** A job is often called job.json: its folder says more. */
+/** The display name of a job: for a file called job.json, its folder. */
 export function jobName(path: string): string {
   const parts = path.split(/[/\\]/);
   const name = parts[parts.length - 1].replace(/\.[^.]*$/, "");

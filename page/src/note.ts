@@ -1,4 +1,4 @@
-// What is known of a block, in words: what is wrong with it, what stood there, who printed it, and what it did not print.
+// The note about a block: its errors, its old text, its origin, and words that it does not print.
 
 import { element } from "./element.ts";
 import type { Marks } from "./marks.ts";
@@ -6,7 +6,7 @@ import { itemPath, type Program } from "./program.ts";
 import { repeats } from "./repeats.ts";
 import type { Finding, Fit, Verdict } from "./scene.ts";
 
-/** What a form may say of blocks that are made otherwise, by what stands in them. */
+/** Proposed form words for blocks that postform makes itself, by the text of the block. */
 const OWN: [RegExp, string][] = [
   [/^[(;]/, "CommentLine, or [optext] in Operation"],
   [/^M0?0$/, "Stop"],
@@ -18,7 +18,7 @@ const OWN: [RegExp, string][] = [
   [/^G9[3459]$/, "FeedModeChange"],
 ];
 
-/** `formText`: the line of the form that printed it. */
+/** `formText`: the form line that printed the block. */
 export function noteOf(program: Program, line: number, marks: Marks, formText: string): HTMLElement[] {
   const note: HTMLElement[] = [];
   const bad = marks.bad.get(line);
@@ -41,7 +41,7 @@ export function noteOf(program: Program, line: number, marks: Marks, formText: s
   return note;
 }
 
-/** Why there is no program: each finding, where it is in the job, and what helps. */
+/** The reason why there is no program: each finding, its location in the job, and its help. */
 export function stoppedNote(findings: Finding[]): HTMLElement[] {
   return findings.slice(0, 3).flatMap((found) => [
     element("div", { class: "bad" }, `${found.code}: ${found.message}`),
@@ -49,13 +49,13 @@ export function stoppedNote(findings: Finding[]): HTMLElement[] {
   ]);
 }
 
-/** What a verdict says besides: what was allowed, and what helps. */
+/** Further text of a verdict: allowances and help. */
 export function verdictNote(verdict: Verdict): HTMLElement[] {
   const lines = [...verdict.allowed.map((line) => `allowed: ${line}`), verdict.help].filter(Boolean);
   return [element("div", {}, verdict.text), ...lines.map((line) => element("div", { class: "help" }, line))];
 }
 
-/** What is said of a machine besides: times, intervals, what is not checked. */
+/** Further text about a machine: times, ranges, and everything that is not checked. */
 export function fitNote(fit: Fit): HTMLElement[] {
   const findings = fit.findings.map((found) => element("div", { class: found.severity === "error" ? "bad" : "warn" }, `${found.code}: ${found.message}`));
   return [element("div", {}, fit.text), ...findings, ...fit.more.map((line) => element("div", { class: "help" }, line))];

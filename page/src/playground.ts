@@ -1,131 +1,172 @@
-// The playground: the same page, and postform inside it as WebAssembly. Files come by drag and drop and go nowhere.
+// The playground: the same page, with postform in it as WebAssembly. Files stay in the browser.
 
+import { get, set } from "idb-keyval";
+import { download } from "./download.ts";
 import { Editor } from "./editor.ts";
 import { element } from "./element.ts";
-import type { Ask, At, Help, Host } from "./host.ts";
 import { Page } from "./main.ts";
-import { type Verdict, Scene } from "./scene.ts";
-import { run } from "./wasi.ts";
+import { filesOfLink, linkOf } from "./share.ts";
+import { type File_, Wasm } from "./wasm.ts";
 
-interface File_ {
-  name: string;
-  bytes: Uint8Array;
+/** The form and the job of each example, by its name. */
+const EXAMPLES: Record<string, [form: string, job: string]> = {
+  "mill: Fanuc": ["fanuc.pf", "bracket.json"],
+  "mill: Heidenhain": ["heidenhain.pf", "bracket.json"],
+  "lathe: Fanuc": ["fanuc-lathe.pf", "lathe-part.json"],
+  "four axes: Haas": ["haas-4axis.pf", "four-axis.json"],
+  "wire EDM": ["wire-edm.pf", "wire.json"],
+  "FreeCAD document": ["linuxcnc.pf", "bracket.FCStd"],
+};
+/** Where the browser keeps what was opened and typed. */
+const KEPT = "postform";
+const DOCS = "https://docs.rs/postform";
+/** Milliseconds after a key before typed text is kept. */
+const PAUSE = 300;
+/** Longer links are cut off by some programs. */
+const LONG = 32_000;
+
+interface Kept {
+  forms: File_[];
+  jobs: File_[];
+  against: File_ | null;
+  typed: Record<string, string>;
 }
 
-/** postform as WebAssembly: a request goes in, a scene comes out. */
-class Wasm implements Host {
-  form: File_ = { name: "", bytes: new Uint8Array() };
-  readonly others: File_[] = [];
-  readonly jobs: File_[] = [];
-  against: File_ | null = null;
+async function load(name: string): Promise<Uint8Array> {
+  const answer = await fetch(name);
+  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
+  return new Uint8Array(await answer.arrayBuffer());
+}
 
-  /** What the saved forms print for a job. */
-  private before: { job: number; text: Uint8Array } | null = null;
+class Playground {
+  private readonly page: Page;
+  private readonly said = element("span", { role: "status" });
+  private waits = 0;
 
-  constructor(private readonly module: WebAssembly.Module) {}
-
-  private async run(request: Uint8Array): Promise<ArrayBuffer> {
-    return (await run(this.module, request)).buffer as ArrayBuffer;
+  constructor(private readonly host: Wasm) {
+    this.page = new Page(host, new Editor(true));
+    this.page.onTyped = () => this.keepSoon();
+    document.body.prepend(this.front());
+    this.takeDrops();
+    Object.assign(window, { page: this.page, host });
   }
 
-  async *scenes(ask: Ask): AsyncGenerator<ArrayBuffer> {
-    if (!Object.keys(ask.texts).length) {
-      const bytes = await this.scene(ask.job, {}, null);
-      this.before = { job: ask.job, text: new Scene(bytes).bytes("text") };
-      return yield bytes;
+  async begin(): Promise<void> {
+    let typed: Record<string, string> = {};
+    const shared = await filesOfLink(location.hash).catch((error) => this.say(`The link can't be read: ${error.message}`));
+    const kept = shared ? undefined : await get<Kept>(KEPT).catch(() => undefined);
+    if (shared) {
+      for (const { name, text } of shared.files) this.host.take({ name, bytes: new TextEncoder().encode(text) });
+      history.replaceState(null, "", location.pathname + location.search);
     }
-    // what the saved form prints is known from before it was typed in
-    if (this.before?.job !== ask.job) this.before = { job: ask.job, text: new Scene(await this.scene(ask.job, {}, null)).bytes("text") };
-    yield await this.scene(ask.job, ask.texts, this.before.text);
+    if (kept?.forms.length && kept.jobs.length) {
+      [this.host.form, ...this.host.others] = kept.forms;
+      this.host.jobs.push(...kept.jobs);
+      [this.host.against, typed] = [kept.against, kept.typed];
+    }
+    if (!this.host.form.name || !this.host.jobs.length) await this.example(Object.keys(EXAMPLES)[0]);
+    await this.page.reopen(typed);
   }
 
-  private scene(job: number, typed: Record<string, string>, before: Uint8Array | null, at: At | null = null): Promise<ArrayBuffer> {
-    const texts = [this.form, ...this.others].map((file) => {
-      const text = typed[file.name];
-      return { name: file.name, bytes: text === undefined ? file.bytes : new TextEncoder().encode(text), saved: file.bytes };
-    });
-    const { name, bytes } = this.jobs[job];
-    const head = {
-      forms: texts.map((file) => ({ name: file.name, length: file.bytes.length, saved: file.saved.length })),
-      job: { name, length: bytes.length },
-      against: this.against && { name: this.against.name, length: this.against.bytes.length },
-      before: before && { name: "", length: before.length },
-      jobs: this.jobs.map((job) => job.name),
-      at,
+  /** The files of an example in place of all others. */
+  private async example(name: string): Promise<void> {
+    const files = await Promise.all(EXAMPLES[name].map(async (name) => ({ name, bytes: await load(name) })));
+    this.host.clear();
+    files.forEach((file) => this.host.take(file));
+  }
+
+  /** What the page is, and what can be done. */
+  private front(): HTMLElement {
+    const examples = element("select", { "aria-label": "Example" }, element("option", { value: "" }, "examples…"), ...Object.keys(EXAMPLES).map((name) => element("option", {}, name)));
+    examples.onchange = async () => {
+      const name = examples.value;
+      examples.value = "";
+      if (!name || !this.page.mayLeave()) return;
+      await this.example(name);
+      await this.restart();
     };
-    const parts = [...texts.flatMap((file) => [file.bytes, file.saved]), bytes];
-    for (const part of [this.against?.bytes, before]) if (part) parts.push(part);
-    return this.run(pack(JSON.stringify(head), parts));
+    const files = element("input", { type: "file", multiple: "", hidden: "", accept: ".pf,.json,.jsonl,.cl,.apt,.cls,.nci,.FCStd,.nc,.ngc,.tap,.eia,.min,.mpf,.h" });
+    files.onchange = () => void this.open(files.files ?? []);
+    const button = (text: string, title: string, act: () => void) => {
+      const made = element("button", { title }, text);
+      made.onclick = act;
+      return made;
+    };
+    return element("div", { class: "front" },
+      element("p", {}, element("b", {}, "postform"), " compiles POSTFORM files: templates from which post processors print the programs of CNC machines. Type in the form: after each key the program is printed and proven against its job. Nothing leaves this browser."),
+      element("div", { class: "acts" }, examples,
+        button("open files", "Forms (.pf), jobs (.json, .cl, .FCStd ..), or a program to compare with (.nc)", () => files.click()), files,
+        button("download form", "Save the form as it is shown", () => this.page.downloadForm()),
+        button("share link", "Copy a link with the form and the job in it; no server gets them", () => void this.share()),
+        element("a", { href: DOCS, target: "_blank", rel: "noreferrer" }, "docs"), this.said));
   }
 
-  async help(ask: Ask, at: At): Promise<Help | null> {
-    return JSON.parse(new TextDecoder().decode(await this.scene(ask.job, ask.texts, null, at)));
+  private say(text: string): null {
+    this.said.textContent = text;
+    return null;
   }
 
-  async verdict(job: number): Promise<Verdict> {
-    const { head } = new Scene(await this.scene(job, {}, null));
-    return head.verdict ?? { kind: "none", text: head.stopped?.message ?? "", line: 0, help: "", allowed: [], findings: [] };
+  private async share(): Promise<void> {
+    const decoder = new TextDecoder();
+    const job = this.host.jobs[this.page.shownJob];
+    if (job.bytes.includes(0)) return void this.say("the job is no text: it can't be put into a link");
+    const forms = [this.host.form, ...this.host.others].map((file) => ({ name: file.name, text: this.page.texts[file.name] ?? decoder.decode(file.bytes) }));
+    // the form comes last, as the file that was opened last is the form
+    const link = await linkOf({ files: [...forms.slice(1), forms[0], { name: job.name, text: decoder.decode(job.bytes) }] });
+    await navigator.clipboard.writeText(link).catch(() => prompt("The link:", link));
+    this.say(link.length > LONG ? `copied; the link has ${Math.round(link.length / 1000)} KB, and some programs cut it off` : "the link is copied");
   }
 
-  /** A dropped file, by what it is called: whether it changes what is shown. */
-  take(file: File_): void {
-    this.before = null;
-    const end = file.name.toLowerCase().split(".").pop() ?? "";
-    if (end === "pf") {
-      if (this.form.name && this.form.name !== file.name) this.others.push(this.form);
-      this.form = file;
-    } else if (/^(nc|ngc|tap|eia|min|mpf)$/.test(end) && this.jobs.length) {
-      this.against = file;
-    } else {
-      this.jobs.splice(0, this.jobs.length, ...this.jobs.filter((job) => job.name !== file.name), file);
+  private async open(files: Iterable<File>): Promise<void> {
+    for (const file of files) {
+      delete this.page.texts[file.name];
+      this.host.take({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
+    await this.restart();
   }
-}
 
-function pack(head: string, parts: Uint8Array[]): Uint8Array {
-  const first = new TextEncoder().encode(head);
-  const all = new Uint8Array(4 + first.length + parts.reduce((sum, part) => sum + part.length, 0));
-  new DataView(all.buffer).setUint32(0, first.length, true);
-  let at = 4;
-  for (const part of [first, ...parts]) {
-    all.set(part, at);
-    at += part.length;
+  private async restart(): Promise<void> {
+    await this.page.reopen(this.page.texts);
+    this.keepSoon();
   }
-  return all;
+
+  private keepSoon(): void {
+    clearTimeout(this.waits);
+    this.waits = window.setTimeout(() => {
+      const { form, others, jobs, against } = this.host;
+      const kept: Kept = { forms: [form, ...others], jobs, against, typed: { ...this.page.texts } };
+      set(KEPT, kept).catch(() => this.say("the browser keeps nothing here: download the form before you close the page"));
+    }, PAUSE);
+  }
+
+  private takeDrops(): void {
+    const drop = element("div", { class: "drop", hidden: "" }, "drop forms (.pf), jobs (.json, .jsonl, .cl, .apt, .FCStd), or a program to compare with (.nc)");
+    document.body.append(drop);
+    addEventListener("dragover", (event) => {
+      event.preventDefault();
+      drop.hidden = false;
+    });
+    addEventListener("dragleave", (event) => (drop.hidden = !!event.relatedTarget || true));
+    addEventListener("drop", (event) => {
+      event.preventDefault();
+      drop.hidden = true;
+      void this.open([...(event.dataTransfer?.files ?? [])]);
+    });
+  }
 }
 
 async function start(): Promise<void> {
-  const load = async (name: string) => {
-    const answer = await fetch(name);
-    if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
-    return new Uint8Array(await answer.arrayBuffer());
-  };
-  const [wasm, form, job] = await Promise.all(["postform.wasm", "fanuc.pf", "bracket.json"].map(load));
-  const host = new Wasm(await WebAssembly.compile(wasm as BufferSource));
-  host.form = { name: "fanuc.pf", bytes: form };
-  host.jobs.push({ name: "bracket.json", bytes: job });
-  let page = new Page(host, new Editor(true));
-  Object.assign(window, { page, host });
-  await page.load();
-  const drop = element("div", { class: "drop", hidden: "" }, "drop forms (.pf), jobs (.json, .jsonl, .cl, .apt), or a program to compare with (.nc)");
-  document.body.append(drop);
-  addEventListener("dragover", (event) => {
-    event.preventDefault();
-    drop.hidden = false;
-  });
-  addEventListener("dragleave", (event) => (drop.hidden = !!event.relatedTarget || true));
-  addEventListener("drop", async (event) => {
-    event.preventDefault();
-    drop.hidden = true;
-    for (const file of event.dataTransfer?.files ?? []) {
-      host.take({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
-    }
-    // the page begins again with the files that it has now
-    document.body.replaceChildren(drop);
-    page = new Page(host, new Editor(true));
-    Object.assign(window, { page });
-    await page.load();
-  });
+  if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
+  const module = await WebAssembly.compile((await load("postform.wasm")) as BufferSource);
+  await new Playground(new Wasm(module, (name, bytes) => download(name, bytes as BlobPart))).begin();
 }
 
-start().catch((error) => document.body.append(`The playground can't be loaded: ${error}. It needs a file server: python3 -m http.server`));
+start().catch((error) => {
+  const why = error instanceof Error ? error.message : String(error);
+  document.body.replaceChildren(element("div", { class: "sorry" },
+    element("h1", {}, "postform"),
+    element("p", {}, `The playground can't be shown: ${why}.`),
+    element("p", {}, "It needs a browser with WebAssembly, and a file server that sends postform.wasm: ", element("code", {}, "python3 -m http.server -d docs/playground"), "."),
+    element("p", {}, "The command line does the same without a browser: ", element("a", { href: DOCS }, "documentation"), ".")));
+});
+

@@ -1,4 +1,4 @@
-// A program as it is shown: its lines, where each comes from, its moves, and what is modal after it.
+// A program for display: its lines with their origins, its moves, and the modal state after each line.
 
 import { formLine, Path, Scene } from "./scene.ts";
 
@@ -9,7 +9,7 @@ export const REGISTERS = [
 ] as const;
 export type Register = (typeof REGISTERS)[number];
 
-/** A value, and the line that said it; 0: as switched on. */
+/** A value, and the line that set it; 0: at the start. */
 export interface Held {
   value: number;
   line: number;
@@ -25,26 +25,26 @@ export interface Item {
 
 export class Program {
   readonly path: Path | null;
-  /** Byte at which each line starts, and the end. */
+  /** Byte offset of each line, and the end. */
   private readonly starts: Uint32Array;
   private readonly bytes: Uint8Array;
   private readonly lineForm: Int32Array;
   private readonly lineItem: Uint32Array;
   private readonly changes: { line: Uint32Array; value: Float64Array }[];
-  /** The first move of each line, and the one after its last; lines without a move have both the same. Of a line that is run more
-   * than once, in a subprogram or a loop, it is the first run. */
+  /** The first move of each line, and the first move after the line; both are equal for a line without a move. For a line that
+   * is run more than once, in a subprogram or a loop, this is the first run. */
   private readonly moveFrom: Uint32Array;
   private readonly moveTo: Uint32Array;
-  /** Where the tool stands after each line, as a place in the points. */
+  /** Position of the tool after each line, as an index into the points. */
   private readonly stands: Uint32Array;
   private readonly decoder = new TextDecoder();
 
-  /** `before`: what was shown until now; where it is the same, what was made of it is kept. */
+  /** `before`: the program shown until now; if it is the same, its computed data is used again. */
   constructor(private readonly scene: Scene, of = "", before: Program | null = null) {
     this.lineForm = of ? new Int32Array() : scene.array("lineForm", Int32Array);
     this.lineItem = of ? new Uint32Array() : scene.array("lineItem", Uint32Array);
     if (before?.path && scene.hasProgramOf(before.scene, of)) {
-      // the new scene is not kept for what it says of the lines
+      // the origins are copied, so that the new scene can be freed
       [this.lineForm, this.lineItem] = [this.lineForm.slice(), this.lineItem.slice()];
       this.scene = before.scene;
       this.path = before.path;
@@ -74,7 +74,7 @@ export class Program {
     }
   }
 
-  /** How many lines there are; they count from 1. */
+  /** The number of lines; lines are counted from 1. */
   get lines(): number {
     return this.starts.length - 1;
   }
@@ -90,7 +90,38 @@ export class Program {
     return this.decoder.decode(this.bytes);
   }
 
-  /** Is it known where lines come from? */
+  /** The next line that contains a text, in any case of letters, after a line or before it, round the end; 0: none does. */
+  find(text: string, from: number, by: 1 | -1): number {
+    // a letter a byte: positions in the text are bytes
+    this.upper ??= new TextDecoder("latin1").decode(this.bytes).toUpperCase();
+    const wanted = new TextDecoder("latin1").decode(new TextEncoder().encode(text)).toUpperCase();
+    if (!wanted) return 0;
+    const line = Math.max(0, Math.min(from, this.lines));
+    let at: number;
+    if (by > 0) {
+      at = this.upper.indexOf(wanted, this.starts[line] ?? 0);
+      if (at < 0) at = this.upper.indexOf(wanted);
+    } else {
+      const end = this.starts[Math.max(0, line - 1)];
+      at = end > 0 ? this.upper.lastIndexOf(wanted, end - 1) : -1;
+      if (at < 0) at = this.upper.lastIndexOf(wanted);
+    }
+    return at < 0 ? 0 : this.lineOfByte(at);
+  }
+
+  private upper: string | null = null;
+
+  private lineOfByte(byte: number): number {
+    let [low, high] = [0, this.starts.length - 1];
+    while (low + 1 < high) {
+      const middle = (low + high) >> 1;
+      if (this.starts[middle] <= byte) low = middle;
+      else high = middle;
+    }
+    return low + 1;
+  }
+
+  /** Are the origins of the lines known? */
   get isTraced(): boolean {
     return this.lineForm.length > 0;
   }
@@ -99,7 +130,7 @@ export class Program {
     return line >= 1 && line <= this.lineForm.length ? formLine(this.lineForm[line - 1]) : null;
   }
 
-  /** The lines that a line of a form printed. */
+  /** The lines that a form line printed. */
   printedBy(file: number, line: number): number[] {
     const packed = (file << 20) | line;
     const found: number[] = [];
@@ -120,17 +151,17 @@ export class Program {
     return this.lineItem[i] === this.lineItem[j] && this.lineItem[i + 1] === this.lineItem[j + 1];
   }
 
-  /** The moves of a line: the first, and the one after the last. */
+  /** The moves of a line: the first one, and the first one after the line. */
   moves(line: number): [number, number] {
     return line >= 1 && line <= this.lines ? [this.moveFrom[line], this.moveTo[line]] : [0, 0];
   }
 
-  /** Where the tool stands after a line, as a place in the points; 0 before the first move. */
+  /** Position of the tool after a line, as an index into the points; 0 before the first move. */
   pointAfter(line: number): number {
     return this.stands[Math.max(0, Math.min(line, this.stands.length - 1))];
   }
 
-  /** What a register holds after a line. */
+  /** The value of a register after a line. */
   held(register: Register, line: number): Held | null {
     const changes = this.changes[REGISTERS.indexOf(register)];
     if (!changes) return null;
@@ -144,11 +175,11 @@ export class Program {
     return { value: changes.value[low - 1], line: changes.line[low - 1] };
   }
 
-  /** X Y Z after a line, or X Y of a wire, and the line that set each; null where only the machine knows. */
+  /** X Y Z after a line, or X Y of a wire, and the line that set each; null if unknown. */
   position(line: number): (Held | null)[] {
     const path = this.path;
     if (!path) return [null, null, null];
-    // points of a program that turns axes are those on the part
+    // if rotary axes move, the points are positions on the part
     const { ends } = path;
     const value = (move: number, axis: number) => ends.length ? ends[move * 3 + axis] : path.points[path.first[move + 1] * 3 + axis];
     const middle = ends.length ? [0, 0, 0] : path.head.middle;
@@ -165,7 +196,7 @@ export class Program {
     });
   }
 
-  /** The move that ends at a point or goes through it; -1 for the first point. */
+  /** The move that ends at a point or passes through it; -1 for the first point. */
   moveOf(point: number): number {
     if (!this.path || point === 0) return -1;
     return this.moveOfPiece(point - 1);
@@ -202,7 +233,7 @@ function lineStarts(bytes: Uint8Array): Uint32Array {
   return starts;
 }
 
-/** The changes of each register by themselves. */
+/** The changes, separated by register. */
 function changesOf(scene: Scene, of: string) {
   const line = scene.array(`${of}changeLine`, Uint32Array);
   const register = scene.array(`${of}changeRegister`, Uint8Array);
@@ -220,7 +251,7 @@ function changesOf(scene: Scene, of: string) {
   return all.map(inOrder);
 }
 
-/** By their lines: subprograms and loops go back. Of several runs of a line the last one counts. */
+/** Sorts changes by line, because subprograms and loops go back. If a line is run more than once, the last run is used. */
 function inOrder(changes: { line: Uint32Array; value: Float64Array }) {
   const { line, value } = changes;
   if (line.every((at, i) => i === 0 || line[i - 1] <= at)) return changes;

@@ -1,4 +1,4 @@
-// Words of a form line that its block does not print, because they repeat.
+// Words of a form line that its block does not print because their values have not changed.
 
 import { number } from "./state.ts";
 import type { Program, Register } from "./program.ts";
@@ -10,7 +10,7 @@ export interface Repeat {
   why: string;
 }
 
-/** The words that a line of the form would print and its block left out, with what stands. */
+/** The words of the form line that are missing in the block, with the value in force. */
 export function repeats(formLine: string, block: string, program: Program, line: number): Repeat[] {
   const printed = new Set([...block.replace(/\([^)]*\)?/g, "").matchAll(/[A-Z]/g)].map((found) => found[0]));
   const gone: Repeat[] = [];
@@ -30,7 +30,8 @@ export function repeats(formLine: string, block: string, program: Program, line:
   return gone;
 }
 
-/** A typed code must be the same; a code from a variable is some code, which only a block without any lacks. */
+/** A literal code must be equal. A code from a variable may be any code; it is only missing if the block contains none of its
+ * letter. */
 function hasCode(block: string, word: string, variable: string): boolean {
   if (variable.startsWith("[")) return block.includes(word[0]);
   return new RegExp(`${word[0]}0*${variable.replace(".", "\\.")}(?![0-9.])`).test(block);

@@ -1,4 +1,7 @@
-// What the page shows, as src/scene of the library packs it.
+// The data of the page, as packed by src/scene of the library.
+
+import type { KitPost } from "./kit.ts";
+import type { Property } from "./properties.ts";
 
 /** File, first and last line and column, all from 0. */
 export type Place = [file: number, line: number, column: number, endLine: number, endColumn: number];
@@ -32,11 +35,11 @@ export interface Verdict {
   findings: Difference[];
 }
 
-/** Whether the program fits into its machine. */
+/** The fit of the program in its machine. */
 export interface Fit {
   kind: "ok" | "warn" | "bad";
   text: string;
-  /** How long it takes, what would do where an offset or a length is not known, what is not checked. */
+  /** Its time, the allowed values of unknown offsets or lengths, and everything that is not checked. */
   more: string[];
   findings: (Difference & { severity: "error" | "warning" })[];
 }
@@ -72,6 +75,12 @@ export interface Hunks {
   hunks: [number, number, number, number][];
 }
 
+export interface ToolSize {
+  number: number;
+  diameter: number | null;
+  corner: number | null;
+}
+
 export interface Head {
   job: { name: string };
   form?: {
@@ -81,15 +90,22 @@ export interface Head {
     warnings: number;
     notes: number;
     suppressed: number;
+    /** The lines of the letter formats, by their letters. */
+    formats: Record<string, Place>;
+    properties: Property[];
+    /** The posts that a form without text may begin with. */
+    kit: KitPost[] | null;
   };
   texts?: string[];
   jobs?: string[];
   stopped?: { by: "form" | "job" | "input"; message: string; findings: Finding[] };
   notes?: Finding[];
-  /** What tells the program from others. */
+  /** The identifier of the program. */
   program?: string;
-  /** It is the program that is shown. */
+  /** The program is the one that is already shown. */
   same?: boolean;
+  /** Tools of the job, in millimetres. */
+  toolSizes?: ToolSize[];
   verdict?: Verdict;
   fit?: Fit;
   picture?: PictureHead;
@@ -106,7 +122,9 @@ export class Path {
   readonly moveLine: Uint32Array;
   readonly moveKind: Uint8Array;
   readonly moveTool: Uint8Array;
-  /** Of a program that turns axes: X Y Z of the end of each move. Empty: the points are the positions. */
+  /** Seconds from the beginning of the program to the end of each move. */
+  readonly moveTime: Float32Array;
+  /** For a program with rotary moves: X Y Z of the end of each move. Empty: the points are the positions. */
   readonly ends: Float64Array;
   readonly holes: Float32Array;
   readonly holeLine: Uint32Array;
@@ -118,6 +136,7 @@ export class Path {
     this.moveLine = scene.array(`${of}moveLine`, Uint32Array);
     this.moveKind = scene.array(`${of}moveKind`, Uint8Array);
     this.moveTool = scene.array(`${of}moveTool`, Uint8Array);
+    this.moveTime = scene.array(`${of}moveTime`, Float32Array);
     this.ends = scene.array(`${of}ends`, Float64Array);
     this.holes = scene.array(`${of}holes`, Float32Array);
     this.holeLine = scene.array(`${of}holeLine`, Uint32Array);
@@ -132,7 +151,7 @@ export class Path {
     return this.points.length / 3 - 1;
   }
 
-  /** The longest side of the box around everything that is known. */
+  /** The longest side of the box around all known positions. */
   get size(): number {
     const [least, greatest] = this.head.extents;
     return Math.max(1e-6, ...least.map((value, axis) => greatest[axis] - value));
@@ -143,10 +162,10 @@ type Numbers<T> = { new (buffer: ArrayBuffer, offset: number, length: number): T
 
 const LINE_BITS = 20;
 
-/** Bytes before the head of a scene. */
+/** Number of bytes before the head of a scene. */
 const PREFIX = 16;
 
-/** How many bytes a scene has that begins so; null: more must be there to tell. */
+/** The length in bytes of a scene with this beginning; null: too few bytes to decide. */
 export function lengthOf(bytes: Uint8Array): number | null {
   if (bytes.length < PREFIX) return null;
   const view = new DataView(bytes.buffer, bytes.byteOffset);
@@ -154,7 +173,7 @@ export function lengthOf(bytes: Uint8Array): number | null {
   return PREFIX + view.getUint32(4, true) + Number(view.getBigUint64(8, true));
 }
 
-/** All of it. */
+/** A complete scene. */
 export class Scene {
   readonly head: Head;
   private readonly start: number;
@@ -179,14 +198,14 @@ export class Scene {
     return this.array(name, Uint8Array);
   }
 
-  /** Do two scenes have the same program, and does it do the same? Where its lines come from is not looked at. */
+  /** Do two scenes have the same program with the same motions? The origins of its lines are not compared. */
   hasProgramOf(other: Scene, of: string): boolean {
     return PROGRAM.every((name) => equal(this.bytes(of + name), other.bytes(of + name)));
   }
 }
 
 const PROGRAM = [
-  "text", "points", "first", "moveLine", "moveKind", "moveTool", "ends", "holes", "holeLine", "holeTool", "changeLine", "changeRegister", "changeValue",
+  "text", "points", "first", "moveLine", "moveKind", "moveTool", "moveTime", "ends", "holes", "holeLine", "holeTool", "changeLine", "changeRegister", "changeValue",
 ];
 
 function equal(a: Uint8Array, b: Uint8Array): boolean {
@@ -199,7 +218,7 @@ function equal(a: Uint8Array, b: Uint8Array): boolean {
   return true;
 }
 
-/** The form line that printed a block: file and line from 0; null where none did. */
+/** The form line that printed a block: file and line from 0; null if there is none. */
 export function formLine(packed: number): { file: number; line: number } | null {
   return packed < 0 ? null : { file: packed >> LINE_BITS, line: packed & ((1 << LINE_BITS) - 1) };
 }

@@ -1,4 +1,4 @@
-// The strip under the panes: what is modal after the chosen block, and which block said it.
+// The strip below the panes: the modal state after the selected block, and the block that set each value.
 
 import { element } from "./element.ts";
 import type { Held, Program, Register } from "./program.ts";
@@ -38,7 +38,7 @@ export class StateStrip {
   }
 }
 
-/** Axes beside X Y Z: those that turn, and the upper guide of a wire. */
+/** Axes besides X Y Z: rotary axes, and the upper guide of a wire. */
 const AXES = ["a", "b", "c", "u", "v"] as const;
 
 interface Known {
@@ -56,7 +56,7 @@ function shown(letter: string, held: Held): Known {
   return { text: letter + number(held.value), line: held.line };
 }
 
-/** As a program writes it, to five decimals. */
+/** A number as in a program, with up to five decimals. */
 export function number(value: number): string {
   return String(Math.round(value * 1e5) / 1e5 + 0).replace(/^(-?)0\./, "$1.");
 }
@@ -65,9 +65,9 @@ function codes(program: Program, line: number): Word[] {
   const groups: Register[] = ["motion", "plane", "distance", "units", "feedMode", "compensation", "length", "work"];
   return groups.map((register) => {
     const held = program.held(register, line);
-    // what is off is not worth a look
+    // values that are off are not shown
     if (!held || (register === "compensation" && held.value === 40) || (register === "feedMode" && held.value === 94)) return null;
-    // offsets of a Haas above G59 are 1540 and their number
+    // work offsets of a Haas above G59 are stored as 1540 plus their number
     const value = register === "work" && held.value > 1540 ? `154 P${held.value - 1540}` : number(held.value);
     return { text: `G${value}`, line: held.line };
   });
@@ -77,7 +77,7 @@ function place(program: Program, line: number): Word[] {
   return program.position(line).map((held, axis) => {
     const letter = "XYZ"[axis];
     if (!held) return { text: `${letter}?`, line };
-    // points are numbers of 24 bits: as exact as a drawing needs
+    // points are numbers of 24 bits, which is exact enough for a drawing
     return { text: letter + number(Math.round(held.value * 1e4) / 1e4), line: held.line };
   });
 }

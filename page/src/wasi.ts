@@ -1,4 +1,4 @@
-// As much of WASI as a program needs that reads its standard input and writes its standard output.
+// The small part of WASI that a program with standard input and output needs.
 
 class Exit extends Error {
   constructor(readonly code: number) {
@@ -6,14 +6,14 @@ class Exit extends Error {
   }
 }
 
-/** Runs a program: its standard input, its standard output. */
+/** Runs a program with its standard input, and returns its standard output. */
 export async function run(module: WebAssembly.Module, input: Uint8Array): Promise<Uint8Array> {
   let memory: WebAssembly.Memory;
   let read = 0;
   let said = "";
   const out: Uint8Array[] = [];
   const view = () => new DataView(memory.buffer);
-  /** The pieces of memory that a list names. */
+  /** The memory ranges of a list. */
   const pieces = function* (list: number, count: number) {
     for (let i = 0; i < count; i++) {
       const [at, length] = [view().getUint32(list + i * 8, true), view().getUint32(list + i * 8 + 4, true)];

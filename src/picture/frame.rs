@@ -1,9 +1,10 @@
-//! From positions of the axes to positions on the part: rotary axes turn the part under the tool.
+//! Converts positions of the axes to positions on the part: rotary axes turn the part under the tool.
 //!
-//! A positive angle turns the tool about the part by the right hand (ISO 841, "as if the tool moved"), about the axis through program zero. Where
-//! several axes turn, A and B carry C, as on most trunnion tables: we decided that, no program contains it.
+//! A positive angle turns the tool about the part by the right-hand rule (ISO 841, "as if the tool moved"), about the axis
+//! through program zero. If several axes turn, A and B carry C, as on most trunnion tables. This order is our own decision,
+//! because no program contains it.
 
-/// The position on the part at which a tool stands, X Y Z, for positions of A B C in degrees.
+/// The tool position on the part, X Y Z, for positions of A B C in degrees.
 pub(super) fn on_part([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = sin_cos(a);
     let (y, z) = (y * cos - z * sin, y * sin + z * cos);
@@ -13,7 +14,7 @@ pub(super) fn on_part([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {
     [x * cos - y * sin, x * sin + y * cos, z]
 }
 
-/// Of an angle in degrees; exact at whole quarters.
+/// Sine and cosine of an angle in degrees; exact at multiples of 90.
 fn sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),

@@ -1,8 +1,8 @@
-//! The backplot: what a program does, as lines that can be drawn.
+//! The backplot: the motions of a program, as lines that can be drawn.
 //!
-//! A program is run by the rules of its control. What comes of it is a [`Picture`]: moves in the order in which they are made, each
-//! with its block, and what is modal after each block. [`strips`](Picture::strips) makes points of it, arcs among them, and
-//! [`svg`] a still picture.
+//! A program is run by the rules of its control. The result is a [`Picture`]: the moves in their order, each with its block,
+//! and the modal state after each block. [`strips`](Picture::strips) converts it to points, including the arcs, and [`svg`]
+//! draws a still picture.
 
 mod frame;
 mod run;
@@ -21,7 +21,7 @@ use crate::diag::Diag;
 use crate::nc::{Tally, Turn};
 use crate::toolpath::Units;
 
-/// What a move is.
+/// The kind of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Kind {
@@ -31,25 +31,25 @@ pub enum Kind {
     Feed = 1,
     /// An arc or helix.
     Arc = 2,
-    /// Nothing is drawn: the frame was moved, or the place was not known before.
+    /// Nothing is drawn: the frame was moved, or the position before was unknown.
     Jump = 3,
 }
 
 /// A move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// End of the move, X Y Z in program coordinates and the picture's units; NaN where only the machine knows. A wire has two moves
-    /// for each of the program: of the lower guide at Z 0, and of the upper guide, whose height is NaN.
+    /// End of the move, X Y Z in program coordinates and the picture's units; NaN if unknown. For a wire, each move of the
+    /// program becomes two moves: one of the lower guide at Z 0, and one of the upper guide, whose height is NaN.
     pub to: [f64; 3],
     /// Line of the program, from 1.
     pub line: u32,
-    /// Arc of the move in [`Picture::arcs`].
+    /// Index of the arc in [`Picture::arcs`].
     pub arc: u32,
-    /// The tool, as a place in [`Picture::tools`].
+    /// The tool, as an index into [`Picture::tools`].
     pub tool: u16,
-    /// What the move is.
+    /// The kind of the move.
     pub kind: Kind,
-    /// A canned cycle makes it.
+    /// The move is part of a canned cycle.
     pub by_cycle: bool,
 }
 
@@ -58,57 +58,59 @@ pub struct Move {
 pub struct Hole {
     /// Line of the program, from 1.
     pub line: u32,
-    /// Where the hole is drilled from, X Y Z in the picture's units.
+    /// Point at which the feed begins, X Y Z in the picture's units.
     pub top: [f64; 3],
     /// Bottom of the hole, X Y Z in the picture's units.
     pub bottom: [f64; 3],
-    /// The tool, as a place in [`Picture::tools`].
+    /// The tool, as an index into [`Picture::tools`].
     pub tool: u16,
     /// Positions of the rotary axes A B C at the hole, in degrees.
     pub turned: [f64; 3],
 }
 
 impl Hole {
-    /// Top and bottom on the part, X Y Z: turned as the rotary axes turn them.
+    /// Top and bottom on the part, X Y Z, turned by the rotary axes.
     pub fn on_part(&self) -> [[f64; 3]; 2] {
         [self.top, self.bottom].map(|at| frame::on_part(at, self.turned))
     }
 }
 
-/// The rotary axes from a move on.
+/// New positions of the rotary axes, valid from a move on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
-    /// First move that ends there, as a place in [`Picture::moves`].
+    /// First move that ends at these positions, as an index into [`Picture::moves`].
     pub from: u32,
     /// Positions of A B C in degrees.
     pub to: [f64; 3],
 }
 
-/// What a program does.
+/// The motions of a program.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Units of all lengths: those of the first move.
     pub units: Units,
     /// Moves, in their order.
     pub moves: Vec<Move>,
-    /// The rotary axes: a row for each move that turns them, in the order of the moves. None: nothing is turned.
+    /// Minutes from the beginning of the program to the end of each move, as [`Tally::minutes`] counts them.
+    pub minutes: Vec<f32>,
+    /// The rotary axes: a row for each move that turns them, in the order of the moves. Empty: no axis turns.
     pub turned: Vec<Turned>,
-    /// Letters of the axes whose positions [`Move::to`] has: `XYZ`, or `XY` for a wire.
+    /// Letters of the axes in [`Move::to`]: `XYZ`, or `XY` for a wire.
     pub letters: &'static str,
-    /// Arcs of the moves that are some, in the picture's units; `to` is that of the move.
+    /// Arcs of the moves, in the picture's units; each `to` is the end of the move.
     pub arcs: Vec<Turn>,
     /// Holes, in their order.
     pub holes: Vec<Hole>,
-    /// Numbers of the tools, in the order of their first use; the first is 0, no tool yet.
+    /// Numbers of the tools, in the order of their first use; the first is 0 and means no tool yet.
     pub tools: Vec<f64>,
-    /// What changed in the state of the control, in the order of the run.
+    /// Changes of the modal state, in the order of the run.
     pub changes: Vec<Change>,
     /// Counts and times.
     pub tally: Tally,
-    /// Blocks that were run.
+    /// Number of blocks that were run.
     pub blocks: u64,
-    /// Warnings of the run, the first hundred; their places are lines of the program.
+    /// Warnings of the run, at most one hundred; their locations are lines of the program.
     pub warnings: Vec<Diag>,
-    /// Why the run ended before the program did: what the control refuses, and its line.
+    /// The error with which the control refused a block, and its line; the run ended before the program did.
     pub refused: Option<(Box<Diag>, u64)>,
 }

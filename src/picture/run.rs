@@ -1,4 +1,4 @@
-//! A program run, and what it does kept.
+//! Runs a program and records its motions.
 
 use std::io::{self, Read, Seek};
 
@@ -7,17 +7,17 @@ use super::{Hole, Kind, Move, Picture, Turned};
 use crate::nc::{Action, Item, Position, RunError, RunSettings, Simulator, Tally, Turn, axes_of};
 use crate::toolpath::Units;
 
-/// Warnings that are kept.
+/// Maximum number of warnings that are kept.
 const MOST_WARNINGS: usize = 100;
-/// Places farther away are drawn there.
+/// Positions farther away are drawn at this distance.
 const FARTHEST: f64 = 1e9;
-/// Moves that are kept: a program of more is drawn up to there.
+/// Maximum number of moves: a longer program is drawn up to this number.
 const MOST_MOVES: usize = 20_000_000;
 
-/// Runs a program and keeps what it does, from wherever the machine stands.
+/// Runs a program from an unknown machine position and records its motions.
 ///
 /// # Errors
-/// The input fails. What the control refuses is in the picture, which then ends there.
+/// The input fails. If the control refuses a block, the picture contains the error and ends at that block.
 pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Picture> {
     let simulator = Simulator::new(input, RunSettings { places_unknown: true, ..settings });
     let mut pen = Pen::new(&settings);
@@ -26,7 +26,7 @@ pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Pictur
     if known || pen.picture.moves.is_empty() {
         return Ok(pen.picture);
     }
-    // a program that only says how far: it is drawn from zero
+    // a program with only incremental moves: it is drawn from zero
     let again = simulator.again_with(RunSettings { places_unknown: false, ..settings })?;
     let mut pen = Pen::new(&settings);
     pen.at = [0.0; 3];
@@ -35,20 +35,20 @@ pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Pictur
     Ok(pen.picture)
 }
 
-/// Draws as the machine moves.
+/// Records the moves of the machine.
 struct Pen {
     picture: Picture,
     registers: Registers,
-    /// Where the tool is, in the picture's units; NaN where only the machine knows.
+    /// Position of the tool, in the picture's units; NaN if unknown.
     at: [f64; 3],
-    /// Where the upper guide of a wire is: X, Y, and its height, which only the machine knows.
+    /// Position of the upper guide of a wire: X, Y, and its unknown height.
     upper: Option<[f64; 3]>,
     /// Positions of the rotary axes, in degrees.
     angles: [f64; 3],
     /// Letters of the axes of the machine, in the order of a position.
     letters: &'static [u8; 6],
     tool: u16,
-    /// From the program's units to the picture's.
+    /// Factor from the program's units to the picture's.
     factor: f64,
     units: Units,
 }
@@ -62,6 +62,7 @@ impl Pen {
             moves: Vec::new(),
             arcs: Vec::new(),
             holes: Vec::new(),
+            minutes: Vec::new(),
             turned: Vec::new(),
             letters: "XYZ",
             tools: vec![0.0],
@@ -124,7 +125,7 @@ impl Pen {
                 let arc = self.picture.arcs.len() as u32;
                 let [first, second, _] = axes_of(turn.plane);
                 let center = turn.center.map(|value| (value * self.factor).clamp(-FARTHEST, FARTHEST));
-                // an arc from nowhere is none
+                // an arc from an unknown position can't be drawn
                 let from = self.at;
                 self.turn(&turn.to);
                 if from[first].is_finite() && from[second].is_finite() {
@@ -156,7 +157,7 @@ impl Pen {
         }
     }
 
-    /// The picture counts in the units of its first move.
+    /// The units of the picture are those of its first move.
     fn count_in(&mut self, units: Units) {
         self.units = units;
         if self.picture.moves.is_empty() {
@@ -178,14 +179,14 @@ impl Pen {
         })
     }
 
-    /// The upper guide of a wire: U and V are positions of their own, at a height that only the machine knows.
+    /// The upper guide of a wire: U and V are its own positions; its height is unknown.
     fn guide(&self, to: &Position, machine: u8) -> [f64; 3] {
         let place = |axis: usize| (to[axis] * self.factor).clamp(-FARTHEST, FARTHEST);
         let [u, v] = [2, 3].map(|axis| if machine & 1 << axis == 0 { place(axis) } else { f64::NAN });
         [u, v, f64::NAN]
     }
 
-    /// A straight move, and that of the upper guide where there is one.
+    /// A straight move, and the move of the upper guide if there is one.
     fn go_to(&mut self, item: &Item, kind: Kind, to: &Position, machine: u8) {
         self.turn(to);
         self.go(item, kind, self.place(to, machine), u32::MAX);
@@ -195,7 +196,7 @@ impl Pen {
         }
     }
 
-    /// The upper guide of an arc goes the same arc where it stands as far from the lower one at its end as at its beginning, else straight.
+    /// The upper guide makes the same arc if its offset from the lower guide is the same at both ends; otherwise it moves straight.
     fn guide_round(&mut self, item: &Item, from: [f64; 3], turn: &Turn) {
         let Some(above) = self.upper else { return };
         let upper = self.guide(&turn.to, turn.machine);
@@ -224,7 +225,7 @@ impl Pen {
         }
     }
 
-    /// Rotary axes go on with the next move.
+    /// Turns the rotary axes with the next move.
     fn turn(&mut self, to: &Position) {
         let [.., a, b, c] = *to;
         if self.upper.is_none() && self.angles != [a, b, c] && [a, b, c].iter().all(|angle| angle.is_finite()) {
@@ -237,10 +238,15 @@ impl Pen {
     fn go(&mut self, item: &Item, kind: Kind, to: [f64; 3], arc: u32) {
         self.at = to;
         let (line, by_cycle) = (item.line as u32, item.by_cycle);
-        self.picture.moves.push(Move { to, line, arc, tool: self.tool, kind, by_cycle });
+        self.push(Move { to, line, arc, tool: self.tool, kind, by_cycle });
     }
 
-    /// After a block: a frame that was moved gives the tool another place without a move.
+    fn push(&mut self, made: Move) {
+        self.picture.moves.push(made);
+        self.picture.minutes.push(self.picture.tally.minutes() as f32);
+    }
+
+    /// After a block: a moved frame changes the position of the tool without a move.
     fn stands(&mut self, line: u32, position: &Position, machine: u8) {
         if self.upper.is_some() {
             self.upper = Some(self.guide(position, machine));
@@ -251,13 +257,6 @@ impl Pen {
             return;
         }
         self.at = at;
-        self.picture.moves.push(Move {
-            to: at,
-            line,
-            arc: u32::MAX,
-            tool: self.tool,
-            kind: Kind::Jump,
-            by_cycle: false,
-        });
+        self.push(Move { to: at, line, arc: u32::MAX, tool: self.tool, kind: Kind::Jump, by_cycle: false });
     }
 }

@@ -1,8 +1,8 @@
-//! What is modal after each block, kept as changes.
+//! The modal state after each block, stored as changes.
 
 use crate::nc::{Action, Cooling, Modal, Position, Rotation};
 
-/// What a control holds, one by one.
+/// The values of the modal state of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 #[allow(missing_docs)]
@@ -35,18 +35,17 @@ pub enum Register {
     V,
 }
 
-/// How many there are.
+/// The number of registers.
 const COUNT: usize = Register::V as usize + 1;
 
-/// A register that holds something else from a block on.
+/// A register with a new value from a block on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
-    /// Line of the program, from 1; 0 as switched on.
+    /// Line of the program, from 1; 0: at the start.
     pub line: u32,
-    /// Which register.
+    /// The register.
     pub register: Register,
-    /// What the register holds: the number of a code, or a value; NaN for nothing. The spindle and coolant are numbers
-    /// of M codes.
+    /// The value of the register: the number of a code, or another value; NaN: none. The spindle and coolant are numbers of M codes.
     pub value: f64,
 }
 
@@ -58,7 +57,7 @@ pub(super) struct Registers {
 }
 
 impl Registers {
-    /// Nothing is known.
+    /// All registers are unknown.
     pub fn new() -> Registers {
         Registers { held: [f64::NAN; COUNT], modal: None }
     }
@@ -71,8 +70,8 @@ impl Registers {
         }
     }
 
-    /// Positions of the axes beside X Y Z: A B C in degrees from their first turn, U V of a wire in the program's units. The bits of
-    /// `machine` are axes whose position only the machine knows.
+    /// Positions of the axes besides X Y Z: A B C in degrees after their first turn, U V of a wire in the program's units. The
+    /// bits of `machine` are axes whose position is unknown.
     pub fn axes(&mut self, line: u32, letters: &[u8; 6], position: &Position, machine: u8, changes: &mut Vec<Change>) {
         for (axis, letter) in letters.iter().enumerate().skip(2) {
             let register = match letter {
@@ -91,7 +90,7 @@ impl Registers {
         }
     }
 
-    /// What an action says.
+    /// Updates the registers after an action.
     pub fn act(&mut self, line: u32, action: &Action, changes: &mut Vec<Change>) {
         let mut hold = |register, value| self.hold(line, register, value, changes);
         match action {
@@ -111,9 +110,9 @@ impl Registers {
         }
     }
 
-    /// What is modal after a block.
+    /// Updates the registers with the modal state after a block.
     pub fn after(&mut self, line: u32, modal: Modal, changes: &mut Vec<Change>) {
-        // most blocks only move
+        // most blocks contain only moves
         if self.modal.replace(modal) == Some(modal) {
             return;
         }
@@ -148,7 +147,7 @@ impl Registers {
     }
 }
 
-/// 0 says that there is none.
+/// A value of 0 means none.
 fn some(value: f64) -> f64 {
     if value == 0.0 { f64::NAN } else { value }
 }

@@ -1,4 +1,4 @@
-//! Moves as points: a line that goes from point to point, arcs in straight pieces.
+//! Moves as points of a continuous line; arcs become straight pieces.
 
 use super::frame::on_part;
 use super::{Kind, Picture};
@@ -9,9 +9,9 @@ use crate::toolpath::Direction;
 const FINEST: f64 = std::f64::consts::PI / 60.0;
 /// Largest angle of a piece of an arc that is small in the picture.
 const COARSEST: f64 = std::f64::consts::PI / 6.0;
-/// An arc may leave its circle by so much of the size of the picture.
+/// Greatest deviation of a piece from its arc, relative to the size of the picture.
 const ERROR: f64 = 1.0 / 4000.0;
-/// Pieces of one arc: a helix of a million turns is drawn no finer than that.
+/// Maximum number of pieces of one arc, such as a helix of a million turns.
 const MOST_PIECES: f64 = 20_000.0;
 
 /// A straight piece of a move; it begins at the point before.
@@ -19,25 +19,25 @@ const MOST_PIECES: f64 = 20_000.0;
 pub struct Piece {
     /// End of the piece, X Y Z in the picture's units.
     pub to: [f64; 3],
-    /// Move of the piece, as a place in [`Picture::moves`].
+    /// Move of the piece, as an index into [`Picture::moves`].
     pub of: u32,
 }
 
 /// A picture as points.
 #[derive(Clone, Debug, Default)]
 pub struct Strips {
-    /// Where the first piece begins.
+    /// Start of the first piece.
     pub start: [f64; 3],
     /// The pieces, in the order of the run.
     pub pieces: Vec<Piece>,
-    /// Least X Y Z, and greatest, of places that are known.
+    /// Least and greatest X Y Z of the known positions.
     pub extents: [[f64; 3]; 2],
-    /// The height at which tools are drawn that go to a place which only the machine knows.
+    /// The height at which moves are drawn whose Z is unknown.
     pub ceiling: f64,
 }
 
 impl Strips {
-    /// The longest side of the box around everything; 1 where there is nothing.
+    /// The longest side of the box around everything; 1 for an empty picture.
     pub fn size(&self) -> f64 {
         let [least, greatest] = self.extents;
         let size = (0..3).map(|axis| greatest[axis] - least[axis]).fold(0.0, f64::max);
@@ -46,8 +46,8 @@ impl Strips {
 }
 
 impl Picture {
-    /// The moves as points. A height that only the machine knows is drawn over everything, a place across that only the machine
-    /// knows not at all.
+    /// The moves as points. An unknown Z is drawn above everything. A move along an axis with an unknown X or Y is not drawn
+    /// along that axis.
     pub fn strips(&self) -> Strips {
         let [least, greatest] = self.ends();
         let size = (0..3).map(|axis| greatest[axis] - least[axis]).fold(0.0, f64::max);
@@ -95,14 +95,14 @@ impl Picture {
         strips
     }
 
-    /// The box around everything that is known.
+    /// Computes the box around all known positions.
     fn measure(&self, strips: &mut Strips) {
         if !self.turned.is_empty() {
             strips.extents = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         }
         for piece in &strips.pieces {
             let known = &self.moves[piece.of as usize].to;
-            // a turned axis makes all three of them unknown
+            // if rotary axes turn, one unknown coordinate makes all three unknown
             let all = self.turned.is_empty() || known.iter().all(|value| value.is_finite());
             for axis in (0..3).filter(|&axis| all && known[axis].is_finite()) {
                 strips.extents[0][axis] = strips.extents[0][axis].min(piece.to[axis]);
@@ -134,7 +134,7 @@ fn between<const N: usize>(from: [f64; N], to: [f64; N], share: f64) -> [f64; N]
     std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * share)
 }
 
-/// The points of a straight move between its ends while axes turn: it is a curve on the part.
+/// The points of a straight move between its ends while rotary axes turn: on the part it is a curve.
 fn turning(from: [f64; 3], to: [f64; 3], angles: [f64; 3], turned: [f64; 3], push: &mut impl FnMut([f64; 3])) {
     let most = (0..3).map(|axis| (turned[axis] - angles[axis]).abs()).fold(0.0, f64::max).to_radians();
     let pieces = (most / FINEST).ceil().clamp(1.0, MOST_PIECES);
@@ -158,7 +158,7 @@ fn round(from: [f64; 3], to: [f64; 3], turn: &Turn, error: f64, push: &mut impl 
     for i in 1..pieces as u32 {
         let share = f64::from(i) / pieces;
         let angle = begin + sign * swept * share;
-        // both ends lie on circles that differ by a tolerance
+        // the radii of both ends differ within a tolerance
         let radius = radius + (end - radius) * share;
         let mut at = from;
         at[first] = turn.center[first] + radius * angle.cos();

@@ -1,25 +1,25 @@
-//! A still picture: lines by tool, rapids dashed, holes, and what is what.
+//! A still picture: lines by tool, dashed rapids, holes, and a legend.
 
 use std::fmt::Write as _;
 
 use super::{Kind, Picture, Strips, View};
 use crate::terminal::escaped;
 
-/// How a picture is drawn.
+/// The settings of a drawing.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// Title of the drawing.
     pub title: String,
-    /// From where it is looked at.
+    /// The view.
     pub view: View,
     /// Width of the drawing in pixels.
     pub width: f64,
 }
 
-/// How a program of before is drawn under another.
+/// The style class of an old program below another one.
 const OLD: &str = "was";
 
-/// Colours of the tools on white and on black, one after the other.
+/// Colours of the tools, each on white and on black.
 const COLOURS: [[&str; 2]; 8] = [
     ["#0b63ce", "#78b1ff"],
     ["#c2410c", "#ff9d66"],
@@ -39,13 +39,13 @@ svg{background:#fff;font:12px system-ui,sans-serif}text{fill:#5c636c}.h{fill:#1d
 const DARK: &str = "\
 svg{background:#1b1e22}text{fill:#a0a7b0}.h{fill:#e6e7e9}.floor{fill:#23272c;stroke:#353a41}.r{stroke:#e0736a}.axis{stroke:#7d848e}.was{stroke:#6b727b}";
 
-/// Around the picture, in pixels.
+/// Margin around the picture, in pixels.
 const MARGIN: f64 = 28.0;
 /// Heights of the head and of the legend.
 const BANDS: [f64; 2] = [40.0, 58.0];
 /// The least and the greatest height of the picture itself.
 const HEIGHTS: [f64; 2] = [160.0, 900.0];
-/// Points nearer than this to the one before are left out, in pixels.
+/// Distance in pixels; a point nearer than this to the point before is left out.
 const NEAREST: f64 = 0.1;
 
 /// The picture as SVG text.
@@ -53,7 +53,7 @@ pub fn svg(picture: &Picture, sheet: &Sheet) -> String {
     svg_over(None, picture, sheet)
 }
 
-/// A picture over that of another program, which is drawn wide and grey.
+/// A picture over that of another program, which is drawn with wide grey lines.
 pub fn svg_over(old: Option<&Picture>, picture: &Picture, sheet: &Sheet) -> String {
     let strips = picture.strips();
     let old = old.map(|old| (old, old.strips()));
@@ -99,7 +99,7 @@ pub fn svg_over(old: Option<&Picture>, picture: &Picture, sheet: &Sheet) -> Stri
     out
 }
 
-/// From places to pixels.
+/// Conversion of positions to pixels.
 struct Scale {
     view: View,
     factor: f64,
@@ -158,7 +158,7 @@ fn style(out: &mut String) {
     _ = writeln!(out, "<style>{STYLE}{}@media(prefers-color-scheme:dark){{{DARK}{}}}</style>", rules(0), rules(1));
 }
 
-/// Corners of the box of the cuts, at its bottom, where a view shows it.
+/// Corners of the box around the cuts, at its bottom, for views that show it.
 fn floor(picture: &Picture, strips: &Strips, view: View) -> Vec<[f64; 3]> {
     let plain = picture.turned.is_empty() && picture.letters == "XYZ";
     let shown = matches!(view, View::Iso | View::Top) && picture.tally.units == picture.units && plain;
@@ -191,7 +191,7 @@ fn path(
 ) {
     let mut text = String::new();
     let mut from = scale.at(strips.start);
-    // where the path is written up to, and a point that was left out
+    // the last point written to the path, and a point that was left out
     let (mut at, mut left): (Option<[f64; 2]>, Option<[f64; 2]>) = (None, None);
     for piece in &strips.pieces {
         let of = &picture.moves[piece.of as usize];
@@ -231,7 +231,7 @@ fn holes(picture: &Picture, scale: &Scale, out: &mut String) {
     let mut last = None;
     for hole in &picture.holes {
         let at = scale.at(hole.on_part()[0]);
-        // a million holes in one place are one
+        // holes at the same pixel are drawn once
         if last.is_some_and(|last: [f64; 2]| (at[0] - last[0]).hypot(at[1] - last[1]) < 1.0) {
             continue;
         }
@@ -241,7 +241,7 @@ fn holes(picture: &Picture, scale: &Scale, out: &mut String) {
     }
 }
 
-/// Which way the axes go.
+/// The directions of the axes.
 fn axes(scale: &Scale, bottom: f64, out: &mut String) {
     let length = 26.0;
     let origin = [MARGIN + 14.0, bottom - 22.0];
@@ -304,7 +304,7 @@ fn legend(picture: &Picture, strips: &Strips, over_old: bool, [width, height]: [
     );
 }
 
-/// Blocks, time and extents.
+/// The text with blocks, time and extents.
 fn measured(picture: &Picture, strips: &Strips) -> String {
     let [least, greatest] = strips.extents;
     let mut text = format!("{} blocks, {}", picture.blocks, crate::nc::clock(picture.tally.minutes()));
@@ -331,7 +331,7 @@ fn described(picture: &Picture, strips: &Strips) -> String {
     format!("Backplot: {}; {}", counts.join(", "), measured(picture, strips))
 }
 
-/// Text in a picture: nothing of it is markup.
+/// Text in a picture, escaped so that it contains no markup.
 fn safe(text: &str) -> String {
     let mut out = String::new();
     for c in escaped(text).chars() {

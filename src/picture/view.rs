@@ -1,24 +1,24 @@
-//! From where a picture is looked at.
+//! The view of a picture.
 
 use super::{Picture, Register};
 
-/// From where a picture is looked at.
+/// The view of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
     /// From above: X to the right, Y up.
     Top,
-    /// From the operator's side: X to the right, Z up.
+    /// From the front, as the operator sees it: X to the right, Z up.
     Front,
     /// From the right: Y to the right, Z up.
     Side,
     /// From the right, front and above.
     Iso,
-    /// A lathe's: Z to the right, X up.
+    /// A lathe: Z to the right, X up.
     Lathe,
 }
 
 impl View {
-    /// All of them, with their names.
+    /// All views, with their names.
     pub const ALL: [(View, &'static str); 5] =
         [(View::Top, "top"), (View::Front, "front"), (View::Side, "side"), (View::Iso, "iso"), (View::Lathe, "lathe")];
 
@@ -27,7 +27,7 @@ impl View {
         View::ALL.iter().find(|(view, _)| *view == self).map_or("", |(_, name)| name)
     }
 
-    /// To the right and up, of a place.
+    /// Projects a position: first to the right, then up.
     pub fn project(self, at: [f64; 3]) -> [f64; 2] {
         const SQRT_6: f64 = 2.449_489_742_783_178;
         let [x, y, z] = at;
@@ -42,7 +42,7 @@ impl View {
 }
 
 impl Picture {
-    /// From where it is usually looked at: a lathe's as it stands, all others from the corner.
+    /// The usual view: a lathe in its own view, all others from the corner.
     pub fn usual_view(&self) -> View {
         let still = self.moves.iter().all(|found| found.to[1].is_nan() || found.to[1] == 0.0);
         let plane = self.changes.iter().rev().find(|change| change.register == Register::Plane);

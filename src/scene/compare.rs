@@ -1,4 +1,4 @@
-//! What changed: against a program of before, and since the form was saved.
+//! Changes of the program: compared with an old program, and with the form as last saved.
 
 use std::io::Cursor;
 
@@ -11,10 +11,10 @@ use crate::nc::RunSettings;
 use crate::picture::draw;
 use crate::terminal::escaped;
 
-/// Hunks that are shown.
+/// Maximum number of hunks shown.
 const MOST: usize = 10_000;
 
-/// A program of before: its text and its path.
+/// An old program: its text and its path.
 pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
     program::text(scene, "old/", old);
     if let Ok(picture) = draw(Cursor::new(old), settings) {
@@ -22,14 +22,14 @@ pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
     }
 }
 
-/// Which lines are others than in a program of before.
+/// The lines that differ from an old program.
 pub fn against(name: &str, old: &[u8], new: &str, options: &Options) -> Option<Value> {
     let mut value = hunks(&compared(old, new, options)?);
     value["name"] = json!(escaped(name));
     Some(value)
 }
 
-/// Which lines are others than when the form was saved; it may have printed nothing then.
+/// The lines that differ from the program of the form as last saved; there may be no such program.
 pub fn saved(before: Option<&str>, new: &str, options: &Options) -> Option<Value> {
     match before {
         Some(before) => Some(hunks(&compared(before.as_bytes(), new, options)?)),

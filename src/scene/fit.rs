@@ -1,4 +1,4 @@
-//! Whether the program fits into its machine, and how long it takes there.
+//! Checks whether the program fits into its machine, and computes its time there.
 
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use crate::render::TraceLine;
 use crate::source::Source;
 use crate::terminal::escaped;
 
-/// How it came out in a few words, what would do where offsets or lengths are not known, what is not checked, and each finding.
+/// The result in a few words, the allowed values of unknown offsets or lengths, everything that is not checked, and each finding.
 pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[TraceLine], files: &[Source]) -> Value {
     let name = escaped(&machine.name);
     let is_error = |severity: Severity| severity == Severity::Error;
@@ -20,7 +20,7 @@ pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[Trace
     let all = fitted.findings.len();
     let some = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let (kind, text) = match (errors, all) {
-        (0, 0) if fitted.refused.is_some() => ("warn", format!("not run to its end on {name}")),
+        (0, 0) if fitted.refused.is_some() => ("warn", format!("can't be run to its end for {name}")),
         (0, 0) => ("ok", format!("fits {name}")),
         (0, warnings) => ("warn", format!("fits {name}, {}", some(warnings, "warning"))),
         (errors, _) => ("bad", format!("does not fit {name}: {}", some(errors, "error"))),

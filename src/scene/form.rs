@@ -1,18 +1,25 @@
 //! The form and its findings.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::diag::{Diag, Location, Severity};
+use crate::post::shipped::FORMS;
+use crate::sema::{Checked, Property, PropertyKind};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Findings that are shown: nobody reads more of them at once.
+/// Maximum number of findings shown: nobody reads more at once.
 const MOST: usize = 500;
 
-/// The files of a form, and what lint found.
-pub fn form(files: &[Source], diags: &[Diag], suppressed: usize) -> Value {
+/// The files of a form, the findings of lint, the lines of its letter formats, and its properties. A form without text also has the
+/// posts of the kit, one of which a new form may begin with.
+pub fn form(checked: &Checked, diags: &[Diag], suppressed: usize) -> Value {
+    let files = checked.files.as_slice();
     let count = |severity| diags.iter().filter(|diag| diag.severity == severity).count();
     let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+    let formats = checked.form.formats.iter();
+    let formats =
+        formats.filter_map(|(letter, (_, span))| Some((char::from(*letter).to_string(), place(*span, files)?)));
     json!({
         "files": names,
         "findings": diags.iter().take(MOST).map(|diag| finding(diag, files)).collect::<Vec<Value>>(),
@@ -20,10 +27,33 @@ pub fn form(files: &[Source], diags: &[Diag], suppressed: usize) -> Value {
         "warnings": count(Severity::Warning),
         "notes": count(Severity::Note),
         "suppressed": suppressed,
+        "formats": formats.collect::<Map<String, Value>>(),
+        "properties": checked.form.settings.properties.iter().map(property).collect::<Vec<Value>>(),
+        "kit": files.first().filter(|file| file.text.trim().is_empty()).map(|_| kit()),
     })
 }
 
-/// A finding, where it is, and what fixes it.
+fn property(property: &Property) -> Value {
+    let choices = match &property.kind {
+        PropertyKind::Choice(words) => words.clone(),
+        PropertyKind::YesNo => vec!["yes".to_owned(), "no".to_owned()],
+        _ => Vec::new(),
+    };
+    json!({
+        "name": property.name,
+        "kind": property.kind.name(),
+        "choices": choices,
+        "default": property.default.to_string(),
+        "text": property.text,
+    })
+}
+
+fn kit() -> Value {
+    let rows = FORMS.iter().map(|post| json!({ "name": post.name, "about": post.about, "text": post.text }));
+    rows.collect()
+}
+
+/// A finding with its location and its fix.
 pub fn finding(diag: &Diag, files: &[Source]) -> Value {
     let labels: Vec<Value> = diag
         .labels

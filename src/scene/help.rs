@@ -1,4 +1,4 @@
-//! What somebody who writes a form in the page may ask: what a word is, and what could stand here.
+//! Answers for the form editor of the page: the meaning of a word, and the possible words at a location.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -9,17 +9,17 @@ use crate::ide::utf16::{Place, offset};
 use crate::ide::{CompletionKind, Current, Document, about};
 use crate::source::Source;
 
-/// What is asked of a place.
+/// The kind of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Ask {
-    /// What could stand there.
+    /// The possible words at the location.
     Complete,
-    /// What the thing there is, and what its line printed.
+    /// The meaning of the word there, and the text that its line printed.
     Hover,
 }
 
-/// A place in a form, as an editor in a browser counts.
+/// A location in a form, counted as an editor in a browser counts.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct At {
@@ -27,14 +27,14 @@ pub struct At {
     pub file: String,
     /// Line, from 0.
     pub line: u32,
-    /// UTF-16 code units before it in that line.
+    /// Number of UTF-16 code units before it in that line.
     pub column: u32,
-    /// What is asked.
+    /// The kind of the request.
     pub ask: Ask,
 }
 
-/// The answer: `list` of what could stand there, each with the text that it replaces; or `at` and `text`, which is Markdown. Null:
-/// nothing is known.
+/// The answer: either `list`, the possible words with the text that each replaces, or `at` and `text`, which is Markdown. Null:
+/// there is no answer.
 pub fn help(request: Request<'_>, at: &At) -> Value {
     let Request { form, files, limits, levels, job, job_name, .. } = request;
     let document = Document::new(form.clone(), files, limits, levels);
@@ -51,7 +51,7 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
             |hover| json!({ "at": form::place(hover.span, document.files()), "text": hover.text }),
         ),
         Ask::Complete => {
-            // a form with a half-typed word prints nothing: values are those without the word
+            // a form with an incomplete word prints nothing: the values are taken from the form without that word
             if let Some(job) = job.filter(|_| current.is_none() && file == 0) {
                 let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
                 current = Document::new(form, files, limits, levels).print(job_name, job);
@@ -65,7 +65,7 @@ fn list(document: &Document, file: u32, place: u32, current: Option<&Current>) -
     let found = document.complete(file, place, current);
     let rows = found.into_iter().map(|found| {
         let info = match found.kind {
-            // an example is searched for each: of a few that is no time, of all commands it is
+            // each needs the search for an example, which is fast for a few items but slow for all commands
             CompletionKind::Variable => about(found.kind, &found.label, document.control()),
             _ => None,
         };
@@ -94,7 +94,7 @@ fn kind(kind: CompletionKind) -> &'static str {
     }
 }
 
-/// The text without the word before a place, and without the blank before that: two blanks would begin a comment.
+/// The text without the word before a location, and without the space before that word: two spaces would begin a comment.
 fn without_word(text: &str, place: usize) -> String {
     let start = text[..place].rfind(char::is_whitespace).map_or(0, |at| at + 1);
     let end = text[place..].find(char::is_whitespace).map_or(text.len(), |at| place + at);

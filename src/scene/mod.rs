@@ -1,8 +1,8 @@
-//! Everything that the page shows of a form and a job, as one run of bytes.
+//! The data that the page shows of a form and a job, as one run of bytes.
 //!
-//! A [`Scene`] is a JSON head and named sections of numbers after it: what is long (points, blocks, their places) is not JSON, so that
-//! a program of a million moves is there at once. `page/src/scene.ts` reads it; the same bytes come from `postform watch`, stand in
-//! a page of `postform plot`, and are made in the browser by the playground.
+//! A [`Scene`] is a JSON head followed by named sections of numbers. Long data (points, blocks, their origins) is not JSON, so
+//! that a program of a million moves loads at once. `page/src/scene.ts` reads it. `postform watch` sends the same bytes, a page
+//! of `postform plot` contains them, and the playground makes them in the browser.
 
 mod compare;
 mod fit;
@@ -40,7 +40,7 @@ pub const WATCH_PAGE: &str = include_str!("../../page/dist/watch.html");
 /// The page of `postform plot` without a scene, as `page/` builds it.
 pub const PLOT_PAGE: &str = include_str!("../../page/dist/plot.html");
 
-/// What is shown.
+/// The input of a scene.
 pub struct Request<'a> {
     /// The form.
     pub form: Source,
@@ -48,28 +48,29 @@ pub struct Request<'a> {
     pub files: &'a dyn Files,
     /// Limits of the form.
     pub limits: Limits,
-    /// What rules count as.
+    /// Severities of rules.
     pub levels: &'a Levels,
-    /// The job; or why it can't be read, which the scene shows in place of the program.
+    /// The job, or the reason why it can't be read; the scene then shows this reason in place of the program.
     pub job: Result<Job<'a>, String>,
-    /// What the job is called.
+    /// The name of the job.
     pub job_name: &'a str,
-    /// How the job is printed.
+    /// Options for printing the job.
     pub options: Options,
-    /// How the program is run.
+    /// Values of the form's properties that the page sets: names and texts. They override those of the options.
+    pub properties: Vec<(String, String)>,
+    /// Settings for running the program.
     pub proof: Proof,
 }
 
-/// A form, and what it prints for a job. What that does, whether it is what the job asks for and what changed are said by what was
-/// printed: drawing, proving and comparing may go on side by side.
+/// Checks a form and prints a job with it. The returned [`Printed`] draws, proves and compares the program; these may run in parallel.
 ///
-/// What is wrong is in the scene: a form with errors has findings and no program.
+/// Errors are in the scene: the scene of a form with errors has findings and no program.
 pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
     let mut scene = Scene::new();
     scene.say("job", json!({ "name": escaped(request.job_name) }));
     let checked = analyse(request.form, request.limits, &mut |name| request.files.read(name));
     let found = lint(&checked, request.levels);
-    scene.say("form", form::form(&checked.files, &found.diags, found.suppressed));
+    scene.say("form", form::form(&checked, &found.diags, found.suppressed));
     let post = match ready_of(&checked, found.diags) {
         Ok(ready) => Post::of(ready.program, ready.findings, &checked.files),
         Err(diags) => {
@@ -85,7 +86,8 @@ pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
             return (scene, None);
         }
     };
-    match Printed::new(&post, job, &request.options, request.proof) {
+    let options = with_properties(&post, request.options, request.properties);
+    match Printed::new(&post, job, &options, request.proof) {
         Ok(printed) => {
             let text = printed.text();
             program::text(&mut scene, "", text.as_bytes());
@@ -101,7 +103,7 @@ pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
     }
 }
 
-/// A program that is there, and what it does.
+/// A scene for an existing program and its picture.
 pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     let mut scene = Scene::new();
     scene.say("job", json!({ "name": escaped(name) }));
@@ -110,14 +112,14 @@ pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     scene
 }
 
-/// Something that is said after a scene, of what is in it.
+/// A small scene with one value, sent after the main scene.
 pub fn behind(name: &str, value: Value) -> Scene {
     let mut scene = Scene::new();
     scene.say(name, value);
     scene
 }
 
-/// What a form makes of a job.
+/// The program that a form prints for a job.
 pub struct Printed {
     post: Post,
     program: Program,
@@ -143,13 +145,12 @@ impl Printed {
         self.program.text()
     }
 
-    /// What tells what is drawn from others: the blocks, the lines and items that they come from, how they are run, and the program
-    /// of before.
+    /// An identifier of the drawing: it changes with the blocks, their form lines and job items, the run settings, and the old program.
     pub fn fingerprint(&self, scene: &Scene, old: &[u8]) -> String {
         scene.fingerprint(&format!("{:?}", self.settings), old)
     }
 
-    /// Says what the program does.
+    /// Adds the motions of the program to the scene.
     pub fn draw(&self, scene: &mut Scene) {
         match draw(Cursor::new(self.text()), self.settings) {
             Ok(picture) => program::picture(scene, "", &picture),
@@ -157,13 +158,13 @@ impl Printed {
         }
     }
 
-    /// Whether the program does what its job asks for: what the page shows of it.
+    /// Proves the program against its job, for display in the page.
     pub fn verdict(&self, job: Job<'_>) -> Value {
         let proven = self.post.verify_with(job, Cursor::new(self.text()), &self.options, &self.proof);
         verdict::verdict(proven, self.program.trace(), self.post.files())
     }
 
-    /// Whether the program fits into a machine: what the page shows of it.
+    /// Checks whether the program fits into a machine, for display in the page.
     pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Value {
         let tools = self.post.job_tools(job).unwrap_or_default();
         match preflight(Cursor::new(self.text()), self.settings, machine, &tools) {
@@ -172,32 +173,52 @@ impl Printed {
         }
     }
 
-    /// Says what another program of the job does.
+    /// The tools of the job with their sizes in millimetres, for display in the page.
+    pub fn tools(&self, job: Job<'_>) -> Value {
+        let tools = self.post.job_tools(job).unwrap_or_default().into_iter();
+        let rows =
+            tools.map(|tool| json!({ "number": tool.number, "diameter": tool.diameter, "corner": tool.corner_radius }));
+        rows.collect()
+    }
+
+    /// Adds the motions of another program of the job to the scene.
     pub fn draw_old(&self, scene: &mut Scene, old: &[u8]) {
         compare::draw_old(scene, old, self.settings);
     }
 
-    /// Which blocks are others than in that program: what the page shows of it. `None`: one of them is too long to compare.
+    /// The blocks that differ from the old program, for display in the page. `None`: one of the programs is too long to compare.
     pub fn against(&self, name: &str, old: &[u8], options: &diff::Options) -> Option<Value> {
         compare::against(name, old, self.text(), options)
     }
 
-    /// Which blocks are others than those that the form printed as it was saved; before is `None`: it printed none.
+    /// The blocks that differ from the program of the form as it was last saved. If `before` is `None`, that form printed no program.
     pub fn since_saved(&self, before: Option<&str>, options: &diff::Options) -> Option<Value> {
         compare::saved(before, self.text(), options)
     }
 }
 
-/// The program that a form prints for a job as the page asks for it; `None`: it can't be printed, and why is told where it is shown.
+/// The program that a form prints for a job, with the options of the page. `None`: it can't be printed; [`scene`] reports the reason.
 pub fn program_of(request: Request<'_>) -> Option<String> {
     let post = Post::compile_with(request.form, request.files, request.limits, request.levels).ok()?;
-    let options = Options { trace: false, ..answered(&post, &request.options) };
+    let options = with_properties(&post, request.options, request.properties);
+    let options = Options { trace: false, ..answered(&post, &options) };
     Some(post.render(request.job.ok()?, &options).ok()?.into_text())
 }
 
-/// With the source map, and with an answer to each question that nobody answered.
+/// Sets properties. One that the form lost while it was typed is not set.
+fn with_properties(post: &Post, mut options: Options, properties: Vec<(String, String)>) -> Options {
+    for (name, value) in properties {
+        if post.properties().iter().any(|property| property.name == name) {
+            options.properties.retain(|(other, _)| !other.eq_ignore_ascii_case(&name));
+            options.properties.push((name, value));
+        }
+    }
+    options
+}
+
+/// Options with the source map on, and with a default for each unanswered prompt.
 fn answered(post: &Post, options: &Options) -> Options {
-    // the scene shows a program that is different, too, and proves it by itself
+    // the scene also shows a program that is different, and proves it separately
     let mut options = Options { trace: true, proof: None, ..options.clone() };
     for prompt in post.prompts() {
         if !options.set.iter().any(|(name, _)| name == prompt.variable) {
@@ -207,7 +228,7 @@ fn answered(post: &Post, options: &Options) -> Options {
     options
 }
 
-/// Why there is no program, or no picture of it: `form`, `job` or `input`, all of it in a line, and the errors.
+/// Why there is no program or no picture: `form`, `job` or `input`, the message in one line, and the errors.
 fn stopped(scene: &mut Scene, error: Error, files: &[Source]) {
     let by = match error.kind() {
         ErrorKind::Form => "form",

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 /// The first bytes of a scene.
 const MAGIC: &[u8; 4] = b"PFS2";
 
-/// What the page shows, as it is packed.
+/// The contents of the page in packed form.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     head: Map<String, Value>,
@@ -16,17 +16,17 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Empty.
+    /// An empty scene.
     pub(super) fn new() -> Scene {
         Scene::default()
     }
 
-    /// Says something in the head.
+    /// Sets a value in the head.
     pub fn say(&mut self, name: &str, value: Value) {
         self.head.insert(name.to_owned(), value);
     }
 
-    /// What the head says.
+    /// A value of the head.
     pub fn said(&self, name: &str) -> Option<&Value> {
         self.head.get(name)
     }
@@ -48,21 +48,22 @@ impl Scene {
         self.body.extend_from_slice(bytes);
     }
 
-    /// A number that the same sections have with the same besides, and others have not.
+    /// A hash of the sections and the other inputs: equal inputs have the same one, others differ.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
         let mut hasher = DefaultHasher::new();
         (&self.body, run, old).hash(&mut hasher);
         format!("{:016x}", hasher.finish())
     }
 
-    /// Without its sections: who asked has them.
+    /// Removes the sections, for a client that already has them.
     pub fn without_sections(&mut self) {
         self.sections.clear();
         self.body.clear();
     }
 
-    /// All of it: `PFS2`, the lengths of the head and of the sections, the head, blanks up to a multiple of eight, the sections.
-    /// Numbers begin with their least byte. Places of sections count from the first. Several may stand one after the other.
+    /// The whole scene: `PFS2`, the lengths of the head and of the sections, the head, spaces up to a multiple of eight, the
+    /// sections. Numbers are little-endian. Offsets of sections are relative to the first section. Several scenes may follow
+    /// each other.
     pub fn into_bytes(mut self) -> Vec<u8> {
         self.head.insert("sections".to_owned(), Value::Object(self.sections));
         let mut head = Value::Object(self.head).to_string().into_bytes();

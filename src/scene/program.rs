@@ -1,4 +1,4 @@
-//! The program, where its lines come from, and what it does.
+//! The program, the origin of its lines, and its motions.
 
 use serde_json::{Value, json};
 
@@ -9,9 +9,9 @@ use crate::picture::Picture;
 use crate::render::TraceLine;
 use crate::source::Source;
 
-/// A line that no line of the form printed.
+/// The origin of a line that no form line printed.
 const GENERATED: i32 = -1;
-/// Bits of a form line that say its line; those above say its file.
+/// Number of bits for the line in an origin; the bits above are the file.
 const LINE_BITS: u32 = 20;
 
 /// The program's text.
@@ -19,8 +19,8 @@ pub fn text(scene: &mut Scene, of: &str, text: &[u8]) {
     scene.bytes(format!("{of}text"), String::from_utf8_lossy(text).as_bytes());
 }
 
-/// For each line its form line, and its item of the job: operation, item, point, line of the job. A subprogram is an operation with
-/// the highest bit.
+/// For each line its form line and its job item: operation, item, point, line of the job. A subprogram is an operation with the
+/// highest bit set.
 pub fn origins(scene: &mut Scene, trace: &[TraceLine], files: &[Source], text: &str) {
     let lines = memchr::memchr_iter(b'\n', text.as_bytes()).count();
     let mut forms = vec![GENERATED; lines];
@@ -38,7 +38,7 @@ pub fn origins(scene: &mut Scene, trace: &[TraceLine], files: &[Source], text: &
     scene.section("lineItem".into(), items.into_iter().flatten().map(u32::to_le_bytes));
 }
 
-/// What the program does. Places count from the middle of the picture, so that small numbers keep them exact.
+/// The motions of the program. Coordinates are relative to the middle of the picture, because small numbers stay exact.
 pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     let strips = picture.strips();
     let [least, greatest] = strips.extents;
@@ -47,7 +47,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     let points = std::iter::once(strips.start).chain(strips.pieces.iter().map(|piece| piece.to));
     scene.section(format!("{of}points"), points.flat_map(near).map(f32::to_le_bytes));
     let moves = &picture.moves;
-    // the first piece of each move, and how many there are at all
+    // the index of the first piece of each move, then the total number of pieces
     let mut first = Vec::with_capacity(moves.len() + 1);
     for (at, piece) in strips.pieces.iter().enumerate() {
         if first.len() <= piece.of as usize {
@@ -57,7 +57,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     first.push(strips.pieces.len() as u32);
     scene.section(format!("{of}first"), first.into_iter().map(u32::to_le_bytes));
     scene.section(format!("{of}moveLine"), moves.iter().map(|found| found.line.to_le_bytes()));
-    // what it is, whether a cycle makes it, and which axes only the machine knows
+    // the kind of the move, whether a cycle makes it, and its axes with positions that are not in the program
     let kind = |found: &crate::picture::Move| {
         let unknown = (0..3).filter(|&axis| found.to[axis].is_nan()).map(|axis| 32 << axis).sum::<u8>();
         [found.kind as u8 | u8::from(found.by_cycle) << 4 | unknown]
@@ -65,10 +65,12 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     scene.section(format!("{of}moveKind"), moves.iter().map(kind));
     scene.section(format!("{of}moveTool"), moves.iter().map(|found| [found.tool.min(255) as u8]));
     if !picture.turned.is_empty() {
-        // the points are those on the part: positions of the axes are others
+        // the points are positions on the part; here the positions of the axes are stored
         let ends = moves.iter().flat_map(|found| found.to).map(f64::to_le_bytes);
         scene.section(format!("{of}ends"), ends);
     }
+    let seconds = picture.minutes.iter().map(|minutes| (minutes * 60.0).to_le_bytes());
+    scene.section(format!("{of}moveTime"), seconds);
     let holes = &picture.holes;
     let ends = holes.iter().flat_map(|hole| hole.on_part().map(near));
     scene.section(format!("{of}holes"), ends.flatten().map(f32::to_le_bytes));

@@ -1,4 +1,4 @@
-//! Whether the program does what the job asks for.
+//! Compares the program with its job.
 
 use serde_json::{Value, json};
 
@@ -9,7 +9,7 @@ use crate::render::TraceLine;
 use crate::source::Source;
 use crate::verify::{Finding, Verdict};
 
-/// The verdict in a few words, and each finding with its block, its item of the job and its line of the form.
+/// The verdict in a few words, and each finding with its block, its job item and its form line.
 pub fn verdict(proven: Result<Proven, Error>, trace: &[TraceLine], files: &[Source]) -> Value {
     let proven = match proven {
         Ok(proven) => proven,

@@ -1,7 +1,8 @@
 //! postform for the playground: it reads a request from standard input and writes a scene to standard output.
 //!
-//! A request is the length of its head (four bytes, the least first), the head as JSON, and the files that the head names, one
-//! after the other: for each form its text now and as it was saved, the job, the program to compare with, and what the saved form printed.
+//! A request is the length of its head (four bytes, little-endian), the head as JSON, and the files that the head names, one
+//! after the other. For each form these are its current text and its saved text. The job, the program to compare with, and the
+//! program of the saved form follow.
 
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
@@ -16,14 +17,17 @@ use serde_json::json;
 
 #[derive(Deserialize)]
 struct Head {
-    /// The form, then those that it may call.
+    /// The form, then the forms that it may call.
     forms: Vec<Form>,
     job: File,
     against: Option<File>,
-    /// What the forms as they were saved print for the job, where others are typed now.
+    /// The program of the saved forms for the job, if the current texts differ.
     before: Option<File>,
     jobs: Vec<String>,
-    /// A place in a form: then what is known of it is answered, and no scene.
+    /// Values of the form's properties.
+    #[serde(default)]
+    properties: Vec<(String, String)>,
+    /// A location in a form: the answer is then the help for it, not a scene.
     at: Option<At>,
 }
 
@@ -45,7 +49,7 @@ struct Texts(HashMap<String, Source>);
 
 impl Files for Texts {
     fn read(&self, name: &str) -> Result<Source, String> {
-        self.0.get(name).cloned().ok_or_else(|| "can't be found: drop it here, too".to_owned())
+        self.0.get(name).cloned().ok_or_else(|| "can't be found: drop this file here too".to_owned())
     }
 }
 
@@ -54,10 +58,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     io::stdin().lock().read_to_end(&mut input)?;
     let (length, rest) = input.split_at_checked(4).ok_or("no request")?;
     let length = u32::from_le_bytes(length.try_into()?) as usize;
-    let (head, mut rest) = rest.split_at_checked(length).ok_or("the head is cut off")?;
+    let (head, mut rest) = rest.split_at_checked(length).ok_or("the header is incomplete")?;
     let head: Head = serde_json::from_slice(head)?;
     let mut next = |length: usize| -> Result<&[u8], &str> {
-        let (part, behind) = rest.split_at_checked(length).ok_or("a file is cut off")?;
+        let (part, behind) = rest.split_at_checked(length).ok_or("a file is incomplete")?;
         rest = behind;
         Ok(part)
     };
@@ -88,6 +92,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         job: Ok(job.again()),
         job_name: &head.job.name,
         options: Options::default(),
+        properties: head.properties,
         proof: Proof::default(),
     };
     if let Some(at) = &head.at {
@@ -101,6 +106,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     scene.say("jobs", json!(head.jobs));
     if let Some(printed) = printed {
         printed.draw(&mut scene);
+        scene.say("toolSizes", printed.tools(job.again()));
         let options = diff::Options::default();
         if let Some((name, old)) = against {
             printed.draw_old(&mut scene, old);

@@ -1,13 +1,13 @@
-// From where the path is looked at: no perspective, so that lengths stay lengths.
+// The view of the path: without perspective, so that lengths stay true.
 
 export type Vector = [number, number, number];
 
 export interface View {
   name: string;
-  /** Around the upright axis, and up from the floor, in radians. */
+  /** Angles around the vertical axis, and up from the floor, in radians. */
   turn: number;
   tilt: number;
-  /** A lathe's: Z to the right, X up. */
+  /** The view of a lathe: Z to the right, X up. */
   lathe?: boolean;
 }
 
@@ -23,11 +23,11 @@ export class Camera {
   turn = VIEWS[3].turn;
   tilt = VIEWS[3].tilt;
   lathe = false;
-  /** The name of the view, until it is turned by hand. */
+  /** The name of the view, until the user turns it. */
   view = "iso";
-  /** Pixels a unit of length. */
+  /** Pixels per unit of length. */
   scale = 1;
-  /** What is in the middle. */
+  /** The point in the middle. */
   target: Vector = [0, 0, 0];
   width = 1;
   height = 1;
@@ -42,13 +42,13 @@ export class Camera {
     this.view = "";
   }
 
-  /** To the right, up, and towards the eye. */
+  /** The directions to the right, up, and towards the eye. */
   axes(): [Vector, Vector, Vector] {
     const [st, ct, se, ce] = [Math.sin(this.turn), Math.cos(this.turn), Math.sin(this.tilt), Math.cos(this.tilt)];
     const right: Vector = [ct, st, 0];
     const eye: Vector = [st * ce, -ct * ce, se];
     const up: Vector = [-st * se, ct * se, ce];
-    // a lathe stands as Z X: its axes are those of a mill, renamed
+    // a lathe is shown as Z X: its axes are renamed mill axes
     const rename = (v: Vector): Vector => (this.lathe ? [v[2], -v[1], v[0]] : v);
     return [rename(right), rename(up), rename(eye)];
   }
@@ -71,7 +71,7 @@ export class Camera {
     }
   }
 
-  /** Nearer or farther; what is at a pixel stays there. */
+  /** Zooms; the point at the given pixel stays there. */
   zoom(factor: number, x: number, y: number): void {
     const [dx, dy] = [x - this.width / 2, y - this.height / 2];
     this.pan(-dx, -dy);
@@ -79,7 +79,7 @@ export class Camera {
     this.pan(dx, dy);
   }
 
-  /** Shows points whole, three numbers each. */
+  /** Fits points into the view, three numbers each. */
   fit(points: ArrayLike<number>, margin = 40): void {
     const axes = this.axes();
     const least = [Infinity, Infinity, Infinity];

@@ -1,8 +1,8 @@
-// The colours of the page, as the style sheet says them.
+// The colours of the page, from the style sheet.
 
 export type Colour = [red: number, green: number, blue: number];
 
-/** How many colours tools have; then they begin again. */
+/** The number of tool colours; further tools repeat them. */
 export const TOOLS = 8;
 
 export interface Colours {
@@ -15,7 +15,18 @@ export interface Colours {
   ink: Colour;
   dim: Colour;
   part: Colour;
+  grid: Colour;
+  stock: Colour;
+  /** X, Y and Z. */
+  axes: Colour[];
+  /** Colours of a quantity, from the least value to the greatest. */
+  ramp: Colour[];
 }
+
+/** The number of colours of a quantity. */
+export const RAMP = 5;
+/** How far the deepest cut fades into the background. */
+export const FADE = 0.62;
 
 export function colours(): Colours {
   const style = getComputedStyle(document.documentElement);
@@ -34,6 +45,10 @@ export function colours(): Colours {
     ink: read("--ink"),
     dim: read("--dim"),
     part: read("--part"),
+    grid: read("--line"),
+    stock: read("--stock"),
+    axes: ["--x", "--y", "--z"].map(read),
+    ramp: Array.from({ length: RAMP }, (_, i) => read(`--r${i}`)),
   };
 }
 
@@ -41,7 +56,23 @@ export function css(colour: Colour, alpha = 1): string {
   return `rgb(${colour.map((part) => Math.round(part * 255)).join(" ")} / ${alpha})`;
 }
 
-/** The colour of the tool at a place in the list of tools; the first is no tool. */
+export function mix(a: Colour, b: Colour, share: number): Colour {
+  return a.map((part, i) => part + (b[i] - part) * share) as Colour;
+}
+
+/** The colour of a value from 0 to 255. */
+export function ofValue(colours: Colours, value: number): Colour {
+  const at = (value / 255) * (RAMP - 1);
+  const below = Math.min(RAMP - 2, Math.floor(at));
+  return mix(colours.ramp[below], colours.ramp[below + 1], at - below);
+}
+
+/** A colour that fades with the depth of a cut: shade 255 is the highest cut, 0 the deepest. */
+export function faded(colours: Colours, colour: Colour, shade: number): Colour {
+  return mix(colour, colours.paper, FADE * (1 - shade / 255));
+}
+
+/** The colour of a tool by its index in the list of tools; index 0 means no tool. */
 export function ofTool(colours: Colours, tool: number): Colour {
   return colours.tools[(tool + TOOLS - 1) % TOOLS];
 }

@@ -1,12 +1,12 @@
-// Lines by WebGL2: a piece is two triangles, whose corners the shader makes of points and kinds that it fetches from textures.
-// Instances would say it shorter, but many drivers draw small ones slowly, one by one.
+// Draws lines with WebGL2: a piece is two triangles. The shader computes their corners from points and kinds in textures.
+// Instanced drawing would be shorter, but many drivers draw small instances slowly, one by one.
 
 import type { Camera } from "./camera.ts";
-import { type Colours, TOOLS } from "./colours.ts";
-import { count, type Level } from "./levels.ts";
-import type { Painter, Stroke } from "./painter.ts";
+import { type Colours, FADE, RAMP, TOOLS } from "./colours.ts";
+import { AGAIN, count, JUMP, type Level } from "./levels.ts";
+import { type Painter, RAPID, type Stroke, type Style } from "./painter.ts";
 
-/** Cells of a row of a texture: every WebGL2 has as many. */
+/** Number of cells in a row of a texture: every WebGL2 implementation allows this. */
 const WIDE = 2048;
 
 const VERTEX = `#version 300 es
@@ -20,9 +20,11 @@ uniform mat3 axes;
 uniform vec3 target;
 uniform vec2 half_size;
 uniform float scale, width;
-uniform vec3 palette[${TOOLS + 1}];
+uniform vec3 palette[${TOOLS + 1}], ramp[${RAMP}], paper;
+uniform bool by_value;
 uniform vec4 one;
 out vec3 colour;
+flat out float faint;
 out float along;
 flat out uint dashes;
 ivec2 cell(int i) { return ivec2(i % ${WIDE}, i / ${WIDE}); }
@@ -39,13 +41,20 @@ void main() {
   float length_ = length(way);
   vec2 ahead = length_ > 1e-4 ? way / length_ : vec2(1, 0);
   vec2 side = vec2(-ahead.y, ahead.x);
+  bool rapid = kind.x == 0u && one.a == 0.;
+  float wide = rapid ? width * ${RAPID.width} : width;
   float end = float(corner & 1), edge = float(corner >> 1) * 2. - 1.;
-  vec2 cap = ahead * width * .5 * (end * 2. - 1.) * (kind.x == 0u ? 0. : .8);
-  vec2 at = mix(from, to, end) + side * edge * width * .5 + cap;
+  vec2 cap = ahead * wide * .5 * (end * 2. - 1.) * (kind.x == 0u ? 0. : .8);
+  vec2 at = mix(from, to, end) + side * edge * wide * .5 + cap;
   along = end * length_;
   dashes = kind.x == 0u ? 1u : 0u;
-  colour = one.a > 0. ? one.rgb : kind.x == 0u ? palette[${TOOLS}] : palette[(kind.y + ${TOOLS - 1}u) % ${TOOLS}u];
-  gl_Position = kind.x == 3u ? vec4(2, 2, 2, 1) : vec4(at / half_size, 0, 1);
+  faint = rapid ? ${RAPID.alpha} : 1.;
+  float value = float(kind.z) / 255. * ${RAMP - 1}.;
+  int below = min(${RAMP - 2}, int(value));
+  vec3 own = by_value ? mix(ramp[below], ramp[below + 1], value - float(below)) : palette[kind.z % ${TOOLS}u];
+  colour = one.a > 0. ? one.rgb : rapid ? palette[${TOOLS}] : mix(own, paper, ${FADE} * (1. - float(kind.w) / 255.));
+  bool hidden = kind.x == ${JUMP}u || (kind.x == ${AGAIN}u && one.a == 0.);
+  gl_Position = hidden ? vec4(2, 2, 2, 1) : vec4(at / half_size, 0, 1);
 }`;
 
 const FRAGMENT = `#version 300 es
@@ -53,11 +62,12 @@ precision highp float;
 in vec3 colour;
 in float along;
 flat in uint dashes;
+flat in float faint;
 uniform float alpha, dash;
 out vec4 pixel;
 void main() {
-  if (dashes == 1u && dash > 0. && mod(along, dash * 7.) > dash * 4.) discard;
-  pixel = vec4(colour * alpha, alpha);
+  if (dashes == 1u && dash > 0. && mod(along, dash * 1.75) > dash) discard;
+  pixel = vec4(colour * alpha * faint, alpha * faint);
 }`;
 
 export class GlPainter implements Painter {
@@ -67,20 +77,21 @@ export class GlPainter implements Painter {
   private readonly at: Record<string, WebGLUniformLocation | null> = {};
   private readonly kept = new Map<Level, WebGLTexture[]>();
   private ratio = 1;
+  private dash = 4;
   private bound: Level | null = null;
 
   private constructor(private readonly gl: WebGL2RenderingContext) {
     this.program = link(gl);
-    for (const name of ["axes", "target", "half_size", "scale", "width", "palette", "one", "alpha", "dash", "points", "kinds"]) {
+    for (const name of ["axes", "target", "half_size", "scale", "width", "palette", "ramp", "paper", "by_value", "one", "alpha", "dash", "points", "kinds"]) {
       this.at[name] = gl.getUniformLocation(this.program, name);
     }
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Null where the browser has none, or none that is faster than a plain canvas. */
+  /** Null if the browser has no WebGL2, or only one that is not faster than a plain canvas. */
   static on(canvas: HTMLCanvasElement): GlPainter | null {
-    // asked of a canvas of its own: one that was asked for WebGL2 draws by nothing else
+    // tested on a separate canvas, because a canvas with a WebGL2 context can't get another context
     const options: WebGLContextAttributes = { antialias: true, alpha: true, premultipliedAlpha: true, failIfMajorPerformanceCaveat: true };
     const tried = document.createElement("canvas").getContext("webgl2", options) as WebGL2RenderingContext | null;
     if (!tried || isSoftware(tried)) return null;
@@ -88,9 +99,10 @@ export class GlPainter implements Painter {
     return gl && new GlPainter(gl);
   }
 
-  begin(camera: Camera, colours: Colours, ratio: number): void {
+  begin(camera: Camera, colours: Colours, ratio: number, style: Style): void {
     const gl = this.gl;
     this.ratio = ratio;
+    this.dash = style.dash * ratio;
     this.bound = null;
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
     gl.clearColor(0, 0, 0, 0);
@@ -102,6 +114,9 @@ export class GlPainter implements Painter {
     gl.uniform2f(this.at.half_size, gl.drawingBufferWidth / 2, gl.drawingBufferHeight / 2);
     gl.uniform1f(this.at.scale, camera.scale * ratio);
     gl.uniform3fv(this.at.palette, [...colours.tools, colours.rapid].flat());
+    gl.uniform3fv(this.at.ramp, colours.ramp.flat());
+    gl.uniform3fv(this.at.paper, colours.paper);
+    gl.uniform1i(this.at.by_value, style.ramp ? 1 : 0);
   }
 
   stroke({ level, from, to, width, alpha, colour, dashed }: Stroke): void {
@@ -118,7 +133,7 @@ export class GlPainter implements Painter {
     }
     gl.uniform1f(this.at.width, width * this.ratio);
     gl.uniform1f(this.at.alpha, alpha);
-    gl.uniform1f(this.at.dash, dashed ? this.ratio : 0);
+    gl.uniform1f(this.at.dash, dashed ? this.dash : 0);
     gl.uniform4f(this.at.one, ...(colour ?? [0, 0, 0]), colour ? 1 : 0);
     gl.drawArrays(gl.TRIANGLES, from * 6, (to - from) * 6);
   }
@@ -158,7 +173,7 @@ export class GlPainter implements Painter {
   }
 }
 
-/** Browsers have names for what draws without a GPU. */
+/** The names of software renderers. */
 function isSoftware(gl: WebGL2RenderingContext): boolean {
   const named = gl.getExtension("WEBGL_debug_renderer_info");
   const name = String(gl.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));

@@ -1,35 +1,42 @@
-// The path in levels of detail: from far away a million moves are a few ten thousand lines.
+// The path in levels of detail: from far away, a million moves become some ten thousand lines.
 
 import type { Path } from "../scene.ts";
 
-/** Pieces that are looked at together when it is asked what is in sight. */
+/** Number of pieces that are tested together for visibility. */
 const CHUNK = 4096;
-/** Error of the finest level that leaves points out, of the size of the path; each coarser one has so many times more. */
+/** Error of the finest simplified level, relative to the size of the path; each coarser level has a multiple of it. */
 const FINEST = 1 / 8000;
 const COARSER = 3;
-/** Errors above this one show. */
+/** Larger errors would be visible. */
 const COARSEST = 1 / 30;
-/** A path of fewer pieces has no coarser level. */
+/** A path with fewer pieces has no coarser level. */
 const FEW = 20000;
 
 export interface Level {
-  /** Largest distance of what is left out from what is drawn. */
+  /** Largest distance between a removed point and the drawn line. */
   error: number;
   /** Points; piece i goes from point i to point i + 1. */
   points: Float32Array;
-  /** Kind, tool, 0, 0 of each piece. */
+  /** Of each piece: kind, tool, colour, shade. The colour and the shade are those of `shades.ts`. */
   kinds: Uint8Array;
-  /** The piece of the path that each piece ends with. */
+  /** The last piece of the path in each piece of the level. */
   pieces: Uint32Array | null;
-  /** Least and greatest X Y Z of every so many pieces. */
+  /** Least and greatest X Y Z of each chunk of pieces. */
   boxes: Float32Array;
 }
+
+/** A jump: it is not drawn. */
+export const JUMP = 3;
+/** A rapid that an earlier one has drawn; it is drawn only where it is chosen. */
+export const AGAIN = 4;
+/** So many rapids are compared with each other. */
+const MOST_RAPIDS = 50_000;
 
 export function count(level: Level): number {
   return level.kinds.length / 4;
 }
 
-/** The levels of a path, the coarsest first. */
+/** The levels of a path, beginning with the coarsest. */
 export function levels(path: Path): Level[] {
   const kinds = new Uint8Array(path.pieces * 4);
   for (let move = 0; move < path.moves; move++) {
@@ -38,19 +45,32 @@ export function levels(path: Path): Level[] {
       kinds[piece * 4 + 1] = path.moveTool[move];
     }
   }
+  drawOnce(path, kinds);
   const whole: Level = { error: 0, points: path.points, kinds, pieces: null, boxes: boxes(path.points) };
   const all = [whole];
   for (let error = FINEST; count(all[0]) > FEW && error < COARSEST; error *= COARSER) {
     const next = coarser(all[0], error * path.size);
-    // each is made of the one before: their errors add up
+    // each level is made from the one before, so their errors add up
     next.error += all[0].error;
-    // what leaves out next to nothing is not worth its room
+    // a level that removes very little is not worth its memory
     if (count(next) < 0.8 * count(all[0])) all.unshift(next);
   }
   return all;
 }
 
-/** Leaves out points that are nearer to the last that was kept than `error`; where the kind or the tool changes, it is kept. */
+/** Marks rapids that have been drawn already, in whichever direction. */
+function drawOnce({ points }: Path, kinds: Uint8Array): void {
+  const seen = new Set<string>();
+  for (let piece = 0; piece * 4 < kinds.length && seen.size < MOST_RAPIDS; piece++) {
+    if (kinds[piece * 4] !== 0) continue;
+    const [from, to] = [points.subarray(piece * 3, piece * 3 + 3).join(), points.subarray(piece * 3 + 3, piece * 3 + 6).join()];
+    const line = from < to ? `${from} ${to}` : `${to} ${from}`;
+    if (seen.has(line)) kinds[piece * 4] = AGAIN;
+    else seen.add(line);
+  }
+}
+
+/** Removes points that are nearer than `error` to the last kept point; points where the kind or the tool changes are kept. */
 function coarser(level: Level, error: number): Level {
   const { points, kinds } = level;
   const total = count(level);
@@ -104,7 +124,7 @@ export function fitting(levels: Level[], scale: number): Level {
 
 export type Sees = (box: Float32Array, at: number) => boolean;
 
-/** The same, of what is in sight at most so many pieces: then a coarser one. */
+/** The same, but with at most `most` visible pieces; if there are more, a coarser level is used. */
 export function drawable(levels: Level[], scale: number, sees: Sees, most: number): [Level, [number, number][]] {
   for (let at = levels.indexOf(fitting(levels, scale)); ; at--) {
     const runs = inSight(levels[at], sees);
@@ -112,7 +132,7 @@ export function drawable(levels: Level[], scale: number, sees: Sees, most: numbe
   }
 }
 
-/** How many pieces of a level come up to a piece of the path. */
+/** The number of pieces of a level before a piece of the path. */
 export function upTo(level: Level, piece: number): number {
   if (!level.pieces) return Math.min(piece, count(level));
   let [low, high] = [0, level.pieces.length];
@@ -124,7 +144,7 @@ export function upTo(level: Level, piece: number): number {
   return low;
 }
 
-/** Runs of pieces that may be in sight: first, and after the last. */
+/** Runs of pieces that may be visible: first, and after the last. */
 export function inSight(level: Level, sees: Sees): [number, number][] {
   const runs: [number, number][] = [];
   const total = count(level);

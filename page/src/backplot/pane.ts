@@ -1,27 +1,42 @@
-// The backplot: the path of a program, the old one under it, what is chosen, and a pointer to choose with.
+// The backplot: the path of a program, the old path below it, the selected block, and selection with the pointer.
 
 import type { Program } from "../program.ts";
-import { Path } from "../scene.ts";
+import { Path, type ToolSize } from "../scene.ts";
 import { element } from "../element.ts";
-import { Camera, VIEWS } from "./camera.ts";
-import { type Colours, colours, css, ofTool } from "./colours.ts";
+import { Camera, type Vector, VIEWS } from "./camera.ts";
+import { centresOf } from "./centres.ts";
+import { type Colours, colours, ofTool } from "./colours.ts";
 import { GlPainter } from "./gl.ts";
+import { drawBar, drawGround, type Plate, plateOf } from "./ground.ts";
+import { legendOf } from "./legend.ts";
 import { count, drawable, fitting, type Level, levels, upTo } from "./levels.ts";
+import { Measure } from "./measure.ts";
+import { cleared, drawAxes, drawHoles, drawTip } from "./overlay.ts";
 import type { Painter } from "./painter.ts";
 import { overlaps, pick } from "./pick.ts";
 import { PlainPainter } from "./plain.ts";
+import { Size } from "./size.ts";
+import { blockOf, Stock } from "./stock.ts";
+import { drawTool, type Shape, shapesOf, upOf } from "./tool.ts";
+import { drawRelief } from "./relief.ts";
+import { type Meaning, MEANINGS, paint, type Shades, shadesOf } from "./shades.ts";
 
 const REACH = 8;
-/** Milliseconds after which a path that was turned is drawn in full. */
+/** Milliseconds of rest after which a moved path is drawn in full. */
 const REST = 150;
+/** Milliseconds of a frame in which the stock is cut. */
+const CUTTING = 24;
 
 export class Backplot {
   readonly root: HTMLElement;
   private readonly canvas = element("canvas", { class: "path", role: "img", tabindex: "0" });
+  private readonly under = element("canvas", { class: "over", "aria-hidden": "true" });
   private readonly over = element("canvas", { class: "over", "aria-hidden": "true" });
   private readonly views = element("div", { class: "views", role: "toolbar", "aria-label": "Views" });
   private readonly extents = element("span", {});
   private readonly legend = element("div", { class: "legend", "aria-hidden": "true" });
+  private readonly block = element("button", { "aria-pressed": "false", title: "Cut the stock along the path; rapids through it are marked (s)" }, "stock");
+  private readonly ruler = element("button", { "aria-pressed": "false", title: "Measure between two points of the path (m)" }, "measure");
   private readonly camera = new Camera();
   private readonly painter: Painter;
   private colours: Colours;
@@ -32,15 +47,31 @@ export class Backplot {
   private line = 0;
   private lit: number[] = [];
   private bad: number[] = [];
-  private drawnTo = Infinity;
+  private plate: Plate | null = null;
+  private meaning: Meaning = "tool";
+  private shades: Shades | null = null;
+  private readonly measure = new Measure();
+  private shapes = new Map<number, Shape>();
+  private sizes = "";
+  /** Points of the tool's centre. */
+  private centres: Float32Array = new Float32Array();
+  private readonly size = new Size();
+  /** The stock, while it is shown. */
+  private stock: Stock | null = null;
+  /** While the timeline plays: the point before the tool, and the position of the tool. */
+  private cursor: { point: number; at: Vector } | null = null;
   private asked = 0;
   private fits = true;
-  /** It is being turned: a coarse picture now is better than a fine one late. */
+  /** The view is moving: a fast coarse picture is better than a slow fine one. */
   private moving = 0;
-  /** Frames so far, and the time of the last: for measurements. */
+  /** Number of frames, and the time of the last one: for measurements. */
   readonly frames = { count: 0, last: 0, pieces: 0 };
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
+  /** The lines whose rapids go through the stock, as far as it is cut. */
+  onCrash: (lines: number[]) => void = () => {};
+  /** A measured distance, what to click, or why there is no stock; empty: nothing. */
+  onSay: (text: string) => void = () => {};
 
   constructor() {
     const gl = GlPainter.on(this.canvas);
@@ -56,9 +87,18 @@ export class Backplot {
       button.onclick = () => this.look(view.name);
       this.views.append(button);
     }
-    this.views.append(element("span", { class: "gap" }), fit, nearer);
-    const stage = element("div", { class: "stage" }, this.canvas, this.over, this.legend);
-    this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, stage);
+    const options = MEANINGS.map((meaning) => element("option", { value: meaning }, meaning));
+    const meaning = element("select", { "aria-label": "Colours show", title: "What the colours of cuts show" }, ...options);
+    meaning.onchange = () => this.colourBy(meaning.value as Meaning);
+    this.ruler.onclick = () => this.toggleMeasure();
+    this.block.onclick = () => this.toggleStock();
+    this.size.onChange = () => {
+      this.showStock();
+      this.redraw();
+    };
+    this.views.append(element("span", { class: "gap" }), meaning, this.block, this.ruler, fit, nearer);
+    const stage = element("div", { class: "stage" }, this.under, this.canvas, this.over, this.legend);
+    this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, this.size.root, stage);
     new ResizeObserver(() => this.resize()).observe(stage);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
     this.point();
@@ -73,8 +113,15 @@ export class Backplot {
     this.redraw();
   }
 
-  /** Another program; `old`: what is drawn under it. */
-  show(program: Program | null, old: Program | null, differences: number[]): void {
+  /** Shows another program; `old` is drawn below it. */
+  show(program: Program | null, old: Program | null, differences: number[], sizes: ToolSize[] = []): void {
+    if (program?.path && JSON.stringify(sizes) !== this.sizes) {
+      this.sizes = JSON.stringify(sizes);
+      this.shapes = shapesOf(program, sizes);
+      this.centres = centresOf(program, this.shapes);
+      if (this.stock) this.showStock();
+      this.redraw();
+    }
     const before = this.program?.path;
     const path = program?.path;
     const marked = String(differences) === String(this.bad);
@@ -82,14 +129,25 @@ export class Backplot {
     this.bad = differences;
     if (path && path === before && (old?.path ?? null) === this.oldPath) return marked ? undefined : this.redraw();
     this.painter.forget([...this.levels, ...this.old]);
-    if (path !== before) this.levels = path ? levels(path) : [];
+    if (path !== before) {
+      this.levels = path ? levels(path) : [];
+      this.plate = path ? plateOf(path) : null;
+      this.shapes = program?.path ? shapesOf(program, sizes) : new Map();
+      if (program?.path) this.centres = centresOf(program, this.shapes);
+      if (this.stock) this.showStock();
+      this.cursor = null;
+      this.measure.forget();
+      if (path) this.colourBy(this.meaning);
+    }
     this.old = old?.path ? levels(shifted(old.path, program)) : [];
     this.oldPath = old?.path ?? null;
     if (path) {
-      // the first picture of a long path is a coarse one, too
+      // the first picture of a long path is also coarse
       if (path.pieces > this.painter.most.moving) this.moves();
       const [least, greatest] = path.head.extents;
-      this.extents.textContent = ["X", "Y", "Z"].map((axis, i) => `${axis} ${short(least[i])}…${short(greatest[i])}`).join(" ") + ` ${path.head.units}`;
+      const sides = [...path.head.letters].map((axis, i) => `${axis} ${short(least[i])}…${short(greatest[i])}`);
+      this.extents.textContent = `${sides.join(" ")} ${path.head.units}`;
+      this.extents.title = [...path.head.letters].map((axis, i) => `${axis}: ${short(greatest[i] - least[i])} ${path.head.units}`).join("\n");
       this.canvas.setAttribute("aria-label", this.described());
       const view = before ? null : VIEWS.find((view) => view.name === path.head.view);
       if (view) this.camera.look(view);
@@ -118,29 +176,74 @@ export class Backplot {
     return `Backplot: ${path.moves} moves, ${path.holeLine.length} holes, ${head.tools.length - 1} tools, ${sides} ${head.units}. Arrow keys turn it.`;
   }
 
-  /** What the colours mean. */
+  /** Shows the legend of the colours. */
   private tell(): void {
-    const path = this.program!.path!;
-    const used = new Set<number>();
-    for (let move = 0; move < path.moves; move++) if ((path.moveKind[move] & 15) !== 0) used.add(path.moveTool[move]);
-    const entries = [...used].sort((a, b) => a - b).slice(0, 12).map((tool) => {
-      const entry = element("span", {}, tool === 0 ? "no tool" : `T${path.head.tools[tool]}`);
-      entry.style.setProperty("--c", css(ofTool(this.colours, tool)));
-      return entry;
-    });
-    this.legend.replaceChildren(element("span", { class: "rapid" }, "rapid"), ...entries);
-    if (this.old.length) this.legend.append(element("span", { class: "was" }, "before"));
+    this.legend.replaceChildren(...legendOf(this.program!, this.shades!, this.colours, this.old.length > 0));
   }
 
-  /** The chosen line, and others that belong to it. */
+  /** What the colours of cuts show. */
+  private colourBy(meaning: Meaning): void {
+    this.meaning = meaning;
+    if (!this.program?.path) return;
+    this.shades = shadesOf(this.program, meaning);
+    this.painter.forget(this.levels);
+    paint(this.levels, this.program, this.shades);
+    this.tell();
+    this.redraw();
+  }
+
+  toggleStock(): void {
+    if (this.stock) {
+      this.stock = null;
+      this.size.hide();
+      this.onCrash([]);
+    } else this.showStock();
+    this.block.setAttribute("aria-pressed", String(!!this.stock));
+    this.redraw();
+  }
+
+  /** The stock of a mill's program whose tools have diameters; else why there is none. */
+  private showStock(): void {
+    const path = this.program?.path;
+    if (path && this.plate && this.shapes.size) {
+      this.size.show(path, blockOf(path, this.plate));
+      const block = this.size.block(path);
+      this.stock = block && new Stock(path, this.centres, block, this.plate.least[2], this.shapes);
+      if (!block) this.onSay("no stock: its greatest X and Y must be greater than the least");
+    } else {
+      this.stock = null;
+      this.size.hide();
+      this.onSay(`no stock: ${this.plate ? "the job gives no diameter of a tool" : "it is shown for mills of three axes"}`);
+    }
+    this.block.setAttribute("aria-pressed", String(!!this.stock));
+  }
+
+  /** Cuts the stock up to where the tool is, in pieces that leave the page responsive. */
+  private cutStock(): void {
+    const path = this.program?.path;
+    if (!this.stock || !path) return;
+    const isThere = this.stock.cutTo(this.cursor?.point ?? path.pieces, CUTTING);
+    if (!isThere) this.redraw();
+    else this.onCrash(this.size.isGiven ? [...this.stock.crashes] : []);
+  }
+
+  /** Clicks measure, until it is turned off again. */
+  toggleMeasure(): void {
+    this.measure.toggle();
+    this.ruler.setAttribute("aria-pressed", String(this.measure.isOn));
+    this.onSay(this.measure.words(this.program?.path?.head.units ?? ""));
+    this.redraw();
+  }
+
+  /** Selects a line; `lit` are other lines that belong to it. */
   choose(line: number, lit: number[]): void {
     [this.line, this.lit] = [line, lit];
     this.redraw();
   }
 
-  /** Only the way up to a line is drawn in full; Infinity: all of it. */
-  drawTo(line: number): void {
-    this.drawnTo = line;
+  /** The timeline: the tool is at a position after a point of the path, and what comes then is faint. Null: all of it is drawn. */
+  drawTo(cursor: { point: number; at: Vector } | null): void {
+    this.cursor = cursor;
     this.redraw();
   }
 
@@ -154,7 +257,7 @@ export class Backplot {
   fit(): void {
     const path = this.program?.path;
     this.fits = true;
-    // of a long path the coarse one
+    // the coarse level is enough for a long path
     if (path) this.camera.fit(this.levels[0].points);
     this.redraw();
   }
@@ -165,7 +268,7 @@ export class Backplot {
     const [from, to] = this.program.moves(this.line);
     const first = to > from ? path.first[from] : this.program.pointAfter(this.line);
     const last = to > from ? path.first[to] : first;
-    // a short block is shown with what is around it
+    // a short block is shown with its surroundings
     const points = path.points.subarray(first * 3, last * 3 + 3);
     const beside = [-1, 1].flatMap((side) => [0, 1, 2].map((axis) => points[axis] + (side * path.size) / 40));
     this.camera.fit([...points, ...beside]);
@@ -181,14 +284,14 @@ export class Backplot {
     }, REST);
   }
 
-  /** Another way of looking at it, in the next frame. */
+  /** The view has changed; it is drawn in the next frame. */
   private turned(): void {
     this.fits = false;
     this.moves();
     this.redraw();
   }
 
-  /** Draws in the next frame; the buttons say at once from where the path is looked at. */
+  /** Draws in the next frame; the buttons show the new view at once. */
   redraw(): void {
     for (const button of this.views.querySelectorAll("[data-view]")) {
       button.setAttribute("aria-pressed", String(button.getAttribute("data-view") === this.camera.view));
@@ -203,19 +306,22 @@ export class Backplot {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const ratio = Math.min(2, devicePixelRatio || 1);
-    for (const canvas of [this.canvas, this.over]) {
+    for (const canvas of [this.under, this.canvas, this.over]) {
       [canvas.width, canvas.height] = [Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio))];
     }
     [this.camera.width, this.camera.height] = [width, height];
     if (this.fits) this.fit();
-    // at once: a canvas that changes its size is empty
+    // at once, because a canvas becomes empty when its size changes
     this.draw();
   }
 
   private draw(): void {
     const began = performance.now();
     const ratio = this.canvas.width / Math.max(1, this.camera.width);
-    this.painter.begin(this.camera, this.colours, ratio);
+    this.cutStock();
+    this.drawUnder(ratio);
+    const dash = Math.max(2, Math.min(14, ((this.program?.path?.size ?? 1) / 90) * this.camera.scale));
+    this.painter.begin(this.camera, this.colours, ratio, { ramp: !!this.shades?.range, dash });
     this.frames.pieces = 0;
     const { width, height, scale } = this.camera;
     const most = this.moving ? this.painter.most.moving : this.painter.most.still;
@@ -223,19 +329,19 @@ export class Backplot {
     if (this.old.length) {
       const [level, runs] = drawable(this.old, scale, sees, most);
       for (const [from, to] of runs) {
-        this.painter.stroke({ level, from, to, width: 3, alpha: 0.5, colour: this.colours.old, dashed: true });
+        this.painter.stroke({ level, from, to, width: 3, alpha: 0.5, colour: this.colours.old, dashed: false });
       }
     }
     const path = this.program?.path;
     if (path && this.levels.length) {
       const [level, runs] = drawable(this.levels, scale, sees, most);
-      const until = this.drawnTo === Infinity ? count(level) : upTo(level, this.program!.pointAfter(this.drawnTo));
+      const until = this.cursor ? upTo(level, this.cursor.point) : count(level);
       for (const [from, to] of runs) {
         this.frames.pieces += to - from;
         const now = Math.max(from, Math.min(to, until));
         const line = { level, dashed: true, width: 1.5 };
-        this.painter.stroke({ ...line, from, to: now, alpha: 0.9 });
-        this.painter.stroke({ ...line, from: now, to, alpha: 0.16 });
+        this.painter.stroke({ ...line, from, to: now, alpha: this.stock ? 0.3 : 0.9 });
+        this.painter.stroke({ ...line, from: now, to, alpha: this.stock ? 0.1 : 0.16 });
       }
       const whole = this.levels[this.levels.length - 1];
       const light = (line: number, width: number, alpha: number, colour = this.colours.lit) => {
@@ -253,84 +359,69 @@ export class Backplot {
     this.frames.last = performance.now() - began;
   }
 
-  /** Holes, the tool, and which way the axes go. */
+  /** Draws what lies under the path: plate, grid and zero. */
+  private drawUnder(ratio: number): void {
+    const context = cleared(this.under, this.camera, ratio);
+    const path = this.program?.path;
+    if (!path) return;
+    if (this.stock) drawRelief(context, this.camera, this.colours, ratio, this.stock);
+    drawGround(context, this.camera, this.colours, path, this.stock ? null : this.plate);
+  }
+
+  /** Draws what lies over the path: holes, the tool, the directions of the axes, the scale, a measured distance. */
   private drawOver(ratio: number): void {
-    const context = this.over.getContext("2d")!;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, this.camera.width, this.camera.height);
+    const context = cleared(this.over, this.camera, ratio);
     const path = this.program?.path;
     if (path && this.program) {
-      this.drawHoles(context);
-      const point = this.program.pointAfter(this.line);
-      if (this.line > 0 && point > 0) {
-        const [x, y] = this.camera.project(path.points, point * 3);
-        context.beginPath();
-        context.arc(x, y, 5.5, 0, 7);
-        context.fillStyle = css(this.colours.lit);
-        context.strokeStyle = css(this.colours.paper);
-        context.lineWidth = 2;
-        context.fill();
-        context.stroke();
-      }
-      this.drawZero(context);
+      drawHoles(context, this.camera, this.colours, path, this.line);
+      this.drawTip(context);
+      drawBar(context, this.camera, this.colours, path.head.units);
+      this.measure.draw(context, this.camera, this.colours);
     }
-    this.drawAxes(context);
+    drawAxes(context, this.camera, this.colours);
   }
 
-  private drawHoles(context: CanvasRenderingContext2D): void {
-    const path = this.program!.path!;
-    if (path.holeLine.length > 5000) return;
-    for (let hole = 0; hole < path.holeLine.length; hole++) {
-      const [x, y] = this.camera.project(path.holes, hole * 6);
-      context.beginPath();
-      context.arc(x, y, path.holeLine[hole] === this.line ? 4 : 2.4, 0, 7);
-      context.fillStyle = css(path.holeLine[hole] === this.line ? this.colours.lit : ofTool(this.colours, path.holeTool[hole]));
-      context.fill();
-    }
+  /** The tool: after the chosen block, or where the timeline is. */
+  private drawTip(context: CanvasRenderingContext2D): void {
+    const program = this.program!;
+    const path = program.path!;
+    const point = program.pointAfter(this.line);
+    if (!this.cursor && !(this.line > 0 && point > 0)) return;
+    const end = this.cursor ? Math.min(this.cursor.point + 1, path.pieces) : point;
+    const on = this.cursor?.at ?? ([...path.points.subarray(point * 3, point * 3 + 3)] as Vector);
+    // beside the line while the control compensates the radius
+    const at = on.map((value, axis) => value + this.centres[end * 3 + axis] - path.points[end * 3 + axis]) as Vector;
+    const tool = path.moveTool[program.moveOf(end)] ?? 0;
+    const [shape, up] = [this.shapes.get(tool), upOf(program, this.line)];
+    if (shape && up) drawTool(context, this.camera, this.colours, ofTool(this.colours, tool), at, up, shape);
+    drawTip(context, this.camera, this.colours, on);
   }
 
-  /** Program zero. */
-  private drawZero(context: CanvasRenderingContext2D): void {
-    const [x, y] = this.camera.project(this.program!.path!.head.middle.map((value) => -value));
-    context.strokeStyle = css(this.colours.dim, 0.9);
-    context.lineWidth = 1;
-    context.beginPath();
-    context.arc(x, y, 4, 0, 7);
-    context.moveTo(x - 8, y);
-    context.lineTo(x + 8, y);
-    context.moveTo(x, y - 8);
-    context.lineTo(x, y + 8);
-    context.stroke();
-  }
-
-  private drawAxes(context: CanvasRenderingContext2D): void {
-    const [right, up] = this.camera.axes();
-    const [x, y] = [34, this.camera.height - 34];
-    context.font = "11px system-ui, sans-serif";
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    context.lineWidth = 1.2;
-    context.strokeStyle = context.fillStyle = css(this.colours.dim);
-    ["X", "Y", "Z"].forEach((name, axis) => {
-      const [dx, dy] = [right[axis], -up[axis]];
-      if (Math.hypot(dx, dy) < 0.1) return;
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(x + dx * 20, y + dy * 20);
-      context.stroke();
-      context.fillText(name, x + dx * 28, y + dy * 28);
-    });
-  }
-
-  /** The line whose move is at a pixel of the pane; null where there is none. */
+  /** The line of the move at a pixel of the pane; null if there is none. */
   lineAt(x: number, y: number): number | null {
-    const path = this.program?.path;
-    if (!path) return null;
-    const piece = pick(fitting(this.levels, this.camera.scale), this.camera, x, y, REACH);
-    return piece < 0 ? null : path.moveLine[this.program!.moveOfPiece(piece)];
+    const piece = this.pieceAt(x, y);
+    return piece < 0 ? null : this.program!.path!.moveLine[this.program!.moveOfPiece(piece)];
   }
 
-  /** The pixel in the pane where a line ends, for tests. */
+  private pieceAt(x: number, y: number): number {
+    return this.program?.path ? pick(fitting(this.levels, this.camera.scale), this.camera, x, y, REACH) : -1;
+  }
+
+  private takePoint(x: number, y: number): void {
+    const path = this.program?.path;
+    const piece = this.pieceAt(x, y);
+    if (!path || piece < 0) return;
+    this.measure.take(path, piece, this.camera, x, y);
+    this.onSay(this.measure.words(path.head.units));
+    this.redraw();
+  }
+
+  /** For tests only: the pieces of the finest level, with their colours. */
+  get kinds(): Uint8Array {
+    return this.levels[this.levels.length - 1]?.kinds ?? new Uint8Array();
+  }
+
+  /** The pixel in the pane at which a line ends, for tests. */
   pixelOf(line: number): [number, number] | null {
     const path = this.program?.path;
     if (!path) return null;
@@ -373,6 +464,7 @@ export class Backplot {
       const was = from;
       from = null;
       if (!was || moved >= 4 || event.button !== 0) return;
+      if (this.measure.isOn) return this.takePoint(event.offsetX, event.offsetY);
       const line = this.lineAt(event.offsetX, event.offsetY);
       if (line) this.onPick(line);
     };
@@ -396,7 +488,7 @@ export class Backplot {
   }
 }
 
-/** The old path, counted from the middle of the new one. */
+/** The old path, relative to the middle of the new one. */
 function shifted(path: Path, program: Program | null): Path {
   const by = path.head.middle.map((value, axis) => value - (program?.path?.head.middle[axis] ?? value));
   return Object.assign(Object.create(Path.prototype) as Path, path, { points: path.points.map((value, at) => value + by[at % 3]) });

@@ -1,19 +1,24 @@
-// Lines on a plain canvas, where a browser has no WebGL2 or no GPU: 100,000 lines take a twentieth of what WebGL2 by software takes.
+// Draws lines on a plain canvas if a browser has no WebGL2 or no GPU. 100,000 lines take a twentieth of the time of WebGL2 in software.
 
 import type { Camera } from "./camera.ts";
-import { type Colour, type Colours, css, ofTool } from "./colours.ts";
-import type { Painter, Stroke } from "./painter.ts";
+import { type Colour, type Colours, css, faded, ofValue } from "./colours.ts";
+import { AGAIN, JUMP } from "./levels.ts";
+import { type Painter, RAPID, type Stroke, type Style } from "./painter.ts";
+
+/** Shades and values are drawn in so many steps each. */
+const STEPS = 12;
 
 export class PlainPainter implements Painter {
   readonly name = "canvas";
   readonly most = { still: 250_000, moving: 25_000 };
   private camera!: Camera;
   private colours!: Colours;
+  private style!: Style;
 
   constructor(private readonly context: CanvasRenderingContext2D) {}
 
-  begin(camera: Camera, colours: Colours, ratio: number): void {
-    [this.camera, this.colours] = [camera, colours];
+  begin(camera: Camera, colours: Colours, ratio: number, style: Style): void {
+    [this.camera, this.colours, this.style] = [camera, colours, style];
     const { canvas } = this.context;
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.context.clearRect(0, 0, canvas.width, canvas.height);
@@ -21,39 +26,44 @@ export class PlainPainter implements Painter {
     this.context.lineCap = "round";
   }
 
+  /** Pieces are collected by their colours: first the rapids, then cuts from the deepest to the highest, which lie over them. */
   stroke({ level, from, to, width, alpha, colour, dashed }: Stroke): void {
-    const { context, camera } = this;
+    const { context, camera, style } = this;
     const { points, kinds } = level;
     const [right, up] = camera.axes();
     const [cx, cy] = [camera.width / 2, camera.height / 2];
     const { target, scale } = camera;
-    context.lineWidth = width;
-    let open = -1;
-    for (let piece = from; piece <= to; piece++) {
-      const look = piece < to && kinds[piece * 4] !== 3 ? kinds[piece * 4] === 0 ? 0 : 1 + kinds[piece * 4 + 1] : -1;
-      if (look !== open) {
-        if (open >= 0) context.stroke();
-        if (look >= 0) {
-          const own: Colour = look === 0 ? this.colours.rapid : ofTool(this.colours, look - 1);
-          context.strokeStyle = css(colour ?? own, alpha);
-          context.setLineDash(look === 0 && dashed ? [4, 3] : []);
-          context.beginPath();
-          this.point(points, piece, true, right, up, target, scale, cx, cy);
-        }
-        open = look;
-      }
-      if (look >= 0) this.point(points, piece + 1, false, right, up, target, scale, cx, cy);
+    const px = (at: number) => cx + ((points[at] - target[0]) * right[0] + (points[at + 1] - target[1]) * right[1] + (points[at + 2] - target[2]) * right[2]) * scale;
+    const py = (at: number) => cy - ((points[at] - target[0]) * up[0] + (points[at + 1] - target[1]) * up[1] + (points[at + 2] - target[2]) * up[2]) * scale;
+    const paths = new Map<number, { path: Path2D; end: number }>();
+    const add = (key: number, piece: number) => {
+      let open = paths.get(key);
+      if (!open) paths.set(key, (open = { path: new Path2D(), end: -1 }));
+      if (open.end !== piece) open.path.moveTo(px(piece * 3), py(piece * 3));
+      open.path.lineTo(px(piece * 3 + 3), py(piece * 3 + 3));
+      open.end = piece + 1;
+    };
+    const step = (value: number) => Math.round((value / 255) * (STEPS - 1));
+    for (let piece = from; piece < to; piece++) {
+      const kind = kinds[piece * 4];
+      if (kind === JUMP || (kind === AGAIN && !colour)) continue;
+      if (colour) add(0, piece);
+      else if (kind === 0) add(-1, piece);
+      else add(step(kinds[piece * 4 + 3]) * 256 + (style.ramp ? step(kinds[piece * 4 + 2]) : kinds[piece * 4 + 2]), piece);
     }
-  }
-
-  private point(
-    points: Float32Array, at: number, first: boolean, right: number[], up: number[], target: number[], scale: number, cx: number, cy: number,
-  ): void {
-    const [x, y, z] = [points[at * 3] - target[0], points[at * 3 + 1] - target[1], points[at * 3 + 2] - target[2]];
-    const px = cx + (x * right[0] + y * right[1] + z * right[2]) * scale;
-    const py = cy - (x * up[0] + y * up[1] + z * up[2]) * scale;
-    if (first) this.context.moveTo(px, py);
-    else this.context.lineTo(px, py);
+    for (const [key, { path }] of [...paths].sort(([a], [b]) => a - b)) {
+      const isRapid = key < 0;
+      const value = key & 255;
+      const own = (): Colour => {
+        const base = style.ramp ? ofValue(this.colours, (value / (STEPS - 1)) * 255) : this.colours.tools[value];
+        return faded(this.colours, base, ((key >> 8) / (STEPS - 1)) * 255);
+      };
+      context.lineWidth = isRapid ? width * RAPID.width : width;
+      context.strokeStyle = css(colour ?? (isRapid ? this.colours.rapid : own()), isRapid ? alpha * RAPID.alpha : alpha);
+      context.setLineDash(isRapid && dashed ? [style.dash, style.dash * 0.75] : []);
+      context.stroke(path);
+    }
+    context.setLineDash([]);
   }
 
   forget(): void {}

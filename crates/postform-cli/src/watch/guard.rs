@@ -1,62 +1,63 @@
-//! Who may ask: a page that this program served to this machine, and nobody else.
+//! Admits requests only from the page that this program served to this machine.
 //!
-//! Any web site that is open in a browser can send requests to ports of its machine. It does not know the token; where a name of
-//! its own leads here, `Host` tells; and what is asked with a body must come from the page's own origin.
+//! Any web site that is open in a browser can send requests to ports of its machine, but it does not have the token. If a
+//! site's own host name leads to this machine, the `Host` field shows that name. A request with a body must come from the
+//! page's own origin.
 
 use super::http::{Answer, Asked};
 
 /// Bytes of randomness in a token.
 const TOKEN: usize = 16;
 
-/// What requests are held against.
+/// The data for checking requests.
 #[derive(Debug)]
 pub struct Guard {
-    /// What the path begins with, between two slashes.
+    /// The first part of the path, between two slashes.
     pub token: String,
-    /// As 127.0.0.1:8080 and localhost:8080.
+    /// Such as 127.0.0.1:8080 and localhost:8080.
     hosts: [String; 2],
 }
 
 impl Guard {
-    /// For a port, with a new token.
+    /// A guard for a port, with a new token.
     ///
     /// # Errors
     /// The system has no random numbers.
     pub fn new(port: u16) -> Result<Guard, String> {
         let mut random = [0; TOKEN];
-        getrandom::fill(&mut random).map_err(|error| format!("error: no random numbers: {error}"))?;
+        getrandom::fill(&mut random).map_err(|error| format!("error: can't get random numbers: {error}"))?;
         let token = random.iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Guard::with(token, port))
     }
 
-    /// With a token that is there.
+    /// A guard with an existing token.
     pub fn with(token: String, port: u16) -> Guard {
         Guard { token, hosts: [format!("127.0.0.1:{port}"), format!("localhost:{port}")] }
     }
 
-    /// What is asked for, after the token: empty for the page itself.
+    /// The requested path after the token; empty for the page itself.
     ///
     /// # Errors
-    /// What is answered instead.
+    /// The answer to a refused request.
     pub fn admit<'a>(&self, asked: &'a Asked) -> Result<&'a str, Answer> {
         match asked.field("host") {
             Some(Some(host)) if self.is_host(host) => {}
             _ => return Err(Answer::no(403, "this host is not served")),
         }
-        let nothing = || Answer::no(404, "there is nothing here: take the address that postform watch printed");
+        let nothing = || Answer::no(404, "not found: use the address that postform watch printed");
         let (token, rest) = asked.path.strip_prefix('/').and_then(|path| path.split_once('/')).ok_or_else(nothing)?;
         if !same(token.as_bytes(), self.token.as_bytes()) {
             return Err(nothing());
         }
         let page = matches!(asked.field("sec-fetch-site"), None | Some(Some("same-origin" | "none")));
         if !page {
-            return Err(Answer::no(403, "another page asks"));
+            return Err(Answer::no(403, "requests from other pages are refused"));
         }
         match asked.field("origin") {
-            // a browser says it with every body, and need not say it else
+            // a browser sends this field with every body; otherwise it may be missing
             None if asked.method != "POST" => {}
             Some(Some(origin)) if origin.strip_prefix("http://").is_some_and(|host| self.is_host(host)) => {}
-            _ => return Err(Answer::no(403, "another page asks")),
+            _ => return Err(Answer::no(403, "requests from other pages are refused")),
         }
         if asked.method == "POST" && !matches!(asked.field("content-type"), Some(Some("application/json"))) {
             return Err(Answer::no(415, "send application/json"));
@@ -69,7 +70,7 @@ impl Guard {
     }
 }
 
-/// Are they the same? How long that takes says nothing of where they differ.
+/// Compares two values; the time does not depend on the first difference.
 fn same(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |differs, (a, b)| differs | (a ^ b)) == 0
 }
@@ -94,12 +95,12 @@ mod tests {
             ("GET", "/abc/", vec![host], Ok("")),
             ("GET", "/abc/events", vec![host], Ok("events")),
             ("POST", "/abc/scene", vec![host, own, json], Ok("scene")),
-            // a name that leads here is not this machine's
+            // a foreign host name that leads to this machine
             ("GET", "/abc/", vec![("host", "evil.example:8080")], Err(403)),
             ("GET", "/abc/", vec![("host", "127.0.0.1")], Err(403)),
             ("GET", "/abc/", vec![], Err(403)),
             ("GET", "/abc/", vec![host, host], Err(403)),
-            // the token
+            // a wrong or missing token
             ("GET", "/", vec![host], Err(404)),
             ("GET", "/abd/", vec![host], Err(404)),
             ("GET", "/abc", vec![host], Err(404)),
@@ -114,7 +115,7 @@ mod tests {
             ("GET", "/abc/events", vec![host, foreign], Err(403)),
             ("GET", "/abc/", vec![host, ("sec-fetch-site", "cross-site")], Err(403)),
             ("GET", "/abc/", vec![host, ("sec-fetch-site", "same-site")], Err(403)),
-            // what a form of a page can send without being asked
+            // requests that the form of any web page can send
             ("POST", "/abc/save", vec![host, own, ("content-type", "text/plain")], Err(415)),
             ("POST", "/abc/save", vec![host, own], Err(415)),
         ] {

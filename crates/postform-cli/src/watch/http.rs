@@ -1,5 +1,5 @@
-//! As much of HTTP as one page on one machine needs: a request is read within limits, an answer is written and the connection
-//! closed. What a request's head says is parsed by `httparse`.
+//! The small part of HTTP that one page on one machine needs. A request is read within limits, an answer is written, and the
+//! connection is closed. `httparse` parses the head of a request.
 
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
@@ -9,24 +9,24 @@ use std::time::{Duration, Instant};
 const LONGEST_HEAD: usize = 16 << 10;
 /// Largest body: the forms of a page, as JSON.
 pub const LARGEST_BODY: usize = 8 << 20;
-/// Fields of a head.
+/// Maximum number of fields in a head.
 const MOST_FIELDS: usize = 64;
-/// A request that takes longer is none.
+/// A request that takes longer is refused.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// What is asked.
+/// A request.
 #[derive(Debug, Default, PartialEq)]
 pub struct Asked {
     /// `GET`, `POST`.
     pub method: String,
-    /// The path, as it was sent.
+    /// The path as sent.
     pub path: String,
-    /// Names in small letters, and values.
+    /// Names in lower case, and values.
     pub fields: Vec<(String, String)>,
 }
 
 impl Asked {
-    /// A field of the head that stands there once; `Some(None)`: it stands there more than once.
+    /// A field of the head; `Some(None)`: the head contains it more than once.
     pub fn field(&self, name: &str) -> Option<Option<&str>> {
         let mut found = self.fields.iter().filter(|(known, _)| known == name).map(|(_, value)| value.as_str());
         let first = found.next()?;
@@ -41,28 +41,28 @@ pub struct Answer {
     pub status: u16,
     /// The `Content-Type` of the answer.
     pub kind: &'static str,
-    /// What comes after the head.
+    /// The content after the head.
     pub body: Vec<u8>,
-    /// More fields of its head.
+    /// Further fields of its head.
     pub fields: Vec<(&'static str, String)>,
 }
 
 impl Answer {
-    /// What was asked for.
+    /// A successful answer.
     pub fn of(kind: &'static str, body: impl Into<Vec<u8>>) -> Answer {
         Answer { status: 200, kind, body: body.into(), fields: Vec::new() }
     }
 
-    /// Why it is not given.
+    /// A refusal with its reason.
     pub fn no(status: u16, why: &str) -> Answer {
         Answer { status, ..Answer::of("text/plain; charset=utf-8", why) }
     }
 }
 
-/// Reads the head of a request, and what of the body came with it.
+/// Reads the head of a request, and the part of the body that was received with it.
 ///
 /// # Errors
-/// What is answered: it is no request, too long or too slow. `None`: the connection ended, and nobody waits for an answer.
+/// The answer to an invalid, too long or too slow request. `None`: the connection ended, so no answer is needed.
 pub fn read_head(stream: &mut TcpStream) -> Result<(Asked, Vec<u8>), Option<Answer>> {
     let until = Instant::now() + PATIENCE;
     let mut bytes = Vec::new();
@@ -83,7 +83,7 @@ pub fn read_head(stream: &mut TcpStream) -> Result<(Asked, Vec<u8>), Option<Answ
             Ok(httparse::Status::Partial) | Err(httparse::Error::TooManyHeaders) => {
                 return Err(Some(Answer::no(431, "the head of the request is too long")));
             }
-            Err(_) => return Err(Some(Answer::no(400, "this is no request"))),
+            Err(_) => return Err(Some(Answer::no(400, "this is not an HTTP request"))),
         }
         more(stream, &mut bytes, LONGEST_HEAD, until)?;
     }
@@ -93,20 +93,20 @@ fn field(header: &httparse::Header<'_>) -> (String, String) {
     (header.name.to_ascii_lowercase(), String::from_utf8_lossy(header.value).trim().to_owned())
 }
 
-/// Reads the body of a request; `read`: what of it is there already.
+/// Reads the body of a request; `read` is the part that was already received.
 ///
 /// # Errors
 /// As [`read_head`].
 pub fn read_body(stream: &mut TcpStream, asked: &Asked, mut read: Vec<u8>) -> Result<Vec<u8>, Option<Answer>> {
     if asked.field("transfer-encoding").is_some() {
-        return Err(Some(Answer::no(501, "send the body whole, with its length")));
+        return Err(Some(Answer::no(501, "send the body in one piece, with its length")));
     }
     let Some(Some(length)) = asked.field("content-length") else {
         return Err(Some(Answer::no(411, "send the length of the body")));
     };
     let digits = !length.is_empty() && length.bytes().all(|byte| byte.is_ascii_digit());
     let Some(length) = length.parse::<usize>().ok().filter(|_| digits) else {
-        return Err(Some(Answer::no(400, "the length of the body is no number")));
+        return Err(Some(Answer::no(400, "the length of the body is not a number")));
     };
     if length > LARGEST_BODY {
         return Err(Some(Answer::no(413, "the body is too large")));
@@ -119,7 +119,7 @@ pub fn read_body(stream: &mut TcpStream, asked: &Asked, mut read: Vec<u8>) -> Re
     Ok(read)
 }
 
-/// Reads some bytes more, at most up to a length.
+/// Reads more bytes, at most up to a length.
 fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, most: usize, until: Instant) -> Result<(), Option<Answer>> {
     let slow = || Some(Answer::no(408, "the request took too long"));
     let left = until.saturating_duration_since(Instant::now());
@@ -140,12 +140,12 @@ fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, most: usize, until: Instant
     }
 }
 
-/// What every answer says: nothing of it is kept, guessed, framed or shown to other pages.
+/// Fields of every answer: it must not be stored, its type must not be guessed, and other pages must not embed or read it.
 const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
     Referrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
     X-Frame-Options: DENY\r\n";
 
-/// Writes an answer. Who does not wait for it does not get it.
+/// Writes an answer. If the client has gone, the answer is dropped.
 pub fn write(stream: &mut TcpStream, answer: &Answer) {
     let mut head = format!(
         "HTTP/1.1 {} {}\r\n{ALWAYS}Content-Type: {}\r\nContent-Length: {}\r\n",
@@ -164,13 +164,13 @@ pub fn write(stream: &mut TcpStream, answer: &Answer) {
     }
 }
 
-/// The head of an answer that goes on until the connection ends.
+/// Writes the head of an answer that ends with the connection.
 ///
 /// # Errors
-/// Nobody reads it any more.
+/// The client has gone.
 pub fn begin(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
     stream.set_write_timeout(Some(PATIENCE))?;
-    // parts are sent when they are there, however small
+    // parts are sent at once, however small they are
     stream.set_nodelay(true)?;
     stream.write_all(format!("HTTP/1.1 200 OK\r\n{ALWAYS}Content-Type: {kind}\r\n\r\n").as_bytes())
 }

@@ -1,7 +1,7 @@
-//! The port and token of a form's page, kept so that a page that is open finds the program again after a restart.
+//! The stored port and token of a form's page. With them, an open page connects again after a restart of the program.
 //!
-//! They are in a file that this user alone can read, in the folder of the system for such files: `XDG_RUNTIME_DIR` on Linux, the user's
-//! folder for temporary files on macOS and Windows. Where there is none, nothing is kept.
+//! They are stored in a file that only this user can read, in the system's folder for such files. This is `XDG_RUNTIME_DIR` on
+//! Linux, and the user's folder for temporary files on macOS and Windows. Without such a folder, nothing is stored.
 
 use std::ffi::OsString;
 use std::fs::{self, DirBuilder, OpenOptions};
@@ -9,20 +9,20 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The file of a form.
+/// The file with the port and token of a form.
 pub struct Kept {
     path: PathBuf,
 }
 
 impl Kept {
-    /// Of a form; `None`: there is no folder for it, or no form.
+    /// The file for a form; `None`: there is no folder for it, or the form does not exist.
     pub fn of(form: &Path) -> Option<Kept> {
         let mut hasher = DefaultHasher::new();
         form.canonicalize().ok()?.hash(&mut hasher);
         Some(Kept { path: folder()?.join("postform").join(format!("{:016x}", hasher.finish())) })
     }
 
-    /// Port and token of the last time. A file that others may read is not trusted.
+    /// Port and token of the last run. A file that other users can read is not trusted.
     pub fn read(&self) -> Option<(u16, String)> {
         if !is_private(&self.path) {
             return None;
@@ -33,7 +33,7 @@ impl Kept {
         Some((port.parse().ok().filter(|&port| port > 0)?, is_token.then(|| token.to_owned())?))
     }
 
-    /// Keeps them. Where that fails, the next start has another address.
+    /// Stores port and token. If this fails, the next start has another address.
     pub fn write(&self, port: u16, token: &str) {
         let (mut folder, mut file) = (DirBuilder::new(), OpenOptions::new());
         #[cfg(unix)]
@@ -50,7 +50,7 @@ impl Kept {
     }
 }
 
-/// The folder of this user for files that need not outlast a session.
+/// This user's folder for files that last only for a session.
 fn folder() -> Option<PathBuf> {
     let named = std::env::var_os("XDG_RUNTIME_DIR").filter(|value: &OsString| Path::new(value).is_absolute());
     let own = || cfg!(any(windows, target_os = "macos")).then(std::env::temp_dir);

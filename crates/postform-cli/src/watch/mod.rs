@@ -1,4 +1,4 @@
-//! `postform watch`: the page, served to this machine alone.
+//! `postform watch`: serves the page, to this machine only.
 
 mod guard;
 mod http;
@@ -27,38 +27,38 @@ use http::{Answer, Asked};
 use kept::Kept;
 use session::{Ask, NotSaved, Save, Session};
 
-/// Connections at once: a page has two or three.
+/// Maximum number of connections at the same time; a page needs two or three.
 const MOST_CONNECTIONS: usize = 64;
-/// A page that hears nothing for so long is told that the program is there.
+/// After this time without a message, a page gets a sign that the program still runs.
 const SILENCE: Duration = Duration::from_secs(15);
 
-/// How soon a page that was closed frees its connection.
+/// Longest time until the connection of a closed page is freed.
 const ATTENTION: Duration = Duration::from_millis(250);
 
-/// What all connections share.
+/// Data shared by all connections.
 struct Shared {
     guard: Guard,
     session: Session,
-    /// How often files were changed.
+    /// Number of changes of the files.
     changes: Mutex<u64>,
     changed: Condvar,
     connections: AtomicUsize,
 }
 
-/// Serves the page until it is ended.
+/// Serves the page until the user ends the program.
 pub fn run(args: WatchArgs) -> Result<Ending, String> {
     let (port, opens) = (args.port, !args.no_open);
     let kept = Kept::of(&args.form);
     let session = Session::open(args)?;
     let before = kept.as_ref().and_then(Kept::read);
-    // a page that is still open finds the program again where it was
+    // with the old port, a page that is still open connects again
     let of_before = before.as_ref().filter(|_| port == 0);
     let of_before = of_before.and_then(|(port, _)| TcpListener::bind((Ipv4Addr::LOCALHOST, *port)).ok());
     let listener = of_before.map_or_else(|| TcpListener::bind((Ipv4Addr::LOCALHOST, port)), Ok).map_err(|error| {
-        let help = "leave --port out: a free one is taken then";
+        let help = "leave --port out: then a free port is used";
         format!("error: can't listen on port {port} of this machine: {error}\n  help: {help}")
     })?;
-    let port = listener.local_addr().map_err(|error| format!("error: no address: {error}"))?.port();
+    let port = listener.local_addr().map_err(|error| format!("error: can't get the address: {error}"))?.port();
     let guard = match before {
         Some((_, token)) => Guard::with(token, port),
         None => Guard::new(port)?,
@@ -90,16 +90,16 @@ pub fn run(args: WatchArgs) -> Result<Ending, String> {
         message(&format!("no browser can be opened ({error}): open {address} yourself"));
     }
     for stream in listener.incoming() {
-        let Ok(stream) = stream else { continue }; // who left before being heard
+        let Ok(stream) = stream else { continue }; // the client has already gone
         let shared = Arc::clone(&shared);
-        // who can't be served is let go
+        // a client without a thread is dropped
         _ = thread::Builder::new().spawn(move || shared.serve(stream));
     }
     Ok(Ending::Clean)
 }
 
 impl Shared {
-    /// Files were changed: all pages hear it.
+    /// Notifies all pages that files were changed.
     fn tell(&self) {
         *self.changes.lock().unwrap_or_else(PoisonError::into_inner) += 1;
         self.changed.notify_all();
@@ -113,24 +113,24 @@ impl Shared {
         } else {
             http::write(&mut stream, &Answer::no(503, "too many connections"));
         }
-        // what is left of a request that was refused is read, so that the answer arrives
+        // the rest of a refused request is read, so that the answer arrives
         _ = stream.shutdown(Shutdown::Write);
         _ = stream.set_read_timeout(Some(Duration::from_millis(200)));
         _ = io::copy(&mut io::Read::take(&stream, 1 << 20), &mut io::sink());
         self.connections.fetch_sub(1, Ordering::Relaxed);
     }
 
-    /// Hears a request and answers it; what is refused is the error.
+    /// Reads a request and answers it; the answer to a refused request is the error.
     fn answer(&self, stream: &mut TcpStream) -> Result<(), Option<Answer>> {
         let (asked, read) = http::read_head(stream)?;
         let what = self.guard.admit(&asked)?.to_owned();
         let allowed = match what.as_str() {
             "" | "events" => "GET",
             "scene" | "verdict" | "help" | "save" => "POST",
-            _ => return Err(Some(Answer::no(404, "there is nothing here"))),
+            _ => return Err(Some(Answer::no(404, "not found"))),
         };
         if asked.method != allowed {
-            let mut answer = Answer::no(405, "not by this method");
+            let mut answer = Answer::no(405, "this method is not allowed");
             answer.fields.push(("Allow", allowed.to_owned()));
             return Err(Some(answer));
         }
@@ -152,7 +152,7 @@ impl Shared {
         Ok(())
     }
 
-    /// Sends scenes as they are made; the end of the connection is their end.
+    /// Sends scenes as they are made; the end of the connection marks the end of the last scene.
     fn show(&self, stream: &mut TcpStream, ask: &Ask) -> Result<(), Option<Answer>> {
         let mut sent = None;
         let shown = self.session.show(ask, &mut |scene| {
@@ -160,7 +160,7 @@ impl Shared {
                 None => http::begin(stream, "application/octet-stream"),
                 Some(before) => before,
             };
-            // who does not wait for it does not get it
+            // a client that has gone gets no answer
             sent = Some(begun.and_then(|()| stream.write_all(&scene.into_bytes())));
         });
         let status = if self.session.has_form() { 422 } else { 410 };
@@ -170,12 +170,12 @@ impl Shared {
     fn save(&self, save: &Save) -> Answer {
         match self.session.save(save) {
             Ok(()) => Answer::of("text/plain; charset=utf-8", ""),
-            Err(NotSaved::Unknown) => Answer::no(404, "it is no file of this form"),
+            Err(NotSaved::Unknown) => Answer::no(404, "this is not a file of this form"),
             Err(NotSaved::Conflict(why)) => Answer::no(409, &why),
         }
     }
 
-    /// Tells a page of changes until it leaves.
+    /// Notifies a page of changes until the connection ends.
     fn events(&self, stream: &mut TcpStream) {
         let mut seen = *self.changes.lock().unwrap_or_else(PoisonError::into_inner);
         let begun = http::begin(stream, "text/event-stream");
@@ -199,16 +199,17 @@ impl Shared {
     }
 }
 
-/// Has the other side closed the connection?
+/// Has the client closed the connection?
 fn is_closed(stream: &TcpStream) -> bool {
     let closed = stream.set_nonblocking(true).is_err() || matches!(stream.peek(&mut [0]), Ok(0));
     stream.set_nonblocking(false).is_err() || closed
 }
 
-/// What a request says in JSON.
+/// The JSON body of a request.
 fn body<T: DeserializeOwned>(stream: &mut TcpStream, asked: &Asked, read: Vec<u8>) -> Result<T, Option<Answer>> {
     let bytes = http::read_body(stream, asked, read)?;
-    serde_json::from_slice(&bytes).map_err(|error| Some(Answer::no(400, &format!("this makes no sense: {error}"))))
+    serde_json::from_slice(&bytes)
+        .map_err(|error| Some(Answer::no(400, &format!("this request can't be read: {error}"))))
 }
 
 fn said(value: Result<Value, String>) -> Answer {
@@ -220,7 +221,7 @@ fn said(value: Result<Value, String>) -> Answer {
 
 fn page() -> Answer {
     let mut answer = Answer::of("text/html; charset=utf-8", WATCH_PAGE);
-    // beside what the page says itself: no other page may have it in a frame
+    // in addition to the policy in the page itself: no other page may show it in a frame
     answer.fields.push(("Content-Security-Policy", "frame-ancestors 'none'".to_owned()));
     answer
 }

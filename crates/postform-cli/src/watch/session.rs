@@ -1,4 +1,4 @@
-//! What a page is shown: a form, jobs, and a program to compare with, read again each time from their files.
+//! The contents of a page: a form, jobs, and a program to compare with. They are read from their files each time.
 
 use std::collections::HashMap;
 use std::fs;
@@ -26,57 +26,60 @@ use super::super::machine;
 use super::super::output::{write_new, write_whole};
 use super::super::prompt;
 
-/// A program of fewer bytes is proven before anybody sees that its picture waits.
+/// A program with fewer bytes is proven so fast that its picture can wait for the verdict.
 const SMALL: usize = 256 << 10;
 
-/// What a page asks.
+/// A request of a page for a scene.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ask {
-    /// Which job, from 0.
+    /// The job, counted from 0.
     job: usize,
-    /// Texts of forms that are not saved, by their names.
+    /// Unsaved texts of forms, by their names.
     #[serde(default)]
     texts: HashMap<String, String>,
-    /// The program that the page shows, as its scene said it.
+    /// The identifier of the program that the page shows, from its scene.
     #[serde(default)]
     shown: Option<String>,
+    /// Values of the form's properties, by their names.
+    #[serde(default)]
+    properties: Vec<(String, String)>,
 }
 
-/// What a page asks of a word.
+/// A request of a page for help about a word.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AskHelp {
-    /// Which job, from 0.
+    /// The job, counted from 0.
     job: usize,
-    /// Texts of forms that are not saved, by their names.
+    /// Unsaved texts of forms, by their names.
     #[serde(default)]
     texts: HashMap<String, String>,
-    /// The word.
+    /// The location of the word.
     at: At,
 }
 
-/// A form to be written.
+/// A request to save a form.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
-    /// Name of the file, as the scene gave it.
+    /// Name of the file, from the scene.
     name: String,
     /// The text to save.
     text: String,
-    /// What was on the disk when it was read.
+    /// The text on the disk when it was read.
     was: String,
 }
 
-/// Why a form was not written.
+/// The reason why a form was not saved.
 pub enum NotSaved {
-    /// The file is none of the form's.
+    /// The file does not belong to the form.
     Unknown,
-    /// The file was changed meanwhile, or can't be written as it is.
+    /// The file was changed in the meantime, or can't be written.
     Conflict(String),
 }
 
-/// What is shown.
+/// The settings and files of the page.
 pub struct Session {
     form: PathBuf,
     jobs: Vec<PathBuf>,
@@ -87,22 +90,24 @@ pub struct Session {
     options: Options,
     proof: Proof,
     config: Option<PathBuf>,
-    /// The file of the machine that the command line or postform.toml names; the form's own stands between them.
+    /// The machine's file from the command line, and the one from postform.toml; the form's own machine ranks between them.
     machine: [Option<PathBuf>; 2],
-    /// Names of the jobs, as they are shown.
+    /// Display names of the jobs.
     names: Vec<String>,
-    /// How often files were changed.
+    /// Number of changes of the files.
     generation: AtomicU64,
     saved: Mutex<Option<Saved>>,
-    /// The files of the form as it was shown last, typed and not saved.
+    /// The files of the form that was shown last, including unsaved texts.
     shown: Mutex<Vec<PathBuf>>,
 }
 
-/// What the form printed for a job as it was saved.
+/// The program that the saved form printed for a job.
 #[derive(Clone)]
 struct Saved {
     job: usize,
-    /// As of which change of the files.
+    /// The properties that were set.
+    properties: Vec<(String, String)>,
+    /// The number of file changes at that time.
     generation: u64,
     program: Arc<str>,
 }
@@ -112,7 +117,7 @@ fn lock<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Session {
-    /// Of what was typed.
+    /// A session with the arguments of the command line.
     ///
     /// # Errors
     /// A message: a file can't be read, or an option makes no sense.
@@ -121,14 +126,17 @@ impl Session {
         let limits = args.options.limits.map(LimitsArg::limits).or(config.limits).unwrap_or_default();
         for path in [Some(&args.form), args.against.as_ref()].into_iter().flatten().chain(&args.job) {
             if path == Path::new("-") {
-                return Err("error: watch reads files that can be read again: - is none".into());
+                return Err("error: watch needs files: standard input (-) can't be read again".into());
             }
         }
         let form = FormFile::read(&args.form, limits).map_err(|error| match args.form.exists() {
             true => error,
             false => {
                 let name = files::name(&args.form);
-                format!("{error}\n  help: begin with one that prints: postform new --control fanuc -o {name}, or with an empty file")
+                format!(
+                    "{error}\n  help: start with a working form: postform new --control fanuc -o {name}, or with \
+                    an empty file"
+                )
             }
         })?;
         let form = form.analyse(&HashMap::new()).form;
@@ -167,7 +175,7 @@ impl Session {
         })
     }
 
-    /// The files whose change is a change of the page.
+    /// The files to watch for changes.
     pub fn paths(&self) -> Vec<PathBuf> {
         let mut paths = match self.read_form() {
             Ok(form) => {
@@ -182,13 +190,13 @@ impl Session {
         paths
     }
 
-    /// Are the files of the form that is shown among these?
+    /// Does `paths` contain all files of the form that is shown?
     pub fn watches(&self, paths: &[PathBuf]) -> bool {
         lock(&self.shown).iter().all(|path| paths.contains(path))
     }
 
-    /// What the page shows: a scene, and what takes longer than the picture of a long program after it: its verdict, and what
-    /// changed.
+    /// Sends a scene for the page. The verdict and the changes follow in separate scenes if the program is long, because they
+    /// take longer than the picture.
     ///
     /// # Errors
     /// A message: a file can't be read. Nothing was sent then.
@@ -212,7 +220,7 @@ impl Session {
         let sample = self.sample(&form, &ask.texts);
         let machine = self.machine(&form, &ask.texts);
         let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
-        // most of what is typed prints what was there, and the page need not draw it again
+        // most edits do not change the program, so the page need not draw it again
         let same = ask.shown.as_ref() == Some(&program);
         scene.say("program", json!(program));
         if same {
@@ -221,7 +229,7 @@ impl Session {
         }
         let is_small = printed.text().len() < SMALL;
         if ask.texts.is_empty() {
-            self.keep_saved(ask.job, generation, printed.text());
+            self.keep_saved(ask, generation, printed.text());
         }
         thread::scope(|scope| {
             let (sender, behind_it) = channel();
@@ -240,16 +248,19 @@ impl Session {
                 drop(fits);
             }
             scope.spawn(move || {
-                // a job that can't be read any more is told by the next scene
+                // if the job can't be read any more, the next scene reports it
                 if let Ok(job) = self.job(ask.job, sample) {
                     _ = proves.send(("verdict", printed.verdict(job)));
+                }
+                if let Some(job) = self.job(ask.job, sample).ok().filter(|_| !same) {
+                    _ = proves.send(("toolSizes", printed.tools(job)));
                 }
             });
             let (old, typed) = (against.as_ref(), !ask.texts.is_empty());
             if old.is_some() || typed {
                 scope.spawn(move || {
                     if typed {
-                        let before = self.saved_program(ask.job, generation);
+                        let before = self.saved_program(ask, generation);
                         let found = printed.since_saved(before.as_deref(), &diff::Options::default());
                         _ = found.map(|found| compares.send(("saved", found)));
                     }
@@ -277,7 +288,7 @@ impl Session {
         Ok(())
     }
 
-    /// The verdict on what a form prints as it was saved.
+    /// The verdict on the program of the saved form.
     ///
     /// # Errors
     /// A message: a file can't be read.
@@ -290,21 +301,26 @@ impl Session {
         })
     }
 
-    /// What is known of a place in a form.
+    /// The help for a location in a form.
     ///
     /// # Errors
     /// A message: a file can't be read.
     pub fn help(&self, ask: &AskHelp) -> Result<Value, String> {
         let form = self.read_form()?;
-        Ok(help(self.request(&Typed { form: &form, texts: &ask.texts }, ask.job)?, &ask.at))
+        Ok(help(self.request(&Typed { form: &form, texts: &ask.texts }, ask.job, &[])?, &ask.at))
     }
 
-    /// What a form prints.
+    /// Prints the program of a form.
     fn print(&self, form: &FormFile, ask: &Ask) -> Result<(Scene, Option<Printed>), String> {
-        Ok(scene(self.request(&Typed { form, texts: &ask.texts }, ask.job)?))
+        Ok(scene(self.request(&Typed { form, texts: &ask.texts }, ask.job, &ask.properties)?))
     }
 
-    fn request<'a>(&'a self, typed: &'a Typed<'a>, job: usize) -> Result<Request<'a>, String> {
+    fn request<'a>(
+        &'a self,
+        typed: &'a Typed<'a>,
+        job: usize,
+        properties: &[(String, String)],
+    ) -> Result<Request<'a>, String> {
         let mut options = self.options.clone();
         options.job_file = self.names.get(job).cloned();
         let machine = self.machine(typed.form, typed.texts).and_then(Result::ok);
@@ -320,11 +336,12 @@ impl Session {
             },
             job_name: self.names.get(job).map_or("", String::as_str),
             options,
+            properties: properties.to_vec(),
             proof: self.proof.clone(),
         })
     }
 
-    /// The machine into which programs must fit: by the command line, by the form, or by postform.toml.
+    /// The machine into which programs must fit: from the command line, else from the form, else from postform.toml.
     fn machine(&self, form: &FormFile, texts: &HashMap<String, String>) -> Option<Result<Machine, String>> {
         let of_form = || Some(form.place(form.analyse(texts).form.settings.machine_file.as_deref()?));
         let [first, last] = &self.machine;
@@ -332,7 +349,7 @@ impl Session {
         Some(machine::read(&path).map_err(plain))
     }
 
-    /// The sample job, where no job is named.
+    /// The sample job, if no job is given.
     fn sample(&self, form: &FormFile, texts: &HashMap<String, String>) -> Option<&'static str> {
         self.jobs.is_empty().then(|| sample_job(&form.analyse(texts).form.settings))
     }
@@ -344,25 +361,29 @@ impl Session {
         files::job(self.jobs.get(job).ok_or("error: there is no such job")?, &self.read, true)
     }
 
-    /// Files were changed: what was kept of them is worth nothing.
+    /// Files were changed: results from the old files are dropped.
     pub fn forget(&self) {
         self.generation.fetch_add(1, Ordering::AcqRel);
     }
 
-    /// What the form as it was saved prints for a job, printed once until a file is changed.
-    fn saved_program(&self, job: usize, generation: u64) -> Option<Arc<str>> {
-        let known = lock(&self.saved).clone().filter(|known| (known.job, known.generation) == (job, generation));
+    /// The program that the saved form prints for a job; it is printed only once until a file is changed.
+    fn saved_program(&self, ask: &Ask, generation: u64) -> Option<Arc<str>> {
+        let same =
+            |known: &Saved| (known.job, known.generation, &known.properties) == (ask.job, generation, &ask.properties);
+        let known = lock(&self.saved).clone().filter(same);
         if let Some(known) = known {
             return Some(known.program);
         }
         let form = self.read_form().ok()?;
-        let program = program_of(self.request(&Typed { form: &form, texts: &HashMap::new() }, job).ok()?)?;
-        Some(self.keep_saved(job, generation, &program))
+        let program =
+            program_of(self.request(&Typed { form: &form, texts: &HashMap::new() }, ask.job, &ask.properties).ok()?)?;
+        Some(self.keep_saved(ask, generation, &program))
     }
 
-    fn keep_saved(&self, job: usize, generation: u64, program: &str) -> Arc<str> {
+    fn keep_saved(&self, ask: &Ask, generation: u64, program: &str) -> Arc<str> {
         let program: Arc<str> = program.into();
-        *lock(&self.saved) = Some(Saved { job, generation, program: Arc::clone(&program) });
+        *lock(&self.saved) =
+            Some(Saved { job: ask.job, properties: ask.properties.clone(), generation, program: Arc::clone(&program) });
         program
     }
 
@@ -370,27 +391,27 @@ impl Session {
         FormFile::read(&self.form, self.limits)
     }
 
-    /// A file of the form as it is on the disk.
+    /// A file of the form on the disk.
     fn text(&self, form: &FormFile, name: &str) -> String {
         let path = form.place(name);
         files::read_form(&path).map_or_else(|_| String::new(), |bytes| Source::from_bytes(name, &bytes).text)
     }
 
-    /// Where a file of the form was that is shown, and is not there any more.
+    /// The path of a missing file that belongs to the form last shown.
     fn gone(&self, name: &str) -> Option<PathBuf> {
         let shown = lock(&self.shown);
         shown.iter().find(|path| files::name(path) == name && !path.exists()).cloned()
     }
 
-    /// Is the form itself there?
+    /// Does the form itself exist?
     pub fn has_form(&self) -> bool {
         self.form.exists()
     }
 
-    /// Writes a file of the form, and only such a file; again where it was deleted.
+    /// Saves a file, but only if it belongs to the form; a deleted file is created again.
     ///
     /// # Errors
-    /// It is none, was changed meanwhile, or can't be written.
+    /// The file does not belong to the form, was changed in the meantime, or can't be written.
     pub fn save(&self, save: &Save) -> Result<(), NotSaved> {
         let conflict = |why: String| NotSaved::Conflict(why);
         if let Some(path) = self.gone(&save.name) {
@@ -407,14 +428,16 @@ impl Session {
         let bytes = files::read_form(&path).map_err(conflict)?;
         let source = Source::from_bytes(save.name.as_str(), &bytes);
         if lines(&source.text) != lines(&save.was) {
-            return Err(conflict("it was changed on the disk meanwhile".into()));
+            return Err(conflict("the file has changed on the disk".into()));
         }
-        // line ends stay as they were
+        // the kind of line ends is kept
         let text = lines(&save.text);
         let text = if source.text.contains("\r\n") { text.replace('\n', "\r\n") } else { text };
         let mark: &[u8] = if bytes.starts_with(b"\xef\xbb\xbf") { b"\xef\xbb\xbf" } else { b"" };
         let text = source.encoded(&text).map_err(|letter| {
-            conflict(format!("it is in Windows-1252, which has no {letter}: save it as UTF-8 with an editor first"))
+            conflict(format!(
+                "the file is in Windows-1252, which has no {letter}: save it as UTF-8 with an editor first"
+            ))
         })?;
         write_whole(&path, &[mark, &text].concat()).map_err(conflict)?;
         self.forget();
@@ -422,12 +445,12 @@ impl Session {
     }
 }
 
-/// A message without its first word.
+/// A message without `error:` at its beginning.
 fn plain(message: String) -> String {
     message.trim_start_matches("error: ").to_owned()
 }
 
-/// With `\n` alone.
+/// The text with `\n` as the only line end.
 fn lines(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
@@ -436,7 +459,7 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
     fs::read(path).map_err(|error| io_message("read", path, &error))
 }
 
-/// The files of a form, with what was typed instead of some of them.
+/// The files of a form, with unsaved texts in place of some of them.
 struct Typed<'a> {
     form: &'a FormFile,
     texts: &'a HashMap<String, String>,

@@ -1,0 +1,52 @@
+// The size of the stock: fields that begin with the box of the cuts, because no job contains it.
+
+import { element } from "../element.ts";
+import type { Path } from "../scene.ts";
+import type { Block } from "./stock.ts";
+
+const FIELDS = ["X from", "X to", "Y from", "Y to", "Z top"];
+
+export class Size {
+  readonly root = element("div", { class: "size", role: "group", "aria-label": "Stock", hidden: "" });
+  private readonly fields = FIELDS.map((name) => element("input", { type: "number", step: "any", "aria-label": name }));
+  private readonly hint = element("span", {});
+  /** A size was typed: rapids are held against it. */
+  isGiven = false;
+  onChange: () => void = () => {};
+
+  constructor() {
+    const labels = FIELDS.map((name, i) => element("label", {}, `${name} `, this.fields[i]));
+    this.root.append("Stock", ...labels, this.hint);
+    this.fields.forEach((field) => (field.onchange = () => {
+      this.isGiven = true;
+      this.tell();
+      this.onChange();
+    }));
+  }
+
+  /** Shows a guess, as long as nobody has typed a size. */
+  show(path: Path, { least, greatest, top }: Block): void {
+    this.root.hidden = false;
+    this.tell();
+    if (this.isGiven) return;
+    const { middle } = path.head;
+    const values = [least[0] + middle[0], greatest[0] + middle[0], least[1] + middle[1], greatest[1] + middle[1], top + middle[2]];
+    values.forEach((value, i) => (this.fields[i].value = String(Math.round(value * 1000) / 1000 + 0)));
+  }
+
+  hide(): void {
+    this.root.hidden = true;
+  }
+
+  /** The block that is typed; null where it is none. */
+  block(path: Path): Block | null {
+    const [left, right, low, high, top] = this.fields.map((field) => (field.value === "" ? NaN : Number(field.value)));
+    const [x, y, z] = path.head.middle;
+    const block: Block = { least: [left - x, low - y], greatest: [right - x, high - y], top: top - z };
+    return left < right && low < high && Number.isFinite(top) ? block : null;
+  }
+
+  private tell(): void {
+    this.hint.textContent = this.isGiven ? "" : "the box of the cuts: type the real size, and rapids through it are marked";
+  }
+}

@@ -1,0 +1,190 @@
+// The stock as a height field: cut by the tools along the path, and looked at for rapids that go through it.
+
+import type { Path } from "../scene.ts";
+import type { Plate } from "./ground.ts";
+import type { Shape } from "./tool.ts";
+
+/** The finest cell in millimetres, and the most cells along a side. */
+const FINEST = 0.25;
+const MOST_CELLS = 1000;
+/** A rapid may be so much under the surface, in millimetres, before it counts as one through stock: cells are no finer. */
+const TOLERANCE = 0.2;
+/** Pieces between two looks at the clock. */
+const BATCH = 64;
+/** Positions of a round tool along a piece. */
+const SAMPLES = 5;
+
+/** A block of material, from the middle of the picture. */
+export interface Block {
+  least: [number, number];
+  greatest: [number, number];
+  top: number;
+}
+
+export class Stock {
+  /** Cells along X and along Y, and the size of a cell in the units of the picture. */
+  readonly wide: number;
+  readonly deep: number;
+  readonly cell: number;
+  /** Position of the middle of the first cell. */
+  readonly x: number;
+  readonly y: number;
+  readonly top: number;
+  readonly bottom: number;
+  /** Heights, and the tool that cut each cell last; 0: none. */
+  readonly heights: Float32Array;
+  readonly tools: Uint8Array;
+  /** Lines whose rapids go through the stock. */
+  readonly crashes = new Set<number>();
+  /** Pieces that are cut. */
+  private done = 0;
+  private readonly tolerance: number;
+
+  /** `centres`: where the centre of the tool goes, a point for each of the path. */
+  constructor(private readonly path: Path, private readonly centres: Float32Array, block: Block, lowest: number, private readonly shapes: Map<number, Shape>) {
+    const unit = path.head.units === "inch" ? 1 / 25.4 : 1;
+    const [width, depth] = [0, 1].map((axis) => block.greatest[axis] - block.least[axis]);
+    this.cell = Math.max(FINEST * unit, Math.max(width, depth) / MOST_CELLS);
+    this.tolerance = TOLERANCE * unit;
+    this.wide = Math.max(1, Math.ceil(width / this.cell));
+    this.deep = Math.max(1, Math.ceil(depth / this.cell));
+    [this.x, this.y] = [block.least[0] + this.cell / 2, block.least[1] + this.cell / 2];
+    this.top = block.top;
+    this.bottom = lowest - Math.max(2 * this.cell, (this.top - lowest) * 0.15);
+    this.heights = new Float32Array(this.wide * this.deep).fill(this.top);
+    this.tools = new Uint8Array(this.wide * this.deep);
+  }
+
+  /** Cuts up to a piece, for at most so many milliseconds; true: it is there. Cells do not grow again: for an earlier piece it begins anew. */
+  cutTo(piece: number, most: number): boolean {
+    if (piece < this.done) {
+      this.heights.fill(this.top);
+      this.tools.fill(0);
+      this.crashes.clear();
+      this.done = 0;
+    }
+    const end = performance.now() + most;
+    const { path } = this;
+    let move = moveAt(path.first, this.done);
+    while (this.done < piece) {
+      if (this.done % BATCH === 0 && performance.now() > end) return false;
+      while (path.first[move + 1] <= this.done) move++;
+      this.piece(this.done++, move);
+    }
+    return true;
+  }
+
+  private piece(piece: number, move: number): void {
+    const { path } = this;
+    const kind = path.moveKind[move] & 15;
+    const tool = path.moveTool[move];
+    const shape = this.shapes.get(tool);
+    // a height that only the machine knows is over everything
+    if (kind === 3 || !shape || path.moveKind[move] & 128) return;
+    const at = piece * 3;
+    const points = this.centres;
+    const from: [number, number, number] = [points[at], points[at + 1], points[at + 2]];
+    const to: [number, number, number] = [points[at + 3], points[at + 4], points[at + 5]];
+    if (Math.min(from[2], to[2]) >= this.top) return;
+    if (kind === 0) {
+      if (this.passes(from, to, shape.radius - this.cell)) this.crashes.add(path.moveLine[move]);
+    } else this.cut(from, to, shape, tool);
+  }
+
+  /** The cells that a tool of a radius may touch along a piece: columns and rows. */
+  private around(from: number[], to: number[], radius: number): [number, number, number, number] {
+    const column = (x: number) => Math.round((x - this.x) / this.cell);
+    const row = (y: number) => Math.round((y - this.y) / this.cell);
+    return [
+      Math.max(0, column(Math.min(from[0], to[0]) - radius)), Math.min(this.wide - 1, column(Math.max(from[0], to[0]) + radius)),
+      Math.max(0, row(Math.min(from[1], to[1]) - radius)), Math.min(this.deep - 1, row(Math.max(from[1], to[1]) + radius)),
+    ];
+  }
+
+  private cut(from: number[], to: number[], { radius, corner }: Shape, tool: number): void {
+    const [left, right, low, high] = this.around(from, to, radius);
+    const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+    const length = dx * dx + dy * dy;
+    const flat = radius - corner;
+    for (let row = low; row <= high; row++) {
+      const py = this.y + row * this.cell - from[1];
+      for (let column = left; column <= right; column++) {
+        const px = this.x + column * this.cell - from[0];
+        // the part of the piece along which the tool is over the cell
+        const nearest = length > 0 ? (px * dx + py * dy) / length : 0;
+        const [ox, oy] = [px - nearest * dx, py - nearest * dy];
+        const room = radius * radius - ox * ox - oy * oy;
+        if (room < 0) continue;
+        const reach = length > 0 ? Math.sqrt(room / length) : 0;
+        const [first, last] = [Math.max(0, nearest - reach), Math.min(1, nearest + reach)];
+        if (length > 0 && first > last) continue;
+        let height: number;
+        if (corner <= 0) height = from[2] + dz * (length === 0 ? (dz < 0 ? 1 : 0) : dz < 0 ? last : first);
+        else {
+          height = Infinity;
+          for (let sample = 0; sample < SAMPLES; sample++) {
+            const share = length === 0 ? sample / (SAMPLES - 1) : first + ((last - first) * sample) / (SAMPLES - 1);
+            const away = Math.hypot(px - share * dx, py - share * dy) - flat;
+            const rise = away > 0 ? corner - Math.sqrt(Math.max(0, corner * corner - away * away)) : 0;
+            height = Math.min(height, from[2] + dz * share + rise);
+          }
+        }
+        const cell = row * this.wide + column;
+        if (height < this.heights[cell]) {
+          this.heights[cell] = Math.max(height, this.bottom);
+          this.tools[cell] = tool;
+        }
+      }
+    }
+  }
+
+  /** Does a rapid go through the stock? */
+  private passes(from: number[], to: number[], radius: number): boolean {
+    if (radius <= 0) return false;
+    const [left, right, low, high] = this.around(from, to, radius);
+    const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+    const length = dx * dx + dy * dy;
+    for (let row = low; row <= high; row++) {
+      const py = this.y + row * this.cell - from[1];
+      for (let column = left; column <= right; column++) {
+        const px = this.x + column * this.cell - from[0];
+        const nearest = length > 0 ? Math.max(0, Math.min(1, (px * dx + py * dy) / length)) : dz < 0 ? 1 : 0;
+        const away = Math.hypot(px - nearest * dx, py - nearest * dy);
+        if (away <= radius && from[2] + dz * nearest < this.heights[row * this.wide + column] - this.tolerance) return true;
+      }
+    }
+    return false;
+  }
+}
+
+/** A guess, for want of a size: the box of the cuts. */
+export function blockOf(path: Path, { least, greatest }: Plate): Block {
+  return { least: [least[0], least[1]], greatest: [greatest[0], greatest[1]], top: topOf(path, { least, greatest }) };
+}
+
+/** The top of the stock: Z 0 where all that is cut sideways is at or under it, else the highest such cut. No program contains it. */
+function topOf(path: Path, plate: Plate): number {
+  let highest = -Infinity;
+  for (let move = 0; move < path.moves; move++) {
+    const kind = path.moveKind[move] & 15;
+    if (kind !== 1 && kind !== 2) continue;
+    for (let piece = path.first[move]; piece < path.first[move + 1]; piece++) {
+      const at = piece * 3;
+      const sideways = path.points[at] !== path.points[at + 3] || path.points[at + 1] !== path.points[at + 4];
+      if (sideways) highest = Math.max(highest, path.points[at + 2], path.points[at + 5]);
+    }
+  }
+  const zero = -path.head.middle[2];
+  if (highest <= zero + 1e-6 && plate.least[2] < zero) return zero;
+  return highest > -Infinity ? highest : plate.greatest[2];
+}
+
+function moveAt(first: Uint32Array, piece: number): number {
+  let [low, high] = [0, first.length - 1];
+  while (low + 1 < high) {
+    const middle = (low + high) >> 1;
+    if (first[middle] <= piece) low = middle;
+    else high = middle;
+  }
+  return low;
+}

@@ -1,0 +1,93 @@
+// The head of the page: the form's name, the verdict, whether the program fits its machine, the counts of lint, and a tab for each job.
+
+import { element } from "./element.ts";
+import { base, jobName } from "./names.ts";
+import type { Head, Verdict } from "./scene.ts";
+
+/** In place of a verdict. */
+export function without(text: string): Verdict {
+  return { kind: "none", text, line: 0, help: "", allowed: [], findings: [] };
+}
+
+export class Header {
+  readonly root: HTMLElement;
+  readonly verdict = element("button", { class: "verdict" });
+  readonly fit = element("button", { class: "fit", hidden: "" });
+  readonly lint = element("button", { class: "lint" });
+  readonly saving = element("button", { class: "save", hidden: "" }, "save");
+  private readonly title = element("h1", {});
+  private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
+  onJob: (job: number) => void = () => {};
+
+  constructor() {
+    this.root = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs);
+  }
+
+  get jobs(): number {
+    return this.tabs.childElementCount;
+  }
+
+  /** Names, counts and tabs. */
+  show(head: Head, job: number): void {
+    const form = head.form?.files[0];
+    const names = [form && base(form), head.job.name && base(head.job.name)].filter(Boolean);
+    document.title = `${names.join(" · ")} · postform`;
+    this.title.textContent = form ? base(form) : base(head.job.name);
+    this.showLint(head);
+    const jobs = head.jobs ?? [];
+    if (this.jobs !== jobs.length) {
+      this.tabs.replaceChildren(...jobs.map((name, i) => {
+        const tab = element("button", { role: "tab", class: "tab", title: name }, jobName(name), element("span", {}));
+        tab.onclick = () => this.onJob(i);
+        return tab;
+      }));
+    }
+    [...this.tabs.children].forEach((tab, i) => tab.setAttribute("aria-selected", String(i === job)));
+    this.tabs.hidden = jobs.length < 1;
+  }
+
+  /** How many findings there are, and the first of them. */
+  private showLint({ form }: Head): void {
+    this.lint.hidden = !form;
+    if (!form) return;
+    const { errors, warnings, notes, findings } = form;
+    const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
+    const first = findings.find((found) => found.severity === (errors ? "error" : "warning"));
+    this.lint.textContent = `${count(errors, "error")}, ${count(warnings, "warning")}${first ? `: ${first.message}` : ""}`;
+    this.lint.title = first?.help ?? "";
+    this.lint.setAttribute("aria-label", `${errors} errors, ${warnings} warnings, ${notes} notes of the form: show the next`);
+    this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
+  }
+
+  /** Other jobs: their tabs come with the next scene. */
+  forgetJobs(): void {
+    this.tabs.replaceChildren();
+  }
+
+  /** The mark of a job that is shown or not. */
+  mark(job: number, verdict: Verdict | undefined): void {
+    const mark = this.tabs.children[job]?.querySelector("span");
+    if (!mark) return;
+    const kind = verdict?.kind ?? "none";
+    [mark.textContent, mark.className] = { proven: ["✓", "ok"], unproven: ["?", "warn"], different: ["✗", "bad"], none: ["–", "dim"] }[kind];
+    mark.setAttribute("aria-label", verdict?.text ?? "no verdict");
+    this.tabs.children[job].setAttribute("title", verdict?.text ?? "");
+  }
+
+  /** The verdict of the job that is shown, or why it has no program. */
+  tell(job: number, verdict: Verdict | undefined, stopped?: Head["stopped"]): void {
+    const class_ = { proven: "ok", unproven: "warn", different: "bad", none: "dim" }[verdict?.kind ?? "none"];
+    this.verdict.className = `verdict ${stopped ? "bad" : class_}`;
+    this.verdict.textContent = stopped ? `${stopped.by === "form" ? "the form has errors" : "no program"}: ${stopped.findings[0]?.message ?? stopped.message}` : verdict?.text ?? "";
+    this.verdict.title = stopped ? (stopped.findings[0]?.help ?? "") : [verdict?.allowed.join("\n"), verdict?.help].filter(Boolean).join("\n");
+    this.mark(job, stopped ? undefined : verdict);
+  }
+
+  /** Whether the program fits its machine; null: it is unknown. */
+  showFit(fit: Head["fit"] | null): void {
+    this.fit.hidden = !fit;
+    this.fit.className = `fit ${fit?.kind ?? "dim"}`;
+    this.fit.textContent = fit?.text ?? "";
+    this.fit.title = fit?.more.join("\n") ?? "";
+  }
+}

@@ -90,7 +90,6 @@ export class Page {
       this.crashes = new Set(lines);
       this.mark();
     };
-    backplot.onSay = (text) => (this.foot.textContent = text);
     let told = 0;
     this.timeline.onTime = (cursor) => {
       backplot.drawTo(cursor);

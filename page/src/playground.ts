@@ -48,7 +48,6 @@ class Playground {
     this.page.onTyped = () => this.keepSoon();
     document.body.prepend(this.front());
     this.takeDrops();
-    Object.assign(window, { page: this.page, host });
   }
 
   async begin(): Promise<void> {
@@ -66,6 +65,7 @@ class Playground {
     }
     if (!this.host.form.name || !this.host.jobs.length) await this.example(Object.keys(EXAMPLES)[0]);
     await this.page.reopen(typed);
+    Object.assign(window, { page: this.page, host: this.host });
   }
 
   /** The files of an example in place of all others. */

@@ -57,6 +57,23 @@ for (const moves of process.argv.length > 2 ? process.argv.slice(2).map(Number) 
     const still = await times(3, () => backplot.redraw());
     return { nothing, turning, coarse, still, fine: backplot.frames.pieces, by: backplot.drawsBy, heap: performance.memory?.usedJSHeapSize / 1e6 };
   });
+  // the stock, cut to the end, and frames while the timeline plays over it
+  const stock = await page.evaluate(async () => {
+    const { backplot, timeline, program } = window.page;
+    if (!backplot.toggleStock) return null; // a page of before
+    const began = performance.now();
+    backplot.toggleStock();
+    while (backplot.stock && backplot.stock.done < program.path.pieces) await new Promise(requestAnimationFrame);
+    if (!backplot.stock) return null;
+    const cut = performance.now() - began;
+    timeline.toggle();
+    const [frames, from] = [backplot.frames.count, performance.now()];
+    await new Promise((done) => setTimeout(done, 3000));
+    const rate = ((backplot.frames.count - frames) * 1000) / (performance.now() - from);
+    timeline.end();
+    backplot.toggleStock();
+    return { cut, rate };
+  });
   const keys = { changing: [], leaving: [] };
   const commands = [];
   for (let i = 0; i < (moves > 200_000 ? 5 : 11); i++) {
@@ -86,6 +103,7 @@ for (const moves of process.argv.length > 2 ? process.argv.slice(2).map(Number) 
   };
   console.log(`${moves ? `${moves} moves` : "the bracket"}: first picture ${first.toFixed(0)} ms, verdict ${verdict.toFixed(0)} ms; ` +
     `a frame by ${frames.by} while turning ${frames.turning.toFixed(1)} ms (${frames.coarse} lines; a frame without anything ${frames.nothing.toFixed(1)} ms), ` +
+    `${stock ? `stock to the end ${stock.cut.toFixed(0)} ms, ${stock.rate.toFixed(0)} frames a second playing; ` : ""}` +
     `at rest ${frames.still.toFixed(1)} ms (${frames.fine} lines); heap ${frames.heap?.toFixed(0)} MB, postform ${most.toFixed(0)} MB at most; ` +
     `a key that changes the program: ${told(keys.changing)}; one that does not: ${told(keys.leaving)}; a whole render ${command.toFixed(0)} ms`);
   await page.close();

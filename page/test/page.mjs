@@ -561,4 +561,184 @@ test("keys act on the panes after a click on a button, and Tab leaves a form tha
   ok(await page.evaluate(() => window.page.editor.hasFocus), "after typing it indents");
 });
 
+test("colours show the tool, the operation, Z or the feed, and deep cuts fade", async ({ open }) => {
+  const { page } = await open();
+  const seen = async (meaning) => {
+    await page.locator("[aria-label='Colours show']").selectOption(meaning);
+    return page.evaluate(() => {
+      const { kinds } = window.page.backplot;
+      const of = (byte) => new Set(Array.from({ length: kinds.length / 4 }, (_, i) => i).filter((i) => [1, 2].includes(kinds[i * 4])).map((i) => kinds[i * 4 + byte])).size;
+      return { colours: of(2), shades: of(3), legend: document.querySelector(".legend").innerText.replaceAll("\n", " ") };
+    });
+  };
+  const tool = await seen("tool");
+  ok(tool.colours === 5 && tool.shades > 4 && /T1.*T5/.test(tool.legend), JSON.stringify(tool));
+  const operation = await seen("operation");
+  ok(operation.colours > 5 && /operation 1/.test(operation.legend), JSON.stringify(operation));
+  const height = await seen("Z");
+  ok(height.colours > 4 && height.shades === 1 && /Z -0.8.* 0.* inch/.test(height.legend), JSON.stringify(height));
+  const feed = await seen("feed");
+  ok(feed.colours > 2 && /feed 4 .*24/.test(feed.legend), JSON.stringify(feed));
+});
+
+test("a rapid that is made again is drawn once", async ({ open }) => {
+  const { page, path } = await open();
+  const path_ = [[0, 0, 5], [9, 0, 5], [0, 0, 5], [9, 0, 5]].map((rapid) => ({ rapid }));
+  const tools = [{ number: 1, diameter: 6 }];
+  const operation = { tool: 1, work: 54, spindle: { speed: 900, direction: "cw" }, feed: 100, path: [...path_, { line: [9, 0, 0] }] };
+  writeFileSync(join(path, "bracket.json"), JSON.stringify({ postform: 1, program: 1, units: "mm", tools, operations: [operation] }));
+  await page.waitForFunction(() => window.page.program?.path?.head.units === "mm");
+  const kinds = await page.evaluate(() => Array.from(window.page.backplot.kinds).filter((_, at) => at % 4 === 0));
+  ok(kinds.join().includes("0,0,4,4,1"), `two of them are repeats: ${kinds}`);
+});
+
+test("the distance between two points", async ({ open }) => {
+  const { page } = await open();
+  await page.getByRole("button", { name: "top" }).click();
+  await page.getByRole("button", { name: "measure" }).click();
+  ok(/first point/.test(await page.locator(".told-here").innerText()), "what to click");
+  const box = await page.locator("canvas.path").boundingBox();
+  const ends = await page.evaluate(() => {
+    const { program, backplot } = window.page;
+    const line = Array.from({ length: program.lines }, (_, i) => i + 1).find((line) => program.text(line).includes("N400 Y2.5"));
+    const [from, to] = program.moves(line);
+    const { points, first } = program.path;
+    return [first[from], first[to]].map((point) => backplot.camera.project(points, point * 3));
+  });
+  // a little inside the move, so that its own ends are the nearest
+  const [[ax, ay], [bx, by]] = ends;
+  for (const share of [0.05, 0.95]) await page.mouse.click(box.x + ax + (bx - ax) * share, box.y + ay + (by - ay) * share);
+  ok(/distance 2.75 inch · X 0 Y -?2.75 Z 0/.test(await page.locator(".told-here").innerText()), await page.locator(".told-here").innerText());
+});
+
+test("the timeline plays the program in its time", async ({ open }) => {
+  const { page } = await open();
+  equal(await page.locator(".clock").innerText().then((text) => text.split(" / ")[1]), "3:30", "the time of the program");
+  equal(await page.locator(".timeline .marks i").count(), 4, "a mark for each tool change");
+  await page.getByLabel("Time", { exact: true }).fill("5000");
+  const half = await page.evaluate(() => ({ time: window.page.timeline.time, line: window.page.line, cursor: window.page.backplot.cursor.point }));
+  ok(Math.abs(half.time - 105) < 1 && half.line > 40 && half.cursor > 10, JSON.stringify(half));
+  // a slice of the times by hand: the seconds of a cut are its length by its feed
+  const cut = await page.evaluate(() => {
+    const { program } = window.page;
+    const line = Array.from({ length: program.lines }, (_, i) => i + 1).find((line) => program.text(line).includes("N410 X3."));
+    const [move] = program.moves(line);
+    return program.path.moveTime[move] - program.path.moveTime[move - 1];
+  });
+  ok(Math.abs(cut - (3 / 18) * 60) < 0.01, `3 inches at 18 inches a minute: ${cut}`);
+  await page.getByLabel("Time", { exact: true }).fill("9900");
+  await page.getByRole("button", { name: "▶" }).click();
+  await page.waitForFunction(() => !window.page.timeline.isPlaying && window.page.line === window.page.program.lines);
+  equal(await page.evaluate(() => window.page.backplot.cursor), null, "all of it is shown again");
+});
+
+test("the tools cut the stock, and a rapid through a block of a known size is marked", async ({ open }) => {
+  const { page } = await open();
+  await page.getByRole("button", { name: "stock" }).click();
+  await page.waitForFunction(() => window.page.backplot.stock);
+  await page.waitForTimeout(500);
+  const heights = (places) => page.evaluate((places) => {
+    const { stock } = window.page.backplot;
+    const { middle } = window.page.program.path.head;
+    return places.map(([x, y]) => {
+      const [column, row] = [Math.round((x - middle[0] - stock.x) / stock.cell), Math.round((y - middle[1] - stock.y) / stock.cell)];
+      return Math.round((stock.heights[row * stock.wide + column] + middle[2]) * 1000) / 1000;
+    });
+  }, places);
+  // the floor of the pocket, the top of the part between two holes, the contour's floor beside the part (its radius is compensated)
+  equal(await heights([[2, 1.25], [0.9, 2.2], [-0.2, 1.25], [0.06, 1.25]]), [-0.25, 0, -0.5, 0]);
+  equal(await page.locator(".ln.bad").count(), 0, "no size is known: nothing is called wrong");
+  const field = page.getByLabel("X from");
+  await field.fill("-1");
+  await field.blur();
+  await page.waitForFunction(() => window.page.marks.bad.size > 0);
+  const bad = await page.evaluate(() => [...window.page.marks.bad].map(([line, { text }]) => [window.page.program.text(line), text]));
+  ok(bad.length === 1 && bad[0][0].includes("Z-.5") && /rapid goes through stock/.test(bad[0][1]), JSON.stringify(bad));
+  await field.fill("0");
+  await page.getByLabel("Y from").fill("0");
+  await page.getByLabel("Y from").blur();
+  await page.waitForFunction(() => window.page.marks.bad.size === 0);
+});
+
+test("words are found in the program, and the program is copied", async ({ open }) => {
+  const { page } = await open();
+  await page.keyboard.press("Home");
+  await page.keyboard.press("/");
+  await page.keyboard.type("g82");
+  await page.keyboard.press("Enter");
+  const first = await line(page);
+  ok((await chosen(page)).includes("G82"), await chosen(page));
+  await page.keyboard.press("Shift+Enter");
+  ok((await chosen(page)).includes("G82"), "round the end");
+  await page.locator(".find input").fill("NOWHERE");
+  await page.keyboard.press("Enter");
+  ok(/not in the program/.test(await page.locator(".find").innerText()), "said");
+  await page.keyboard.press("Escape");
+  ok(first > 1 && !(await page.locator(".find").isVisible()), "closed");
+  await page.evaluate(() => (navigator.clipboard.writeText = async (text) => void (window.copied = text)));
+  await page.getByRole("button", { name: "copy" }).click();
+  equal(await page.evaluate(() => window.copied === window.page.program.all()), true);
+});
+
+test("a block shows the formats and commands that decide on its words", async ({ open }) => {
+  const { page } = await open();
+  await page.evaluate(() => window.page.choose(41, "key"));
+  const shown = await page.locator(".decided button").allInnerTexts();
+  for (const text of ["F >5.>4", "X->4.>4", "Sequence#s N 10 10"]) ok(shown.includes(text), `${text}: ${shown}`);
+  await page.locator(".decided button", { hasText: "F >5.>4" }).click();
+  equal(await page.evaluate(() => window.page.editor.view.state.doc.lineAt(window.page.editor.view.state.selection.main.head).text), "F >5.>4");
+});
+
+test("properties are set live and not written", async ({ open }) => {
+  const { page, path } = await open();
+  const before = readFileSync(join(path, "my.pf"), "utf8");
+  ok((await page.evaluate(() => window.page.program.all())).includes("END MILL"), "a comment");
+  await page.getByRole("button", { name: "properties" }).click();
+  await page.getByLabel("Comments with part, tools, operations and extents").selectOption("no");
+  await page.waitForFunction(() => !window.page.running && window.page.program && !window.page.program.all().includes("END MILL"));
+  ok(/proven/.test(await page.locator(".verdict").innerText()), "and proven");
+  equal(readFileSync(join(path, "my.pf"), "utf8"), before);
+});
+
+test("an empty form begins with a post of the kit", async ({ open }) => {
+  const { page, path } = await open();
+  await page.evaluate(() => window.page.editor.type(""));
+  const kit = page.getByRole("group", { name: "Begin with a post" });
+  await kit.waitFor();
+  await kit.getByLabel("Units").selectOption("inch");
+  await kit.getByRole("button", { name: /^haas Haas VF$/ }).click();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"));
+  ok((await page.evaluate(() => window.page.editor.text)).includes("Units inch"), "in its units");
+  ok(!(await kit.isVisible()) && readFileSync(join(path, "my.pf"), "utf8").includes("Fanuc"), "nothing is written before it is saved");
+});
+
+test("panes are as wide as they are dragged, and hidden", async ({ open }) => {
+  const { page } = await open();
+  const widths = () => page.evaluate(() => [...document.querySelectorAll("main > section")].map((pane) => Math.round(pane.getBoundingClientRect().width)));
+  const before = await widths();
+  const handle = page.getByRole("separator").first();
+  const box = await handle.boundingBox();
+  await page.mouse.move(box.x + 2, 400);
+  await page.mouse.down();
+  await page.mouse.move(box.x - 150, 400, { steps: 5 });
+  await page.mouse.up();
+  const dragged = await widths();
+  ok(Math.abs(dragged[0] - before[0] + 150) < 6 && dragged[2] === before[2], `${before} ${dragged}`);
+  await page.reload();
+  await ready(page);
+  equal(await widths(), dragged, "kept");
+  await handle.focus();
+  for (let i = 0; i < 20; i++) await page.keyboard.press("ArrowLeft");
+  equal((await widths())[0], 0, "hidden");
+  await handle.dblclick();
+  equal(await widths(), before, "as it was");
+});
+
+test("a page of 640 pixels is usable", async ({ open }) => {
+  const { page } = await open({ viewport: { width: 640, height: 900 } });
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  ok(wide <= 640, `nothing is cut off: ${wide}`);
+  for (const pane of ["Form", "Program", "Path"]) ok((await page.getByRole("region", { name: pane, exact: true }).boundingBox()).height > 150, pane);
+});
+
 await run();

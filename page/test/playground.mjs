@@ -11,7 +11,7 @@ if (!existsSync(join(folder, "postform.wasm"))) {
   console.error("can't run: docs/playground/build makes the playground first");
   process.exit(77);
 }
-const kinds = { ".html": "text/html", ".wasm": "application/wasm" };
+const kinds = { ".html": "text/html", ".wasm": "application/wasm", ".js": "text/javascript" };
 const server = createServer((request, response) => {
   const path = join(folder, request.url === "/" ? "index.html" : new URL(request.url, "http://x").pathname);
   if (!existsSync(path)) return response.writeHead(404).end();
@@ -64,6 +64,61 @@ for (let i = 0; i < 9; i++) {
     return window.page.painted.at(-1).verdict;
   }));
 }
+// the thread of the page is free while postform works
+const longest = await page.evaluate(async () => {
+  let [last, most] = [performance.now(), 0];
+  const timer = setInterval(() => {
+    most = Math.max(most, performance.now() - last);
+    last = performance.now();
+  }, 1);
+  await window.host.verdict(0, []);
+  clearInterval(timer);
+  return most;
+});
+
+// what was typed and opened is there after a reload
+await page.waitForTimeout(600);
+await page.reload();
+await page.waitForFunction(() => window.page, null, { timeout: 60_000 });
+await ready(page);
+ok((await page.evaluate(() => window.page.editor.text)).includes("Name xxxxxxxxx"), "typed text is kept");
+equal(await page.locator(".tab").count(), 2, "and so are the jobs");
+
+// saved: a file of the form, and nothing is left to save
+const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "save", exact: true }).first().click()]);
+equal(saved.suggestedFilename(), "haas.pf");
+ok(readFileSync(await saved.path(), "utf8").includes("Name xxxxxxxxx"), "the file is what was typed");
+const [program] = await Promise.all([page.waitForEvent("download"), page.locator(".tools").getByRole("button", { name: "save" }).click()]);
+equal(readFileSync(await program.path(), "utf8"), await page.evaluate(() => window.page.program.all()), "the program as a file");
+
+// shared: the link has the form and the job in it
+await page.evaluate(() => (navigator.clipboard.writeText = async (text) => void (window.copied = text)));
+await page.getByRole("button", { name: "share link" }).click();
+await page.waitForFunction(() => window.copied);
+const link = await page.evaluate(() => window.copied);
+const other = await (await found.newContext()).newPage();
+await other.goto(link);
+await other.waitForFunction(() => window.page, null, { timeout: 60_000 });
+await ready(other);
+equal(await other.evaluate(() => window.page.program.all()), await page.evaluate(() => window.page.program.all()), "the link opens the same");
+equal(new URL(other.url()).hash, "", "the link is taken out of the address");
+for (const broken of ["#files=", "#files=AAAA", "#files=%00", `#files=${"A".repeat(5000)}`]) {
+  await other.goto("about:blank");
+  await other.goto(address + broken);
+  await other.waitForFunction(() => window.page, null, { timeout: 60_000 });
+  ok(/can't be read/.test(await other.locator("[role=status]").innerText()), `${broken.slice(0, 20)}: said`);
+}
+
+// the examples
+for (const name of await page.locator("[aria-label=Example] option").allInnerTexts()) {
+  if (name === "examples…") continue;
+  await page.locator("[aria-label=Example]").selectOption(name);
+  await page.waitForTimeout(400);
+  await ready(page);
+  ok((await page.evaluate(() => window.page.program?.path?.moves ?? 0)) > 3, `${name}: drawn`);
+  ok(/proven/.test(await page.locator(".verdict").innerText()), `${name}: ${await page.locator(".verdict").innerText()}`);
+}
+
 await page.evaluate(() => {
   const { view } = window.page.editor;
   view.dispatch({ changes: { from: 0, insert: "Nonsense here\n" } });
@@ -73,6 +128,11 @@ equal(wrong, [], "no errors, and no other server");
 const size = statSync(join(folder, "postform.wasm")).size;
 const packed = gzipSync(readFileSync(join(folder, "postform.wasm"))).length;
 console.log(`ok      the playground; postform.wasm ${(size / 1e6).toFixed(2)} MB, ${(packed / 1e6).toFixed(2)} MB packed; ` +
-  `from a key to the verdict ${times.sort((a, b) => a - b)[4].toFixed(0)} ms`);
+  `longest wait of the page ${longest.toFixed(0)} ms; from a key to the verdict ${times.sort((a, b) => a - b)[4].toFixed(0)} ms`);
+// without WebAssembly the page is a page that says so
+const bare = await (await found.newContext()).newPage();
+await bare.addInitScript(() => delete window.WebAssembly);
+await bare.goto(address);
+ok(/has no WebAssembly/.test(await bare.locator(".sorry").innerText()), "said");
 await found.close();
 server.close();

@@ -26,7 +26,7 @@ export interface Colours {
 /** The number of colours of a quantity. */
 export const RAMP = 5;
 /** How far the deepest cut fades into the background. */
-export const FADE = 0.62;
+export const FADE = 0.5;
 
 export function colours(): Colours {
   const style = getComputedStyle(document.documentElement);

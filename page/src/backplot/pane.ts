@@ -24,8 +24,8 @@ import { type Meaning, MEANINGS, paint, type Shades, shadesOf } from "./shades.t
 const REACH = 8;
 /** Milliseconds of rest after which a moved path is drawn in full. */
 const REST = 150;
-/** Milliseconds of a frame in which the stock is cut. */
-const CUTTING = 24;
+/** Milliseconds of a frame in which the stock is cut: while the timeline plays, and while it is cut to the end. */
+const CUTTING = { playing: 20, whole: 80 };
 
 export class Backplot {
   readonly root: HTMLElement;
@@ -37,6 +37,8 @@ export class Backplot {
   private readonly legend = element("div", { class: "legend", "aria-hidden": "true" });
   private readonly block = element("button", { "aria-pressed": "false", title: "Cut the stock along the path; rapids through it are marked (s)" }, "stock");
   private readonly ruler = element("button", { "aria-pressed": "false", title: "Measure between two points of the path (m)" }, "measure");
+  /** A measured distance, what to click, or why there is no stock. */
+  private readonly told = element("div", { class: "told-here", role: "status" });
   private readonly camera = new Camera();
   private readonly painter: Painter;
   private colours: Colours;
@@ -70,8 +72,6 @@ export class Backplot {
   onHover: (line: number | null) => void = () => {};
   /** The lines whose rapids go through the stock, as far as it is cut. */
   onCrash: (lines: number[]) => void = () => {};
-  /** A measured distance, what to click, or why there is no stock; empty: nothing. */
-  onSay: (text: string) => void = () => {};
 
   constructor() {
     const gl = GlPainter.on(this.canvas);
@@ -97,7 +97,7 @@ export class Backplot {
       this.redraw();
     };
     this.views.append(element("span", { class: "gap" }), meaning, this.block, this.ruler, fit, nearer);
-    const stage = element("div", { class: "stage" }, this.under, this.canvas, this.over, this.legend);
+    const stage = element("div", { class: "stage" }, this.under, this.canvas, this.over, this.legend, this.told);
     this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, this.size.root, stage);
     new ResizeObserver(() => this.resize()).observe(stage);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
@@ -209,11 +209,11 @@ export class Backplot {
       this.size.show(path, blockOf(path, this.plate));
       const block = this.size.block(path);
       this.stock = block && new Stock(path, this.centres, block, this.plate.least[2], this.shapes);
-      if (!block) this.onSay("no stock: its greatest X and Y must be greater than the least");
+      if (!block) this.say("no stock: its greatest X and Y must be greater than the least");
     } else {
       this.stock = null;
       this.size.hide();
-      this.onSay(`no stock: ${this.plate ? "the job gives no diameter of a tool" : "it is shown for mills of three axes"}`);
+      this.say(`no stock: ${this.plate ? "the job gives no diameter of a tool" : "it is shown for mills of three axes"}`);
     }
     this.block.setAttribute("aria-pressed", String(!!this.stock));
   }
@@ -222,16 +222,21 @@ export class Backplot {
   private cutStock(): void {
     const path = this.program?.path;
     if (!this.stock || !path) return;
-    const isThere = this.stock.cutTo(this.cursor?.point ?? path.pieces, CUTTING);
+    const isThere = this.stock.cutTo(this.cursor?.point ?? path.pieces, this.cursor ? CUTTING.playing : CUTTING.whole);
+    if (!isThere) this.moves();
     if (!isThere) this.redraw();
     else this.onCrash(this.size.isGiven ? [...this.stock.crashes] : []);
+  }
+
+  private say(text: string): void {
+    this.told.textContent = text;
   }
 
   /** Clicks measure, until it is turned off again. */
   toggleMeasure(): void {
     this.measure.toggle();
     this.ruler.setAttribute("aria-pressed", String(this.measure.isOn));
-    this.onSay(this.measure.words(this.program?.path?.head.units ?? ""));
+    this.say(this.measure.words(this.program?.path?.head.units ?? ""));
     this.redraw();
   }
 
@@ -244,6 +249,7 @@ export class Backplot {
   /** The timeline: the tool is at a position after a point of the path, and what comes then is faint. Null: all of it is drawn. */
   drawTo(cursor: { point: number; at: Vector } | null): void {
     this.cursor = cursor;
+    if (cursor) this.moves();
     this.redraw();
   }
 
@@ -336,7 +342,8 @@ export class Backplot {
     if (path && this.levels.length) {
       const [level, runs] = drawable(this.levels, scale, sees, most);
       const until = this.cursor ? upTo(level, this.cursor.point) : count(level);
-      for (const [from, to] of runs) {
+      // lines over a stock that changes cost more than they show
+      for (const [from, to] of this.stock && this.moving ? [] : runs) {
         this.frames.pieces += to - from;
         const now = Math.max(from, Math.min(to, until));
         const line = { level, dashed: true, width: 1.5 };
@@ -364,7 +371,7 @@ export class Backplot {
     const context = cleared(this.under, this.camera, ratio);
     const path = this.program?.path;
     if (!path) return;
-    if (this.stock) drawRelief(context, this.camera, this.colours, ratio, this.stock);
+    if (this.stock) drawRelief(context, this.camera, this.colours, ratio, this.stock, this.moving > 0);
     drawGround(context, this.camera, this.colours, path, this.stock ? null : this.plate);
   }
 
@@ -412,7 +419,7 @@ export class Backplot {
     const piece = this.pieceAt(x, y);
     if (!path || piece < 0) return;
     this.measure.take(path, piece, this.camera, x, y);
-    this.onSay(this.measure.words(path.head.units));
+    this.say(this.measure.words(path.head.units));
     this.redraw();
   }
 

@@ -4,18 +4,18 @@ import type { Camera } from "./camera.ts";
 import { type Colour, type Colours, mix, TOOLS } from "./colours.ts";
 import type { Stock } from "./stock.ts";
 
-/** Pixels of a drawn cell: finer cells are drawn together. */
-const PIXELS = 1.6;
+/** Pixels of a drawn cell, at rest and while it changes: finer cells are drawn together. */
+const PIXELS = { still: 1.6, moving: 3.2 };
 /** Steps of brightness. */
 const LIGHT = 32;
 
-export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, colours: Colours, ratio: number, stock: Stock): void {
+export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, colours: Colours, ratio: number, stock: Stock, moving: boolean): void {
   const { canvas } = context;
   const image = context.createImageData(canvas.width, canvas.height);
   const pixels = new Uint32Array(image.data.buffer);
   const [right, up, eye] = camera.axes();
   const scale = camera.scale * ratio;
-  const stride = Math.max(1, Math.ceil(PIXELS / (stock.cell * scale)));
+  const stride = Math.max(1, Math.ceil((moving ? PIXELS.moving : PIXELS.still) / (stock.cell * scale)));
   const { wide, deep, heights, tools, bottom } = stock;
   const size = stock.cell * stride;
   // half of a cell in pixels, across and up

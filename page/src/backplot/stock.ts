@@ -106,10 +106,13 @@ export class Stock {
     const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
     const length = dx * dx + dy * dy;
     const flat = radius - corner;
+    const lowest = Math.min(from[2], to[2]);
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
       for (let column = left; column <= right; column++) {
         const px = this.x + column * this.cell - from[0];
+        const cell = row * this.wide + column;
+        if (this.heights[cell] <= lowest) continue;
         // the part of the piece along which the tool is over the cell
         const nearest = length > 0 ? (px * dx + py * dy) / length : 0;
         const [ox, oy] = [px - nearest * dx, py - nearest * dy];
@@ -129,7 +132,6 @@ export class Stock {
             height = Math.min(height, from[2] + dz * share + rise);
           }
         }
-        const cell = row * this.wide + column;
         if (height < this.heights[cell]) {
           this.heights[cell] = Math.max(height, this.bottom);
           this.tools[cell] = tool;

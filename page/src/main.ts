@@ -16,7 +16,7 @@ import { base } from "./names.ts";
 import { fitNote, noteOf, stoppedNote, verdictNote, whereOf } from "./note.ts";
 import { withHandles } from "./panes.ts";
 import { Program } from "./program.ts";
-import { type Head, Scene, type Verdict } from "./scene.ts";
+import { type Head, Scene, type ToolSize, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
 import { Properties } from "./properties.ts";
 import { Timeline } from "./timeline.ts";
@@ -56,6 +56,8 @@ export class Page {
   private saved: Record<string, string> = {};
   private typed: Record<string, string> = {};
   /** Files that are other on the disk than what was typed began with, and nobody said yet which is to stay. */
+  /** The tools of the job, as far as they are known. */
+  private sizes: ToolSize[] = [];
   /** Lines whose rapids go through the stock. */
   private crashes = new Set<number>();
   private readonly conflicts = new Set<string>();
@@ -350,7 +352,7 @@ export class Page {
     const count = picture ? `${picture.blocks} blocks · ${picture.time}` : "";
     this.marks = marks;
     this.listing.show(this.program, marks, count);
-    this.backplot.show(this.program, this.old, [...marks.bad.keys()], head.toolSizes);
+    this.backplot.show(this.program, this.old, [...marks.bad.keys()], (this.sizes = head.toolSizes ?? this.sizes));
     this.timeline.show(this.program);
     this.editor?.setFindings(findingsOf(head));
     const besides = [];

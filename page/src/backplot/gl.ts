@@ -72,6 +72,7 @@ void main() {
 
 export class GlPainter implements Painter {
   readonly name = "WebGL2";
+  readonly ground = null;
   readonly most = { still: Infinity, moving: 1_500_000 };
   private readonly program: WebGLProgram;
   private readonly at: Record<string, WebGLUniformLocation | null> = {};

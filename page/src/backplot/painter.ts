@@ -30,6 +30,8 @@ export const RAPID = { width: 0.7, alpha: 0.75 };
 
 export interface Painter {
   readonly name: string;
+  /** Where the ground is drawn, under the lines; null: on a canvas of its own. */
+  readonly ground: CanvasRenderingContext2D | null;
   /** Maximum number of lines: for a still picture, and while the view moves. */
   readonly most: { still: number; moving: number };
   begin(camera: Camera, colours: Colours, ratio: number, style: Style): void;

@@ -19,7 +19,7 @@ import { Size } from "./size.ts";
 import { blockOf, Stock } from "./stock.ts";
 import { drawTool, type Shape, shapesOf, upOf } from "./tool.ts";
 import { drawRelief } from "./relief.ts";
-import { type Meaning, MEANINGS, paint, type Shades, shadesOf } from "./shades.ts";
+import { type Meaning, MEANINGS, paint, type Shades } from "./shades.ts";
 
 const REACH = 8;
 /** Milliseconds of rest after which a moved path is drawn in full. */
@@ -55,8 +55,8 @@ export class Backplot {
   private readonly measure = new Measure();
   private shapes = new Map<number, Shape>();
   private sizes = "";
-  /** Points of the tool's centre. */
-  private centres: Float32Array = new Float32Array();
+  /** Points of the tool's centre, once they are needed. */
+  private known: Float32Array | null = null;
   private readonly size = new Size();
   /** The stock, while it is shown. */
   private stock: Stock | null = null;
@@ -97,6 +97,7 @@ export class Backplot {
       this.redraw();
     };
     this.views.append(element("span", { class: "gap" }), meaning, this.block, this.ruler, fit, nearer);
+    this.under.hidden = !!this.painter.ground;
     const stage = element("div", { class: "stage" }, this.under, this.canvas, this.over, this.legend, this.told);
     this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, this.size.root, stage);
     new ResizeObserver(() => this.resize()).observe(stage);
@@ -118,7 +119,7 @@ export class Backplot {
     if (program?.path && JSON.stringify(sizes) !== this.sizes) {
       this.sizes = JSON.stringify(sizes);
       this.shapes = shapesOf(program, sizes);
-      this.centres = centresOf(program, this.shapes);
+      this.known = null;
       if (this.stock) this.showStock();
       this.redraw();
     }
@@ -129,18 +130,18 @@ export class Backplot {
     this.bad = differences;
     if (path && path === before && (old?.path ?? null) === this.oldPath) return marked ? undefined : this.redraw();
     this.painter.forget([...this.levels, ...this.old]);
+    this.old = old?.path ? levels(shifted(old.path, program)) : [];
+    this.oldPath = old?.path ?? null;
     if (path !== before) {
       this.levels = path ? levels(path) : [];
       this.plate = path ? plateOf(path) : null;
       this.shapes = program?.path ? shapesOf(program, sizes) : new Map();
-      if (program?.path) this.centres = centresOf(program, this.shapes);
+      this.known = null;
       if (this.stock) this.showStock();
       this.cursor = null;
       this.measure.forget();
       if (path) this.colourBy(this.meaning);
     }
-    this.old = old?.path ? levels(shifted(old.path, program)) : [];
-    this.oldPath = old?.path ?? null;
     if (path) {
       // the first picture of a long path is also coarse
       if (path.pieces > this.painter.most.moving) this.moves();
@@ -154,7 +155,6 @@ export class Backplot {
       const moved = before && this.apart(before.head.middle, path.head.middle);
       if (moved) moved.forEach((by, axis) => (this.camera.target[axis] -= by));
       if (!before || this.fits) this.fit();
-      this.tell();
     } else {
       this.extents.textContent = "";
       this.canvas.setAttribute("aria-label", "No path: there is no program");
@@ -185,9 +185,8 @@ export class Backplot {
   private colourBy(meaning: Meaning): void {
     this.meaning = meaning;
     if (!this.program?.path) return;
-    this.shades = shadesOf(this.program, meaning);
     this.painter.forget(this.levels);
-    paint(this.levels, this.program, this.shades);
+    this.shades = paint(this.levels, this.program, meaning);
     this.tell();
     this.redraw();
   }
@@ -325,9 +324,9 @@ export class Backplot {
     const began = performance.now();
     const ratio = this.canvas.width / Math.max(1, this.camera.width);
     this.cutStock();
-    this.drawUnder(ratio);
     const dash = Math.max(2, Math.min(14, ((this.program?.path?.size ?? 1) / 90) * this.camera.scale));
     this.painter.begin(this.camera, this.colours, ratio, { ramp: !!this.shades?.range, dash });
+    this.drawUnder(ratio);
     this.frames.pieces = 0;
     const { width, height, scale } = this.camera;
     const most = this.moving ? this.painter.most.moving : this.painter.most.still;
@@ -368,7 +367,8 @@ export class Backplot {
 
   /** Draws what lies under the path: plate, grid and zero. */
   private drawUnder(ratio: number): void {
-    const context = cleared(this.under, this.camera, ratio);
+    // on a plain canvas it is the same one: each further canvas costs a layer of the picture
+    const context = this.painter.ground ?? cleared(this.under, this.camera, ratio);
     const path = this.program?.path;
     if (!path) return;
     if (this.stock) drawRelief(context, this.camera, this.colours, ratio, this.stock, this.moving > 0);
@@ -388,6 +388,11 @@ export class Backplot {
     drawAxes(context, this.camera, this.colours);
   }
 
+  /** Where the centre of the tool goes, a point for each of the path. */
+  private get centres(): Float32Array {
+    return (this.known ??= centresOf(this.program!, this.shapes));
+  }
+
   /** The tool: after the chosen block, or where the timeline is. */
   private drawTip(context: CanvasRenderingContext2D): void {
     const program = this.program!;
@@ -397,7 +402,8 @@ export class Backplot {
     const end = this.cursor ? Math.min(this.cursor.point + 1, path.pieces) : point;
     const on = this.cursor?.at ?? ([...path.points.subarray(point * 3, point * 3 + 3)] as Vector);
     // beside the line while the control compensates the radius
-    const at = on.map((value, axis) => value + this.centres[end * 3 + axis] - path.points[end * 3 + axis]) as Vector;
+    const isBeside = [41, 42].includes(program.held("compensation", this.line)?.value ?? 40);
+    const at = isBeside ? (on.map((value, axis) => value + this.centres[end * 3 + axis] - path.points[end * 3 + axis]) as Vector) : on;
     const tool = path.moveTool[program.moveOf(end)] ?? 0;
     const [shape, up] = [this.shapes.get(tool), upOf(program, this.line)];
     if (shape && up) drawTool(context, this.camera, this.colours, ofTool(this.colours, tool), at, up, shape);

@@ -10,12 +10,15 @@ const STEPS = 12;
 
 export class PlainPainter implements Painter {
   readonly name = "canvas";
+  readonly ground: CanvasRenderingContext2D;
   readonly most = { still: 250_000, moving: 25_000 };
   private camera!: Camera;
   private colours!: Colours;
   private style!: Style;
 
-  constructor(private readonly context: CanvasRenderingContext2D) {}
+  constructor(private readonly context: CanvasRenderingContext2D) {
+    this.ground = context;
+  }
 
   begin(camera: Camera, colours: Colours, ratio: number, style: Style): void {
     [this.camera, this.colours, this.style] = [camera, colours, style];

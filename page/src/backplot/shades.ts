@@ -1,4 +1,4 @@
-// What the colours of cuts mean, and how deep each cut is: a colour and a shade for each move.
+// What the colours of cuts mean, and how deep each cut is: a colour and a shade for each piece of a level.
 
 import type { Program } from "../program.ts";
 import { TOOLS } from "./colours.ts";
@@ -7,74 +7,83 @@ import type { Level } from "./levels.ts";
 export const MEANINGS = ["tool", "operation", "Z", "feed"] as const;
 export type Meaning = (typeof MEANINGS)[number];
 
-/** The colours of a picture. */
+/** The meaning of the colours of a picture. */
 export interface Shades {
   meaning: Meaning;
   /** The least value and the greatest of a quantity; null where colours are numbers. */
   range: [number, number] | null;
-  /** Of each move: the number of its colour, or its value from 0 to 255. */
-  colour: Uint8Array;
-  /** Of each piece of the path: 255 for the highest cut, 0 for the deepest. */
-  shade: Uint8Array;
 }
 
-/** The height at a point. */
-type Height = (point: number) => number;
-
-/** Colours and shades of a program. Heights are shaded only where Z is the depth: on mills, and as long as no axis turns the part. */
-export function shadesOf(program: Program, meaning: Meaning): Shades {
-  const path = program.path!;
-  const { moveKind, moveLine, moveTool, first, points } = path;
-  const cuts = (move: number) => (moveKind[move] & 15) === 1 || (moveKind[move] & 15) === 2;
-  const height: Height = (point) => points[point * 3 + 2];
-  const heights = rangeOf(path.moves, cuts, (move) => height(first[move + 1]));
-  const isMill = path.head.letters === "XYZ" && !path.ends.length && path.head.view !== "lathe";
-  const shade = new Uint8Array(path.pieces).fill(255);
-  if (isMill && heights && heights[1] > heights[0] && meaning !== "Z") {
-    const [least, greatest] = heights;
-    for (let piece = 0; piece < path.pieces; piece++) shade[piece] = share((height(piece) + height(piece + 1)) / 2, least, greatest);
+/** Writes colours and shades into the levels of a program. Depth is shaded on mills, as long as no axis turns the part: there Z is the depth. */
+export function paint(levels: Level[], program: Program, meaning: Meaning): Shades {
+  const { head, ends } = program.path!;
+  const whole = levels[levels.length - 1];
+  const heights = heightsOf(whole);
+  const isMill = head.letters === "XYZ" && !ends.length && head.view !== "lathe";
+  const depth = isMill && meaning !== "Z" ? heights : null;
+  for (const level of levels) {
+    byHeight(level, 3, depth);
+    if (meaning === "Z") byHeight(level, 2, heights);
+    if (meaning === "tool") byTool(level);
   }
-  const colour = new Uint8Array(path.moves);
-  if (meaning === "tool") {
-    colour.forEach((_, move) => (colour[move] = (moveTool[move] + TOOLS - 1) % TOOLS));
-    return { meaning, range: null, colour, shade };
-  }
+  if (meaning === "tool") return { meaning, range: null };
+  const middle = head.middle[2];
+  if (meaning === "Z") return { meaning, range: heights ? [heights[0] + middle, heights[1] + middle] : [0, 0] };
+  const { moveLine, moveKind, moves } = program.path!;
   if (meaning === "operation") {
-    colour.forEach((_, move) => (colour[move] = ((program.item(moveLine[move])?.operation ?? 0) + TOOLS - 1) % TOOLS));
-    return { meaning, range: null, colour, shade };
+    byMove(levels, program, Uint8Array.from(moveLine, (line) => ((program.item(line)?.operation ?? 0) + TOOLS - 1) % TOOLS));
+    return { meaning, range: null };
   }
-  const middle = path.head.middle[2];
-  const value = meaning === "Z" ? (move: number) => height(first[move + 1]) + middle : (move: number) => program.held("feed", moveLine[move])?.value ?? 0;
-  const range = rangeOf(path.moves, cuts, value) ?? [0, 0];
-  colour.forEach((_, move) => (colour[move] = share(value(move), ...range)));
-  return { meaning, range, colour, shade };
-}
-
-function rangeOf(moves: number, counts: (move: number) => boolean, value: (move: number) => number): [number, number] | null {
+  const feeds = Float64Array.from(moveLine, (line) => program.held("feed", line)?.value ?? 0);
   let [least, greatest] = [Infinity, -Infinity];
   for (let move = 0; move < moves; move++) {
-    if (!counts(move)) continue;
-    const at = value(move);
-    if (at < least) least = at;
-    if (at > greatest) greatest = at;
+    if (!isCut(moveKind[move] & 15)) continue;
+    least = Math.min(least, feeds[move]);
+    greatest = Math.max(greatest, feeds[move]);
   }
-  return least <= greatest ? [least, greatest] : null;
+  byMove(levels, program, Uint8Array.from(feeds, (feed) => share(feed, least, greatest)));
+  return { meaning, range: least <= greatest ? [least, greatest] : [0, 0] };
 }
 
+function isCut(kind: number): boolean {
+  return kind === 1 || kind === 2;
+}
+
+/** From 0 for the least to 255 for the greatest. */
 function share(value: number, least: number, greatest: number): number {
   return greatest > least ? Math.max(0, Math.min(255, Math.round(((value - least) / (greatest - least)) * 255))) : 255;
 }
 
-/** Writes colours and shades into the levels of a path. */
-export function paint(levels: Level[], program: Program, { colour, shade }: Shades): void {
-  const path = program.path!;
-  const moveOf = new Uint32Array(path.pieces);
-  for (let move = 0; move < path.moves; move++) moveOf.fill(move, path.first[move], path.first[move + 1]);
+/** The lowest end of a cut and the highest; null where nothing is cut. */
+function heightsOf({ points, kinds }: Level): [number, number] | null {
+  let [least, greatest] = [Infinity, -Infinity];
+  for (let piece = 0; piece * 4 < kinds.length; piece++) {
+    if (!isCut(kinds[piece * 4])) continue;
+    const z = points[piece * 3 + 5];
+    if (z < least) least = z;
+    if (z > greatest) greatest = z;
+  }
+  return least <= greatest ? [least, greatest] : null;
+}
+
+/** Byte 2 or 3 of each piece: how high its middle is; 255 everywhere without a range. */
+function byHeight({ points, kinds }: Level, byte: 2 | 3, range: [number, number] | null): void {
+  const [least, scale] = range && range[1] > range[0] ? [range[0], 255 / (range[1] - range[0])] : [0, 0];
+  for (let piece = 0; piece * 4 < kinds.length; piece++) {
+    const z = (points[piece * 3 + 2] + points[piece * 3 + 5]) / 2;
+    kinds[piece * 4 + byte] = scale ? Math.max(0, Math.min(255, (z - least) * scale + 0.5)) : 255;
+  }
+}
+
+function byTool({ kinds }: Level): void {
+  for (let at = 0; at < kinds.length; at += 4) kinds[at + 2] = (kinds[at + 1] + TOOLS - 1) % TOOLS;
+}
+
+function byMove(levels: Level[], program: Program, colours: Uint8Array): void {
+  const { first, moves, pieces: all } = program.path!;
+  const moveOf = new Uint32Array(all);
+  for (let move = 0; move < moves; move++) moveOf.fill(move, first[move], first[move + 1]);
   for (const { kinds, pieces } of levels) {
-    for (let at = 0; at * 4 < kinds.length; at++) {
-      const piece = pieces ? pieces[at] : at;
-      kinds[at * 4 + 2] = colour[moveOf[piece]];
-      kinds[at * 4 + 3] = shade[piece];
-    }
+    for (let at = 0; at * 4 < kinds.length; at++) kinds[at * 4 + 2] = colours[moveOf[pieces ? pieces[at] : at]];
   }
 }

@@ -5,6 +5,8 @@ import { element } from "./element.ts";
 import { Find } from "./find.ts";
 import { type Marks, noMarks } from "./marks.ts";
 import type { Program } from "./program.ts";
+import { Rows } from "./rows.ts";
+import type { Hunks } from "./scene.ts";
 
 const ROW = 20;
 /** Browsers lay out no more pixels than this; scrolling of a longer program is scaled. */
@@ -21,6 +23,8 @@ export class Listing {
   readonly note = element("div", { class: "note", "aria-live": "polite" });
   private program: Program | null = null;
   private marks: Marks = noMarks();
+  private old: Program | null = null;
+  private places = new Rows(0, []);
   private line = 0;
   private lit = new Set<number>();
   private asked = 0;
@@ -63,8 +67,10 @@ export class Listing {
     this.rows.onmouseleave = () => this.onHover(null);
   }
 
-  show(program: Program | null, marks: Marks, head: string): void {
-    [this.program, this.marks] = [program, marks];
+  /** `old`: an old program, whose blocks that are gone stand between the lines. */
+  show(program: Program | null, marks: Marks, head: string, old: Program | null, hunks: Hunks["hunks"]): void {
+    [this.program, this.marks, this.old] = [program, marks, old];
+    this.places = new Rows(program?.lines ?? 0, old ? hunks : []);
     this.head.textContent = head;
     this.spacer.style.height = `${Math.min(TALLEST, this.height)}px`;
     this.view.setAttribute("aria-description", head);
@@ -101,7 +107,7 @@ export class Listing {
   }
 
   private get height(): number {
-    return (this.program?.lines ?? 0) * ROW + 12;
+    return this.places.count * ROW + 12;
   }
 
   /** Pixels of the program per scrolled pixel. */
@@ -114,7 +120,7 @@ export class Listing {
   private reveal(line: number): void {
     const room = this.view.clientHeight;
     const top = this.view.scrollTop * this.stretch;
-    const at = (line - 1) * ROW + 6;
+    const at = this.places.of(line) * ROW + 6;
     if (at < top + ROW || at > top + room - 2 * ROW) {
       const near = Math.abs(at - top - room / 2) < room * 1.5;
       const target = near ? (at < top + ROW ? at - 3 * ROW : at - room + 4 * ROW) : at - room / 2;
@@ -138,13 +144,21 @@ export class Listing {
     }
     const scrolled = this.view.scrollTop;
     const top = scrolled * this.stretch;
-    const first = Math.max(1, Math.floor((top - 6) / ROW) + 1);
-    const last = Math.min(program.lines, first + Math.ceil(this.view.clientHeight / ROW) + 1);
-    this.rows.style.transform = `translateY(${scrolled + (first - 1) * ROW + 6 - top}px)`;
+    const first = Math.max(0, Math.floor((top - 6) / ROW));
+    const last = Math.min(this.places.count - 1, first + Math.ceil(this.view.clientHeight / ROW) + 1);
+    this.rows.style.transform = `translateY(${scrolled + first * ROW + 6 - top}px)`;
     const rows: HTMLElement[] = [];
-    for (let line = first; line <= last; line++) rows.push(this.row(program, line));
+    for (let row = first; row <= last; row++) {
+      const place = this.places.at(row);
+      rows.push("old" in place ? this.gone(place.old) : this.row(program, place.line));
+    }
     this.rows.replaceChildren(...rows);
     if (this.line) this.view.setAttribute("aria-activedescendant", `block-${this.line}`);
+  }
+
+  /** A block of the old program that is gone. */
+  private gone(line: number): HTMLElement {
+    return element("div", { class: "ln gone", role: "option", "aria-disabled": "true", "aria-selected": "false", title: `line ${line} of the old program is gone` }, element("i", {}, "−"), element("s", {}, this.old?.text(line) ?? ""));
   }
 
   private row(program: Program, line: number): HTMLElement {

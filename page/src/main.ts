@@ -351,7 +351,7 @@ export class Page {
     const picture = head.picture;
     const count = picture ? `${picture.blocks} blocks · ${picture.time}` : "";
     this.marks = marks;
-    this.listing.show(this.program, marks, count);
+    this.listing.show(this.program, marks, count, this.old, head.against?.hunks ?? []);
     this.backplot.show(this.program, this.old, [...marks.bad.keys()], (this.sizes = head.toolSizes ?? this.sizes));
     this.timeline.show(this.program);
     this.editor?.setFindings(findingsOf(head));

@@ -1,5 +1,6 @@
 // The page of `postform watch` in a real browser: what is typed, clicked and pressed, and what is then shown.
-import { readFileSync, unlinkSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, unlinkSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { equal, ok, ready, root, run, test, watch } from "./harness.mjs";
 
@@ -184,6 +185,22 @@ test("against an old program", async ({ open }) => {
   ok(await page.locator(".ln.on.other").count() === 1, "the first change is chosen");
   ok((await page.locator(".note").innerText()).includes("before:"), "with what stood there");
   ok((await page.locator(".legend").innerText()).includes("before"), "the old path is drawn");
+});
+
+test("blocks that only the old program has stand between the lines", async ({ open }) => {
+  const path = join(mkdtempSync(join(tmpdir(), "postform-page-old-")), "old.nc");
+  const program = readFileSync(join(root, "samples/bracket/expected.fanuc.nc"), "utf8").split("\n");
+  const at = program.findIndex((line) => line.includes("G82"));
+  writeFileSync(path, [...program.slice(0, at), "M97 (CLAMP)", "M98 (AIR)", ...program.slice(at)].join("\n"));
+  const { page } = await open({ more: ["--against", path] });
+  await page.evaluate((line) => window.page.choose(line, "key"), at + 1);
+  equal(await page.locator(".ln.gone").allInnerTexts(), ["−M97 (CLAMP)", "−M98 (AIR)"]);
+  const order = await page.locator(".ln").allInnerTexts();
+  const gone = order.findIndex((text) => text.includes("CLAMP"));
+  ok(order[gone - 1].endsWith(program[at - 1]) && order[gone + 2].endsWith(program[at]), "where they stood");
+  // what is clicked after them is the line that is shown there
+  await page.locator(".ln").nth(gone + 3).click();
+  equal(await line(page), at + 2);
 });
 
 test("what changed since the last save is marked, and saved", async ({ open }) => {

@@ -3,6 +3,7 @@
 use super::Document;
 use crate::control::Code;
 use crate::lang::{CommandId, SequenceId, SequenceName, TextId, TextVar, VarId};
+use crate::sema::Property;
 use crate::span::Span;
 use crate::syntax::{Body, DirectiveKind, End, Expr, Head, Piece, PieceKind, SequenceNode, Spanned, Statement, Unread};
 
@@ -39,6 +40,8 @@ pub enum What {
     Variable(VarId, Option<u8>),
     /// A text of the job, with or without a width.
     Text(TextId),
+    /// A property of the form, as its index.
+    Property(u16),
     /// Text in backquotes.
     Quote,
     /// A typed code.
@@ -64,6 +67,7 @@ impl Document {
 
     /// Calls `found` for all elements of a file, in order.
     pub(super) fn each(&self, file: u32, mut found: impl FnMut(At)) {
+        let names = Names(&self.checked.form.settings.properties);
         for item in self.items(file) {
             match item {
                 Head::Blank(_) | Head::StrayEnd(_) => {}
@@ -71,19 +75,38 @@ impl Document {
                     let byte = letter.text.bytes().next().unwrap_or(b' ');
                     found(At { span: letter.span.to(spec.span), what: What::Format(byte) });
                 }
-                Head::Statement(statement) => command(statement, &mut found),
-                Head::Sequence(node) => sequence(node, &mut found),
+                Head::Statement(statement) => command(statement, names, &mut found),
+                Head::Sequence(node) => sequence(node, names, &mut found),
             }
         }
     }
 }
 
-fn command(statement: &Statement, found: &mut dyn FnMut(At)) {
+/// The names of variables and of the form's properties.
+#[derive(Clone, Copy)]
+struct Names<'a>(&'a [Property]);
+
+impl Names<'_> {
+    /// The variable or property of a name, and the letter that prints it.
+    fn what(self, name: &str, letter: Option<u8>) -> Option<What> {
+        let property = || self.0.iter().position(|property| property.name.eq_ignore_ascii_case(name));
+        match VarId::parse(name) {
+            Some(var) => Some(What::Variable(var, letter)),
+            None => property().map(|row| What::Property(row as u16)),
+        }
+    }
+}
+
+fn command(statement: &Statement, names: Names<'_>, found: &mut dyn FnMut(At)) {
     let Some(id) = CommandId::parse(&statement.name.text) else { return };
     found(At { span: statement.name.span, what: What::Command(id) });
     for (i, arg) in statement.args.iter().enumerate() {
         let asks = i == 0 && matches!(id, CommandId::Ask | CommandId::Each);
-        let what = variable(arg).filter(|_| asks).map_or(What::Argument(id, i), |var| What::Variable(var, None));
+        let what = match id {
+            CommandId::Property if i == 0 => names.what(&arg.text, None),
+            _ => variable(arg).filter(|_| asks).map(|var| What::Variable(var, None)),
+        };
+        let what = what.unwrap_or(What::Argument(id, i));
         found(At { span: arg.span, what });
     }
 }
@@ -93,7 +116,7 @@ fn variable(arg: &Spanned) -> Option<VarId> {
     VarId::parse(arg.text.trim_matches(['[', ']', '<', '>']))
 }
 
-fn sequence(node: &SequenceNode, found: &mut dyn FnMut(At)) {
+fn sequence(node: &SequenceNode, names: Names<'_>, found: &mut dyn FnMut(At)) {
     let name = &node.name;
     let mut words = vec![name.name.text.as_str()];
     words.extend(name.args.iter().map(|arg| arg.text.as_str()));
@@ -116,7 +139,7 @@ fn sequence(node: &SequenceNode, found: &mut dyn FnMut(At)) {
         }
         None => {}
     }
-    node.body.iter().for_each(|line| body(line, found));
+    node.body.iter().for_each(|line| body(line, names, found));
     if let Some(End { word, args, .. }) = &node.end {
         found(At { span: *word, what: What::End });
         for arg in args.iter().filter(|arg| arg.text.eq_ignore_ascii_case("Cancel")) {
@@ -125,32 +148,37 @@ fn sequence(node: &SequenceNode, found: &mut dyn FnMut(At)) {
     }
 }
 
-fn body(line: &Body, found: &mut dyn FnMut(At)) {
+fn body(line: &Body, names: Names<'_>, found: &mut dyn FnMut(At)) {
     let kind = line.directive.as_ref().map(|directive| &directive.kind);
     if let Some(DirectiveKind::If(asked) | DirectiveKind::Elif(asked) | DirectiveKind::Set(_, asked)) = kind {
-        expression(asked, found);
+        expression(asked, names, found);
+    }
+    if let Some(DirectiveKind::Set(target, _)) = kind
+        && let Some(what @ What::Property(_)) = names.what(&target.text, None)
+    {
+        found(At { span: target.span, what });
     }
     for word in &line.words {
         let alone = line.words.len() == 1 && word.pieces.len() == 1;
-        word.pieces.iter().for_each(|part| piece(part, alone, found));
+        word.pieces.iter().for_each(|part| piece(part, alone, names, found));
     }
 }
 
 /// The variables of an expression.
-fn expression(expr: &Result<Expr, Unread>, found: &mut dyn FnMut(At)) {
+fn expression(expr: &Result<Expr, Unread>, names: Names<'_>, found: &mut dyn FnMut(At)) {
     let Ok(expr) = expr else { return };
     expr.variables(&mut |name, span| {
-        if let Some(var) = VarId::parse(name) {
-            found(At { span, what: What::Variable(var, None) });
+        if let Some(what) = names.what(name, None) {
+            found(At { span, what });
         }
     });
 }
 
-fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
+fn piece(part: &Piece, alone: bool, names: Names<'_>, found: &mut dyn FnMut(At)) {
     match &part.kind {
         PieceKind::Variable { letter, name } => {
-            if let Some(var) = VarId::parse(&name.text) {
-                found(At { span: part.span, what: What::Variable(var, *letter) });
+            if let Some(what) = names.what(&name.text, *letter) {
+                found(At { span: part.span, what });
             }
         }
         PieceKind::Literal { letter, number } => {
@@ -160,7 +188,7 @@ fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
         PieceKind::Stray(text) if alone && text.eq_ignore_ascii_case("None") => {
             found(At { span: part.span, what: What::Nothing });
         }
-        PieceKind::Expression { expr, .. } => expression(expr, found),
+        PieceKind::Expression { expr, .. } => expression(expr, names, found),
         PieceKind::TextVariable { name, .. } => {
             if let Some(TextVar { id, .. }) = TextVar::parse(&name.text) {
                 found(At { span: part.span, what: What::Text(id) });
@@ -168,7 +196,7 @@ fn piece(part: &Piece, alone: bool, found: &mut dyn FnMut(At)) {
         }
         PieceKind::Quote(_) => found(At { span: part.span, what: What::Quote }),
         PieceKind::Stray(_) => {}
-        PieceKind::Note { parts, .. } => parts.iter().for_each(|part| piece(part, false, found)),
+        PieceKind::Note { parts, .. } => parts.iter().for_each(|part| piece(part, false, names, found)),
     }
 }
 

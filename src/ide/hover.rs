@@ -26,6 +26,14 @@ const QUOTE: &str = "**text in backquotes**\n\nis printed unchanged, with its sp
 const MOST_BLOCKS: usize = 3;
 
 impl Document {
+    /// Description of a property: its kind, its default and its question.
+    fn property(&self, row: u16) -> String {
+        let Some(property) = self.checked.form.settings.properties.get(usize::from(row)) else { return String::new() };
+        let [name, kind, default] = [&property.name, &property.kind.takes().to_string(), &property.default.to_string()]
+            .map(|text| escape(text));
+        format!("**{name}**: {}\n\nA property of this form: {kind}; by default {default}.", escape(&property.text))
+    }
+
     /// Information about the element at a byte of a file: the text of `explain`, the effect of a code, examples of a format, and
     /// the output of its line in the current job.
     pub fn hover(&self, file: u32, offset: u32, current: Option<&Current>) -> Option<Hover> {
@@ -55,6 +63,7 @@ impl Document {
             What::Nothing => markdown(&explain::none()),
             What::Variable(var, _) => markdown(&explain::variable(*var)),
             What::Text(id) => markdown(&explain::text(*id)),
+            What::Property(row) => self.property(*row),
             What::Quote => QUOTE.to_owned(),
             What::Code(code) => about_code(*code, self.control()),
             What::Format(letter) | What::Word(letter) => self.format(*letter),

@@ -44,6 +44,9 @@ impl Document {
                 asked.or_else(format)
             }
             What::Word(letter) => self.checked.form.formats.get(&letter).map(|(_, span)| *span),
+            What::Property(row) => {
+                self.checked.form.settings.properties.get(usize::from(row)).map(|property| property.span)
+            }
             _ => None,
         }
     }

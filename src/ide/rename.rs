@@ -2,6 +2,7 @@
 
 use super::{At, Document, What};
 use crate::lang::{SequenceId, VarId};
+use crate::sema::check_name;
 use crate::span::Span;
 
 /// Replacements of text.
@@ -26,9 +27,14 @@ impl Document {
         match self.at(file, offset) {
             Some(At { span, what: What::Variable(var, _) }) if is_free(var) => Ok(name_in(self, span, var)),
             Some(At { span, what: What::Sequence(id) }) if CUSTOM.contains(&id) => Ok(span),
-            _ => Err("only val1 to val10 and Custom1 to Custom3 can be renamed: the other names are words of the \
-                 language"
-                .into()),
+            Some(At { span, what: What::Property(row) }) if self.renamed_property(row).is_some() => {
+                Ok(text_in(self, span, self.renamed_property(row).unwrap_or_default()))
+            }
+            _ => Err(
+                "only val1 to val10, Custom1 to Custom3 and properties can be renamed: the other names are words of \
+                 the language"
+                    .into(),
+            ),
         }
     }
 
@@ -50,6 +56,16 @@ impl Document {
                 let places = self.places(&What::Variable(var, None));
                 Ok(places.into_iter().map(|span| (name_in(self, span, var), new.name().to_owned())).collect())
             }
+            What::Property(row) => {
+                check_name(name)?;
+                let properties = &self.checked.form.settings.properties;
+                if properties.iter().enumerate().any(|(at, other)| at != usize::from(row) && other.name == name) {
+                    return Err(format!("the property `{name}` exists already"));
+                }
+                let old = self.renamed_property(row).unwrap_or_default();
+                let places = self.places(&what);
+                Ok(places.into_iter().map(|span| (text_in(self, span, old), name.to_owned())).collect())
+            }
             What::Sequence(id) => {
                 let new = SequenceId::parse(name).filter(|new| CUSTOM.contains(new));
                 let new = new.ok_or_else(|| format!("`{name}` is not Custom1, Custom2 or Custom3"))?;
@@ -64,13 +80,25 @@ impl Document {
     }
 }
 
+impl Document {
+    /// The name of a property that the form declares; `None`: it is a field of the job's tools.
+    fn renamed_property(&self, row: u16) -> Option<&str> {
+        let property = self.checked.form.settings.properties.get(usize::from(row))?;
+        property.of_tool().is_none().then_some(property.name.as_str())
+    }
+}
+
 /// The span of only the name in `X[val1]`.
 fn name_in(document: &Document, span: Span, var: VarId) -> Span {
-    let text = document.slice(span).to_ascii_lowercase();
-    match text.find(var.name()) {
+    text_in(document, span, var.name())
+}
+
+/// The span of only the name, which is in lower case, in the span of its word.
+fn text_in(document: &Document, span: Span, name: &str) -> Span {
+    match document.slice(span).to_ascii_lowercase().find(name) {
         Some(at) => {
             let start = span.start as usize + at;
-            Span::new(span.file, start, start + var.name().len())
+            Span::new(span.file, start, start + name.len())
         }
         None => span,
     }
@@ -78,7 +106,7 @@ fn name_in(document: &Document, span: Span, var: VarId) -> Span {
 
 #[cfg(test)]
 mod tests {
-    use super::super::document::tests::haas;
+    use super::super::document::tests::{haas, marked};
 
     #[test]
     fn free_values_and_customs_get_other_names() {
@@ -90,6 +118,23 @@ mod tests {
         let (document, offset) = haas("Custom1   Face", "Cus|tom1   Face");
         assert_eq!(document.rename(0, offset, "Custom3").unwrap().len(), 1);
         assert!(document.rename(0, offset, "Drill").is_err());
+    }
+
+    #[test]
+    fn properties_get_other_names() {
+        let form = "T[tool] M6\n@if [float]\n  M29 S[flo|at+1] (FLOAT [float])\n@end\n@set float = 2\n`[float]`";
+        let head = "\nProperty float number 1 Floating tapping\n\nStartCode";
+        let haas = include_str!("../../postforms/haas.pf");
+        let text = haas.replacen("\nStartCode", head, 1).replacen("T[tool] M6", form, 1);
+        let (document, offset) = marked(&text);
+        let edits = document.rename(0, offset, "loose").unwrap();
+        let old: Vec<&str> = edits.iter().map(|(span, _)| document.slice(*span)).collect();
+        assert_eq!(old, ["float"; 5], "the declaration, a condition, an expression, a comment, a new value; no quote");
+        for (name, why) in
+            [("tool", "is a variable"), ("not", "conditions"), ("header", "exists already"), ("A b", "lower-case")]
+        {
+            assert!(document.rename(0, offset, name).unwrap_err().contains(why), "{name}");
+        }
     }
 
     #[test]

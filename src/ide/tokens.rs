@@ -51,7 +51,7 @@ impl Document {
                 What::Format(_) => Kind::Format,
                 What::Sequence(_) => Kind::Sequence,
                 What::Upon | What::End | What::Cancel | What::Nothing => Kind::Keyword,
-                What::Variable(..) | What::Text(_) => Kind::Variable,
+                What::Variable(..) | What::Text(_) | What::Property(_) => Kind::Variable,
                 What::Quote => Kind::Note,
                 What::Code(_) => Kind::Code,
                 What::Word(_) => Kind::Word,

@@ -28,7 +28,7 @@ pub fn form(checked: &Checked, diags: &[Diag], suppressed: usize) -> Value {
         "notes": count(Severity::Note),
         "suppressed": suppressed,
         "formats": formats.collect::<Map<String, Value>>(),
-        "properties": checked.form.settings.properties.iter().map(property).collect::<Vec<Value>>(),
+        "properties": checked.form.settings.properties.iter().filter(|own| own.of_tool().is_none()).map(property).collect::<Vec<Value>>(),
         "kit": files.first().filter(|file| file.text.trim().is_empty()).map(|_| kit()),
     })
 }

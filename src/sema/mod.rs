@@ -32,7 +32,7 @@ pub use formula::{Formula, Value, Values, Without};
 pub use library::one_post;
 pub use limits::{Limits, MOST_LINES, MOST_TEXT, MOST_WORDS};
 pub use model::{Form, Line, Sequence, Word, WordKind, kind_of_remark};
-pub use property::{Property, PropertyKind, PropertyValue, Target};
+pub use property::{Property, PropertyKind, PropertyValue, Target, check_name};
 pub use settings::{ArcCentre, LineEnd, Replacement, SequenceNumbers, Settings};
 pub use step::{Step, each_formula, each_step, line_counts};
 pub use words::before_remark;

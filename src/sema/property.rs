@@ -213,26 +213,33 @@ impl std::fmt::Display for PropertyValue {
     }
 }
 
+/// Checks the name of a new property.
+///
+/// # Errors
+/// The reason why a property can't have this name.
+pub fn check_name(name: &str) -> Result<(), String> {
+    let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(letters) || name.len() > LONGEST_NAME {
+        return Err(format!(
+            "`{name}` can't be the name of a property: use lower-case letters, digits and _, at most {LONGEST_NAME}"
+        ));
+    }
+    if VarId::parse(name).is_some() || TextVar::parse(name).is_some() {
+        return Err(format!("[{name}] is a variable: use another name for the property"));
+    }
+    if ["and", "or", "not", "like"].contains(&name) {
+        return Err(format!("`{name}` is a word of conditions: use another name"));
+    }
+    Ok(())
+}
+
 impl Setting for Vec<Property> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let [name, kind, default, question @ ..] = args.all else {
             return bad(None, "Property takes a name, a kind, a default and a question");
         };
-        let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
         let own = &name.text;
-        if !own.starts_with(|c: char| c.is_ascii_lowercase()) || !own.chars().all(letters) || own.len() > LONGEST_NAME {
-            let message = format!(
-                "`{own}` can't be the name of a property: use lower-case letters, digits and _, at most \
-                    {LONGEST_NAME}"
-            );
-            return bad(Some(name), message);
-        }
-        if VarId::parse(own).is_some() || TextVar::parse(own).is_some() {
-            return bad(Some(name), format!("[{own}] is a variable: use another name for the property"));
-        }
-        if ["and", "or", "not", "like"].contains(&own.as_str()) {
-            return bad(Some(name), format!("`{own}` is a word of conditions: use another name"));
-        }
+        check_name(own).or_else(|message| bad(Some(name), message))?;
         if self.iter().any(|other| other.name == *own) {
             return bad(Some(name), format!("the property `{own}` exists already"));
         }

@@ -129,7 +129,7 @@ export class Editor {
         help((at) => this.onHelp({ ...at, file: this.name })),
         highlightSelectionMatches(), lintGutter(), litLines, language, syntaxHighlighting(look),
         EditorState.readOnly.of(!this.isEditable),
-        EditorView.contentAttributes.of({ "aria-label": "Form", spellcheck: "false" }),
+        EditorView.contentAttributes.of({ "aria-label": "Form", spellcheck: "false", tabindex: "0" }),
         keymap.of([
           { key: "Mod-s", run: () => (this.onSave(), true), preventDefault: true },
           ...completionKeymap,

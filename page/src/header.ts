@@ -55,7 +55,7 @@ export class Header {
     const first = findings.find((found) => found.severity === (errors ? "error" : "warning"));
     this.lint.textContent = `${count(errors, "error")}, ${count(warnings, "warning")}${first ? `: ${first.message}` : ""}`;
     this.lint.title = first?.help ?? "";
-    this.lint.setAttribute("aria-label", `${errors} errors, ${warnings} warnings, ${notes} notes of the form: show the next`);
+    this.lint.setAttribute("aria-label", `${this.lint.textContent}; ${count(notes, "note")}; show the next finding`);
     this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
   }
 

@@ -20,7 +20,7 @@ export class Listing {
   });
   private readonly spacer = element("div", { class: "spacer" });
   private readonly rows = element("div", { class: "rows" });
-  readonly note = element("div", { class: "note", "aria-live": "polite" });
+  readonly note = element("div", { class: "note", role: "group", tabindex: "0", "aria-label": "About the block", "aria-live": "polite" });
   private program: Program | null = null;
   private marks: Marks = noMarks();
   private old: Program | null = null;

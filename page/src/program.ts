@@ -203,14 +203,7 @@ export class Program {
   }
 
   moveOfPiece(piece: number): number {
-    const first = this.path!.first;
-    let [low, high] = [0, first.length - 1];
-    while (low + 1 < high) {
-      const middle = (low + high) >> 1;
-      if (first[middle] <= piece) low = middle;
-      else high = middle;
-    }
-    return low;
+    return this.path!.moveOfPiece(piece);
   }
 }
 

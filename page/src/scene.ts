@@ -151,6 +151,18 @@ export class Path {
     return this.points.length / 3 - 1;
   }
 
+  /** The move of a piece. */
+  moveOfPiece(piece: number): number {
+    const { first } = this;
+    let [low, high] = [0, first.length - 1];
+    while (low + 1 < high) {
+      const middle = (low + high) >> 1;
+      if (first[middle] <= piece) low = middle;
+      else high = middle;
+    }
+    return low;
+  }
+
   /** The longest side of the box around all known positions. */
   get size(): number {
     const [least, greatest] = this.head.extents;

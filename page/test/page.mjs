@@ -758,4 +758,23 @@ test("a page of 640 pixels is usable", async ({ open }) => {
   for (const pane of ["Form", "Program", "Path"]) ok((await page.getByRole("region", { name: pane, exact: true }).boundingBox()).height > 150, pane);
 });
 
+test("axe finds nothing, in light and dark, with everything open, and in an empty form", async ({ open }) => {
+  const axe = readFileSync(join(root, "page/node_modules/axe-core/axe.min.js"), "utf8");
+  for (const colorScheme of ["light", "dark"]) {
+    const { page } = await open({ colorScheme });
+    const findings = async () => {
+      await page.evaluate(axe);
+      return page.evaluate(async () => (await window.axe.run(document)).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`));
+    };
+    equal(await findings(), [], `${colorScheme}, as it opens`);
+    await page.getByRole("button", { name: "properties" }).click();
+    await page.getByRole("button", { name: "stock" }).click();
+    await page.keyboard.press("/");
+    equal(await findings(), [], `${colorScheme}, with all panels`);
+    await page.evaluate(() => window.page.editor.type(""));
+    await page.getByRole("group", { name: "Begin with a post" }).waitFor();
+    equal(await findings(), [], `${colorScheme}, an empty form`);
+  }
+});
+
 await run();

@@ -22,7 +22,7 @@ pub struct Sequence {
     pub standing: Standing,
     /// The job's item for which it is printed.
     pub event: &'static str,
-    /// The folder of samples/ with an example.
+    /// The name of the folder in samples/ that has an example.
     pub sample: &'static str,
 }
 

@@ -193,7 +193,7 @@ pub struct Turn {
     pub turns: u32,
     /// Feed of the arc, in the feed mode's unit.
     pub feed: f64,
-    /// Axes of the end whose position is known only at the machine, as bits.
+    /// The axes, as bits, whose end position is an unknown machine position.
     pub machine: u8,
 }
 

@@ -7,7 +7,7 @@ use super::{Refused, refuse};
 use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
 use crate::toolpath::Plane;
 
-/// Greatest difference of positions, in the program's units: the text has six decimals.
+/// Greatest difference of positions that counts as equal, in the program's units. The written positions have six decimals.
 const SAME: f64 = 2e-6;
 
 /// Runs both programs side by side and returns the number of common moves. `across`: the new program has moved to the position

@@ -164,7 +164,7 @@ pub(super) struct Cut {
     pub unknown: u8,
     /// Axes that the cut takes to a machine position (G53 under G1).
     pub home: u8,
-    /// Axes of the end whose position is known only at the machine.
+    /// The axes whose end position is an unknown machine position.
     pub open: u8,
     pub what: What,
     pub feed: Option<f64>,

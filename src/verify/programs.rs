@@ -340,7 +340,7 @@ fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     };
     let (before, now) = (stops(old), stops(new));
     if before != now {
-        return Some(format!("stops before this cut: {}, in the old program {}", listed(&now), listed(&before)));
+        return Some(format!("the stops before this cut are {}, in the old program {}", listed(&now), listed(&before)));
     }
     let pairs = || old.passage.waits.iter().zip(&new.passage.waits);
     let same = old.passage.waits.len() == new.passage.waits.len()

@@ -15,6 +15,7 @@ import { cleared, drawAxes, drawHoles, drawTip } from "./overlay.ts";
 import type { Painter } from "./painter.ts";
 import { overlaps, pick } from "./pick.ts";
 import { PlainPainter } from "./plain.ts";
+import { listen } from "./pointer.ts";
 import { Size } from "./size.ts";
 import { blockOf, Stock } from "./stock.ts";
 import { drawTool, type Shape, shapesOf, upOf } from "./tool.ts";
@@ -102,7 +103,20 @@ export class Backplot {
     this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, this.size.root, stage);
     new ResizeObserver(() => this.resize()).observe(stage);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
-    this.point();
+    listen(this.canvas, this.camera, {
+      turned: () => this.turned(),
+      hover: (x, y) => {
+        const line = this.lineAt(x, y);
+        this.canvas.style.cursor = line ? "pointer" : "";
+        this.onHover(line);
+      },
+      leave: () => this.onHover(null),
+      click: (x, y) => {
+        if (this.measure.isOn) return this.takePoint(x, y);
+        const line = this.lineAt(x, y);
+        if (line) this.onPick(line);
+      },
+    });
   }
 
   get drawsBy(): string {
@@ -442,62 +456,6 @@ export class Backplot {
     if (to <= from) return null;
     const [a, b] = [path.first[from], path.first[to]].map((point) => this.camera.project(path.points, point * 3));
     return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
-  }
-
-  private point(): void {
-    let from: [number, number] | null = null;
-    let moved = 0;
-    let hovered = 0;
-    this.canvas.onpointerdown = (event) => {
-      from = [event.offsetX, event.offsetY];
-      moved = 0;
-      this.canvas.setPointerCapture(event.pointerId);
-    };
-    this.canvas.onpointermove = (event) => {
-      if (from) {
-        const [dx, dy] = [event.offsetX - from[0], event.offsetY - from[1]];
-        moved += Math.abs(dx) + Math.abs(dy);
-        if (moved < 4) return;
-        if (event.shiftKey || event.buttons !== 1) this.camera.pan(dx, dy);
-        else this.camera.orbit(dx, dy);
-        from = [event.offsetX, event.offsetY];
-        this.turned();
-        return;
-      }
-      cancelAnimationFrame(hovered);
-      const [x, y] = [event.offsetX, event.offsetY];
-      hovered = requestAnimationFrame(() => {
-        const line = this.lineAt(x, y);
-        this.canvas.style.cursor = line ? "pointer" : "";
-        this.onHover(line);
-      });
-    };
-    this.canvas.onpointerleave = () => this.onHover(null);
-    this.canvas.onpointerup = (event) => {
-      const was = from;
-      from = null;
-      if (!was || moved >= 4 || event.button !== 0) return;
-      if (this.measure.isOn) return this.takePoint(event.offsetX, event.offsetY);
-      const line = this.lineAt(event.offsetX, event.offsetY);
-      if (line) this.onPick(line);
-    };
-    this.canvas.oncontextmenu = (event) => event.preventDefault();
-    this.canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.camera.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0016)), event.offsetX, event.offsetY);
-      this.turned();
-    }, { passive: false });
-    this.canvas.onkeydown = (event) => {
-      const turn = { ArrowLeft: [-20, 0], ArrowRight: [20, 0], ArrowUp: [0, -20], ArrowDown: [0, 20] }[event.key];
-      const zoom = { "+": 1.25, "=": 1.25, "-": 0.8 }[event.key];
-      if (!turn && !zoom) return;
-      event.preventDefault();
-      event.stopPropagation();
-      if (turn && event.shiftKey) this.camera.pan(turn[0], turn[1]);
-      else if (turn) this.camera.orbit(turn[0], turn[1]);
-      if (zoom) this.camera.zoom(zoom, this.camera.width / 2, this.camera.height / 2);
-      this.turned();
-    };
   }
 }
 

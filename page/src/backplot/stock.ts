@@ -65,7 +65,7 @@ export class Stock {
     }
     const end = performance.now() + most;
     const { path } = this;
-    let move = moveAt(path.first, this.done);
+    let move = path.moveOfPiece(this.done);
     while (this.done < piece) {
       if (this.done % BATCH === 0 && performance.now() > end) return false;
       while (path.first[move + 1] <= this.done) move++;
@@ -179,14 +179,4 @@ function topOf(path: Path, plate: Plate): number {
   const zero = -path.head.middle[2];
   if (highest <= zero + 1e-6 && plate.least[2] < zero) return zero;
   return highest > -Infinity ? highest : plate.greatest[2];
-}
-
-function moveAt(first: Uint32Array, piece: number): number {
-  let [low, high] = [0, first.length - 1];
-  while (low + 1 < high) {
-    const middle = (low + high) >> 1;
-    if (first[middle] <= piece) low = middle;
-    else high = middle;
-  }
-  return low;
 }

@@ -24,7 +24,7 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Prints a comment, in as many blocks as the control's line length requires: by the form's CommentLine if it has one.
+/// Prints a comment with the form's CommentLine, if it has one, in as many blocks as the line length of the control requires.
 pub fn comment_block(text: &str, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let marks: usize = shape.program.settings.comment.iter().map(String::len).sum();

@@ -101,7 +101,7 @@ pub struct Left {
 }
 
 impl Left {
-    /// Does the subprogram change nothing that its next run depends on?
+    /// Is the next run of the subprogram independent of the state that this run leaves?
     pub fn is_nothing(&self) -> bool {
         self.conditions.known().is_empty() && !self.spins.stops
     }

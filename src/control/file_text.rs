@@ -190,7 +190,7 @@ pub(super) enum Height {
 
 /// A row of `[codes]`.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a row, as { is = \"harmless\" }")]
 pub(super) struct RowText {
     pub(super) is: Spanned<String>,
     pub(super) words: Option<Spanned<String>>,

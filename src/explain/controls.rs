@@ -1,5 +1,7 @@
 //! Known and unknown facts of a control: for `explain`, for docs/controls, and as a file to start from.
 
+use indexmap::IndexMap;
+
 use crate::control::{
     Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, WorkOffset, names,
 };
@@ -114,6 +116,19 @@ fn about(row: &Row) -> String {
 /// The function of a code on a control, in words. `None`: it is unknown on this control.
 pub fn code(control: &Control, code: Code) -> Option<String> {
     control.row(code).map(about)
+}
+
+/// The functions of a code on the controls that have it, with their names. `None`: no control has it.
+pub fn on_each(code: Code) -> Option<String> {
+    let mut functions: IndexMap<String, Vec<&str>> = IndexMap::new();
+    for control in names().filter_map(Control::named).filter(|control| !control.refuses(code)) {
+        if let Some(about) = self::code(control, code) {
+            functions.entry(about).or_default().push(control.name());
+        }
+    }
+    let rows = functions.iter().map(|(about, names)| format!("  {about}\n    on {}\n", names.join(", ")));
+    let rows: String = rows.collect();
+    (!rows.is_empty()).then(|| format!("{code} is a code of programs\n\n{rows}"))
 }
 
 /// The text that `postform explain haas` prints.

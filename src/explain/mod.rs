@@ -55,11 +55,13 @@ pub fn explain(what: &str) -> Result<String, String> {
         texts.extend(explain(head));
     }
     texts.extend(Control::named(&asked.to_ascii_lowercase()).map(controls::text));
+    // a code of programs, as `G81`
+    texts.extend(asked.to_ascii_uppercase().parse().ok().and_then(controls::on_each));
     match texts.is_empty() {
         false => Ok(texts.join("\n")),
         true => Err(did_you_mean(bare, all_names()).unwrap_or_else(|| {
-            "give a code (PF101, cycle.depth.missing), a command, a variable, a sequence or a kind of cycle; --list \
-             shows all of them"
+            "give a code (PF101, cycle.depth.missing), a code of programs (G81), a command, a variable, a sequence or a \
+             kind of cycle; --list shows all of them"
                 .into()
         })),
     }

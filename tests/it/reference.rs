@@ -63,6 +63,13 @@ fn everything_is_explained() {
         let elsewhere = ["PF005", "PF009", "PF019", "PF021", "PF603", "PF604"]; // a file that is not there, another machine
         assert!(errors.iter().all(|code| elsewhere.contains(code)), "{}: {errors:?}\n{lines}", row.name);
     }
+    for (code, function, control) in
+        [("G81", "makes a hole", "haas"), ("m0", "stops the program", "grbl"), ("G41", "left", "fanuc")]
+    {
+        let text = explain(code).unwrap();
+        assert!(text.contains(function) && text.contains(control), "{text}");
+    }
+    assert!(explain("G81").unwrap().lines().all(|line| !line.contains("siemens,")), "a Siemens has no G81 of its own");
     for row in VARIABLES {
         let text = explain(&format!("[{}]", row.name)).unwrap();
         assert!(text.contains(row.meaning) && text.contains("Example"), "{}", row.name);

@@ -207,7 +207,7 @@ export class Editor {
 
   /** Puts a text into the file, as if it were typed. */
   type(text: string): void {
-    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, selection: { anchor: 0 }, scrollIntoView: true });
     this.view.focus();
   }
 
@@ -282,7 +282,7 @@ export class Editor {
     this.quiet = true;
     this.view.dispatch({ effects });
     this.quiet = false;
-    this.head.textContent = first ? `line ${first.line + 1}` : "";
+    this.head.textContent = first ? `printed by line ${first.line + 1}` : "";
   }
 
   /** Moves the cursor to a finding. */

@@ -2,7 +2,7 @@
 
 import { element } from "./element.ts";
 import { base, jobName } from "./names.ts";
-import type { Head, Verdict } from "./scene.ts";
+import type { Finding, Head, Verdict } from "./scene.ts";
 
 /** In place of a verdict. */
 export function without(text: string): Verdict {
@@ -47,15 +47,19 @@ export class Header {
   }
 
   /** How many findings there are, and the first of them. */
-  private showLint({ form }: Head): void {
+  private showLint({ form, notes: printed = [] }: Head): void {
     this.lint.hidden = !form;
     if (!form) return;
-    const { errors, warnings, notes, findings } = form;
+    // of the form, and of printing the job with it
+    const of = (severity: Finding["severity"], ofForm: number) => ofForm + printed.filter((found) => found.severity === severity).length;
+    const [errors, warnings, notes] = [of("error", form.errors), of("warning", form.warnings), of("note", form.notes)];
     const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
-    const first = findings.find((found) => found.severity === (errors ? "error" : "warning"));
-    this.lint.textContent = `${count(errors, "error")}, ${count(warnings, "warning")}${first ? `: ${first.message}` : ""}`;
+    const worst = errors ? "error" : warnings ? "warning" : "note";
+    const first = [...form.findings, ...printed].find((found) => found.severity === worst);
+    const counts = [count(errors, "error"), count(warnings, "warning"), ...(notes ? [count(notes, "note")] : [])];
+    this.lint.textContent = `${counts.join(", ")}${first ? `: ${first.message}` : ""}`;
     this.lint.title = first?.help ?? "";
-    this.lint.setAttribute("aria-label", `${this.lint.textContent}; ${count(notes, "note")}; show the next finding`);
+    this.lint.setAttribute("aria-label", `${this.lint.textContent}; show the next finding`);
     this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
   }
 
@@ -78,9 +82,15 @@ export class Header {
   tell(job: number, verdict: Verdict | undefined, stopped?: Head["stopped"]): void {
     const class_ = { proven: "ok", unproven: "warn", different: "bad", none: "dim" }[verdict?.kind ?? "none"];
     this.verdict.className = `verdict ${stopped ? "bad" : class_}`;
-    this.verdict.textContent = stopped ? `${stopped.by === "form" ? "the form has errors" : "no program"}: ${stopped.findings[0]?.message ?? stopped.message}` : verdict?.text ?? "";
+    this.verdict.textContent = this.words(verdict, stopped);
     this.verdict.title = stopped ? (stopped.findings[0]?.help ?? "") : [verdict?.allowed.join("\n"), verdict?.help].filter(Boolean).join("\n");
     this.mark(job, stopped ? undefined : verdict);
+  }
+
+  /** Errors of the form are named beside it, by the counts. */
+  private words(verdict: Verdict | undefined, stopped?: Head["stopped"]): string {
+    if (!stopped) return verdict?.text ?? "";
+    return stopped.by === "form" ? "no program: the form has errors" : `no program: ${stopped.findings[0]?.message ?? stopped.message}`;
   }
 
   /** Whether the program fits its machine; null: it is unknown. */

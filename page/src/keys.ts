@@ -14,7 +14,7 @@ const KEYS: Key[] = [
   ["d D", "next difference or change, the one before", (page, back) => page.nextDifference(back ? -1 : 1)],
   ["space", "play, stop", (page) => page.play()],
   ["s", "the stock, cut by the tools", (page) => page.backplot.toggleStock()],
-  ["m", "measure between two points", (page) => page.backplot.toggleMeasure()],
+  ["m Esc", "measure between two points, end it", (page) => page.backplot.toggleMeasure()],
   ["/", "find in the program", (page) => page.listing.find.open()],
   ["z", "the chosen block from near", (page) => page.backplot.zoomToBlock()],
   ["0", "all of it", (page) => page.backplot.fit()],
@@ -30,6 +30,7 @@ export function keys(page: Page): void {
   const help = element("dialog", { "aria-label": "Keys" }, element("table", {}, ...rows), close);
   close.onclick = () => help.close();
   document.body.append(help);
+  page.keysButton.onclick = () => help.showModal();
   // a clicked button loses the focus, so that space and letters stay keys of the page
   document.addEventListener("click", (event) => {
     const button = (event.target as HTMLElement).closest("button");
@@ -37,8 +38,9 @@ export function keys(page: Page): void {
   });
   document.addEventListener("keydown", (event) => {
     if (event.key === "s" && (event.ctrlKey || event.metaKey)) {
-      event.preventDefault();
-      return void page.save();
+      // the form saves by itself where it has the focus
+      if (!event.defaultPrevented) void page.save();
+      return event.preventDefault();
     }
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.metaKey || event.altKey || help.open || target.closest(".cm-editor, input, textarea, select")) return;
@@ -54,6 +56,7 @@ export function keys(page: Page): void {
       n: () => page.step(1),
       p: () => page.step(-1),
       "?": () => help.showModal(),
+      Escape: () => page.backplot.endMeasure(),
     };
     const row = KEYS.find(([names]) => names.split(" ").includes(event.key === " " ? "space" : event.key));
     const act = acts[event.key] ?? (view ? () => page.backplot.look(view.name) : row && (() => row[2](page, event.key !== event.key.toLowerCase())));

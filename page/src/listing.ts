@@ -61,7 +61,10 @@ export class Listing {
     };
     this.rows.onclick = (event) => {
       const line = lineOf(event);
-      if (line) this.onPick(line);
+      if (!line) return;
+      // the keys are those of the page from here on
+      this.view.focus({ preventScroll: true });
+      this.onPick(line);
     };
     this.rows.onmouseover = (event) => this.onHover(lineOf(event));
     this.rows.onmouseleave = () => this.onHover(null);

@@ -12,7 +12,7 @@ import { keys } from "./keys.ts";
 import { Kit } from "./kit.ts";
 import { Listing } from "./listing.ts";
 import { findingsOf, type Marks, marksOf, noMarks, stops } from "./marks.ts";
-import { base } from "./names.ts";
+import { base, jobName } from "./names.ts";
 import { fitNote, noteOf, stoppedNote, verdictNote, whereOf } from "./note.ts";
 import { withHandles } from "./panes.ts";
 import { Program } from "./program.ts";
@@ -43,6 +43,7 @@ export class Page {
   private readonly foot = element("span", { class: "where", "aria-live": "polite" });
   private readonly timing = element("span", { class: "ms", title: "From the key to the new picture and verdict" });
   private readonly beside = element("span", { class: "beside" });
+  readonly keysButton = element("button", { title: "All keys (?)" }, "? keys");
   private readonly banner = element("div", { class: "banner", role: "alert", hidden: "" });
 
   private head: Head | null = null;
@@ -74,7 +75,7 @@ export class Page {
     const main = element("main", { class: editor ? "three" : "two" });
     this.backplot.root.append(this.timeline.root);
     withHandles(main, [...(editor ? [editor.root] : []), this.listing.root, this.backplot.root]);
-    const help = element("span", { class: "keys" }, "n p block · t T tool · i I item · f F finding · d D change · space play · ? keys");
+    const help = element("span", { class: "keys" }, "n p block · t T tool · i I item · f F finding · d D change · space play · ", this.keysButton);
     const footer = element("footer", {}, this.foot, help, this.timing, this.beside);
     document.body.append(this.header.root, this.banner, main, this.state.root, footer);
     this.wire();
@@ -206,7 +207,7 @@ export class Page {
     const copy: [string, () => void] = ["copy what was typed", () => void navigator.clipboard.writeText(typed.join("\n"))];
     const write: [string, () => void] = ["write it again", () => void this.writeAgain()];
     const more = [...(gone && this.editor && this.host?.save ? [write] : []), ...(typed.length ? [copy] : [])];
-    this.say(`Not checked: ${why.replace(/^error: /, "")}.${typed.length ? " What was typed is kept here." : ""}`, again, ...more);
+    this.say(`Not checked: ${why.replace(/^error: /, "").replace(/\n\s*help: /, "; ")}.${typed.length ? " What was typed is kept here." : ""}`, again, ...more);
     this.sayingFailed = true;
   }
 
@@ -268,7 +269,8 @@ export class Page {
     this.mark();
     if (first && this.program) this.line = this.firstLine();
     this.line = Math.min(this.line, Math.max(1, this.program?.lines ?? 1));
-    this.choose(this.line, first ? "key" : "form", first);
+    // the form begins at its first line, whatever block is chosen
+    this.choose(this.line, "form", first);
     if (first) void this.otherVerdicts();
   }
 
@@ -316,7 +318,7 @@ export class Page {
 
   private titles(head: Head): void {
     this.header.show(head, this.job);
-    this.listing.fileName = `${base(head.job.name).replace(/\.[^.]*$/, "") || "program"}.nc`;
+    this.listing.fileName = `${jobName(head.job.name) || "program"}.nc`;
     if (!head.form) return;
     this.properties.show(head.form.properties, head.picture?.units ?? this.shown?.picture?.units ?? "");
     this.kit.show(head.form.kit);
@@ -420,7 +422,10 @@ export class Page {
     const texts = head.files.map((name) => this.typed[name] ?? this.saved[name] ?? "");
     const buttons = sourcesOf(this.program.text(line), head.formats, texts).map(({ word, file, line, text }) => {
       const button = element("button", { title: `decides how ${word} is printed: line ${line + 1} of the form` }, element("code", {}, text));
-      button.onclick = () => this.editor!.goTo([file, line, 0, line, 0]);
+      button.onclick = () => {
+        this.editor!.goTo([file, line, 0, line, text.length]);
+        this.editor!.view.focus();
+      };
       return button;
     });
     return buttons.length ? [element("div", { class: "decided" }, "formats and commands: ", ...buttons)] : [];
@@ -462,7 +467,7 @@ export class Page {
   }
 
   nextFinding(by: number): void {
-    const all = (this.head?.form?.findings ?? []).filter((found) => found.labels.length);
+    const all = (this.head ? findingsOf(this.head) : []).filter((found) => found.labels.length);
     if (!all.length || !this.editor) return;
     this.next.finding = (this.next.finding + by + all.length) % all.length;
     const found = all[(this.next.finding - 1 + all.length) % all.length];
@@ -534,6 +539,19 @@ export class Page {
   }
 
   async save(): Promise<void> {
+    if (!this.host?.save || this.saves) return;
+    this.saves = true;
+    try {
+      await this.saveTyped();
+    } catch (error) {
+      this.say(`Not saved: ${error instanceof Error ? error.message : String(error)}. What was typed is kept here.`, ["try again", () => void this.save()]);
+    }
+    this.saves = false;
+  }
+
+  private saves = false;
+
+  private async saveTyped(): Promise<void> {
     if (!this.host?.save) return;
     for (const [name, text] of Object.entries(this.typed)) {
       if (this.conflicts.has(name)) return this.sayConflict(name);

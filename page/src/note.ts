@@ -30,13 +30,13 @@ export function noteOf(program: Program, line: number, marks: Marks, formText: s
     const gone = repeats(formText, program.text(line), program, line);
     note.push(element("div", {}, `printed by line ${form.line + 1}: `, element("code", {}, formText.trim())));
     if (gone.length) {
-      const why = gone.length === 1 ? `repeats: ${gone[0].why}` : "repeat: what stands is not printed again";
+      const why = gone.length === 1 ? `repeats: ${gone[0].why}` : "these values are still in force";
       note.push(element("div", { class: "gone" }, "not printed: ", ...struck(gone), why));
     }
   } else if (program.isTraced) {
     const block = program.text(line).replace(/^\s*N\d+\s*/, "");
-    const own = OWN.find(([made]) => made.test(block))?.[1];
-    note.push(element("div", { class: "gen" }, "no line of the form: postform made this block of the job's item", own ? `; the form would print it by ${own}` : ""));
+    const own = OWN.find(([made]) => made.test(block))?.[1] ?? (program.item(line)?.point ? "a sequence for this kind of cycle, as Drill, Peck or Custom1" : undefined);
+    note.push(element("div", { class: "gen" }, "no line of the form printed this block: postform made it from the job's item", own ? `; the form would print it by ${own}` : ""));
   }
   return note;
 }

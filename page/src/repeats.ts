@@ -24,7 +24,7 @@ export function repeats(formLine: string, block: string, program: Program, line:
     const inCycle = program.held("cycle", line);
     const held = axis === 2 && inCycle ? program.held("depth", line) : axis >= 0 ? position[axis] : HELD[letter] ? program.held(HELD[letter], line) : null;
     const text = variable.startsWith("[") ? (held ? letter + number(held.value) : word) : word;
-    const said = held && held.line > 0 && held.line < line ? `line ${held.line} said it, and it stands` : "it stands, or there is nothing to print";
+    const said = held && held.line > 0 && held.line < line ? `line ${held.line} said it, and it is still in force` : "it is still in force, or there is nothing to print";
     gone.push({ word: text, why: said });
   }
   return gone;

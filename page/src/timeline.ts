@@ -122,8 +122,8 @@ export class Timeline {
   /** A block was chosen: its end is where playing begins. */
   chose(line: number): void {
     this.pause();
-    const [, to] = this.program?.moves(line) ?? [0, 0];
-    if (to > 0) this.time = this.path!.moveTime[to - 1];
+    const move = this.path?.moves ? this.program!.moveOf(this.program!.pointAfter(line)) : -1;
+    this.time = move < 0 ? 0 : this.path!.moveTime[move];
     this.tell();
   }
 

@@ -294,7 +294,7 @@ test("what was typed stays where the form gets another file", async ({ open }) =
   // a file that only what is typed names is looked at, too
   writeFileSync(join(path, "mine.toml"), 'name = "mine"\nlike = "nothing"\n');
   await page.waitForFunction(() => document.querySelectorAll(".files [role=tab]").length === 2, null, { timeout: 20_000 });
-  ok((await page.locator(".verdict").innerText()).includes("nothing"), "what is wrong with it is said");
+  ok((await page.locator(".lint").innerText()).includes("nothing"), "what is wrong with it is said");
   ok((await text()).includes("# mine!"), "and what was typed is there");
   await page.evaluate(() => window.page.editor.view.focus());
   for (let undo = 0; undo < 12; undo++) await page.keyboard.press("Control+z");
@@ -406,6 +406,9 @@ test("WebGL2 and a plain canvas draw the same", async ({ browser, open }) => {
     await ready(page);
     equal(await page.evaluate(() => window.page.backplot.drawsBy), by);
     const inked = await page.evaluate(() => {
+      // the lines alone: a plain canvas has the ground, too
+      Object.assign(window.page.backplot.painter, { ground: null });
+      window.page.backplot.draw();
       const from = document.querySelector("canvas.path");
       const to = Object.assign(document.createElement("canvas"), { width: from.width, height: from.height }).getContext("2d");
       to.drawImage(from, 0, 0);
@@ -465,7 +468,7 @@ test("a machine says whether the program fits, and how long it takes", async ({ 
   await ready(other);
   ok(await other.locator(".fit").isHidden(), "no machine, nothing said");
   await type(other, "Control haas", "\nMachineFile own.toml");
-  await other.waitForFunction(() => document.querySelector(".verdict").textContent.includes("the travel of X goes from 0 to -30"));
+  await other.waitForFunction(() => document.querySelector(".lint").textContent.includes("the travel of X goes from 0 to -30"));
   writeFileSync(join(path, "own.toml"), 'control = "haas"\nunits = "inch"\n[axes.X]\ntravel = [-14, 0]\n[offsets]\nG54 = [-14, 0, 0]\n');
   await type(other, "MachineFile own.toml", " ");
   await other.waitForFunction(() => document.querySelector(".fit").textContent.startsWith("does not fit"));
@@ -775,6 +778,46 @@ test("axe finds nothing, in light and dark, with everything open, and in an empt
     await page.getByRole("group", { name: "Begin with a post" }).waitFor();
     equal(await findings(), [], `${colorScheme}, an empty form`);
   }
+});
+
+test("what a first user met: keys after a click on a block, one save for a key, a misspelt name, the time of a block without a move", async ({ open }) => {
+  const { page } = await open();
+  const before = await page.evaluate(() => window.page.editor.text);
+  await page.locator(".cm-line").nth(2).click();
+  await page.locator(".ln").nth(2).click();
+  await page.keyboard.type("nn");
+  equal(await page.evaluate(() => window.page.editor.text), before, "letters are keys of the page");
+  // a name that is nearly right is written by a button
+  await type(page, "\nG1 G[side] D[dcomp] X[h] Y[v] F[frat", "", ["Delete"]);
+  await page.waitForFunction(() => document.body.classList.contains("stale"));
+  await page.locator(".cm-lintRange-error").first().hover();
+  await page.locator(".cm-tooltip-lint").getByRole("button", { name: "write `frate`" }).click();
+  await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"));
+  equal(await page.evaluate(() => window.page.editor.text), before);
+  // one key, one save
+  await type(page, "Name ", "My ");
+  let saves = 0;
+  page.on("request", (request) => (saves += request.url().endsWith("/save") ? 1 : 0));
+  await page.keyboard.press("Control+s");
+  await page.waitForTimeout(400);
+  equal([saves, await page.locator(".banner").isVisible()], [1, false]);
+  // the time of a block without a move is that of the move before it
+  const times = await page.evaluate(() => {
+    const { program, timeline } = window.page;
+    const line = Array.from({ length: program.lines }, (_, i) => i + 1).find((line) => /T5 M6/.test(program.text(line)));
+    const at = (line) => (window.page.choose(line, "key"), timeline.time);
+    return [at(1), at(line) > at(line - 20), at(program.lines) === timeline.total];
+  });
+  equal(times, [0, true, true]);
+});
+
+test("warnings of printing are counted", async ({ open }) => {
+  const { page } = await open();
+  await page.evaluate(() => {
+    const { editor } = window.page;
+    editor.type(editor.text.replaceAll("G43 H[lcomp] Z[d] M[cool]", "G43 H[lcomp] Z[d] M8"));
+  });
+  await page.waitForFunction(() => /1 warning: the form prints M8/.test(document.querySelector(".lint").textContent));
 });
 
 await run();

@@ -3,10 +3,12 @@
 mod codes;
 mod findings;
 mod location;
+mod suggestion;
 
 pub use codes::{CODES, Code, CodeRow};
 pub use findings::Findings;
 pub use location::Location;
+pub use suggestion::suggestion;
 
 use crate::span::Span;
 use crate::terminal::{escaped, steers};

@@ -3,7 +3,7 @@
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 use super::Document;
-use crate::diag::{Diag, Fix, Severity};
+use crate::diag::{Diag, Fix, Severity, suggestion};
 use crate::lint::{Changed, edited};
 use crate::span::Span;
 use crate::syntax::{Head, Line, Tail};
@@ -63,7 +63,7 @@ impl Document {
             let Some(span) = diag.labels.first().map(|label| label.span).filter(|span| touches(*span, within)) else {
                 continue;
             };
-            if let Some(fix) = &diag.fix {
+            if let Some(fix) = &diag.fix.clone().or_else(|| suggestion(diag, self.files())) {
                 let before = if fix.safe { None } else { before.get_or_insert_with(|| print(&Changed::new())).clone() };
                 actions.push(self.mending(index, diag, fix, before.as_deref(), print));
             }
@@ -265,6 +265,17 @@ mod tests {
         assert_eq!(found(after) + 1, found(&document.files()[0].text), "{after}");
         let (_, after) = all.iter().find(|(action, _)| action.kind == Kind::AllowFile).unwrap();
         assert_eq!(found(after), 0);
+    }
+
+    #[test]
+    fn a_misspelt_name_is_written_as_proposed() {
+        let (document, offset) = haas("Z[d] R[vclear] F[frate]", "Z[d] R[vcl|aer] F[frate]");
+        let all = done(&document, offset);
+        let (action, after) = all.iter().find(|(action, _)| action.title.starts_with("Write `vclear`")).unwrap();
+        assert!(action.kind == Kind::Unsafe && after.contains("Z[d] R[vclear] F[frate]"), "{action:?}");
+        // no name is proposed, or none is near
+        let (document, offset) = haas("Z[d] R[vclear] F[frate]", "Z[d] R[qq|qqqq] F[frate]");
+        assert!(done(&document, offset).iter().all(|(action, _)| !action.title.starts_with("Write")));
     }
 
     #[test]

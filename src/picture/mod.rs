@@ -95,7 +95,7 @@ pub struct Picture {
     pub minutes: Vec<f32>,
     /// The rotary axes: a row for each move that turns them, in the order of the moves. Empty: no axis turns.
     pub turned: Vec<Turned>,
-    /// Letters of the axes in [`Move::to`]: `XYZ`, or `XY` for a wire.
+    /// Letters of the axes in `Move::to`: `XYZ`, or `XY` for a wire.
     pub letters: &'static str,
     /// Arcs of the moves, in the picture's units; each `to` is the end of the move.
     pub arcs: Vec<Turn>,

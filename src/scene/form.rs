@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::diag::{Diag, Location, Severity};
+use crate::diag::{Diag, Location, Severity, suggestion};
 use crate::post::shipped::FORMS;
 use crate::sema::{Checked, Property, PropertyKind};
 use crate::source::Source;
@@ -60,7 +60,7 @@ pub fn finding(diag: &Diag, files: &[Source]) -> Value {
         .iter()
         .filter_map(|label| Some(json!({ "at": place(label.span, files)?, "text": label.text })))
         .collect();
-    let fix = diag.fix.as_ref().map(|fix| {
+    let fix = diag.fix.clone().or_else(|| suggestion(diag, files)).map(|fix| {
         let edits =
             fix.edits.iter().filter_map(|(span, text)| Some(json!({ "at": place(*span, files)?, "text": text })));
         json!({ "title": fix.title, "safe": fix.safe, "edits": edits.collect::<Vec<Value>>() })

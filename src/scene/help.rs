@@ -44,7 +44,7 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
     };
     let place = offset(source, Place { line: at.line, character: at.column });
     let mut job = job.ok();
-    let mut current = job.as_mut().and_then(|job| document.print(job_name, job.again()));
+    let mut current = job.as_mut().and_then(|job| document.print(short(job_name), job.again()));
     match at.ask {
         Ask::Hover => document.hover(file, place, current.as_ref()).map_or(
             Value::Null,
@@ -54,11 +54,16 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
             // a form with an incomplete word prints nothing: the values are taken from the form without that word
             if let Some(job) = job.filter(|_| current.is_none() && file == 0) {
                 let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
-                current = Document::new(form, files, limits, levels).print(job_name, job);
+                current = Document::new(form, files, limits, levels).print(short(job_name), job);
             }
             list(&document, file, place, current.as_ref())
         }
     }
+}
+
+/// The name of a file without its folders.
+fn short(name: &str) -> &str {
+    name.rsplit(['/', '\\']).next().unwrap_or(name)
 }
 
 fn list(document: &Document, file: u32, place: u32, current: Option<&Current>) -> Value {

@@ -525,6 +525,9 @@ fn only_the_form_is_written_and_only_on_save() {
     folder.write("my.pf", format!("\u{feff}{}", form.replace('\n', "\r\n")));
     assert_eq!(save("my.pf", &new, &form).0, 200);
     assert_eq!(folder.read("my.pf"), format!("\u{feff}{}", new.replace('\n', "\r\n")));
+    // what could not be read again is not written
+    let (status, why) = save("my.pf", &"# x\n".repeat(200_000), &new);
+    assert!(status == 409 && why.contains("larger than 512 KB"), "{why}");
     // a file in Windows-1252 stays in it, and a letter that it has no byte for is not written
     folder.write("my.pf", b"Name Fr\xe4se\n");
     assert_eq!(save("my.pf", "Name Fr\u{e4}sen \u{20ac}\n", "Name Fr\u{e4}se\n").0, 200);

@@ -18,7 +18,7 @@ use super::packed::{unpacked, unpacked_name};
 use super::spool::Spool;
 
 /// Maximum size of a form: a longer file is not a form.
-const LARGEST_FORM: u64 = MOST_TEXT as u64;
+pub const LARGEST_FORM: u64 = MOST_TEXT as u64;
 
 /// The message about a file that can't be read or written.
 pub fn io_message(what: &str, path: &Path, error: &io::Error) -> String {

@@ -6,7 +6,7 @@ import { type Colour, type Colours, css, TOOLS } from "./colours.ts";
 import type { Shades } from "./shades.ts";
 
 /** More entries than that are left out. */
-const MOST = 12;
+const MOST = 8;
 
 export function legendOf(program: Program, shades: Shades, colours: Colours, hasOld: boolean): HTMLElement[] {
   const entries = [element("span", { class: "rapid" }, "rapid"), ...(shades.range ? [ramp(shades.range, shades.meaning, program, colours)] : numbers(program, shades, colours))];
@@ -24,7 +24,8 @@ function numbers(program: Program, { meaning }: Shades, colours: Colours): HTMLE
     if (meaning === "tool") return number === 0 ? "no tool" : `T${head.tools[number]}`;
     return number === 0 ? "no operation" : `operation ${number}`;
   };
-  return [...used].sort((a, b) => a - b).slice(0, MOST).map((number) => coloured(name(number), colours.tools[(number + TOOLS - 1) % TOOLS]));
+  const rest = used.size > MOST ? [element("i", {}, `and ${used.size - MOST} more`)] : [];
+  return [...[...used].sort((a, b) => a - b).slice(0, MOST).map((number) => coloured(name(number), colours.tools[(number + TOOLS - 1) % TOOLS])), ...rest];
 }
 
 function coloured(name: string, colour: Colour): HTMLElement {

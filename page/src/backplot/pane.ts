@@ -39,7 +39,7 @@ export class Backplot {
   private readonly block = element("button", { "aria-pressed": "false", title: "Cut the stock along the path; rapids through it are marked (s)" }, "stock");
   private readonly ruler = element("button", { "aria-pressed": "false", title: "Measure between two points of the path (m)" }, "measure");
   /** A measured distance, what to click, or why there is no stock. */
-  private readonly told = element("div", { class: "told-here", role: "status" });
+  private readonly told = element("div", { class: "told-here", role: "status", "aria-label": "Measure and stock" });
   private readonly camera = new Camera();
   private readonly painter: Painter;
   private colours: Colours;
@@ -125,6 +125,7 @@ export class Backplot {
 
   recolour(): void {
     this.colours = colours();
+    if (this.shades) this.tell();
     this.redraw();
   }
 
@@ -209,6 +210,7 @@ export class Backplot {
     if (this.stock) {
       this.stock = null;
       this.size.hide();
+      this.say("");
       this.onCrash([]);
     } else this.showStock();
     this.block.setAttribute("aria-pressed", String(!!this.stock));
@@ -221,8 +223,9 @@ export class Backplot {
     if (path && this.plate && this.shapes.size) {
       this.size.show(path, blockOf(path, this.plate));
       const block = this.size.block(path);
+      this.say("");
       this.stock = block && new Stock(path, this.centres, block, this.plate.least[2], this.shapes);
-      if (!block) this.say("no stock: its greatest X and Y must be greater than the least");
+      if (!block) this.say("no stock: give five numbers, the greater X and Y last, at most a hundred times as far apart as the cuts");
     } else {
       this.stock = null;
       this.size.hide();
@@ -243,6 +246,10 @@ export class Backplot {
 
   private say(text: string): void {
     this.told.textContent = text;
+  }
+
+  endMeasure(): void {
+    if (this.measure.isOn) this.toggleMeasure();
   }
 
   /** Clicks measure, until it is turned off again. */

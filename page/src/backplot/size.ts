@@ -6,9 +6,17 @@ import type { Block } from "./stock.ts";
 
 const FIELDS = ["X from", "X to", "Y from", "Y to", "Z top"];
 
+/** A block is at most so many times as large as the path. */
+const MOST = 100;
+
+/** A number with a point or a comma; NaN for any other text. */
+function number(text: string): number {
+  return /^\s*[-+]?(\d+([.,]\d*)?|[.,]\d+)\s*$/.test(text) ? Number(text.replace(",", ".")) : NaN;
+}
+
 export class Size {
   readonly root = element("div", { class: "size", role: "group", "aria-label": "Stock", hidden: "" });
-  private readonly fields = FIELDS.map((name) => element("input", { type: "number", step: "any", "aria-label": name }));
+  private readonly fields = FIELDS.map((name) => element("input", { type: "text", inputmode: "decimal", "aria-label": name }));
   private readonly hint = element("span", {});
   /** A size was typed: rapids are held against it. */
   isGiven = false;
@@ -40,10 +48,12 @@ export class Size {
 
   /** The block that is typed; null where it is none. */
   block(path: Path): Block | null {
-    const [left, right, low, high, top] = this.fields.map((field) => (field.value === "" ? NaN : Number(field.value)));
+    const [left, right, low, high, top] = this.fields.map((field) => number(field.value));
     const [x, y, z] = path.head.middle;
     const block: Block = { least: [left - x, low - y], greatest: [right - x, high - y], top: top - z };
-    return left < right && low < high && Number.isFinite(top) ? block : null;
+    const most = path.size * MOST;
+    const fits = [right - left, high - low].every((side) => side > 0 && side <= most) && Math.abs(top - z) <= most;
+    return fits && [left, low].every((value) => Math.abs(value) <= most * MOST) ? block : null;
   }
 
   private tell(): void {

@@ -97,6 +97,8 @@ pub struct Session {
     /// Number of changes of the files.
     generation: AtomicU64,
     saved: Mutex<Option<Saved>>,
+    /// Held while a form is compared and written.
+    saving: Mutex<()>,
     /// The files of the form that was shown last, including unsaved texts.
     shown: Mutex<Vec<PathBuf>>,
 }
@@ -171,6 +173,7 @@ impl Session {
             machine: [args.machine.machine, config.machine],
             generation: AtomicU64::new(0),
             saved: Mutex::new(None),
+            saving: Mutex::new(()),
             shown: Mutex::default(),
         })
     }
@@ -413,7 +416,15 @@ impl Session {
     /// # Errors
     /// The file does not belong to the form, was changed in the meantime, or can't be written.
     pub fn save(&self, save: &Save) -> Result<(), NotSaved> {
-        let conflict = |why: String| NotSaved::Conflict(why);
+        let conflict = |why: String| NotSaved::Conflict(plain(why));
+        if save.text.len() as u64 > files::LARGEST_FORM {
+            return Err(conflict(format!(
+                "it is larger than {} KB, and could not be read again",
+                files::LARGEST_FORM >> 10
+            )));
+        }
+        // of two pages that save at once, the second finds what the first has written
+        let _saving = lock(&self.saving);
         if let Some(path) = self.gone(&save.name) {
             let written = write_new(&path, save.text.as_bytes());
             self.forget();

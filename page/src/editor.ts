@@ -96,6 +96,8 @@ export class Editor {
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
   onLeave: () => void = () => {};
+  /** The code of a finding was clicked. */
+  onCode: (code: string) => void = () => {};
   /** Esc was pressed once: the page explains the second press. */
   onHint: () => void = () => {};
   private escaped = -Infinity;
@@ -254,7 +256,7 @@ export class Editor {
       const fix = this.isEditable ? finding.fix : null;
       return {
         from, to, severity, message: finding.message,
-        renderMessage: () => told(finding),
+        renderMessage: () => told(finding, this.onCode),
         actions: fix ? [{ name: fix.title, apply: () => this.mend(fix.edits) }] : [],
       };
     });
@@ -297,8 +299,10 @@ export class Editor {
   }
 }
 
-function told(finding: Finding): HTMLElement {
-  const text = element("div", { class: "told" }, element("b", {}, finding.code), ` ${finding.message}`);
+function told(finding: Finding, onCode: (code: string) => void): HTMLElement {
+  const code = element("button", { class: "code-name", title: `What ${finding.code} means` }, finding.code);
+  code.onclick = () => onCode(finding.code);
+  const text = element("div", { class: "told" }, code, ` ${finding.message}`);
   if (finding.help) text.append(element("div", { class: "help" }, finding.help));
   return text;
 }

@@ -18,10 +18,10 @@ export interface At {
   file: string;
   line: number;
   column: number;
-  ask: "complete" | "hover";
+  ask: "complete" | "hover" | "explain";
 }
 
-/** What a thing is, as Markdown, or what could stand at a place. */
+/** The description of an element, as Markdown, or the possible completions. */
 export interface Help {
   at?: Place;
   text?: string;
@@ -103,7 +103,7 @@ export class Server implements Host {
   }
 }
 
-/** Scenes that stand one after the other in what is read. Whoever wants no more of them stops asking, and no more is read. */
+/** Splits a stream into its scenes. If the caller stops, the rest of the stream is not read. */
 async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGenerator<ArrayBuffer> {
   let bytes = new Uint8Array();
   let filled = 0;

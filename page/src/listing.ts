@@ -70,7 +70,7 @@ export class Listing {
     this.rows.onmouseleave = () => this.onHover(null);
   }
 
-  /** `old`: an old program, whose blocks that are gone stand between the lines. */
+  /** Shows a program. Blocks that only the `old` program has are shown between the lines. */
   show(program: Program | null, marks: Marks, head: string, old: Program | null, hunks: Hunks["hunks"]): void {
     [this.program, this.marks, this.old] = [program, marks, old];
     this.places = new Rows(program?.lines ?? 0, old ? hunks : []);

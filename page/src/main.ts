@@ -47,27 +47,27 @@ export class Page {
   private readonly banner = element("div", { class: "banner", role: "alert", hidden: "" });
 
   private head: Head | null = null;
-  /** The head with which the program came that is shown. */
+  /** The head of the scene that brought the shown program. */
   private shown: Head | null = null;
   program: Program | null = null;
   private old: Program | null = null;
   private line = 1;
   private job = 0;
-  /** Texts that are on the disk, and those that were typed and not saved. */
+  /** The texts on the disk, and the typed texts that are not saved. */
   private saved: Record<string, string> = {};
   private typed: Record<string, string> = {};
-  /** Files that are other on the disk than what was typed began with, and nobody said yet which is to stay. */
+  /** Files that were changed on the disk and here; the user has not yet chosen which text to keep. */
   /** The tools of the job, as far as they are known. */
   private sizes: ToolSize[] = [];
   /** Lines whose rapids go through the stock. */
   private crashes = new Set<number>();
   private readonly conflicts = new Set<string>();
-  /** What is shown in place of a verdict while there is none of the very text that is shown: it is being checked, or could not be. */
+  /** Shown in place of a verdict while the shown text has none: it is being checked, or the check failed. */
   private unchecked: Verdict | null = null;
   private running = false;
   private again: { key: number } | null = null;
   private next = { finding: 0, difference: 0 };
-  /** When a key was pressed, and milliseconds from it until the new picture and the new verdict were painted: the last ones. */
+  /** The last keystrokes, with the milliseconds until the new picture and the new verdict were painted. */
   readonly painted: { key: number; picture: number; verdict: number }[] = [];
 
   /** Without a host the page shows one scene; without an editor it has two panes. */
@@ -127,6 +127,7 @@ export class Page {
       editor.onEdit = (name, text) => this.edit(name, text);
       editor.onLine = (file, line) => this.chooseFormLine(file, line);
       editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
+      editor.onCode = (code) => void this.explainCode(code);
       editor.onSave = () => void this.save();
       editor.onLeave = () => listing.focus();
       editor.onHint = () => (this.foot.textContent = "Esc again: to the keys of the program · Tab: out of the form");
@@ -156,7 +157,7 @@ export class Page {
     }));
   }
 
-  /** Asks for the scene again; while one is on its way, once more after it. */
+  /** Requests the scene again; if a request is running, once more after it. */
   async load(key = 0): Promise<void> {
     if (!this.host) return;
     this.pend(CHECKING);
@@ -175,7 +176,7 @@ export class Page {
         else this.tellMore(scene.head);
         shown ??= scene.head;
         if (key) this.measure(key, !!(this.head?.verdict ?? this.head?.stopped));
-        // what was typed meanwhile is more important than what is said of what was there before
+        // the text that was typed in the meantime comes first
         if (this.again) break;
       }
     } catch (error) {
@@ -187,7 +188,7 @@ export class Page {
     if (again) void this.load(again.key);
   }
 
-  /** No verdict holds any more: not of this job, nor of the others where the form was changed. */
+  /** No verdict is valid any more: neither of this job nor, if the form was changed, of the others. */
   private pend(text: Verdict): void {
     this.unchecked = text;
     document.body.classList.add("pending");
@@ -199,7 +200,7 @@ export class Page {
     }
   }
 
-  /** The text can't be checked: why, and a way out. */
+  /** The text can't be checked: shows the reason and the possible actions. */
   private failed(why: string, gone = false): void {
     this.pend(without("not checked"));
     const again: [string, () => void] = ["try again", () => void this.load()];
@@ -215,7 +216,7 @@ export class Page {
   /** A text was typed. */
   onTyped: () => void = () => {};
 
-  /** The form was deleted: it is written as it is shown here. */
+  /** Writes a deleted form with the text that is shown. */
   private async writeAgain(): Promise<void> {
     const name = this.head?.form?.files[0];
     if (!name) return;
@@ -227,7 +228,7 @@ export class Page {
     await this.load();
   }
 
-  /** What is said of what is shown, and took longer than its picture: the verdict, and what changed. */
+  /** Results for the shown program that take longer than its picture: the verdict, the changes. */
   private tellMore(head: Partial<Head>): void {
     const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = head;
     Object.assign(this.head!, { verdict, fit, saved, against, toolSizes });
@@ -235,7 +236,7 @@ export class Page {
     this.relight(false);
   }
 
-  /** From a key until it is painted. */
+  /** Measures the time from a key until its result is painted. */
   private measure(key: number, proven: boolean): void {
     requestAnimationFrame(() => setTimeout(() => {
       const time = performance.now() - key;
@@ -246,7 +247,7 @@ export class Page {
     }));
   }
 
-  /** Shows a scene. What can't be printed leaves the program of before, dimmed. */
+  /** Shows a scene. If nothing can be printed, the previous program stays, in grey. */
   show(scene: Scene): void {
     const head = scene.head;
     this.head = head;
@@ -269,12 +270,12 @@ export class Page {
     this.mark();
     if (first && this.program) this.line = this.firstLine();
     this.line = Math.min(this.line, Math.max(1, this.program?.lines ?? 1));
-    // the form begins at its first line, whatever block is chosen
+    // the form stays at its first line
     this.choose(this.line, "form", first);
     if (first) void this.otherVerdicts();
   }
 
-  /** The first difference, else the first block that cuts, one that the form printed if there is one. */
+  /** The first difference; otherwise the first cut, preferably one that the form printed. */
   private firstLine(): number {
     const difference = this.head?.verdict?.findings[0]?.line || this.head?.picture?.refused?.line;
     if (difference) return difference;
@@ -324,7 +325,7 @@ export class Page {
     this.kit.show(head.form.kit);
   }
 
-  /** The verdicts of the jobs that are not shown. */
+  /** Requests the verdicts of the jobs that are not shown. */
   private async otherVerdicts(): Promise<void> {
     for (let job = 0; job < this.header.jobs; job++) {
       if (job === this.job || !this.host) continue;
@@ -336,7 +337,7 @@ export class Page {
     }
   }
 
-  /** What is marked in the panes: differences, changes, findings. */
+  /** Marks differences, changes and findings in the panes. */
   private mark(): void {
     const head = this.head!;
     const waits = !!this.host && !!head.picture && !head.stopped && !head.verdict;
@@ -390,7 +391,7 @@ export class Page {
     this.editor?.light(form ? [form] : [], bad, scrolls);
   }
 
-  /** A line of the form was clicked: the next block that it printed. */
+  /** Selects the next block that a clicked line of the form printed. */
   private chooseFormLine(file: number, line: number): void {
     const printed = this.program?.printedBy(file, line) ?? [];
     if (!printed.length) {
@@ -402,7 +403,7 @@ export class Page {
     this.choose(printed.find((at) => at > this.line) ?? printed[0], "form");
   }
 
-  /** What is known of a block, in words. */
+  /** Describes a block in the note and the footer. */
   private tell(line: number, hovers: boolean): void {
     const program = this.program;
     const stopped = stoppedNote(this.head?.stopped?.findings ?? []);
@@ -415,7 +416,7 @@ export class Page {
     this.foot.textContent = (hovers ? "pointer at " : "") + whereOf(program, line);
   }
 
-  /** The lines of the form that decide how the words of a block look: a click goes there. */
+  /** Buttons for the lines of the form that determine the words of a block; a click goes to the line. */
   private decidedBy(line: number): HTMLElement[] {
     const head = this.head?.form;
     if (!this.editor || !head?.formats || !this.program) return [];
@@ -449,7 +450,7 @@ export class Page {
     this.choose(this.line + by, "key");
   }
 
-  /** The next block for which something else holds. */
+  /** Selects the next block for which `same` is false. */
   seek(by: number, same: (a: number, b: number) => boolean): void {
     const last = this.program?.lines ?? 0;
     for (let line = this.line + by; line >= 1 && line <= last; line += by) {
@@ -476,7 +477,7 @@ export class Page {
     this.editor.view.focus();
   }
 
-  /** What the verdict means: its findings one after the other, from where on nothing is proven, or what was allowed. */
+  /** Explains the verdict: steps through its findings, or shows the first block that is not proven, or the allowances. */
   private explain(): void {
     const verdict = this.head?.verdict;
     const bad = [...this.marks.bad.keys()].sort((a, b) => a - b);
@@ -484,6 +485,18 @@ export class Page {
     if (!verdict || this.head?.stopped || this.unchecked) return;
     if (verdict.line) this.choose(verdict.line, "finding");
     this.listing.note.replaceChildren(...verdictNote(verdict));
+  }
+
+  /** Shows the explanation of a code in a dialog. */
+  private async explainCode(code: string): Promise<void> {
+    const ask = { job: this.job, texts: {} };
+    const help = await this.host?.help(ask, { file: code, line: 0, column: 0, ask: "explain" }).catch(() => null);
+    const close = element("button", { autofocus: "" }, "close");
+    const dialog = element("dialog", { "aria-label": `What ${code} means`, class: "explained" }, element("pre", {}, help?.text ?? `${code} has no explanation`), close);
+    close.onclick = () => dialog.close();
+    dialog.onclose = () => dialog.remove();
+    document.body.append(dialog);
+    dialog.showModal();
   }
 
   nextDifference(by: number): void {
@@ -497,7 +510,7 @@ export class Page {
     this.timeline.toggle();
   }
 
-  /** Begins again with other files of the host, and with texts that are typed and not saved. */
+  /** Begins again with other files of the host and with unsaved texts. */
   async reopen(typed: Record<string, string>): Promise<void> {
     this.program = this.old = this.head = this.shown = null;
     [this.job, this.line, this.saved, this.typed] = [0, 1, {}, { ...typed }];
@@ -509,7 +522,7 @@ export class Page {
     await this.load();
   }
 
-  /** Texts of forms that are typed and not saved, by their names. */
+  /** The unsaved texts of forms, by their names. */
   get texts(): Record<string, string> {
     return this.typed;
   }
@@ -518,7 +531,7 @@ export class Page {
     return this.job;
   }
 
-  /** May what was typed be lost? */
+  /** Asks whether unsaved text may be lost. */
   mayLeave(): boolean {
     const names = Object.keys(this.typed).map(base);
     return !names.length || confirm(`What was typed in ${names.join(", ")} will be lost. Go on?`);

@@ -5,7 +5,7 @@ import type { Hunks } from "./scene.ts";
 /** More rows of an old program are left out. */
 const MOST = 10_000;
 
-/** Blocks that are gone: they stand after a line of the program. */
+/** Blocks of the old program that are gone, after a line of the new one. */
 interface Gone {
   after: number;
   /** First line of the old program, from 1, and how many there are. */

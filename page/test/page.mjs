@@ -811,6 +811,17 @@ test("what a first user met: keys after a click on a block, one save for a key, 
   equal(times, [0, true, true]);
 });
 
+test("the code of a finding leads to its explanation", async ({ open }) => {
+  const { page } = await open();
+  await type(page, "1stToolChange\nT[tool]", " ");
+  await page.locator(".cm-lintRange-error, .cm-lintRange-warning").first().hover();
+  await page.locator(".cm-tooltip-lint").getByRole("button", { name: "PF101" }).click();
+  const dialog = page.getByRole("dialog", { name: "What PF101 means" });
+  ok(/two spaces/i.test(await dialog.innerText()), await dialog.innerText());
+  await dialog.getByRole("button", { name: "close" }).click();
+  equal(await page.locator("dialog[open]").count(), 0);
+});
+
 test("warnings of printing are counted", async ({ open }) => {
   const { page } = await open();
   await page.evaluate(() => {

@@ -8,7 +8,7 @@ mod suggestion;
 pub use codes::{CODES, Code, CodeRow};
 pub use findings::Findings;
 pub use location::Location;
-pub use suggestion::suggestion;
+pub(crate) use suggestion::suggestion;
 
 use crate::span::Span;
 use crate::terminal::{escaped, steers};

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::Request;
 use super::form;
+use crate::explain::explain;
 use crate::ide::utf16::{Place, offset};
 use crate::ide::{CompletionKind, Current, Document, about};
 use crate::source::Source;
@@ -17,6 +18,8 @@ pub enum Ask {
     Complete,
     /// The meaning of the word there, and the text that its line printed.
     Hover,
+    /// The explanation of a code, whose name is in `file`.
+    Explain,
 }
 
 /// A location in a form, counted as an editor in a browser counts.
@@ -36,6 +39,9 @@ pub struct At {
 /// The answer: either `list`, the possible words with the text that each replaces, or `at` and `text`, which is Markdown. Null:
 /// there is no answer.
 pub fn help(request: Request<'_>, at: &At) -> Value {
+    if at.ask == Ask::Explain {
+        return explain(&at.file).map_or(Value::Null, |text| json!({ "text": text }));
+    }
     let Request { form, files, limits, levels, job, job_name, .. } = request;
     let document = Document::new(form.clone(), files, limits, levels);
     let found = document.files().iter().position(|file| file.name == at.file);
@@ -45,20 +51,16 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
     let place = offset(source, Place { line: at.line, character: at.column });
     let mut job = job.ok();
     let mut current = job.as_mut().and_then(|job| document.print(short(job_name), job.again()));
-    match at.ask {
-        Ask::Hover => document.hover(file, place, current.as_ref()).map_or(
-            Value::Null,
-            |hover| json!({ "at": form::place(hover.span, document.files()), "text": hover.text }),
-        ),
-        Ask::Complete => {
-            // a form with an incomplete word prints nothing: the values are taken from the form without that word
-            if let Some(job) = job.filter(|_| current.is_none() && file == 0) {
-                let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
-                current = Document::new(form, files, limits, levels).print(short(job_name), job);
-            }
-            list(&document, file, place, current.as_ref())
-        }
+    if at.ask == Ask::Hover {
+        let Some(hover) = document.hover(file, place, current.as_ref()) else { return Value::Null };
+        return json!({ "at": form::place(hover.span, document.files()), "text": hover.text });
     }
+    // a form with an incomplete word prints nothing: the values are taken from the form without that word
+    if let Some(job) = job.filter(|_| current.is_none() && file == 0) {
+        let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
+        current = Document::new(form, files, limits, levels).print(short(job_name), job);
+    }
+    list(&document, file, place, current.as_ref())
 }
 
 /// The name of a file without its folders.

@@ -437,6 +437,17 @@ fn formats_are_organised_and_forms_laid_out() {
     assert_eq!(laid_out, postform::internals::fmt::format(&postform::Source::from_text("my.pf", text)));
     editor.change("my.pf", &laid_out);
     assert_eq!(editor.ask("textDocument/formatting", &params), json!([]));
+    // of two lines that are laid out otherwise, the one of the range
+    let twice = laid_out.replacen("Machine   Mill", "machine   Mill", 1).replacen("End Cancel", "end Cancel", 1);
+    editor.change("my.pf", &twice);
+    let line = twice.lines().position(|line| line == "machine   Mill").unwrap();
+    let of = |from: usize, to: usize| {
+        let range = json!({ "start": { "line": from, "character": 0 }, "end": { "line": to, "character": 0 } });
+        json!({ "textDocument": { "uri": uri }, "range": range, "options": { "tabSize": 4, "insertSpaces": true } })
+    };
+    let edits = editor.ask("textDocument/rangeFormatting", &of(line, line + 1));
+    assert_eq!(edited(&twice, &edits), laid_out.replacen("End Cancel", "end Cancel", 1));
+    assert_eq!(editor.ask("textDocument/rangeFormatting", &of(0, line)), json!([]));
     editor.quit();
 }
 

@@ -32,7 +32,7 @@ export class Size {
     }));
   }
 
-  /** Shows a guess, as long as nobody has typed a size. */
+  /** Shows a guess, until a size is typed. */
   show(path: Path, { least, greatest, top }: Block): void {
     this.root.hidden = false;
     this.tell();

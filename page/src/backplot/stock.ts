@@ -55,7 +55,7 @@ export class Stock {
     this.tools = new Uint8Array(this.wide * this.deep);
   }
 
-  /** Cuts up to a piece, for at most so many milliseconds; true: it is there. Cells do not grow again: for an earlier piece it begins anew. */
+  /** Cuts up to a piece, for at most so many milliseconds. Returns true when the piece is reached. For an earlier piece it begins again, because cells do not grow. */
   cutTo(piece: number, most: number): boolean {
     if (piece < this.done) {
       this.heights.fill(this.top);

@@ -100,6 +100,7 @@ fn capabilities() -> lsp::ServerCapabilities {
         })),
         code_lens_provider: Some(lsp::CodeLensOptions::default()),
         document_formatting_provider: Some(true.into()),
+        document_range_formatting_provider: Some(true.into()),
         rename_provider: Some(lsp::RenameProvider::RenameOptions(lsp::RenameOptions {
             prepare_provider: Some(true),
             ..lsp::RenameOptions::default()
@@ -185,6 +186,10 @@ pub fn request(server: &Server, method: &str, params: Value) -> Result<Value, Fa
             }))
         }
         "textDocument/formatting" => done(structure::format(server, &text(method, &params)?)),
+        "textDocument/rangeFormatting" => {
+            let params: lsp::DocumentRangeFormattingParams = parse(method, params)?;
+            done(structure::format_range(server, &params.text_document.uri, params.range))
+        }
         "textDocument/codeAction" => done(actions::actions(server, &parse(method, params)?)),
         "textDocument/codeLens" => done(margin::lenses(server, &text(method, &params)?)),
         "textDocument/inlayHint" => {

@@ -1,8 +1,11 @@
 //! The structure of a form: outline, folding, colours, layout.
 
+use std::ops::Range;
+
 use gen_lsp_types as lsp;
 use postform::Span;
 use postform::internals::ide::{Symbol, SymbolKind, TokenKind};
+use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 use super::convert::range;
 use super::server::Server;
@@ -151,4 +154,26 @@ pub fn format(server: &Server, uri: &lsp::Uri) -> Option<Vec<lsp::TextEdit>> {
     }
     let whole = Span::new(0, 0, text.source.text.len());
     Some(vec![lsp::TextEdit { range: range(&text.source, whole), new_text: laid_out }])
+}
+
+/// The canonical layout of the lines of a range. A change of the layout that goes beyond the range is left out: its lines belong together.
+pub fn format_range(server: &Server, uri: &lsp::Uri, within: lsp::Range) -> Option<Vec<lsp::TextEdit>> {
+    let text = server.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
+    let laid_out = postform::internals::fmt::format(&text.source);
+    let [old, new] = [&text.source.text, &laid_out].map(|text| text.split_inclusive('\n').collect::<Vec<_>>());
+    // a range that ends at the beginning of a line does not mean that line
+    let last = within.end.line + u32::from(within.end.character > 0 || within.end.line == within.start.line);
+    let lines = within.start.line as usize..last as usize;
+    let changes = capture_diff_slices(Algorithm::Myers, &old, &new).into_iter().filter_map(|change| match change {
+        DiffOp::Equal { .. } => None,
+        change => Some((change.old_range(), change.new_range())),
+    });
+    let inside =
+        changes.filter(|(from, _)| from.start >= lines.start && from.end <= lines.end && from.start < lines.end);
+    let at = |line: usize| lsp::Position { line: line as u32, character: 0 };
+    let edit = |(from, to): (Range<usize>, Range<usize>)| lsp::TextEdit {
+        range: lsp::Range { start: at(from.start), end: at(from.end) },
+        new_text: new[to].concat(),
+    };
+    Some(inside.map(edit).collect())
 }

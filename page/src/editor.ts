@@ -96,6 +96,8 @@ export class Editor {
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
   onLeave: () => void = () => {};
+  /** The layout is to be made canonical. */
+  onFormat: () => void = () => {};
   /** The code of a finding was clicked. */
   onCode: (code: string) => void = () => {};
   /** Esc was pressed once: the page explains the second press. */
@@ -133,6 +135,7 @@ export class Editor {
         EditorState.readOnly.of(!this.isEditable),
         EditorView.contentAttributes.of({ "aria-label": "Form", spellcheck: "false", tabindex: "0" }),
         keymap.of([
+          { key: "Shift-Alt-f", run: () => (this.onFormat(), true), preventDefault: true },
           { key: "Mod-s", run: () => (this.onSave(), true), preventDefault: true },
           ...completionKeymap,
           { key: "Escape", run: () => this.escape() },
@@ -211,6 +214,16 @@ export class Editor {
   type(text: string): void {
     this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, selection: { anchor: 0 }, scrollIntoView: true });
     this.view.focus();
+  }
+
+  /** Another layout of the file that is shown: what begins and ends as before stays, and so does the cursor. */
+  layOut(text: string): void {
+    const old = this.text;
+    let from = 0;
+    while (from < old.length && old[from] === text[from]) from++;
+    let rest = 0;
+    while (rest < old.length - from && rest < text.length - from && old[old.length - 1 - rest] === text[text.length - 1 - rest]) rest++;
+    if (old !== text) this.view.dispatch({ changes: { from, to: old.length - rest, insert: text.slice(from, text.length - rest) } });
   }
 
   /** Forgets all files. */

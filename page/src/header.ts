@@ -47,15 +47,17 @@ export class Header {
   }
 
   /** How many findings there are, and the first of them. */
-  private showLint({ form, notes: printed = [] }: Head): void {
+  private showLint({ form, notes: printed = [], picture }: Head): void {
     this.lint.hidden = !form;
     if (!form) return;
     // of the form, and of printing the job with it
     const of = (severity: Finding["severity"], ofForm: number) => ofForm + printed.filter((found) => found.severity === severity).length;
-    const [errors, warnings, notes] = [of("error", form.errors), of("warning", form.warnings), of("note", form.notes)];
+    // and a block that the control refuses
+    const refused = picture?.refused;
+    const [errors, warnings, notes] = [of("error", form.errors) + (refused ? 1 : 0), of("warning", form.warnings), of("note", form.notes)];
     const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
     const worst = errors ? "error" : warnings ? "warning" : "note";
-    const first = [...form.findings, ...printed].find((found) => found.severity === worst);
+    const first = [...form.findings, ...printed].find((found) => found.severity === worst) ?? (worst === "error" ? refused : undefined);
     const counts = [count(errors, "error"), count(warnings, "warning"), ...(notes ? [count(notes, "note")] : [])];
     this.lint.textContent = `${counts.join(", ")}${first ? `: ${first.message}` : ""}`;
     this.lint.title = first?.help ?? "";

@@ -18,7 +18,7 @@ export interface At {
   file: string;
   line: number;
   column: number;
-  ask: "complete" | "hover" | "explain";
+  ask: "complete" | "hover" | "explain" | "format";
 }
 
 /** The description of an element, as Markdown, or the possible completions. */

@@ -22,6 +22,7 @@ const KEYS: Key[] = [
   ["Home End", "first block, last block", () => {}],
   ["Esc Esc", "from the form to the program", () => {}],
   ["Ctrl S", "save the form", () => {}],
+  ["Shift Alt F", "in the form: its canonical layout", () => {}],
 ];
 
 export function keys(page: Page): void {

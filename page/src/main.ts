@@ -127,6 +127,7 @@ export class Page {
       editor.onEdit = (name, text) => this.edit(name, text);
       editor.onLine = (file, line) => this.chooseFormLine(file, line);
       editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
+      editor.onFormat = () => void this.format();
       editor.onCode = (code) => void this.explainCode(code);
       editor.onSave = () => void this.save();
       editor.onLeave = () => listing.focus();
@@ -485,6 +486,16 @@ export class Page {
     if (!verdict || this.head?.stopped || this.unchecked) return;
     if (verdict.line) this.choose(verdict.line, "finding");
     this.listing.note.replaceChildren(...verdictNote(verdict));
+  }
+
+  /** Lays the form out as `postform fmt` does. */
+  private async format(): Promise<void> {
+    const { editor, host } = this;
+    if (!editor || !host) return;
+    const before = editor.text;
+    const help = await host.help({ job: this.job, texts: this.typed }, { file: editor.name, line: 0, column: 0, ask: "format" }).catch(() => null);
+    // what was typed in the meantime is not overwritten
+    if (help?.text && editor.text === before) editor.layOut(help.text);
   }
 
   /** Shows the explanation of a code in a dialog. */

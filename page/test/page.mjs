@@ -811,6 +811,23 @@ test("what a first user met: keys after a click on a block, one save for a key, 
   equal(times, [0, true, true]);
 });
 
+test("the form is laid out as fmt does, and a refused block is counted", async ({ open }) => {
+  const { page } = await open();
+  const before = await page.evaluate(() => window.page.editor.text);
+  await page.evaluate(() => {
+    const { editor } = window.page;
+    editor.type(editor.text.replace("Machine Mill", "machine Mill"));
+  });
+  await page.locator(".cm-line").nth(4).click();
+  await page.keyboard.press("Shift+Alt+F");
+  await page.waitForFunction((before) => window.page.editor.text === before, before);
+  await page.evaluate(() => {
+    const { editor } = window.page;
+    editor.type(editor.text.replace("\nEndCode\n", "\nEndCode\nG81 G0\n"));
+  });
+  await page.waitForFunction(() => /1 error, /.test(document.querySelector(".lint").textContent));
+});
+
 test("the code of a finding leads to its explanation", async ({ open }) => {
   const { page } = await open();
   await type(page, "1stToolChange\nT[tool]", " ");

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::Request;
 use super::form;
 use crate::explain::explain;
+use crate::fmt::format;
 use crate::ide::utf16::{Place, offset};
 use crate::ide::{CompletionKind, Current, Document, about};
 use crate::source::Source;
@@ -20,6 +21,8 @@ pub enum Ask {
     Hover,
     /// The explanation of a code, whose name is in `file`.
     Explain,
+    /// The canonical layout of the file.
+    Format,
 }
 
 /// A location in a form, counted as an editor in a browser counts.
@@ -48,6 +51,9 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
     let Some((file, source)) = found.and_then(|file| Some((file as u32, document.files().get(file)?))) else {
         return Value::Null;
     };
+    if at.ask == Ask::Format {
+        return json!({ "text": format(source) });
+    }
     let place = offset(source, Place { line: at.line, character: at.column });
     let mut job = job.ok();
     let mut current = job.as_mut().and_then(|job| document.print(short(job_name), job.again()));

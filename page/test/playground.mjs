@@ -106,7 +106,7 @@ for (const broken of ["#files=", "#files=AAAA", "#files=%00", `#files=${"A".repe
   await other.goto("about:blank");
   await other.goto(address + broken);
   await other.waitForFunction(() => window.page, null, { timeout: 60_000 });
-  ok(/can't be read/.test(await other.locator("[role=status]").innerText()), `${broken.slice(0, 20)}: said`);
+  ok(/can't be read/.test(await other.locator(".front [role=status]").innerText()), `${broken.slice(0, 20)}: said`);
 }
 
 // the examples

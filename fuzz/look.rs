@@ -1,9 +1,9 @@
-//! What is asked of every form, whatever it is: it is read, looked at, mended and laid out, and its programs stay the same.
+//! What is asked of every form, whatever it is: it is read, looked at, fixed and laid out, and its programs stay the same.
 
 use postform::internals::compile::compile;
 use postform::internals::fmt::format;
 use postform::internals::json::read_document;
-use postform::internals::lint::{Changed, Found, Levels, lint, mend};
+use postform::internals::lint::{Changed, Found, Levels, fix, lint};
 use postform::internals::render::{Options, Renderer};
 use postform::internals::sema::{Checked, Limits, analyse};
 use postform::internals::source::Source;
@@ -31,13 +31,13 @@ fn program(form: &Checked) -> Option<String> {
 }
 
 /// Fixes made until there are none; `None`: there were none.
-fn mended(form: &Checked, unsafe_too: bool) -> Option<Checked> {
+fn after_fixes(form: &Checked, unsafe_too: bool) -> Option<Checked> {
     let text = &form.files[0].text;
     let mut read = |changed: &Changed| checked(changed.get("form.pf").unwrap_or(text).as_bytes());
-    let mended = mend(&Levels::default(), unsafe_too, &mut read);
-    let left = mended.findings.diags.iter().filter_map(|diag| diag.fix.as_ref()).any(|fix| fix.safe || unsafe_too);
+    let fixed = fix(&Levels::default(), unsafe_too, &mut read);
+    let left = fixed.findings.diags.iter().filter_map(|diag| diag.fix.as_ref()).any(|fix| fix.safe || unsafe_too);
     assert!(!left, "fixes without an end");
-    (!mended.made.is_empty()).then_some(mended.checked)
+    (!fixed.made.is_empty()).then_some(fixed.checked)
 }
 
 /// Reads a form and looks at it; thoroughly: mends it and lays it out, too.
@@ -51,10 +51,10 @@ pub fn look(bytes: &[u8], thoroughly: bool) {
         return;
     }
     let before = program(&form);
-    if let Some(after) = mended(&form, false) {
+    if let Some(after) = after_fixes(&form, false) {
         assert_eq!(program(&after), before, "a safe fix changes the program");
     }
-    mended(&form, true);
+    after_fixes(&form, true);
     let once = format(&form.files[0]);
     assert_eq!(format(&Source::from_text("form.pf", once.as_str())), once, "the layout is not stable");
     assert_eq!(program(&checked(once.as_bytes())), before, "the layout changes the program");

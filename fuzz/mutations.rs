@@ -1,4 +1,4 @@
-//! Random mutations of the forms that ship, by the million: each is read and looked at, every eighth mended and laid out.
+//! Random mutations of the forms that ship, by the million: each is read and looked at, every eighth fixed and laid out.
 //!
 //! `mutations COUNT SEED`; a panic names the seed of its mutation, with which it is made again (`mutations 1 SEED`).
 

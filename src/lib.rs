@@ -130,7 +130,7 @@ pub mod internals {
         };
     }
     pub mod lint {
-        pub use crate::lint::{Changed, Found, Level, Levels, Mended, RULES, lint, mend, parts};
+        pub use crate::lint::{Changed, Fixed, Found, Level, Levels, RULES, fix, lint, parts};
     }
     pub mod machine {
         pub use crate::machine::{Beside, Machine, read, summary, template};

@@ -270,7 +270,7 @@ export class Editor {
       return {
         from, to, severity, message: finding.message,
         renderMessage: () => told(finding, this.onCode),
-        actions: fix ? [{ name: fix.title, apply: () => this.mend(fix.edits) }] : [],
+        actions: fix ? [{ name: fix.title, apply: () => this.fix(fix.edits) }] : [],
       };
     });
     diagnostics.sort((a, b) => a.from - b.from);
@@ -279,7 +279,7 @@ export class Editor {
     this.quiet = false;
   }
 
-  private mend(edits: { at: Place; text: string }[]): void {
+  private fix(edits: { at: Place; text: string }[]): void {
     const here = edits.filter((edit) => edit.at[0] === this.file);
     this.view.dispatch({ changes: here.map(({ at, text }) => ({ from: this.offset(at[1], at[2]), to: this.offset(at[3], at[4]), insert: text })) });
   }

@@ -6,10 +6,9 @@ import { download } from "./download.ts";
 import type { Editor } from "./editor.ts";
 import { element } from "./element.ts";
 import { Gone, type Host } from "./host.ts";
-import { sourcesOf } from "./formats.ts";
+import type { FormSide } from "./form.ts";
 import { Header, without } from "./header.ts";
 import { keys } from "./keys.ts";
-import { Kit } from "./kit.ts";
 import { Listing } from "./listing.ts";
 import { findingsOf, type Marks, marksOf, noMarks, stops } from "./marks.ts";
 import { base, jobName } from "./names.ts";
@@ -18,7 +17,6 @@ import { withHandles } from "./panes.ts";
 import { Program } from "./program.ts";
 import { type Head, Scene, type ToolSize, type Verdict } from "./scene.ts";
 import { StateStrip } from "./state.ts";
-import { Properties } from "./properties.ts";
 import { Timeline } from "./timeline.ts";
 
 const PROVING = without("proving…");
@@ -34,12 +32,11 @@ const PACE = 100;
 
 export class Page {
   readonly listing = new Listing();
-  readonly backplot = new Backplot();
+  readonly backplot: Backplot;
   readonly timeline = new Timeline();
+  readonly editor: Editor | null;
   private readonly header = new Header();
   private readonly state = new StateStrip();
-  private readonly properties = new Properties();
-  private readonly kit = new Kit();
   private readonly foot = element("span", { class: "where", "aria-live": "polite" });
   private readonly timing = element("span", { class: "ms", title: "From the key to the new picture and verdict" });
   private readonly beside = element("span", { class: "beside" });
@@ -71,7 +68,10 @@ export class Page {
   readonly painted: { key: number; picture: number; verdict: number }[] = [];
 
   /** Without a host the page shows one scene; without an editor it has two panes. */
-  constructor(private readonly host: Host | null, readonly editor: Editor | null) {
+  constructor(private readonly host: Host | null, private readonly form: FormSide | null) {
+    this.editor = form?.editor ?? null;
+    this.backplot = new Backplot(form?.solid ?? null);
+    const { editor } = this;
     const main = element("main", { class: editor ? "three" : "two" });
     this.backplot.root.append(this.timeline.root);
     withHandles(main, [...(editor ? [editor.root] : []), this.listing.root, this.backplot.root]);
@@ -116,14 +116,11 @@ export class Page {
     };
     this.header.saving.onclick = () => void this.save();
     if (editor) {
-      editor.root.querySelector("h2")!.append(this.properties.button);
-      editor.root.insertBefore(this.properties.root, editor.root.querySelector(".editor"));
-      editor.root.insertBefore(this.kit.root, editor.root.querySelector(".editor"));
-      this.properties.onChange = () => {
+      this.form!.properties.onChange = () => {
         void this.load();
         void this.otherVerdicts();
       };
-      this.kit.onPick = (text) => editor.type(text);
+      this.form!.kit.onPick = (text) => editor.type(text);
       editor.onEdit = (name, text) => this.edit(name, text);
       editor.onLine = (file, line) => this.chooseFormLine(file, line);
       editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
@@ -169,7 +166,7 @@ export class Page {
     this.running = true;
     try {
       let shown: Head | null = null;
-      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: this.properties.set, shown: this.program && this.shown?.program })) {
+      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: (this.form?.properties.set ?? []), shown: this.program && this.shown?.program })) {
         const scene = new Scene(bytes);
         // a verdict of what was there before the last key is none of what is there now
         if (!this.again) this.unchecked = null;
@@ -322,8 +319,8 @@ export class Page {
     this.header.show(head, this.job);
     this.listing.fileName = `${jobName(head.job.name) || "program"}.nc`;
     if (!head.form) return;
-    this.properties.show(head.form.properties, head.picture?.units ?? this.shown?.picture?.units ?? "");
-    this.kit.show(head.form.kit);
+    this.form?.properties.show(head.form.properties, head.picture?.units ?? this.shown?.picture?.units ?? "");
+    this.form?.kit.show(head.form.kit);
   }
 
   /** Requests the verdicts of the jobs that are not shown. */
@@ -331,7 +328,7 @@ export class Page {
     for (let job = 0; job < this.header.jobs; job++) {
       if (job === this.job || !this.host) continue;
       try {
-        this.header.mark(job, await this.host.verdict(job, this.properties.set));
+        this.header.mark(job, await this.host.verdict(job, (this.form?.properties.set ?? [])));
       } catch (error) {
         this.header.mark(job, without(error instanceof Error ? error.message : String(error)));
       }
@@ -422,7 +419,7 @@ export class Page {
     const head = this.head?.form;
     if (!this.editor || !head?.formats || !this.program) return [];
     const texts = head.files.map((name) => this.typed[name] ?? this.saved[name] ?? "");
-    const buttons = sourcesOf(this.program.text(line), head.formats, texts).map(({ word, file, line, text }) => {
+    const buttons = this.form!.sourcesOf(this.program.text(line), head.formats, texts).map(({ word, file, line, text }) => {
       const button = element("button", { title: `decides how ${word} is printed: line ${line + 1} of the form` }, element("code", {}, text));
       button.onclick = () => {
         this.editor!.goTo([file, line, 0, line, text.length]);
@@ -528,7 +525,7 @@ export class Page {
     this.conflicts.clear();
     this.header.forgetJobs();
     this.editor?.forget();
-    this.properties.forget();
+    this.form?.properties.forget();
     this.say("");
     await this.load();
   }

@@ -2,7 +2,7 @@
 
 import { get, set } from "idb-keyval";
 import { download } from "./download.ts";
-import { Editor } from "./editor.ts";
+import { FormSide } from "./form.ts";
 import { element } from "./element.ts";
 import { Page } from "./main.ts";
 import { filesOfLink, linkOf } from "./share.ts";
@@ -44,7 +44,7 @@ class Playground {
   private waits = 0;
 
   constructor(private readonly host: Wasm) {
-    this.page = new Page(host, new Editor(true));
+    this.page = new Page(host, new FormSide());
     this.page.onTyped = () => this.keepSoon();
     document.body.prepend(this.front());
     this.takeDrops();

@@ -45,7 +45,7 @@ test("a wrong word is underlined and said", async ({ open }) => {
   equal(readFileSync(join(path, "my.pf"), "utf8"), before, "nothing is written");
   const verdict = await page.locator(".verdict").innerText();
   ok(/different|lost/.test(verdict), `a tool change without M6 is not proven: ${verdict}`);
-  // and mended again
+  // and fixed again
   await page.keyboard.press("Backspace");
   await ready(page);
   await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("proven"));

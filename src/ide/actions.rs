@@ -65,7 +65,7 @@ impl Document {
             };
             if let Some(fix) = &diag.fix.clone().or_else(|| suggestion(diag, self.files())) {
                 let before = if fix.safe { None } else { before.get_or_insert_with(|| print(&Changed::new())).clone() };
-                actions.push(self.mending(index, diag, fix, before.as_deref(), print));
+                actions.push(self.fixing(index, diag, fix, before.as_deref(), print));
             }
             if diag.severity < Severity::Error || diag.code.row().severity < Severity::Error {
                 actions.extend(self.allowing(index, diag, span));
@@ -74,7 +74,7 @@ impl Document {
         actions
     }
 
-    fn mending(
+    fn fixing(
         &self,
         index: usize,
         diag: &Diag,

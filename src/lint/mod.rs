@@ -2,17 +2,17 @@
 
 mod allow;
 mod blocks;
+mod fix;
 mod levels;
-mod mend;
 mod parts;
 mod places;
 mod rules;
 mod tokens;
 mod view;
 
+pub(crate) use fix::edited;
+pub use fix::{Changed, Fixed, fix};
 pub use levels::{Level, Levels};
-pub(crate) use mend::edited;
-pub use mend::{Changed, Mended, mend};
 pub use parts::parts;
 pub use rules::RULES;
 

@@ -269,7 +269,7 @@ fn an_expected_program_without_its_job_is_a_problem() {
     let said = out(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     for shown in [
-        "tests/drill/expected.haas.nc has no job",
+        "tests/drill/expected.haas.nc has no job: there is no job in its folder",
         "tests/lines/part.expected.haas.nc has no job: there is no part in its folder",
         "tests/arcs/expected.haas.nc by haas.pf:\nPJ007",
         "tests/helix/expected.haas.nc by haas.pf:\nPJ",

@@ -304,7 +304,7 @@ fn unsafe_fixes_that_nobody_can_see_are_not_made() {
     let line = text.lines().position(|line| line.starts_with("Gl")).unwrap() + 1;
     assert!(shown.contains(&format!("  form.pf:{line}: write the digit (PF206)\n")), "{shown}");
     let broken = folder.run(&["lint", "--fix", "--unsafe-fixes", "form.pf", "--job", "broken.json"]);
-    assert!(out(&broken).contains("unsafe fix") && out(&broken).contains("broken.json can't be printed"));
+    assert!(out(&broken).contains("1 unsafe fix not made") && out(&broken).contains("broken.json can't be printed"));
     assert_eq!(broken.status.code(), Some(1));
     assert_eq!(folder.read("form.pf"), text.replace("]F[", "] F[").replace("WindowSize 80\n", ""), "the safe ones");
 }

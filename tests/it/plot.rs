@@ -255,7 +255,7 @@ fn a_page_stands_alone() {
     assert!(bytes.starts_with(b"PFS2"));
     let text = fs::read(root().join(program)).unwrap();
     assert!(bytes.windows(text.len()).any(|part| part == text), "the program is in it");
-    assert!(page.contains("connect-src 'none'") && page.len() < 130_000, "{} bytes", page.len());
+    assert!(page.contains("connect-src 'none'") && page.len() < 100_000, "{} bytes", page.len());
 }
 
 #[test]

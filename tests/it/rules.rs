@@ -5,7 +5,7 @@ use crate::support;
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::support::pages::{Fence, Page, checked, codes, found, mended};
+use crate::support::pages::{Fence, Page, after_fixes, checked, codes, found};
 use crate::support::{mill, root, sample_form, samples};
 use postform::diag::{CODES, Code, CodeRow, Severity};
 use postform::internals::lint::{Level, Levels, RULES, lint};
@@ -91,7 +91,7 @@ fn fixes_do_what_their_pages_say() {
         let said = page.section("Fix").split(' ').next().unwrap();
         assert!(kinds.iter().all(|kind| *kind == said), "{}: the page says {said}, the rule {kinds:?}", row.name);
         if said != "None:" {
-            let after = mended(&form, true).unwrap();
+            let after = after_fixes(&form, true).unwrap();
             assert_eq!(codes(&found(&after).diags), Vec::<&str>::new(), "{}\n{}", row.name, after.files[0].text);
         }
     }
@@ -125,7 +125,7 @@ fn safe_fixes_remove_their_findings_and_change_no_byte_of_any_sample() {
     let mut fixed = 0;
     for (name, bytes) in all_forms() {
         let form = checked(&bytes);
-        let Some(after) = mended(&form, false) else { continue };
+        let Some(after) = after_fixes(&form, false) else { continue };
         fixed += 1;
         assert!(found(&after).diags.iter().all(|diag| diag.fix.as_ref().is_none_or(|fix| !fix.safe)), "{name}");
         for folder in samples() {
@@ -142,7 +142,7 @@ fn unsafe_fixes_remove_their_findings() {
     let mut fixed = 0;
     for (name, bytes) in all_forms() {
         let form = checked(&bytes);
-        let Some(after) = mended(&form, true) else { continue };
+        let Some(after) = after_fixes(&form, true) else { continue };
         fixed += 1;
         assert!(found(&after).diags.iter().all(|diag| diag.fix.is_none()), "{name}");
     }
@@ -309,7 +309,7 @@ proptest! {
                 prop_assert!(source.text.get(label.span.range()).is_some(), "{:?}", diag);
             }
         }
-        mended(&form, true);
+        after_fixes(&form, true);
         postform::internals::fmt::format(&form.files[0]);
     }
 }

@@ -71,8 +71,8 @@ fn statements_of_the_control_are_put_in_backquotes() {
         fs::write(folder.join("form.pf"), form).unwrap();
         let (_, said) = said(&folder, &["lint", "--fix", "--unsafe-fixes", "form.pf"]);
         assert!(said.contains("3 unsafe fixes made") && said.contains("0 errors"), "{said}");
-        let mended = fs::read_to_string(folder.join("form.pf")).unwrap();
-        assert!(mended.contains("`#500=1`\n`IF [#1 GT 2] GOTO 5`\n`WHILE [#1 LT 5] DO1`\n"), "{mended}");
+        let fixed = fs::read_to_string(folder.join("form.pf")).unwrap();
+        assert!(fixed.contains("`#500=1`\n`IF [#1 GT 2] GOTO 5`\n`WHILE [#1 LT 5] DO1`\n"), "{fixed}");
     }
 }
 

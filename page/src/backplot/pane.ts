@@ -16,10 +16,10 @@ import type { Painter } from "./painter.ts";
 import { overlaps, pick } from "./pick.ts";
 import { PlainPainter } from "./plain.ts";
 import { listen } from "./pointer.ts";
-import { Size } from "./size.ts";
-import { blockOf, Stock } from "./stock.ts";
+import type { Size } from "./size.ts";
+import type { Solid } from "./solid.ts";
+import type { Stock } from "./stock.ts";
 import { drawTool, type Shape, shapesOf, upOf } from "./tool.ts";
-import { drawRelief } from "./relief.ts";
 import { type Meaning, MEANINGS, paint, type Shades } from "./shades.ts";
 
 const REACH = 8;
@@ -58,7 +58,7 @@ export class Backplot {
   private sizes = "";
   /** Points of the tool's centre, once they are needed. */
   private known: Float32Array | null = null;
-  private readonly size = new Size();
+  private readonly size: Size | null;
   /** The stock, while it is shown. */
   private stock: Stock | null = null;
   /** While the timeline plays: the point before the tool, and the position of the tool. */
@@ -74,7 +74,10 @@ export class Backplot {
   /** The lines whose rapids go through the stock, as far as it is cut. */
   onCrash: (lines: number[]) => void = () => {};
 
-  constructor() {
+  /** Without `solid` there is no stock. */
+  constructor(private readonly solid: Solid | null) {
+    this.size = solid && new solid.Size();
+    this.block.hidden = !solid;
     const gl = GlPainter.on(this.canvas);
     this.painter = gl ?? new PlainPainter(this.canvas.getContext("2d")!);
     this.colours = colours();
@@ -93,14 +96,16 @@ export class Backplot {
     meaning.onchange = () => this.colourBy(meaning.value as Meaning);
     this.ruler.onclick = () => this.toggleMeasure();
     this.block.onclick = () => this.toggleStock();
-    this.size.onChange = () => {
-      this.showStock();
-      this.redraw();
-    };
+    if (this.size) {
+      this.size.onChange = () => {
+        this.showStock();
+        this.redraw();
+      };
+    }
     this.views.append(element("span", { class: "gap" }), meaning, this.block, this.ruler, fit, nearer);
     this.under.hidden = !!this.painter.ground;
     const stage = element("div", { class: "stage" }, this.under, this.canvas, this.over, this.legend, this.told);
-    this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, this.size.root, stage);
+    this.root = element("section", { class: "backplot", "aria-label": "Path" }, heading, this.views, ...(this.size ? [this.size.root] : []), stage);
     new ResizeObserver(() => this.resize()).observe(stage);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
     listen(this.canvas, this.camera, {
@@ -209,7 +214,7 @@ export class Backplot {
   toggleStock(): void {
     if (this.stock) {
       this.stock = null;
-      this.size.hide();
+      this.size?.hide();
       this.say("");
       this.onCrash([]);
     } else this.showStock();
@@ -220,15 +225,17 @@ export class Backplot {
   /** The stock of a mill's program whose tools have diameters; else why there is none. */
   private showStock(): void {
     const path = this.program?.path;
+    const { solid, size } = this;
+    if (!solid || !size) return;
     if (path && this.plate && this.shapes.size) {
-      this.size.show(path, blockOf(path, this.plate));
-      const block = this.size.block(path);
+      size.show(path, solid.blockOf(path, this.plate));
+      const block = size.block(path);
       this.say("");
-      this.stock = block && new Stock(path, this.centres, block, this.plate.least[2], this.shapes);
+      this.stock = block && new solid.Stock(path, this.centres, block, this.plate.least[2], this.shapes);
       if (!block) this.say("no stock: give five numbers, the greater X and Y last, at most a hundred times as far apart as the cuts");
     } else {
       this.stock = null;
-      this.size.hide();
+      this.size?.hide();
       this.say(`no stock: ${this.plate ? "the job gives no diameter of a tool" : "it is shown for mills of three axes"}`);
     }
     this.block.setAttribute("aria-pressed", String(!!this.stock));
@@ -241,7 +248,7 @@ export class Backplot {
     const isThere = this.stock.cutTo(this.cursor?.point ?? path.pieces, this.cursor ? CUTTING.playing : CUTTING.whole);
     if (!isThere) this.moves();
     if (!isThere) this.redraw();
-    else this.onCrash(this.size.isGiven ? [...this.stock.crashes] : []);
+    else this.onCrash(this.size?.isGiven ? [...this.stock.crashes] : []);
   }
 
   private say(text: string): void {
@@ -392,7 +399,7 @@ export class Backplot {
     const context = this.painter.ground ?? cleared(this.under, this.camera, ratio);
     const path = this.program?.path;
     if (!path) return;
-    if (this.stock) drawRelief(context, this.camera, this.colours, ratio, this.stock, this.moving > 0);
+    if (this.stock) this.solid!.drawRelief(context, this.camera, this.colours, ratio, this.stock, this.moving > 0);
     drawGround(context, this.camera, this.colours, path, this.stock ? null : this.plate);
   }
 

@@ -5,7 +5,7 @@ use std::fs;
 
 use postform::diag::Diag;
 use postform::internals::lang::{CommandId, SequenceId};
-use postform::internals::lint::{Changed, Found, Levels, lint, mend};
+use postform::internals::lint::{Changed, Found, Levels, fix, lint};
 use postform::internals::sema::{Checked, Limits, analyse};
 use postform::internals::source::Source;
 use postform::internals::syntax::{Form, Head, parse};
@@ -163,11 +163,11 @@ pub fn codes(diags: &[Diag]) -> Vec<&'static str> {
 }
 
 /// A form with fixes made until there are none; `None`: there were none.
-pub fn mended(form: &Checked, unsafe_too: bool) -> Option<Checked> {
+pub fn after_fixes(form: &Checked, unsafe_too: bool) -> Option<Checked> {
     let text = &form.files[0].text;
     let mut read = |changed: &Changed| checked(changed.get("form.pf").unwrap_or(text).as_bytes());
-    let mended = mend(&Levels::default(), unsafe_too, &mut read);
-    let left = mended.findings.diags.iter().filter_map(|diag| diag.fix.as_ref()).any(|fix| fix.safe || unsafe_too);
-    assert!(!left, "fixes without an end: {:?}", mended.changed);
-    (!mended.made.is_empty()).then_some(mended.checked)
+    let fixed = fix(&Levels::default(), unsafe_too, &mut read);
+    let left = fixed.findings.diags.iter().filter_map(|diag| diag.fix.as_ref()).any(|fix| fix.safe || unsafe_too);
+    assert!(!left, "fixes without an end: {:?}", fixed.changed);
+    (!fixed.made.is_empty()).then_some(fixed.checked)
 }

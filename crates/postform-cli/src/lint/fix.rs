@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use postform::diag::Diag;
-use postform::internals::lint::{Changed, Levels, Mended, lint, mend};
+use postform::internals::lint::{Changed, Fixed, Levels, fix, lint};
 use postform::internals::post::sample_program;
 use postform::internals::sema::Checked;
 use postform::internals::terminal::escaped_lines;
@@ -25,10 +25,10 @@ pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, 
         return Err("error: fixes change files: standard input can't be fixed".into());
     }
     let original = file.analyse(&Changed::new());
-    let mended = |unsafe_too| mend(levels, unsafe_too, &mut |changed| file.analyse(changed));
-    let safe = mended(false);
-    let (mended, story) = match args.unsafe_fixes {
-        true => chosen(&original, safe, mended(true), args)?,
+    let fixed = |unsafe_too| fix(levels, unsafe_too, &mut |changed| file.analyse(changed));
+    let safe = fixed(false);
+    let (fixed, story) = match args.unsafe_fixes {
+        true => chosen(&original, safe, fixed(true), args)?,
         false => (safe, String::new()),
     };
     if !args.fix {
@@ -40,14 +40,14 @@ pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, 
         let why = format!("error: {name} does not end in .pf, and no form calls it: it is not changed");
         return Err(format!("{why}\n  help: the names of forms end in .pf"));
     }
-    for (name, text) in &mended.changed {
+    for (name, text) in &fixed.changed {
         output::write_whole(&file.place(name), text.as_bytes())?;
     }
-    Ok(Linted { story, mended: mended.made.len(), ..Linted::new(mended.checked, mended.findings) })
+    Ok(Linted { story, fixed: fixed.made.len(), ..Linted::new(fixed.checked, fixed.findings) })
 }
 
 /// All fixes, or only the safe ones if the effect of the others can't be shown; and a text about them.
-fn chosen(original: &Checked, safe: Mended, all: Mended, args: &LintArgs) -> Result<(Mended, String), String> {
+fn chosen(original: &Checked, safe: Fixed, all: Fixed, args: &LintArgs) -> Result<(Fixed, String), String> {
     let unseen: Vec<&Diag> = all.made.iter().filter(|diag| diag.fix.as_ref().is_some_and(|fix| !fix.safe)).collect();
     if unseen.is_empty() {
         return Ok((safe, String::new()));

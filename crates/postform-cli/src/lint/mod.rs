@@ -27,7 +27,7 @@ pub struct Linted {
     /// The changes of the form's files, in words.
     story: String,
     /// The number of applied fixes.
-    mended: usize,
+    fixed: usize,
 }
 
 /// Shows every finding of every form; with --watch, again whenever a form changes.
@@ -112,7 +112,7 @@ impl Linted {
     fn new(checked: Checked, found: Found) -> Linted {
         let files = if found.diags.is_empty() { Vec::new() } else { checked.files };
         let findings = Findings { files, diags: found.diags, suppressed: found.suppressed };
-        Linted { findings, story: String::new(), mended: 0 }
+        Linted { findings, story: String::new(), fixed: 0 }
     }
 }
 
@@ -133,9 +133,9 @@ fn summary(linted: &[Linted], unread: usize, args: &LintArgs) -> String {
     if suppressed > 0 {
         text += &format!("; {suppressed} more allowed by comments");
     }
-    let mended: usize = linted.iter().map(|form| form.mended).sum();
+    let fixed: usize = linted.iter().map(|form| form.fixed).sum();
     if args.fix {
-        text += &format!("; {mended} fixed");
+        text += &format!("; {fixed} fixed");
     }
     text.push('\n');
     let fixes = || linted.iter().flat_map(|form| &form.findings.diags).filter_map(|diag| diag.fix.as_ref());

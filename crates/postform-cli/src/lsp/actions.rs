@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use gen_lsp_types as lsp;
 use postform::Span;
 use postform::internals::ide::{Action, ActionKind};
-use postform::internals::lint::mend;
+use postform::internals::lint::fix;
 
 use super::convert::{diagnostic, range, span};
 use super::server::Server;
@@ -132,10 +132,10 @@ fn edit_of(server: &Server, view: &View, edits: &[(Span, String)]) -> lsp::Works
 
 /// All safe fixes, as in `lint --fix`.
 fn fix_all(server: &Server, view: &View) -> Option<lsp::CodeAction> {
-    let mended = mend(&view.config.levels, false, &mut |changed| view.analyse(changed));
+    let fixed = fix(&view.config.levels, false, &mut |changed| view.analyse(changed));
     let files = view.document.files();
     let edits = files.iter().enumerate().filter_map(|(file, source)| {
-        let text = mended.changed.get(&source.name)?;
+        let text = fixed.changed.get(&source.name)?;
         Some((Span::new(file as u32, 0, source.text.len()), text.clone()))
     });
     let edits: Vec<(Span, String)> = edits.collect();

@@ -12,7 +12,7 @@ pub type Changed = HashMap<String, String>;
 
 /// A form after its fixes.
 #[derive(Debug)]
-pub struct Mended {
+pub struct Fixed {
     /// The fixed form.
     pub checked: Checked,
     /// Findings in the fixed form.
@@ -28,7 +28,7 @@ const MOST_ROUNDS: usize = 50;
 
 /// Applies fixes until none is left. `unsafe_too`: also those that change the output. `read` analyses the form with the changed
 /// text.
-pub fn mend(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> Checked) -> Mended {
+pub fn fix(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> Checked) -> Fixed {
     let mut changed = Changed::new();
     let mut made: Vec<Diag> = Vec::new();
     let mut checked = read(&changed);
@@ -49,7 +49,7 @@ pub fn mend(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) ->
         checked = read(&changed);
         findings = lint(&checked, levels);
     }
-    Mended { checked, findings, changed, made }
+    Fixed { checked, findings, changed, made }
 }
 
 /// Text replacements that do not overlap, in order.

@@ -1,0 +1,22 @@
+// The parts of the page that need a form and a job: the editor, the properties, the posts to begin with, the stock.
+
+import "./form.css";
+import { solid } from "./backplot/solid.ts";
+import { Editor } from "./editor.ts";
+import { sourcesOf } from "./formats.ts";
+import { Kit } from "./kit.ts";
+import { Properties } from "./properties.ts";
+
+export class FormSide {
+  readonly editor = new Editor(true);
+  readonly properties = new Properties();
+  readonly kit = new Kit();
+  readonly sourcesOf = sourcesOf;
+  readonly solid = solid;
+
+  constructor() {
+    const { root } = this.editor;
+    root.querySelector("h2")!.append(this.properties.button);
+    root.querySelector(".editor")!.before(this.properties.root, this.kit.root);
+  }
+}

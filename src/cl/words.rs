@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::number::short_decimal;
+
 /// One word.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Word {
@@ -109,6 +111,9 @@ fn number(text: &[u8]) -> Option<(f64, &[u8])> {
         [b'+', rest @ ..] => (false, rest),
         rest => (false, rest),
     };
+    if let Some(short) = short_decimal(rest, 0) {
+        return Some((if negative { -short.value() } else { short.value() }, &rest[short.length..]));
+    }
     let (mut value, mut digits, mut decimals) = (0_i64, 0, None);
     loop {
         match rest {

@@ -1,6 +1,6 @@
 //! Properties of each letter in a form: its format, printed letter, sign and modality.
 
-use crate::number::LetterFormat;
+use crate::number::{LetterFormat, Printing};
 use crate::sema::{Form, Settings};
 
 /// Kind of a letter, as needed for modality.
@@ -21,6 +21,8 @@ pub enum LetterKind {
 pub struct Letter {
     /// The format of numbers after this letter.
     pub format: LetterFormat,
+    /// The same format, prepared for printing.
+    pub printing: Printing,
     /// The format is from the form; otherwise it is a built-in one.
     pub has_format: bool,
     /// The letter that is printed (`Rename`).
@@ -83,6 +85,7 @@ impl LetterTable {
         });
         let mut rows = [Letter {
             format: bare,
+            printing: Printing::new(bare),
             has_format: false,
             printed: 0,
             dummy: false,
@@ -100,6 +103,7 @@ impl LetterTable {
             row.format = given
                 .or_else(|| built_in.map(|(_, inch, mm)| LetterFormat::built_in(if metric { mm } else { inch })))
                 .unwrap_or(bare);
+            row.printing = Printing::new(row.format);
             row.printed = settings.rename.iter().find(|(from, _)| *from == letter).map_or(letter, |&(_, to)| to);
             row.dummy = settings.dummy.contains(&letter);
             row.reversed = settings.rev_signs.contains(&letter);

@@ -60,6 +60,8 @@ pub struct Block {
     pub flow: Option<Flow>,
     pub(super) settings: Vec<(Target, f64)>,
     pub(super) is_empty: bool,
+    /// Whether the block is of the usual kind that `plain.rs` runs.
+    pub(super) plain: bool,
     /// Whether a comment may run to the end of its line without a closing bracket.
     pub(super) open_comments: bool,
     /// The line without the characters that the control drops before reading it.
@@ -157,6 +159,7 @@ impl Block {
         self.whole = 0;
         self.m_count = 0;
         self.is_empty = true;
+        self.plain = false;
         if self.has_g {
             self.g = [None; GROUPS];
             (self.has_g, self.has_modes, self.takes_axes) = (false, false, false);

@@ -1,5 +1,7 @@
 //! Reads the numbers of an NC program: with a sign and a point. Spaces may be anywhere between, as on controls.
 
+use crate::number::short_decimal;
+
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
@@ -46,6 +48,23 @@ const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e1
 /// Digits and at most one point. Spaces between them are ignored.
 #[inline(always)]
 pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
+    if let Some(short) = short_decimal(line, start) {
+        let end = start + short.length;
+        if !line.get(end).is_some_and(|&b| is_blank(b)) || !goes_on(line, end) {
+            return Some((Number { value: short.value(), point: short.point }, end));
+        }
+    }
+    unsigned_of_any_length(line, start)
+}
+
+/// Whether more of a number, or more blanks, come after a blank.
+#[inline(always)]
+fn goes_on(line: &[u8], blank: usize) -> bool {
+    matches!(line.get(blank + 1), Some(b'0'..=b'9' | b'.' | b' ' | b'\t'))
+}
+
+#[cold]
+fn unsigned_of_any_length(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let text = line.get(start..)?;
     let (mantissa, whole) = digits(text, 0);
     let (mut mantissa, mut count, mut decimals, mut at) = (mantissa, whole, 0, whole);
@@ -54,10 +73,7 @@ pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
         (mantissa, decimals) = digits(&text[at + 1..], mantissa);
         (count, at) = (whole + decimals, at + 1 + decimals);
     }
-    if let Some([blank, next]) = text.get(at..at + 2)
-        && is_blank(*blank)
-        && matches!(next, b'0'..=b'9' | b'.' | b' ' | b'\t')
-    {
+    if text.get(at).is_some_and(|&b| is_blank(b)) && goes_on(line, start + at) {
         return in_parts(line, start);
     }
     number(mantissa, count, decimals, point, &text[..at]).map(|number| (number, start + at))

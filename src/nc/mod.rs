@@ -32,6 +32,7 @@ mod out;
 mod pace;
 mod parameters;
 mod place;
+mod plain;
 mod profiled;
 mod read;
 mod run;

@@ -46,9 +46,15 @@ impl Place {
     /// The program sets the position of an axis.
     #[inline]
     pub fn given(&mut self, axis: usize) {
-        self.at_machine &= !(1 << axis);
-        self.astray &= !(1 << axis);
-        self.placed &= !(1 << axis);
+        self.are_given(1 << axis);
+    }
+
+    /// The program sets the positions of these axes.
+    #[inline]
+    pub fn are_given(&mut self, axes: u8) {
+        self.at_machine &= !axes;
+        self.astray &= !axes;
+        self.placed &= !axes;
     }
 
     /// Moves an axis by an increment.

@@ -19,6 +19,9 @@ impl Block {
     pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &RunSettings) -> Done {
         let control = settings.control;
         self.clear();
+        if self.read_plain(line, control) {
+            return Ok(());
+        }
         self.open_comments = control.traits().open_comments;
         let mut stream = tokens(line);
         loop {
@@ -65,6 +68,7 @@ impl Block {
                 _ => self.mark(line, token.kind, token.start, token.end, control)?,
             }
         }
+        self.plain = self.is_plain();
         self.check(control)
     }
 

@@ -30,6 +30,9 @@ impl State {
         if self.control.rules() == Rules::Grbl {
             return self.grbl_block(block, &mut Out::new(items, line));
         }
+        if block.plain && self.cuts_plainly(block, &mut Out::new(items, line)) {
+            return Ok(Next::On);
+        }
         if !self.control.is_linuxcnc() && block.whole & (LENGTHS | letters("DUVW")) != 0 {
             self.unpointed(block)?;
         }
@@ -279,7 +282,7 @@ impl State {
     }
 
     /// Ends the series of holes: the motion is not a cycle.
-    fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
+    pub(super) fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
         self.end_cycle(out);
         self.threads.end_passes(Some(row.meaning));
         self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);

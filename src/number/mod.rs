@@ -5,8 +5,11 @@
 
 mod format;
 mod quantise;
+mod read;
 mod write;
 
 pub use format::{Digits, LetterFormat, Point, Sign};
+pub(crate) use quantise::nearest;
 pub use quantise::{POWERS, quantise};
-pub use write::{Unprintable, write_number};
+pub use read::short_decimal;
+pub use write::{Lead, Printing, Unprintable, write_number};

@@ -17,8 +17,12 @@ pub const POWERS: [i64; 19] = {
 /// The powers of ten as doubles, for decimals.
 const SCALES: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// The largest magnitude up to which every integer is exact in a double.
-const EXACT: f64 = 9_007_199_254_740_992.0;
+/// One and a half times 2^52: a double of this size has no bits for a fraction, so adding it rounds to a whole number, which is
+/// then in the lowest bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// Below this magnitude, adding [`ROUNDER`] gives every whole number exactly.
+const EXACT: f64 = 2_251_799_813_685_248.0;
 
 /// `value` in units of 10^-`decimals`, rounded half away from zero of the shortest decimal that denotes it.
 ///
@@ -33,17 +37,19 @@ const EXACT: f64 = 9_007_199_254_740_992.0;
 /// ```
 #[inline]
 pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
-    let scaled = value.abs() * SCALES[decimals as usize];
-    // a cast truncates, saturates and converts NaN to 0; unlike `floor` it is one instruction on every processor
-    let floor = scaled as i64;
-    let rest = scaled - floor as f64;
-    // `value` is within half a unit in the last place of its shortest decimal, and the product rounds once more.
-    // Closer to a tie than that, only the decimal itself decides. The comparison also sends NaN and huge values to `by_digits`.
-    if (rest - 0.5).abs() > scaled * (4.0 * f64::EPSILON) && scaled < EXACT {
-        let units = floor + i64::from(rest > 0.5);
-        return Some(if value < 0.0 { -units } else { units });
-    }
-    by_digits(value, decimals)
+    nearest(value * SCALES[decimals as usize]).or_else(|| by_digits(value, decimals))
+}
+
+/// The whole number nearest to a value times a power of ten. `None`: the value is not finite, or huge, or so near to a tie that
+/// only its decimal decides, as [`quantise`] does.
+#[inline(always)]
+pub(crate) fn nearest(scaled: f64) -> Option<i64> {
+    let rounded = scaled + ROUNDER;
+    let rest = (scaled - (rounded - ROUNDER)).abs();
+    // a value is within half a unit in the last place of its shortest decimal, and the product rounds once more; closer to a tie
+    // than that, the decimal decides. NaN and infinity fail the comparisons
+    (0.5 - rest > scaled.abs() * (4.0 * f64::EPSILON) && scaled.abs() < EXACT)
+        .then(|| (rounded.to_bits() as i64).wrapping_sub(ROUNDER.to_bits() as i64))
 }
 
 /// The value in whole units of the last decimal, from the digits of its shortest decimal.

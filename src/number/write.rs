@@ -21,6 +21,130 @@ pub fn write_number(
     format: &LetterFormat,
     leading_zero: bool,
 ) -> Result<(), Unprintable> {
+    Printing::new(*format).write(out, Lead::default(), units, leading_zero)
+}
+
+/// A format prepared for printing: the flags and limits of a [`LetterFormat`], computed once.
+#[derive(Clone, Copy, Debug)]
+pub struct Printing {
+    format: LetterFormat,
+    /// Magnitudes below it are printed by the short way; 0 if the format never is.
+    short_below: u64,
+    /// Digits after the point.
+    decimals: u32,
+    /// Digits after the point that are printed even if they are zeros.
+    fixed: u32,
+    /// The point is printed even if no fraction follows.
+    always_point: bool,
+}
+
+impl Printing {
+    /// Prepares a format.
+    pub fn new(format: LetterFormat) -> Printing {
+        let LetterFormat { int, point, dec, .. } = format;
+        let is_short = point != Point::Implied && !int.fixed && (1..SHORT_DIGITS).contains(&dec.count);
+        let most = POWERS[usize::from((int.count + dec.count).min(SHORT_DIGITS))] as u64;
+        let fixed = if dec.fixed { dec.count.into() } else { 0 };
+        Printing {
+            format,
+            short_below: if is_short { most } else { 0 },
+            decimals: dec.count.into(),
+            fixed,
+            always_point: point == Point::Always || fixed > 0,
+        }
+    }
+
+    /// The format.
+    pub fn format(&self) -> &LetterFormat {
+        &self.format
+    }
+
+    /// Appends `lead` and then the number.
+    ///
+    /// As [`write_number`].
+    #[inline]
+    pub fn write(&self, out: &mut Vec<u8>, lead: Lead, units: i64, leading_zero: bool) -> Result<(), Unprintable> {
+        let magnitude = units.unsigned_abs();
+        if magnitude >= self.short_below || units == 0 {
+            return write_any(out, lead, units, &self.format, leading_zero);
+        }
+        let mut lead = lead;
+        if units < 0 {
+            if self.format.sign == Sign::Unsigned {
+                return Err(Unprintable::Negative);
+            }
+            lead.push(b'-');
+        } else if self.format.sign == Sign::Always {
+            lead.push(b'+');
+        }
+        let Printing { decimals, fixed, always_point, .. } = *self;
+        let digits = eight_digits(magnitude as u32);
+        // the first digit is the lowest byte
+        let significant = SHORT_DIGITS as u32 - digits.trailing_zeros() / 8;
+        let whole = significant.saturating_sub(decimals).max(leading_zero.into());
+        let fraction = decimals.saturating_sub(digits.leading_zeros() / 8).max(fixed);
+        let text = (digits | ASCII) >> (8 * (SHORT_DIGITS as u32 - decimals - whole));
+        let before = text & !(u64::MAX << (8 * whole));
+        let point = u64::from(b'.') << (8 * whole);
+        let after = u128::from(text >> (8 * whole)) << (8 * (whole + 1));
+        let has_point = always_point || fraction > 0;
+        let text = (u128::from(before | point) | after) << (8 * lead.length) | u128::from(lead.bytes);
+        let length = lead.length + whole + u32::from(has_point) + fraction;
+        // a copy of fixed length is two instructions; the excess is cut off afterwards
+        let start = out.len();
+        out.extend_from_slice(&text.to_le_bytes());
+        out.truncate(start + length as usize);
+        Ok(())
+    }
+}
+
+/// Text before a number, such as a blank and a letter.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lead {
+    bytes: u32,
+    length: u32,
+}
+
+impl Lead {
+    /// Appends a character. There is room for three.
+    #[inline(always)]
+    pub fn push(&mut self, byte: u8) {
+        debug_assert!(self.length < 3, "the sign needs the last byte");
+        self.bytes |= u32::from(byte) << (8 * self.length);
+        self.length += 1;
+    }
+}
+
+/// Digits of the short way: they fit one register.
+const SHORT_DIGITS: u8 = 8;
+
+/// The character `0` in each byte.
+const ASCII: u64 = 0x3030_3030_3030_3030;
+
+/// The eight digits of a number below 100,000,000, one in each byte, the first digit in the lowest one.
+///
+/// Each step divides all parts of the register at once, by a multiplication and a shift that are exact in their range.
+#[inline(always)]
+fn eight_digits(value: u32) -> u64 {
+    // two parts of four digits, in the halves of the register
+    let fours = u64::from(value / 10_000) | u64::from(value % 10_000) << 32;
+    // x / 100 for x < 10,000
+    let hundreds = ((fours * 5_243) >> 19) & 0x0000_007f_0000_007f;
+    let twos = hundreds | (fours - hundreds * 100) << 16;
+    // x / 10 for x < 100
+    let tens = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
+    tens | (twos - tens * 10) << 8
+}
+
+/// As [`Printing::write`], for all formats and numbers.
+#[cold]
+fn write_any(
+    out: &mut Vec<u8>,
+    lead: Lead,
+    units: i64,
+    format: &LetterFormat,
+    leading_zero: bool,
+) -> Result<(), Unprintable> {
     let decimals = format.dec.count;
     let magnitude = units.unsigned_abs();
     if magnitude >= POWERS[usize::from(format.int.count + decimals)] as u64 {
@@ -30,12 +154,13 @@ pub fn write_number(
         return Err(Unprintable::Negative);
     }
     // from the last digit to the sign, then copied as one piece
-    let mut text = Backwards { bytes: [b'0'; ROOM + SHORT], at: ROOM };
+    let mut text = Backwards { bytes: [b'0'; ROOM], at: ROOM };
     let mut end = ROOM;
     if format.is_implied() {
         text.digits(magnitude, if format.int.fixed { format.int.count + decimals } else { 1 });
     } else {
-        let (whole, fraction) = split(magnitude, decimals);
+        let scale = POWERS[usize::from(decimals)] as u64;
+        let (whole, fraction) = (magnitude / scale, magnitude % scale);
         let fixed_fraction = format.dec.fixed && decimals > 0;
         let point = match format.point {
             Point::Always => units != 0 || fixed_fraction,
@@ -43,7 +168,7 @@ pub fn write_number(
             Point::Implied => false,
         };
         if point {
-            text.fraction(fraction, decimals);
+            text.digits(fraction, decimals);
             if !format.dec.fixed {
                 while end > text.at && text.bytes[end - 1] == b'0' {
                     end -= 1;
@@ -62,44 +187,16 @@ pub fn write_number(
     } else if format.sign == Sign::Always && units > 0 {
         text.push(b'+');
     }
-    let (start, length) = (out.len(), end - text.at);
-    match text.bytes[text.at..].first_chunk::<SHORT>() {
-        // a copy of fixed length is two instructions; the excess is cut off afterwards
-        Some(short) if length <= SHORT => {
-            out.extend_from_slice(short);
-            out.truncate(start + length);
-        }
-        _ => out.extend_from_slice(&text.bytes[text.at..end]),
-    }
+    out.extend_from_slice(&lead.bytes.to_le_bytes()[..lead.length as usize]);
+    out.extend_from_slice(&text.bytes[text.at..end]);
     Ok(())
 }
 
 /// Room for the longest number: sign, 18 digits, point, a leading zero.
 const ROOM: usize = 24;
-/// Almost every number is shorter than this.
-const SHORT: usize = 16;
-
-/// Whole part and fraction. Division by a constant compiles to a multiplication, so each usual number of decimals has its own branch.
-#[inline]
-fn split(magnitude: u64, decimals: u8) -> (u64, u64) {
-    if let (Ok(small), 1..=6) = (u32::try_from(magnitude), decimals) {
-        let (whole, fraction) = match decimals {
-            1 => (small / 10, small % 10),
-            2 => (small / 100, small % 100),
-            3 => (small / 1000, small % 1000),
-            4 => (small / 10_000, small % 10_000),
-            5 => (small / 100_000, small % 100_000),
-            _ => (small / 1_000_000, small % 1_000_000),
-        };
-        return (whole.into(), fraction.into());
-    }
-    let scale = POWERS[usize::from(decimals)] as u64;
-    (magnitude / scale, magnitude % scale)
-}
-
 /// Text that grows to the front.
 struct Backwards {
-    bytes: [u8; ROOM + SHORT],
+    bytes: [u8; ROOM],
     at: usize,
 }
 
@@ -110,61 +207,15 @@ impl Backwards {
         self.bytes[self.at] = byte;
     }
 
-    /// Writes a fraction with exactly this many digits.
-    #[inline(always)]
-    fn fraction(&mut self, fraction: u64, decimals: u8) {
-        let Ok(mut rest) = u32::try_from(fraction) else { return self.digits(fraction, decimals) };
-        let mut left = decimals;
-        while left >= 2 {
-            self.pair((rest % 100) as usize);
-            rest /= 100;
-            left -= 2;
-        }
-        if left == 1 {
-            self.push(b'0' + (rest % 10) as u8);
-        }
-    }
-
     /// Writes at least `width` digits.
-    #[inline]
     fn digits(&mut self, mut value: u64, width: u8) {
-        let mut left = width;
-        while value > u64::from(u32::MAX) {
-            self.pair((value % 100) as usize);
-            value /= 100;
-            left = left.saturating_sub(2);
+        let end = self.at;
+        while value > 0 || end - self.at < usize::from(width) {
+            self.push(b'0' + (value % 10) as u8);
+            value /= 10;
         }
-        let mut value = value as u32;
-        while value >= 100 || left >= 2 {
-            self.pair((value % 100) as usize);
-            value /= 100;
-            left = left.saturating_sub(2);
-        }
-        if value >= 10 {
-            self.pair(value as usize);
-        } else if value > 0 || left > 0 {
-            self.push(b'0' + value as u8);
-        }
-    }
-
-    #[inline]
-    fn pair(&mut self, value: usize) {
-        self.at -= 2;
-        self.bytes[self.at..self.at + 2].copy_from_slice(&PAIRS[value * 2..value * 2 + 2]);
     }
 }
-
-/// The digits 00 to 99: writing two digits at a time halves the number of divisions.
-const PAIRS: [u8; 200] = {
-    let mut pairs = [0; 200];
-    let mut i = 0;
-    while i < 100 {
-        pairs[i * 2] = b'0' + (i / 10) as u8;
-        pairs[i * 2 + 1] = b'0' + (i % 10) as u8;
-        i += 1;
-    }
-    pairs
-};
 
 #[cfg(test)]
 mod tests {

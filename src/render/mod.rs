@@ -14,6 +14,7 @@ mod dwell;
 mod fault;
 mod file_name;
 mod form_sets;
+mod layout;
 mod more_coolants;
 mod moves;
 mod needs;

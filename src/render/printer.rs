@@ -3,16 +3,14 @@
 use std::ops::Range;
 
 use super::fault::Done;
+use super::layout::Layout;
 use super::numbers::{as_number, units_of, unprintable};
 use crate::compile::{Letter, LetterTable};
 use crate::diag::{Code, Diag};
-use crate::number::{LetterFormat, write_number};
-use crate::sema::{LineEnd, Replacement, SequenceNumbers, Settings};
+use crate::number::{Lead, LetterFormat, Unprintable, write_number};
+use crate::sema::{SequenceNumbers, Settings};
 use crate::span::Span;
 use crate::toolpath::Place;
-
-/// Block length limit for controls that accept long blocks; others accept between 80 and a few hundred characters.
-pub const LONGEST: usize = 4096;
 
 /// Origin of an output line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,51 +43,6 @@ struct TooLong {
     most: usize,
     /// The `Replace` that made it too long.
     replaced: Option<Span>,
-}
-
-/// Layout of blocks, computed once from the settings.
-#[derive(Debug)]
-struct Layout {
-    blanks: bool,
-    leading_zeros: bool,
-    columns: Vec<usize>,
-    replace: Vec<(Vec<u8>, Vec<u8>, Span)>,
-    longest: usize,
-    eob: Vec<u8>,
-    number_letter: Option<u8>,
-    start: i64,
-    step: i64,
-    largest: i64,
-    width: usize,
-    number_first: bool,
-    carriage_return: bool,
-}
-
-impl Layout {
-    /// The layout of a form. `letters` gives the format of block numbers.
-    fn new(settings: &Settings, letters: &LetterTable) -> Layout {
-        let own = settings.numbers.letter.filter(|&letter| letter != SequenceNumbers::BARE);
-        let format = letters[own.unwrap_or(b'N')].format;
-        let width = format.int.count;
-        let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
-        // if the sender only truncates long blocks, they are no reason for an error
-        let control = settings.control().traits();
-        Layout {
-            blanks: settings.blanks,
-            leading_zeros: settings.leading_zeros,
-            columns: settings.columns.clone(),
-            replace: settings.replace.iter().map(bytes).collect(),
-            longest: control.longest_line.filter(|_| control.stops_at_longer).unwrap_or(LONGEST),
-            eob: settings.eob.clone().into_bytes(),
-            number_letter: settings.numbers.letter,
-            start: settings.numbers.start,
-            step: settings.numbers.step,
-            largest: crate::number::POWERS[usize::from(width.min(18))] - 1,
-            width: if format.int.fixed { usize::from(width) } else { 1 },
-            number_first: settings.number_first,
-            carriage_return: settings.line_end == LineEnd::CrLf,
-        }
-    }
 }
 
 /// The program as printed so far, and the block that is being printed.
@@ -233,20 +186,25 @@ impl Printer {
     /// Prints a value in units of its letter's last decimal. If it does not fit, the open block is discarded.
     #[inline]
     pub fn letter(&mut self, info: &Letter, units: i64, glued: bool) -> Done {
-        let leading = self.layout.leading_zeros;
-        let out = self.word(glued);
+        let mut lead = Lead::default();
+        if self.begins_word(glued) {
+            lead.push(b' ');
+        }
         if !info.dummy {
-            out.push(info.printed);
+            lead.push(info.printed);
         }
         // N wraps to its start when it exceeds its width; all other letters are errors
-        match write_number(out, units, &info.format, leading) {
+        match info.printing.write(&mut self.page.text, lead, units, self.layout.leading_zeros) {
             Ok(()) => Ok(()),
-            Err(why) => {
-                self.clear_block();
-                let value = as_number(units, info.format.dec.count);
-                unprintable(why, &char::from(info.printed).to_string(), value, &info.format)
-            }
+            Err(why) => self.not_written(why, info, units),
         }
+    }
+
+    #[cold]
+    fn not_written(&mut self, why: Unprintable, info: &Letter, units: i64) -> Done {
+        self.clear_block();
+        let value = as_number(units, info.format.dec.count);
+        unprintable(why, &char::from(info.printed).to_string(), value, &info.format)
     }
 
     /// Prints a value without a letter.
@@ -273,25 +231,39 @@ impl Printer {
     /// The open block, for appending a word. A space or column comes first unless the word is `glued` to the previous one.
     #[inline]
     pub fn word(&mut self, glued: bool) -> &mut Vec<u8> {
-        if !glued || self.words == 0 {
-            if self.words == 0 {
-                self.start = self.page.text.len();
-            } else if self.layout.blanks {
-                self.page.text.push(b' ');
-            }
-            if !self.layout.columns.is_empty() {
-                self.pad();
-            }
-            self.words += 1;
+        if self.begins_word(glued) {
+            self.page.text.push(b' ');
         }
         &mut self.page.text
     }
 
+    /// Begins a word in the open block. Returns whether the caller must print a space before it.
+    #[inline]
+    fn begins_word(&mut self, glued: bool) -> bool {
+        let before = self.words;
+        if before == 0 {
+            self.start = self.page.text.len();
+        } else if glued {
+            return false;
+        }
+        self.words += 1;
+        let blank = self.layout.blanks && before > 0;
+        if self.layout.columns.is_empty() {
+            return blank;
+        }
+        if blank {
+            self.page.text.push(b' ');
+        }
+        self.pad(before);
+        false
+    }
+
+    /// Moves to the column of the next word, after this number of words.
     #[cold]
-    fn pad(&mut self) {
+    fn pad(&mut self, words: usize) {
         let column = match self.layout.columns.as_slice() {
-            [width] => self.words * width,
-            columns => columns.get(self.words).map_or(0, |column| column - 1),
+            [width] => words * width,
+            columns => columns.get(words).map_or(0, |column| column - 1),
         };
         while self.page.text.len() < self.start + column {
             self.page.text.push(b' ');

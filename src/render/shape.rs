@@ -6,11 +6,12 @@ use super::fault::{Done, fault};
 use super::options::Options;
 use super::taken_branches::Ways;
 use super::vars::{LAST_VARS, MEASURES, MOVE_VARS};
-use crate::compile::{LetterTable, Program};
+use crate::compile::{LetterKind, LetterTable, Program};
 use crate::control::{Code, Group, Meaning, Row};
 use crate::cycle::Defaults;
 use crate::diag;
 use crate::lang::{Machine, SequenceId, VarId};
+use crate::number::POWERS;
 use crate::toolpath::Units;
 
 /// The rotary axes among the six, on machines with three linear axes.
@@ -46,6 +47,8 @@ pub(super) struct Shape<'p> {
     pub measures: bool,
     /// Every move must set the position variables; otherwise they are set only before a sequence prints.
     pub sets_targets: bool,
+    /// Factors of straight cuts that are printed in one pass; `None`: no cuts are.
+    pub plain_factors: Option<[f64; 3]>,
     /// Routines for the branch combinations that were taken so far.
     pub ways: Ways,
 }
@@ -78,6 +81,7 @@ impl<'p> Shape<'p> {
             watches_moves: program.upon_vars.meets(MOVE_VARS),
             measures: program.printed.with(program.asked).with(program.upon_vars).meets(MEASURES),
             sets_targets: sets_targets(program),
+            plain_factors: None,
             ways: Ways::default(),
         }
     }
@@ -102,6 +106,7 @@ impl<'p> Shape<'p> {
         self.form_scale = factor(form.unwrap_or(Units::Inch), self.units);
         self.letters = &self.program.letters[usize::from(self.units == Units::Mm)];
         self.defaults = cycle_defaults(settings, job, self.units, self.options.sink_as_printed);
+        self.plain_factors = self.factors();
         Ok(())
     }
 
@@ -109,6 +114,29 @@ impl<'p> Shape<'p> {
     pub fn choose_turret(&mut self, turret: Option<f64>) {
         let side = if self.program.settings.reverse_turret_2 && turret == Some(2.0) { -1.0 } else { 1.0 };
         self.scales[1] = self.scales[1].abs() * side;
+        self.plain_factors = self.factors();
+    }
+
+    /// Factors from positions in the program's units to units of the letters h, v, d; `None`: the form prints or checks more in a
+    /// straight cut than positions, its code and a feed.
+    fn factors(&self) -> Option<[f64; 3]> {
+        let (program, settings) = (self.program, &self.program.settings);
+        let cuts = settings.feed.code;
+        let is_usual = self.linear == 3
+            && !(settings.is_flat || settings.incremental || self.measures || self.sets_targets || self.watches_moves)
+            && program.routine(SequenceId::LineCode).is_none()
+            && settings.modality
+            && settings.modal_codes.contains(&cuts)
+            && self.group_of(cuts) == Some(Group::Motion);
+        let axis = |axis: usize| {
+            let letter = &self.letters[self.axes[axis]];
+            // the other factors are powers of two and signs, so the product is exact
+            let sign = if letter.reversed { -1.0 } else { 1.0 };
+            let units = POWERS[usize::from(letter.format.dec.count)] as f64;
+            (letter.kind == LetterKind::Axis && letter.modal).then_some(self.scales[axis] * sign * units)
+        };
+        let [h, v, d] = [axis(0), axis(1), axis(2)];
+        is_usual.then_some([h?, v?, d?])
     }
 
     /// The depth axis, as a set of axes.

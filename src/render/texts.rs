@@ -3,7 +3,8 @@
 use super::ascii::plain;
 use super::comment_marks::in_comment;
 use super::fault::{Done, fault};
-use super::printer::{LONGEST, Printer};
+use super::layout::LONGEST;
+use super::printer::Printer;
 use super::shape::Shape;
 use std::collections::HashMap;
 use std::fmt::Display;

@@ -190,7 +190,7 @@ impl Intent for Sides<'_> {
             Some(_) => self.hole.cut = true,
             None => self.hole.highest = None,
         }
-        if hole.is_none() && fast_path::goes_on(self, cut)? {
+        if hole.is_none() && fast_path::goes_on(self, cut) {
             return Ok(());
         }
         if let Some(hole) = hole.filter(|hole| hole.pecks) {

@@ -3,9 +3,7 @@
 //! usual cuts.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
-use super::intent::Done;
-use super::modal::has_feed;
-use super::passage::Passage;
+use super::modal::is_feed;
 use super::sides::Sides;
 
 /// Length of the shortest usual cut in tolerances. Such a cut can't disappear in the digits of either side.
@@ -13,34 +11,28 @@ const LONG: f64 = 4.0;
 
 /// Whether the program's next cut is the job's cut and follows directly on the last one, without anything between. If so,
 /// the cut is done.
-///
-/// # Errors
-/// The program can't be run to its next cut.
-pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
-    let What::Line { to } = &cut.what else { return Ok(false) };
-    let goes_on = |passage: &Passage| passage.is_plain() && !passage.new_tool;
-    if !goes_on(&s.job) || cut.unknown != 0 || cut.lead.is_some() {
-        return Ok(false);
-    }
-    s.run_to_cut()?;
+pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> bool {
+    let What::Line { to } = &cut.what else { return false };
     let tolerance = s.limits.tolerance;
-    let Some(found) = s.program.cut() else { return Ok(false) };
-    let What::Line { to: made } = &found.what else { return Ok(false) };
     let is_long = (0..3).any(|axis| (to[axis] - cut.from[axis]).abs() > LONG * tolerance);
-    let is_usual = is_long
-        && goes_on(&s.program.passage)
-        && (found.unknown, found.lead, found.by_cycle) == (0, None, false)
-        && found.mode == cut.mode
-        && has_feed(cut, found)
-        && same(&cut.from, &found.from, ALL, tolerance)
-        && same(to, made, ALL, tolerance)
-        && turn_as_far([&cut.from, to], [&found.from, made])
-        && s.agreed.as_ref().is_some_and(|[wanted, is]| *wanted == cut.state && *is == found.state);
+    if !is_long || !s.job.is_plain() || s.job.new_tool || cut.unknown != 0 || cut.lead.is_some() {
+        return false;
+    }
+    let Some((from, mode, state)) = s.program.before_plain() else { return false };
+    let agree = s.agreed.as_ref().is_some_and(|[wanted, is]| *wanted == cut.state && is == state);
+    if !agree || mode != cut.mode || !same(&cut.from, from, ALL, tolerance) {
+        return false;
+    }
+    let from = *from;
+    let Some(found) = s.program.next_plain() else { return false };
+    let is_usual = cut.feed.is_none_or(|feed| is_feed(feed, found.feed, false))
+        && same(to, &found.to, ALL, tolerance)
+        && turn_as_far([&cut.from, to], [&from, &found.to]);
     if is_usual {
         (s.slipped, s.slips) = (None, 0);
         s.report.counts.cuts += 1;
-        s.program.take();
+        s.program.take_plain(&found);
         s.leave(cut, None);
     }
-    Ok(is_usual)
+    is_usual
 }

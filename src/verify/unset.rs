@@ -31,6 +31,11 @@ impl Due {
         std::mem::take(&mut self.units)
     }
 
+    /// Whether the units must still be set.
+    pub fn has_units(&self) -> bool {
+        self.units
+    }
+
     /// Whether tools need a length offset.
     pub fn lengths(&self) -> bool {
         self.lengths

@@ -1,6 +1,7 @@
 //! Feed moves.
 
 use super::measure::measure;
+use super::plain::{is_plain, plain_line};
 use super::prepare::{begin_cut, cut_goes_to};
 use crate::lang::SequenceId;
 use crate::render::body::{Mode, run};
@@ -14,6 +15,9 @@ use crate::toolpath::Axes;
 
 /// A feed move of the path.
 pub fn line(to: &Axes, feed: Option<f64>, cx: &mut Cx<'_>) -> Done {
+    if let Some(factors) = is_plain(to, cx.shape, cx.want, cx.said) {
+        return plain_line(to, feed, factors, cx);
+    }
     let target = begin_cut(to, Some(feed), cx)?;
     cut_goes_to(&target, false, cx)?;
     line_to(&target, cx)

@@ -7,6 +7,7 @@ mod geometry;
 pub mod line;
 pub mod measure;
 mod pieces;
+mod plain;
 pub mod prepare;
 pub mod rapid;
 pub mod rapid_blocks;

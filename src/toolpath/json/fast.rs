@@ -2,6 +2,7 @@
 //! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. Lines with any other form are read by serde. So both readers report the
 //! same errors. A property test checks that they read the same values.
 
+use crate::number::short_decimal;
 use crate::toolpath::Axes;
 
 /// The kind of a plain line.
@@ -26,23 +27,18 @@ pub struct Simple {
     pub feed: Option<f64>,
 }
 
-/// Reads a plain line without its line end; `None`: the line is not plain.
+/// Reads a plain line with its line end from the beginning of `text`, and returns its length too. `None`: the line is not
+/// plain, or `text` does not contain its end.
 #[inline]
-pub fn simple(line: &[u8]) -> Option<Simple> {
-    let mut at = Cursor { rest: line };
-    at.blanks();
-    at.take(b"{")?;
-    at.blanks();
-    let kind = if at.take(b"\"line\"").is_some() {
+pub fn simple(text: &[u8]) -> Option<(Simple, usize)> {
+    let mut at = Cursor { rest: text };
+    let kind = if at.take(b"{\"line\":[").is_some() {
         Kind::Line
-    } else if at.take(b"\"rapid\"").is_some() {
-        Kind::Rapid
-    } else {
-        at.take(b"\"point\"")?;
+    } else if at.take(b"{\"point\":[").is_some() {
         Kind::Point
+    } else {
+        at.kind()?
     };
-    at.colon()?;
-    at.take(b"[")?;
     let mut to = Axes::default();
     for axis in 0..6 {
         at.blanks();
@@ -56,18 +52,21 @@ pub fn simple(line: &[u8]) -> Option<Simple> {
         }
     }
     at.take(b"]")?;
-    at.blanks();
     let mut feed = None;
-    if kind == Kind::Line && at.take(b",").is_some() {
+    if at.take(b"}\n").is_none() {
         at.blanks();
-        at.take(b"\"feed\"")?;
-        at.colon()?;
-        feed = Some(at.number()?);
+        if kind == Kind::Line && at.take(b",").is_some() {
+            at.blanks();
+            at.take(b"\"feed\"")?;
+            at.colon()?;
+            feed = Some(at.number()?);
+            at.blanks();
+        }
+        at.take(b"}")?;
         at.blanks();
+        at.take(b"\n")?;
     }
-    at.take(b"}")?;
-    at.blanks();
-    at.rest.is_empty().then_some(Simple { kind, to, feed })
+    Some((Simple { kind, to, feed }, text.len() - at.rest.len()))
 }
 
 struct Cursor<'a> {
@@ -79,6 +78,24 @@ impl Cursor<'_> {
     fn take(&mut self, text: &[u8]) -> Option<()> {
         self.rest = self.rest.strip_prefix(text)?;
         Some(())
+    }
+
+    /// The kind of a line, and the bracket of its position.
+    fn kind(&mut self) -> Option<Kind> {
+        self.blanks();
+        self.take(b"{")?;
+        self.blanks();
+        let kind = if self.take(b"\"line\"").is_some() {
+            Kind::Line
+        } else if self.take(b"\"rapid\"").is_some() {
+            Kind::Rapid
+        } else {
+            self.take(b"\"point\"")?;
+            Kind::Point
+        };
+        self.colon()?;
+        self.take(b"[")?;
+        Some(kind)
     }
 
     #[inline]
@@ -100,6 +117,28 @@ impl Cursor<'_> {
     /// division gives the nearest double, as in any correct reader.
     #[inline]
     fn number(&mut self) -> Option<f64> {
+        let (negative, digits) = match self.rest {
+            [b'-', rest @ ..] => (true, rest),
+            rest => (false, rest),
+        };
+        let Some(short) = short_decimal(digits, 0) else { return self.long_number() };
+        let rest = &digits[short.length..];
+        // JSON requires a digit on both sides of a point, and no leading zero before other digits
+        if short.whole == 0
+            || (short.whole > 1 && digits[0] == b'0')
+            || (short.point && short.decimals == 0)
+            || matches!(rest, [b'e' | b'E', ..])
+        {
+            return None;
+        }
+        self.rest = rest;
+        let value = short.value();
+        Some(if negative { -value } else { value })
+    }
+
+    /// As [`Cursor::number`], for numbers of more digits.
+    #[cold]
+    fn long_number(&mut self) -> Option<f64> {
         let (negative, digits) = match self.rest {
             [b'-', rest @ ..] => (true, rest),
             rest => (false, rest),
@@ -150,7 +189,7 @@ mod tests {
 
     #[test]
     fn plain_moves_are_read_and_everything_else_is_left() {
-        let read = |text: &str| simple(text.as_bytes());
+        let read = |text: &str| simple(format!("{text}\n").as_bytes()).map(|(read, _)| read);
         assert_eq!(
             read(r#"{"line":[1.5,2,-0.1],"feed":300}"#),
             Some(Simple { kind: Kind::Line, to: Axes::new(&[1.5, 2.0, -0.1]), feed: Some(300.0) })
@@ -184,10 +223,17 @@ mod tests {
         /// The fast reader reads the same numbers as a JSON reader.
         #[test]
         fn numbers_are_those_of_serde(text in "-?(0|[1-9][0-9]{0,8})(\\.[0-9]{1,9})?") {
-            let line = format!("{{\"line\":[{text}]}}");
             let expected: f64 = serde_json::from_str(&text).unwrap();
-            if let Some(found) = simple(line.as_bytes()) {
-                prop_assert_eq!(found.to.values[0].to_bits(), expected.to_bits());
+            // at the end of the text, and before more of it
+            for rest in ["", "{\"line\":[1,2]}\n"] {
+                let line = format!("{{\"line\":[{text}]}}\n{rest}");
+                if let Some((found, length)) = simple(line.as_bytes()) {
+                    prop_assert_eq!(found.to.values[0].to_bits(), expected.to_bits());
+                    prop_assert_eq!(length, line.len() - rest.len());
+                } else {
+                    let digits = text.bytes().filter(u8::is_ascii_digit).count();
+                    prop_assert!(digits > 15, "{} is plain", text);
+                }
             }
         }
     }

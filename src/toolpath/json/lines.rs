@@ -7,7 +7,7 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 
 use super::build::Builder;
 use super::context::{Context, Step, not_utf_8};
-use super::fast::{Kind, simple};
+use super::fast::{Kind, Simple, simple};
 use super::objects::{
     CycleObject, EndWord, ItemObject, JobHead, KeySeed, Object, ObjectSeed, OperationHead, SubprogramHead, Value, once,
 };
@@ -30,6 +30,14 @@ pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadE
     let (mut from, mut to, mut at_end) = (0, 0, false);
     let mut number = 0;
     loop {
+        if let Some((simple, length)) = lines.is_open().then(|| simple(&buffer[from..to])).flatten() {
+            number += 1;
+            lines.builder.place.line = number;
+            lines.builder.place.column = 1;
+            lines.simple(simple)?;
+            from += length;
+            continue;
+        }
         let line_end = memchr::memchr(b'\n', &buffer[from..to]);
         let (end, next) = match line_end {
             Some(length) => (from + length, from + length + 1),
@@ -65,7 +73,7 @@ pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadE
                 return Err(lines.placed(diag));
             }
         }
-        lines.line(line)?;
+        lines.other(line)?;
         from = next;
     }
     lines.end()
@@ -79,24 +87,25 @@ struct Lines<'c, 's> {
 }
 
 impl Lines<'_, '_> {
-    #[inline]
-    fn line(&mut self, line: &[u8]) -> Result<(), ReadError> {
-        if self.started
-            && !self.ended
-            && let Some(simple) = simple(line)
-        {
-            let done = match simple.kind {
-                Kind::Point => self.builder.hole(Hole { at: simple.to, depth: None }),
-                kind => {
-                    self.builder.place.item += 1;
-                    self.builder.simple_move(simple.to, simple.feed, kind == Kind::Rapid)
-                }
-            };
-            return done.map_err(|stop| self.placed(stop));
-        }
-        self.other(line)
+    /// Has the job started, but not ended?
+    fn is_open(&self) -> bool {
+        self.started && !self.ended
     }
 
+    /// A plain line.
+    #[inline]
+    fn simple(&mut self, simple: Simple) -> Result<(), ReadError> {
+        let done = match simple.kind {
+            Kind::Point => self.builder.hole(Hole { at: simple.to, depth: None }),
+            kind => {
+                self.builder.place.item += 1;
+                self.builder.simple_move(simple.to, simple.feed, kind == Kind::Rapid)
+            }
+        };
+        done.map_err(|stop| self.placed(stop))
+    }
+
+    /// A line of any form.
     fn other(&mut self, line: &[u8]) -> Result<(), ReadError> {
         if line.iter().all(u8::is_ascii_whitespace) {
             return Ok(());

@@ -4,6 +4,7 @@ mod beam;
 mod doubt;
 mod hazards;
 mod motions;
+mod plain;
 mod texts;
 
 use std::io::{Read, Seek};
@@ -220,25 +221,15 @@ impl<'a> Program<'a> {
         if self.cut.is_some() || self.over || self.ended || self.doubt == Some(Doubt::TooLong) {
             return Ok(false);
         }
-        self.items.clear();
-        self.next = 0;
-        let line = self.simulator.line();
-        if let Some(text) = self.simulator.text_to_keep() {
-            self.recent.keep(line, text);
-        }
-        self.over = !self.simulator.step(&mut self.items)?;
+        self.run_block()?;
         Ok(true)
     }
 
     /// Ends the current cut.
     pub fn take(&mut self) {
-        if let Some(cut) = &self.cut {
-            self.at = cut.end();
-            (self.cut, self.doubt) = (None, None);
-            // a cut may contain a height that was unknown before
-            self.unknown = self.scale.unknown(self.simulator.state().at_machine());
-            self.passage.begin(Rapid { to: self.at, unknown: self.unknown, spin: Some(self.spin) });
-            self.cuts = true;
+        if let Some(cut) = self.cut.take() {
+            self.doubt = None;
+            self.ends_cut(cut.end());
         }
     }
 

@@ -1,0 +1,113 @@
+//! The usual block: a straight cut with positions in words, perhaps with its code and a feed. Most blocks of long programs are
+//! of this kind. It is run without the questions that no such block can answer with yes. The general path of [`State::run`]
+//! has the same result for it; a test compares both.
+
+use super::block::Block;
+use super::codes::{AXES, Group, bit, g_code, letters};
+use super::out::Out;
+use super::state::State;
+use crate::control::{Control, Meaning};
+use crate::number::short_decimal;
+use crate::toolpath::FeedMode;
+
+/// The words of a usual block.
+const WORDS: u32 = letters("XYZABCFN");
+
+impl Block {
+    /// Reads a line that has only axis words, a number, a feed and one G0 or G1, each with a short number. Returns `false` if
+    /// the line is another one, which the general reader must read.
+    #[inline]
+    pub(super) fn read_plain(&mut self, line: &[u8], control: &'static Control) -> bool {
+        let (mut at, mut given, mut whole, mut code) = (0, 0, 0, None);
+        loop {
+            let letter = match line.get(at) {
+                Some(b' ') => {
+                    at += 1;
+                    continue;
+                }
+                Some(letter @ (b'X'..=b'Z' | b'A'..=b'C' | b'F' | b'N')) => *letter,
+                Some(b'\n') => break,
+                Some(b'G') if code.is_none() => {
+                    let Some([digit @ (b'0' | b'1'), b' ']) = line.get(at + 1..at + 3) else { return false };
+                    let row = g_code(control, u16::from(digit - b'0') * 10);
+                    code = row.filter(|row| matches!(row.meaning, Meaning::Rapid | Meaning::Line));
+                    if code.is_none() || line.get(at + 3).is_some_and(u8::is_ascii_digit) {
+                        return false;
+                    }
+                    at += 3;
+                    continue;
+                }
+                _ => return false,
+            };
+            let negative = line.get(at + 1) == Some(&b'-');
+            let start = at + 1 + usize::from(negative);
+            let Some(short) = short_decimal(line, start) else { return false };
+            at = start + short.length;
+            // a number that continues after a blank ends this loop there: a digit is no letter
+            if given & bit(letter) != 0 || negative && letter == b'F' {
+                return false;
+            }
+            given |= bit(letter);
+            whole |= if short.point { 0 } else { bit(letter) };
+            let value = short.value();
+            self.values[usize::from(letter - b'A')] = if negative { -value } else { value };
+        }
+        if given & AXES == 0 {
+            return false;
+        }
+        if let Some(row) = code {
+            (self.has_g, self.g[Group::Motion as usize]) = (true, Some(row));
+        }
+        (self.given, self.whole, self.is_empty, self.plain) = (given, whole, false, true);
+        true
+    }
+
+    /// Whether the block, as just read, has only axis words, a number, a feed, and the code of a motion.
+    #[inline]
+    pub(super) fn is_plain(&self) -> bool {
+        self.given & !WORDS == 0
+            && self.given & AXES != 0
+            && !self.has_m()
+            && !(self.has_g && (self.has_modes || self.takes_axes || self.g[Group::Cycle as usize].is_some()))
+            && self.comment.is_none()
+            && self.polar == [None; 2]
+            && !(self.spindle || self.deleted || self.percent)
+            && self.next_tool.is_none()
+    }
+}
+
+impl State {
+    /// Makes the cut of a plain block. Returns `false` if the general path must run the block.
+    #[inline]
+    pub(super) fn cuts_plainly(&mut self, block: &Block, out: &mut Out<'_>) -> bool {
+        let modes = &self.modes;
+        let (word, control) = (block.row(Group::Motion), self.control);
+        let is_usual = word.or(modes.motion).is_some_and(|row| row.meaning == Meaning::Line)
+            && modes.absolute
+            && modes.feed_mode != FeedMode::InverseTime
+            && self.holes.cycle.is_none()
+            && self.turning.corner.is_none()
+            && !control.is_lathe()
+            && !control.traits().height_is_machine
+            // lengths without a point depend on a setting
+            && (block.whole & AXES == 0 || control.rules().is_nist());
+        let feed = block.get(b'F').unwrap_or(self.drive.feed);
+        if !is_usual || feed.is_nan() || feed <= 0.0 {
+            return false;
+        }
+        self.drive.feed = feed;
+        if let Some(row) = word {
+            self.leave_cycle(row, out);
+        }
+        let mut to = self.place.position;
+        let mut given = 0;
+        for (axis, letter) in control.axes().iter().enumerate() {
+            let is_given = block.given & bit(*letter) != 0;
+            given |= u8::from(is_given) << axis;
+            to[axis] = if is_given { block.values[usize::from(letter - b'A')] } else { to[axis] };
+        }
+        self.place.are_given(given);
+        self.place.feed_to(to, feed, None, out);
+        true
+    }
+}

@@ -1,0 +1,169 @@
+//! Straight cuts after one another are printed, run and compared in a short way of their own. Each must give what the general
+//! way gives: the same moves are made unusual by something that changes nothing, and both results are compared.
+
+use std::fs;
+use std::io::Cursor;
+
+use postform::internals::nc::{Action, Item, RunSettings, Simulator};
+use postform::{Job, NoFiles, Options, Post, Source};
+use proptest::prelude::*;
+
+use crate::support::{control, root};
+
+/// A coordinate as jobs have it: few digits, ties of rounding, zero.
+fn coordinate() -> impl Strategy<Value = String> {
+    prop_oneof![
+        4 => "-?[0-9]{1,3}\\.[0-9]{1,6}",
+        2 => "-?[0-9]{1,2}",
+        1 => "-?[0-9]\\.[0-9]{3,4}5",
+        1 => Just("0".to_owned()),
+    ]
+}
+
+/// The lines of a job: some axes, sometimes a feed.
+fn moves() -> impl Strategy<Value = Vec<(Vec<String>, Option<u16>)>> {
+    let one = (prop::collection::vec(coordinate(), 1..=3), prop::option::weighted(0.2, 1_u16..2000));
+    prop::collection::vec(one, 1..40)
+}
+
+/// A number as JSON has it, without needless zeros before it.
+fn number(text: &str) -> String {
+    let (sign, digits) = text.strip_prefix('-').map_or(("", text), |digits| ("-", digits));
+    let digits = digits.trim_start_matches('0');
+    format!("{sign}{}{digits}", if digits.is_empty() || digits.starts_with('.') { "0" } else { "" })
+}
+
+/// A job of these moves. `fourth`: each position has an angle of zero.
+fn job(moves: &[(Vec<String>, Option<u16>)], fourth: bool) -> String {
+    let mut text = "{\"start\":{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{\"number\":1}]}}\n\
+        {\"operation\":{\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9000,\"direction\":\"cw\"},\"feed\":700}}\n"
+        .to_owned();
+    let angle = if fourth { ",0" } else { "" };
+    text += &format!("{{\"rapid\":[0,0,5{angle}]}}\n{{\"line\":[0.5,0.5,-1{angle}]}}\n");
+    let mut at = ["0.5".to_owned(), "0.5".into(), "-1".into()];
+    for (to, feed) in moves {
+        for (axis, value) in to.iter().enumerate() {
+            at[axis] = number(value);
+        }
+        let feed = feed.map_or(String::new(), |feed| format!(",\"feed\":{feed}"));
+        text += &format!("{{\"line\":[{}{angle}]{feed}}}\n", at.join(","));
+    }
+    text + "{\"end\":true}\n"
+}
+
+fn printed(form: &str, job: &str) -> Result<String, String> {
+    let text = fs::read_to_string(root().join(format!("postforms/{form}.pf"))).unwrap();
+    let post = Post::compile(Source::from_text(form, &text), &NoFiles).unwrap();
+    let mut options = Options::default();
+    options.proof = None;
+    let program = post.render(Job::json_lines(job), &options);
+    program.map(|program| program.text().to_owned()).map_err(|error| error.to_string())
+}
+
+/// The actions of a program besides its comments, and what the control refuses. A refused block is skipped.
+fn actions(program: &str, name: &str) -> (Vec<Item>, Vec<String>) {
+    let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control(name)));
+    let (mut items, mut refused) = (Vec::new(), Vec::new());
+    loop {
+        match simulator.step(&mut items) {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(error) => {
+                refused.push(format!("{error:?}").replace(" (c)", ""));
+                if !simulator.pass_over() {
+                    break;
+                }
+            }
+        }
+    }
+    items.retain(|item| !matches!(item.action, Action::Comment(..)));
+    (items, refused)
+}
+
+/// A block of axis words in the ways that people and systems write them.
+fn block() -> impl Strategy<Value = String> {
+    let value = prop_oneof![
+        "-?[0-9]{1,3}\\.[0-9]{0,4}",
+        "-?\\.[0-9]{1,8}",
+        "[+-]?[0-9]{1,9}",
+        "-?[0-9] [0-9]\\.5",
+        "- [0-9]\\. 5",
+        Just("0".to_owned()),
+        Just(".".to_owned()),
+    ];
+    let letter = prop_oneof![8 => "[XYZ]", 1 => "[ABCF]", 1 => "[xyzIJKRUVW]"];
+    let word = (letter, value).prop_map(|(letter, value)| format!("{letter}{value}"));
+    let code = prop_oneof![
+        6 => Just(""),
+        2 => Just("G1 "),
+        1 => Just("G0 "),
+        1 => Just("G01 "),
+        1 => Just("G1"),
+        1 => Just("G91 "),
+        1 => Just("G1 0 "),
+        1 => Just("N5 "),
+    ];
+    let words = prop::collection::vec(word, 1..4);
+    (code, words, prop::bool::ANY)
+        .prop_map(|(code, words, apart)| format!("{code}{}", words.join(if apart { " " } else { "" })))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn a_block_with_a_comment_runs_like_one_without(
+        blocks in prop::collection::vec(block(), 1..12),
+        name in prop::sample::select(vec!["fanuc", "haas", "linuxcnc", "mach3", "fadal", "fanuc-lathe", "grbl"]),
+    ) {
+        let program = |end: &str| {
+            let blocks: Vec<String> = blocks.iter().map(|block| format!("{block}{end}\n")).collect();
+            format!("G21 G90 G94 F100.\nS1000 M3\nG1 X0. Y0. Z5.\n{}M30\n", blocks.concat())
+        };
+        prop_assert_eq!(actions(&program(""), name), actions(&program(" (c)"), name));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn moves_with_a_fourth_axis_that_rests_print_like_those_without(
+        moves in moves(),
+        form in prop::sample::select(vec!["fanuc", "haas", "linuxcnc", "mach3", "centroid", "fadal"]),
+    ) {
+        let plain = printed(form, &job(&moves, false));
+        let angled = printed(form, &job(&moves, true));
+        // the cuts, without block numbers
+        let cuts = |text: String| -> Vec<String> {
+            let words = |line: &str| line.split(' ').filter(|word| !word.starts_with('N')).collect::<Vec<_>>().join(" ");
+            text.lines().map(words).skip_while(|line| !line.contains("G1 ")).collect()
+        };
+        prop_assert_eq!(plain.map(cuts), angled.map(cuts));
+    }
+
+    #[test]
+    fn a_program_with_comments_is_proven_like_one_without(
+        moves in moves(),
+        wrong in prop::option::of((0_usize..2000, b'0'..=b'9')),
+    ) {
+        let job = job(&moves, false);
+        let text = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+        let post = Post::compile(Source::from_text("linuxcnc.pf", &text), &NoFiles).unwrap();
+        let mut program = printed("linuxcnc", &job).unwrap().into_bytes();
+        // one digit of a cut is another one
+        let cuts = program.windows(3).position(|text| text == b"G1 ").unwrap();
+        let digits: Vec<usize> = (cuts..program.len()).filter(|&at| program[at].is_ascii_digit()).collect();
+        if let Some((which, digit)) = wrong {
+            program[digits[which % digits.len()]] = digit;
+        }
+        let program = String::from_utf8(program).unwrap();
+        let commented: String = program.lines().map(|line| match line.starts_with(['X', 'Y', 'Z']) {
+            true => format!("{line} (c)\n"),
+            false => format!("{line}\n"),
+        }).collect();
+        let verdict = |program: &str| post.verify(Job::json_lines(&job), program).unwrap();
+        let shown = |verdict: postform::Verdict| format!("{verdict:?}").replace(" (c)", "");
+        prop_assert_eq!(shown(verdict(&program)), shown(verdict(&commented)));
+    }
+}

@@ -4,7 +4,9 @@
 use std::fs;
 use std::io::Cursor;
 
+use postform::internals::json::{read_document, read_lines};
 use postform::internals::nc::{Action, Item, RunSettings, Simulator};
+use postform::toolpath::{Event, Flow, Place, Sink};
 use postform::{Job, NoFiles, Options, Post, Source};
 use proptest::prelude::*;
 
@@ -165,5 +167,85 @@ proptest! {
         let verdict = |program: &str| post.verify(Job::json_lines(&job), program).unwrap();
         let shown = |verdict: postform::Verdict| format!("{verdict:?}").replace(" (c)", "");
         prop_assert_eq!(shown(verdict(&program)), shown(verdict(&commented)));
+    }
+}
+
+/// The moves of a reader with their places, and how it ended.
+#[derive(Default)]
+struct Read(Vec<(String, Place)>);
+
+impl Sink for Read {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        self.0.push((format!("{event:?}"), place));
+        Flow::Continue(())
+    }
+}
+
+/// A document of these items, laid out in one of three ways.
+fn document(items: &[String], layout: u8) -> String {
+    let (line, deep) = match layout {
+        0 => ("", ""),
+        1 => ("\n  ", ""),
+        _ => ("\n      ", "\n   "),
+    };
+    let items: Vec<String> =
+        items.iter().map(|item| item.replace('[', &format!("[{deep}")).replace(',', &format!(",{deep}"))).collect();
+    let path = items.join(&format!(",{line}"));
+    format!(
+        "{{\"postform\":1,\"units\":\"mm\",\"tools\":[{{\"number\":1}}],\"operations\":[{{\"tool\":1,\"feed\":7,\
+         \"path\":[{line}{path}]}}]}}"
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn items_of_a_document_are_read_like_lines(
+        moves in moves(),
+        layout in 0_u8..3,
+        longer in 0_usize..3,
+        wrong in prop::option::of((0_usize..40, 0_usize..4)),
+    ) {
+        // more than the reader has in memory at a time
+        let moves: Vec<_> = moves.iter().cycle().take(moves.len() * [1, 20, 150][longer]).collect();
+        let mut items: Vec<String> = moves
+            .iter()
+            .enumerate()
+            .map(|(i, (to, feed))| {
+                let to: Vec<String> = to.iter().map(|value| number(value)).collect();
+                match feed {
+                    Some(feed) if i % 5 == 0 => format!("{{\"feed\":{feed},\"line\":[{}]}}", to.join(",")),
+                    Some(feed) => format!("{{\"line\":[{}],\"feed\":{feed}}}", to.join(",")),
+                    None if i % 7 == 0 => format!("{{\"rapid\":[{}]}}", to.join(",")),
+                    None => format!("{{\"line\":[{}]}}", to.join(",")),
+                }
+            })
+            .collect();
+        let wrong = wrong.map(|(at, kind)| (at % items.len(), kind));
+        if let Some((at, kind)) = wrong {
+            items[at] = ["{\"lien\":[1]}", "{\"line\":[1],\"feed\":0}", "{\"line\":[1.]}", "{\"line\":[1]"][kind].to_owned();
+        }
+        let head = "{\"start\":{\"postform\":1,\"units\":\"mm\",\"tools\":[{\"number\":1}]}}\n{\"operation\":{\"tool\":1,\"feed\":7}}\n";
+        let lines = format!("{head}{}\n{{\"end\":true}}\n", items.join("\n"));
+        let (mut by_lines, mut by_document) = (Read::default(), Read::default());
+        let text = document(&items, layout);
+        let read = read_lines(lines.as_bytes(), &mut by_lines);
+        let again = read_document(text.as_bytes(), &mut by_document);
+        prop_assert_eq!((read.is_err(), again.is_err()), (wrong.is_some(), wrong.is_some()));
+        let moves = |read: &Read| -> Vec<(String, u64)> {
+            let moves = read.0.iter().filter(|(event, _)| event.starts_with("Line") || event.starts_with("Rapid"));
+            moves.map(|(event, place)| (event.clone(), place.item)).collect()
+        };
+        prop_assert_eq!(moves(&by_lines), moves(&by_document));
+        // each item is found where it begins
+        let at_line: Vec<&str> = text.lines().collect();
+        for (event, place) in by_document.0.iter().filter(|(_, place)| place.item > 0) {
+            let rest = &at_line[place.line as usize - 1][place.column as usize - 1..];
+            prop_assert!(rest.starts_with('{'), "{event} at {place}: {rest}");
+        }
+        if let (Some((at, _)), Err(error)) = (wrong, again) {
+            prop_assert!(format!("{error:?}").contains(&format!("path[{at}]")), "{error:?} for {at}");
+        }
     }
 }

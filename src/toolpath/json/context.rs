@@ -40,6 +40,16 @@ impl Context {
         self.path.borrow_mut().pop();
     }
 
+    /// Counts the lines and columns of bytes that are taken.
+    pub fn pass(&self, bytes: &[u8]) {
+        let (line, column) = self.at.get();
+        let lines = memchr::memchr_iter(b'\n', bytes);
+        self.at.set(match lines.clone().next_back() {
+            Some(last) => (line + lines.count() as u64, (bytes.len() - last - 1) as u32),
+            None => (line, column + bytes.len() as u32),
+        });
+    }
+
     /// Keeps a finding of postform and returns an error that carries it through serde.
     pub fn fail<E: de::Error>(&self, diag: Diag) -> E {
         self.fail_with(diag.into())

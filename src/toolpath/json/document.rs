@@ -1,6 +1,6 @@
 //! `job.json`: one document, read as a stream.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::io::{Read, Seek};
 
@@ -10,11 +10,12 @@ use serde_json::de::IoRead;
 
 use super::build::Builder;
 use super::context::{Context, Step, not_utf_8};
+use super::fast::{Kind, Simple, next_item, simple_item};
 use super::objects::{CycleObject, ItemObject, JobHead, KeySeed, Object, OperationHead, SubprogramHead, once};
 use super::order::{InParts, Order, order};
 use super::position::PointSeed;
-use super::strings::{Strings, too_long};
 use super::values::Point;
+use super::window::{AsItStands, Counting, Text, Window};
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop};
 
@@ -42,7 +43,7 @@ pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> 
         Order::Usual => read_document(input, sink),
         // report faults of the text first, because the reader would report keys after the fault as missing
         Order::Broken => {
-            let is_whole = read_text(AsItStands(&mut input), |text, _| {
+            let is_whole = read_text(AsItStands(&mut input), |text, _, _| {
                 IgnoredAny::deserialize(&mut *text).and_then(|_| text.end())
             });
             is_whole?;
@@ -52,38 +53,9 @@ pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> 
     }
 }
 
-/// A text that is read in parts.
-trait Text {
-    /// Reads the next bytes. If they are from another location in the text, also returns the line and column of the first
-    /// byte.
-    fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)>;
-
-    /// Whether the text may begin with a byte order mark.
-    const IS_WHOLE: bool;
-}
-
-struct AsItStands<R>(R);
-
-impl<R: Read> Text for AsItStands<R> {
-    #[inline]
-    fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)> {
-        Ok((self.0.read(out)?, None))
-    }
-
-    const IS_WHOLE: bool = true;
-}
-
-impl<R: Read + Seek> Text for InParts<'_, R> {
-    fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)> {
-        self.read_part(out)
-    }
-
-    const IS_WHOLE: bool = false;
-}
-
 fn read_from(input: impl Text, sink: &mut dyn Sink) -> Result<(), ReadError> {
-    read_text(input, |text, context| {
-        let job = Job { context, builder: RefCell::new(Builder::new(sink)) };
+    read_text(input, |text, context, window| {
+        let job = Job { context, window, builder: RefCell::new(Builder::new(sink)), passed: Cell::new(0) };
         JobSeed(&job, Part::Job).deserialize(&mut *text)?;
         text.end()?;
         job.builder.borrow_mut().finish().map_err(|stop| context.fail_with(stop))
@@ -93,92 +65,33 @@ fn read_from(input: impl Text, sink: &mut dyn Sink) -> Result<(), ReadError> {
 /// Reads a JSON text.
 fn read_text<T: Text>(
     input: T,
-    read: impl FnOnce(&mut serde_json::Deserializer<IoRead<Counting<'_, T>>>, &Context) -> serde_json::Result<()>,
+    read: impl FnOnce(&mut serde_json::Deserializer<IoRead<Counting<'_, T>>>, &Context, &Window) -> serde_json::Result<()>,
 ) -> Result<(), ReadError> {
     let context = Context::default();
     context.at.set((1, 0));
-    let strings = Strings::default();
-    let mut reader = Counting { input, context: &context, strings, buffer: Box::new([0; 64 * 1024]), from: 0, to: 0 };
+    let window = Window::default();
+    let mut reader = Counting::new(input, &context, &window);
     if reader.begin().map_err(ReadError::Io)? == 0 {
         return Err(ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file"))));
     }
-    if let Some(mut diag) = not_utf_8(&reader.buffer[..reader.to]) {
+    if let Some(mut diag) = not_utf_8(&window.buffer.borrow()[..window.to.get()]) {
         diag.place = Some(Location::at(1, 1));
         return Err(ReadError::Job(Box::new(diag)));
     }
     let mut text = serde_json::Deserializer::from_reader(reader);
-    read(&mut text, &context).map_err(|error| {
+    read(&mut text, &context, &window).map_err(|error| {
         let (line, column) = context.at.get();
         context.explain(error, line, column.max(1))
     })
 }
 
-/// Counts lines and columns of the bytes taken. It is also the buffer for serde_json, which takes one byte at a time.
-struct Counting<'a, R> {
-    input: R,
-    context: &'a Context,
-    strings: Strings,
-    buffer: Box<[u8; 64 * 1024]>,
-    from: usize,
-    to: usize,
-}
-
-impl<R: Text> Counting<'_, R> {
-    /// Reads enough bytes to detect the encoding, and skips the byte order mark of UTF-8. Returns the number of bytes
-    /// read.
-    fn begin(&mut self) -> std::io::Result<usize> {
-        while R::IS_WHOLE && self.to < 3 && self.fill()? > 0 {}
-        if !R::IS_WHOLE {
-            return self.fill();
-        }
-        if self.buffer[..self.to].starts_with(b"\xef\xbb\xbf") {
-            self.from = 3;
-        }
-        Ok(self.to - self.from)
-    }
-
-    /// Reads more bytes. Returns 0 at the end.
-    fn fill(&mut self) -> std::io::Result<usize> {
-        loop {
-            match self.input.read_on(&mut self.buffer[self.to..]) {
-                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
-                Ok((count, begins)) => {
-                    if let Some((line, column)) = begins {
-                        self.context.at.set((line, column - 1));
-                    }
-                    // serde would keep a whole string in memory first
-                    if !self.strings.take(&self.buffer[self.to..self.to + count]) {
-                        return Err(self.context.fail_reading(too_long()));
-                    }
-                    self.to += count;
-                    return Ok(count);
-                }
-            }
-        }
-    }
-}
-
-impl<R: Text> Read for Counting<'_, R> {
-    #[inline]
-    fn read(&mut self, out: &mut [u8]) -> std::io::Result<usize> {
-        if self.from == self.to {
-            (self.from, self.to) = (0, 0);
-            self.fill()?;
-        }
-        let (Some(&byte), Some(slot)) = (self.buffer[..self.to].get(self.from), out.first_mut()) else { return Ok(0) };
-        *slot = byte;
-        self.from += 1;
-        let (line, column) = self.context.at.get();
-        self.context.at.set(if byte == b'\n' { (line + 1, 0) } else { (line, column + 1) });
-        Ok(1)
-    }
-}
-
 /// Data that all seeds of one document share.
 struct Job<'a, 's> {
     context: &'a Context,
+    window: &'a Window,
     builder: RefCell<Builder<'s>>,
+    /// Plain items of the path that were passed on besides the last one.
+    passed: Cell<u64>,
 }
 
 impl<'s> Job<'_, 's> {
@@ -191,6 +104,39 @@ impl<'s> Job<'_, 's> {
             "make `{list}` the last key of {object}, or give the job as a file: in a stream the \
                     keys after `{list}` come too late"
         )))
+    }
+
+    /// Passes on plain items from the text that is already read, as long as one follows the other. serde_json has taken the
+    /// first brace of the first one. Of the last one, the last brace is left: serde_json then finds an empty object. Returns
+    /// `false` if there is no plain item.
+    fn plain_items<E: serde::de::Error>(&self) -> Result<bool, E> {
+        let (buffer, start, to) = (self.window.buffer.borrow(), self.window.from.get(), self.window.to.get());
+        if start == 0 || buffer[start - 1] != b'{' {
+            return Ok(false);
+        }
+        let is_plain = |simple: &Simple| simple.kind != Kind::Point && simple.feed.is_none_or(|feed| feed > 0.0);
+        let item = |at: usize| simple_item(&buffer[at..to]).filter(|(simple, _)| is_plain(simple));
+        let (mut at, mut count) = (start, 0);
+        let mut next = item(at);
+        let mut builder = self.builder.borrow_mut();
+        while let Some((simple, length)) = next {
+            let (line, column) = self.context.at.get();
+            (builder.place.line, builder.place.column) = (line, column);
+            builder.place.item += 1;
+            let rapid = simple.kind == Kind::Rapid;
+            builder.simple_move(simple.to, simple.feed, rapid).map_err(|stop| self.context.fail_with(stop))?;
+            count += 1;
+            let mut end = at + length;
+            next = next_item(&buffer[end + 1..to]).and_then(|rest| {
+                let begin = to - rest.len();
+                item(begin).inspect(|_| end = begin)
+            });
+            self.context.pass(&buffer[at..end]);
+            at = end;
+        }
+        self.window.from.set(at);
+        self.passed.set(u64::max(count, 1) - 1);
+        Ok(count > 0)
     }
 
     /// Sets the place to the beginning of the next value.
@@ -266,6 +212,7 @@ impl<'de> DeserializeSeed<'de> for JobSeed<'_, '_, '_> {
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
         match self.1 {
             Part::Subprograms | Part::Operations | Part::Path => deserializer.deserialize_seq(self),
+            Part::Item if self.0.plain_items()? => IgnoredAny::deserialize(deserializer).map(drop),
             _ => deserializer.deserialize_map(self),
         }
     }
@@ -301,7 +248,7 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
                 break;
             }
             job.context.leave();
-            index += 1;
+            index += 1 + job.passed.take();
         }
         job.context.leave();
         Ok(())

@@ -31,49 +31,83 @@ pub struct Simple {
 /// plain, or `text` does not contain its end.
 #[inline]
 pub fn simple(text: &[u8]) -> Option<(Simple, usize)> {
-    let mut at = Cursor { rest: text };
-    let kind = if at.take(b"{\"line\":[").is_some() {
-        Kind::Line
-    } else if at.take(b"{\"point\":[").is_some() {
-        Kind::Point
-    } else {
-        at.kind()?
-    };
-    let mut to = Axes::default();
-    for axis in 0..6 {
+    let mut at = Cursor::<false> { rest: text };
+    if !text.starts_with(b"{\"") {
         at.blanks();
-        to.set(axis, at.number()?);
-        at.blanks();
-        if at.take(b",").is_none() {
-            break;
-        }
-        if axis == 5 {
-            return None;
-        }
     }
-    at.take(b"]")?;
-    let mut feed = None;
+    at.take(b"{")?;
+    let simple = at.simple()?;
     if at.take(b"}\n").is_none() {
-        at.blanks();
-        if kind == Kind::Line && at.take(b",").is_some() {
-            at.blanks();
-            at.take(b"\"feed\"")?;
-            at.colon()?;
-            feed = Some(at.number()?);
-            at.blanks();
-        }
         at.take(b"}")?;
         at.blanks();
         at.take(b"\n")?;
     }
-    Some((Simple { kind, to, feed }, text.len() - at.rest.len()))
+    Some((simple, text.len() - at.rest.len()))
 }
 
-struct Cursor<'a> {
+/// Reads a plain item of a document, from the byte after its first brace to its last one, and returns the length of that. Line
+/// ends are blanks. `None`: the item is not plain, or `text` does not contain its end.
+#[inline]
+pub fn simple_item(text: &[u8]) -> Option<(Simple, usize)> {
+    let mut at = Cursor::<true> { rest: text };
+    let simple = at.simple()?;
+    (at.rest.first() == Some(&b'}')).then(|| (simple, text.len() - at.rest.len()))
+}
+
+/// The text after a comma and an opening brace with blanks around them, if it begins so.
+#[inline]
+pub fn next_item(text: &[u8]) -> Option<&[u8]> {
+    let mut at = Cursor::<true> { rest: text };
+    at.blanks();
+    at.take(b",")?;
+    at.blanks();
+    at.take(b"{")?;
+    Some(at.rest)
+}
+
+/// `LINES`: line ends are blanks.
+struct Cursor<'a, const LINES: bool> {
     rest: &'a [u8],
 }
 
-impl Cursor<'_> {
+impl<const LINES: bool> Cursor<'_, LINES> {
+    /// Reads the members of an object.
+    #[inline]
+    fn simple(&mut self) -> Option<Simple> {
+        let kind = if self.take(b"\"line\":[").is_some() {
+            Kind::Line
+        } else if self.take(b"\"point\":[").is_some() {
+            Kind::Point
+        } else {
+            self.kind()?
+        };
+        let mut to = Axes::default();
+        for axis in 0..6 {
+            self.blanks();
+            to.set(axis, self.number()?);
+            self.blanks();
+            if self.take(b",").is_none() {
+                break;
+            }
+            if axis == 5 {
+                return None;
+            }
+        }
+        self.take(b"]")?;
+        let mut feed = None;
+        if !self.rest.starts_with(b"}") {
+            self.blanks();
+            if kind == Kind::Line && self.take(b",").is_some() {
+                self.blanks();
+                self.take(b"\"feed\"")?;
+                self.colon()?;
+                feed = Some(self.number()?);
+                self.blanks();
+            }
+        }
+        Some(Simple { kind, to, feed })
+    }
+
     #[inline]
     fn take(&mut self, text: &[u8]) -> Option<()> {
         self.rest = self.rest.strip_prefix(text)?;
@@ -82,8 +116,6 @@ impl Cursor<'_> {
 
     /// The kind of a line, and the bracket of its position.
     fn kind(&mut self) -> Option<Kind> {
-        self.blanks();
-        self.take(b"{")?;
         self.blanks();
         let kind = if self.take(b"\"line\"").is_some() {
             Kind::Line
@@ -100,7 +132,9 @@ impl Cursor<'_> {
 
     #[inline]
     fn blanks(&mut self) {
-        while let [b' ' | b'\t' | b'\r', rest @ ..] = self.rest {
+        while let [byte, rest @ ..] = self.rest
+            && (matches!(byte, b' ' | b'\t' | b'\r') || LINES && *byte == b'\n')
+        {
             self.rest = rest;
         }
     }

@@ -14,6 +14,7 @@ mod position;
 mod schema;
 mod strings;
 mod values;
+mod window;
 
 pub use document::{read_document, read_document_again};
 pub use lines::read_lines;

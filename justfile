@@ -57,6 +57,10 @@ bench:
     cargo bench --profile dist --bench render
     benches/throughput
 
+# beside other programs that do the same (awk, C++, rs274, GNU diff), in one run: ratios for docs/performance.md
+compare count="1000000":
+    benches/compare {{count}}
+
 # the post for FreeCAD's window, inside FreeCAD (installs Debian's): its programs are those of the saved documents
 freecad:
     integrations/freecad/run
@@ -98,6 +102,10 @@ vsix:
 vscode-shot code-server="code-server" folder="docs/images": vsix
     cargo build
     node editors/vscode/look.mjs {{code-server}} target/debug/postform {{folder}}
+
+# the documentation as a site with search, in target/site; its links are checked (needs mdbook)
+site:
+    docs/site
 
 # the packages that the toolchain here can build, each installed in a clean place and run
 dist:

@@ -1,9 +1,12 @@
-//! Jobs of any size, and the floors that rendering them is compared with. Used by `benches/throughput`.
+//! Jobs of any size, and the floors that rendering them is compared with. Used by `benches/throughput` and
+//! `benches/compare`.
 //!
 //! `floor make moves|holes N` writes a JSON Lines job to standard output, `floor make cl N` the same moves as a CL file,
-//! `floor make nc N` and `nc-holes N` programs for LinuxCNC; `floor serde FILE` parses a job with serde and does nothing with it; `floor write FILE` parses its numbers in the simplest way and prints them with `write!`.
+//! `floor make nc N` and `nc-holes N` programs for LinuxCNC; `floor serde FILE` parses a job with serde and does nothing with it;
+//! `floor naive FILE` prints its cuts as a simple post does.
 #![allow(clippy::unwrap_used)]
 
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufRead, BufReader, BufWriter, Result, Write, stdout};
 
@@ -13,9 +16,9 @@ fn main() -> Result<()> {
     match words.as_slice() {
         ["make", kind, count] => make(kind, count.parse().unwrap()),
         ["serde", file] => serde(file),
-        ["write", file] => write(file),
+        ["naive", file] => naive(file),
         _ => {
-            eprintln!("floor make moves|holes|cl|nc|nc-holes N, floor serde FILE, floor write FILE");
+            eprintln!("floor make moves|holes|cl|nc|nc-holes N, floor serde FILE, floor naive FILE");
             std::process::exit(2);
         }
     }
@@ -110,13 +113,36 @@ fn serde(file: &str) -> Result<()> {
     Ok(())
 }
 
-fn write(file: &str) -> Result<()> {
+/// A simple post with the tools of the standard library: numbers are parsed and printed by it, and words are left out if their
+/// number is the last one of their letter.
+fn naive(file: &str) -> Result<()> {
     let mut out = BufWriter::with_capacity(64 * 1024, stdout().lock());
+    let (mut last, mut text) = ([f64::NAN; 4], String::new());
+    let (mut feed, mut begin) = (1500.0, "G1");
     each_line(file, |line| {
-        if let Ok(Item { line: Some([x, y, z]), .. }) = serde_json::from_slice(line) {
-            writeln!(out, "X{x:.4} Y{y:.4} Z{z:.4}")?;
+        let Some(rest) = std::str::from_utf8(line).unwrap().strip_prefix("{\"line\":[") else { return Ok(()) };
+        let (to, rest) = rest.split_once(']').unwrap();
+        if let Some(text) = rest.strip_prefix(",\"feed\":") {
+            feed = text.trim_end().trim_end_matches('}').parse().unwrap();
         }
-        Ok(())
+        let values = to.split(',').map(|value| value.parse::<f64>().unwrap()).chain([feed]);
+        let mut blank = std::mem::take(&mut begin);
+        for ((letter, last), value) in "XYZF".chars().zip(&mut last).zip(values) {
+            if *last == value {
+                continue;
+            }
+            *last = value;
+            text.clear();
+            write!(text, "{}", (value * 1e4).round() / 1e4).unwrap();
+            let (sign, digits) = text.strip_prefix('-').map_or(("", text.as_str()), |digits| ("-", digits));
+            let digits = digits.strip_prefix("0").filter(|rest| !rest.is_empty()).unwrap_or(digits);
+            let sign = if digits == "0" { "" } else { sign };
+            let point = if digits.contains('.') || digits == "0" { "" } else { "." };
+            let space = if blank == "G1" { " " } else { "" };
+            write!(out, "{blank}{space}{letter}{sign}{digits}{point}")?;
+            blank = " ";
+        }
+        writeln!(out)
     })
 }
 

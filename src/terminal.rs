@@ -9,6 +9,10 @@ pub fn steers(c: char) -> bool {
 
 /// Text from a file made safe for a terminal: control characters become escapes.
 pub fn escaped(text: &str) -> String {
+    // most text is plain ASCII
+    if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
+        return text.to_owned();
+    }
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         if steers(c) { out.extend(c.escape_default()) } else { out.push(c) }

@@ -147,6 +147,16 @@ export class Path {
     return this.moveLine.length;
   }
 
+  /** Whether both paths have the same pieces, of the same kinds and tools. */
+  drawsLike(other: Path): boolean {
+    return (
+      alike(this.first, other.first) &&
+      alike(this.moveKind, other.moveKind) &&
+      alike(this.moveTool, other.moveTool) &&
+      alike(this.points, other.points)
+    );
+  }
+
   get pieces(): number {
     return this.points.length / 3 - 1;
   }
@@ -233,4 +243,11 @@ function equal(a: Uint8Array, b: Uint8Array): boolean {
 /** The form line that printed a block: file and line from 0; null if there is none. */
 export function formLine(packed: number): { file: number; line: number } | null {
   return packed < 0 ? null : { file: packed >> LINE_BITS, line: packed & ((1 << LINE_BITS) - 1) };
+}
+
+function alike(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
+  if (a.length !== b.length) return false;
+  // an unknown position is not a number
+  for (let i = 0; i < a.length; i++) if (a[i] !== b[i] && (a[i] === a[i] || b[i] === b[i])) return false;
+  return true;
 }

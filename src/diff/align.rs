@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use foldhash::quality::FixedState;
 use similar::{Algorithm, DiffTag, capture_diff_slices};
 
 use super::gaps::gaps;
 use super::ignore::Ignore;
 use super::key::key;
 use super::program::Program;
-use super::words::{likeness, within, words};
+use super::words::{letters, likeness, within, words};
 
 /// Settings of a comparison.
 #[derive(Clone, Copy, Debug)]
@@ -142,16 +143,19 @@ fn pair(
     let mut edits = Vec::with_capacity(from.len().max(to.len()));
     let mut next = to.start;
     let even = from.len() == to.len();
+    let ignore = &options.ignore;
+    let [mut old_letters, mut new_letters] = [Vec::new(), Vec::new()];
     for at in from {
         let line = before.number(at);
-        let old_words = words(old.line(line), &options.ignore);
+        letters(old.line(line), ignore, &mut old_letters);
         // line by line if the numbers are equal; else the next similar line
         let reach = if even { 1 } else { MOST };
         let found = (next..to.end.min(next + reach)).find_map(|candidate| {
             let number = after.number(candidate);
-            let new_words = words(new.line(number), &options.ignore);
-            let same = options.tolerance > 0.0 && within(&old_words, &new_words, options.tolerance);
-            (same || likeness(&old_words, &new_words) >= 0.5).then_some((candidate, number, same))
+            let [was, is] = [old.line(line), new.line(number)];
+            let same = options.tolerance > 0.0 && within(&words(was, ignore), &words(is, ignore), options.tolerance);
+            letters(is, ignore, &mut new_letters);
+            (same || likeness(&old_letters, &new_letters) >= 0.5).then_some((candidate, number, same))
         });
         match found {
             Some((candidate, number, same)) => {
@@ -170,8 +174,8 @@ fn pair(
 
 /// Marks a line as moved if it is removed once and added once elsewhere.
 fn find_moves(comparison: &mut Comparison, old: &Program, new: &Program, ignore: &Ignore) {
-    let mut gone: HashMap<u64, (usize, usize)> = HashMap::new();
-    let mut come: HashMap<u64, (usize, usize)> = HashMap::new();
+    let mut gone: HashMap<u64, (usize, usize), FixedState> = HashMap::default();
+    let mut come: HashMap<u64, (usize, usize), FixedState> = HashMap::default();
     for edit in comparison.edits() {
         let (list, line, text) = match *edit {
             Edit::Removed(line) => (&mut gone, line, old.line(line)),

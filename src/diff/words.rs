@@ -7,7 +7,7 @@ use similar::{Algorithm, DiffTag, capture_diff_slices};
 
 use super::ignore::Ignore;
 use super::key::{hasher, is_seen};
-use crate::nc::{Kind, tokens};
+use crate::nc::{Kind, Token, tokens};
 
 /// A word or comment of a block.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,32 +29,51 @@ impl Word {
     }
 }
 
+/// The tokens of the compared words of a block. `true`: the token continues the word before it.
+fn pieces(line: &[u8], ignore: &Ignore) -> impl Iterator<Item = (Token, bool)> {
+    let mut open = false;
+    let seen =
+        tokens(line).filter(|token| !matches!(token.kind, Kind::Blank | Kind::LineEnd) && is_seen(token, ignore));
+    seen.map(move |token| {
+        let continues = matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted);
+        let continues = open && continues;
+        open = continues || !matches!(token.kind, Kind::Word(..));
+        (token, continues)
+    })
+}
+
+fn letter_and_value(kind: Kind) -> (u8, Option<f64>) {
+    match kind {
+        Kind::Word(letter, number) => (letter, Some(number.value + 0.0)),
+        Kind::Letter(letter) => (letter, None),
+        _ => (0, None),
+    }
+}
+
+/// The letters of the compared words of a block.
+pub(super) fn letters(line: &[u8], ignore: &Ignore, list: &mut Vec<u8>) {
+    list.clear();
+    list.extend(
+        pieces(line, ignore).filter(|(_, continues)| !continues).map(|(token, _)| letter_and_value(token.kind).0),
+    );
+}
+
 /// The compared words of a block.
 pub(super) fn words(line: &[u8], ignore: &Ignore) -> Vec<Word> {
-    let mut list: Vec<Word> = Vec::new();
-    let mut open = false;
-    for token in tokens(line).filter(|token| is_seen(token, ignore)) {
-        if matches!(token.kind, Kind::Blank | Kind::LineEnd) {
-            continue;
-        }
+    let mut list: Vec<Word> = Vec::with_capacity(8);
+    for (token, continues) in pieces(line, ignore) {
         let text = &line[token.start..token.end];
-        let continues = matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted);
-        if let Some(last) = list.last_mut().filter(|_| open && continues) {
+        if let Some(last) = list.last_mut().filter(|_| continues) {
             last.span.end = token.end;
             last.key = key_of(&(last.key, text));
             continue;
         }
-        let (letter, value) = match token.kind {
-            Kind::Word(letter, number) => (letter, Some(number.value + 0.0)),
-            Kind::Letter(letter) => (letter, None),
-            _ => (0, None),
-        };
+        let (letter, value) = letter_and_value(token.kind);
         let key = match value.filter(|_| ignore.format) {
             Some(value) => key_of(&(letter, value.to_bits())),
             None if ignore.case && letter != 0 => key_of(&text.to_ascii_uppercase()),
             None => key_of(&text),
         };
-        open = value.is_none();
         list.push(Word { span: token.start..token.end, letter, value, key });
     }
     list
@@ -75,11 +94,9 @@ pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
         })
 }
 
-/// The share of common words, relative to the longer block.
-pub(super) fn likeness(old: &[Word], new: &[Word]) -> f64 {
-    let mut has = [false; 256];
-    new.iter().for_each(|word| has[usize::from(word.letter)] = true);
-    let shared = old.iter().filter(|word| has[usize::from(word.letter)]).count();
+/// The share of common words, relative to the longer block, from the letters of both.
+pub(super) fn likeness(old: &[u8], new: &[u8]) -> f64 {
+    let shared = old.iter().filter(|letter| new.contains(letter)).count();
     shared as f64 / old.len().max(new.len()).max(1) as f64
 }
 

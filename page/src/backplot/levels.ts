@@ -63,7 +63,9 @@ function drawOnce({ points }: Path, kinds: Uint8Array): void {
   const seen = new Set<string>();
   for (let piece = 0; piece * 4 < kinds.length && seen.size < MOST_RAPIDS; piece++) {
     if (kinds[piece * 4] !== 0) continue;
-    const [from, to] = [points.subarray(piece * 3, piece * 3 + 3).join(), points.subarray(piece * 3 + 3, piece * 3 + 6).join()];
+    const at = piece * 3;
+    const from = `${points[at]},${points[at + 1]},${points[at + 2]}`;
+    const to = `${points[at + 3]},${points[at + 4]},${points[at + 5]}`;
     const line = from < to ? `${from} ${to}` : `${to} ${from}`;
     if (seen.has(line)) kinds[piece * 4] = AGAIN;
     else seen.add(line);
@@ -90,10 +92,11 @@ function coarser(level: Level, error: number): Level {
   const fewer = new Float32Array((number + 1) * 3);
   const fewerKinds = new Uint8Array(number * 4);
   fewer.set(points.subarray(0, 3));
+  // number by number: a view of a part of an array costs more than its three numbers
   for (let i = 0; i < number; i++) {
     const piece = pieces[i];
-    fewer.set(points.subarray((piece + 1) * 3, (piece + 2) * 3), (i + 1) * 3);
-    fewerKinds.set(kinds.subarray(piece * 4, piece * 4 + 4), i * 4);
+    for (let axis = 0; axis < 3; axis++) fewer[i * 3 + 3 + axis] = points[piece * 3 + 3 + axis];
+    for (let part = 0; part < 4; part++) fewerKinds[i * 4 + part] = kinds[piece * 4 + part];
     pieces[i] = ofWhole(piece);
   }
   return { error, points: fewer, kinds: fewerKinds, pieces, boxes: boxes(fewer) };

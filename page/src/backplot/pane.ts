@@ -153,7 +153,8 @@ export class Backplot {
     this.old = old?.path ? levels(shifted(old.path, program)) : [];
     this.oldPath = old?.path ?? null;
     if (path !== before) {
-      this.levels = path ? levels(path) : [];
+      // most changes of a form do not move the tool
+      if (!path || !before?.drawsLike(path)) this.levels = path ? levels(path) : [];
       this.plate = path ? plateOf(path) : null;
       this.shapes = program?.path ? shapesOf(program, sizes) : new Map();
       this.known = null;

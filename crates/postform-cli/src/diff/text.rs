@@ -130,23 +130,22 @@ impl Page<'_> {
 
     fn unchanged(&mut self, lines: Range<usize>) {
         for line in lines {
-            let text = shown(self.old.program.text(line));
-            _ = writeln!(self.text, " {text}");
+            self.block("", ' ', self.old.program.text(line));
         }
     }
 
     fn edit(&mut self, edit: &Edit, marks: bool) {
         let (old, new) = (&self.old.program, &self.new.program);
         match *edit {
-            Edit::Removed(line) => self.line(RED, &format!("-{}", shown(old.text(line)))),
-            Edit::Added(line) => self.line(GREEN, &format!("+{}", shown(new.text(line)))),
+            Edit::Removed(line) => self.block(RED, '-', old.text(line)),
+            Edit::Added(line) => self.block(GREEN, '+', new.text(line)),
             Edit::Changed(a, b) => {
                 let (before, after) = (old.text(a), new.text(b));
                 let [gone, come] =
                     if marks { changed_spans(before, after, &self.options.ignore) } else { Default::default() };
-                self.line(RED, &format!("-{}", shown(before)));
+                self.block(RED, '-', before);
                 self.marks(before, &gone);
-                self.line(GREEN, &format!("+{}", shown(after)));
+                self.block(GREEN, '+', after);
                 self.marks(after, &come);
             }
             Edit::Moved(a, b) => {
@@ -181,6 +180,18 @@ impl Page<'_> {
             self.line(RED, &format!("    form: - {}", escaped(&before)));
             self.line(GREEN, &format!("    form: + {}", escaped(&after)));
         }
+    }
+
+    /// Prints a block after its sign.
+    fn block(&mut self, colour: &str, sign: char, block: &[u8]) {
+        let colour = if self.colour { colour } else { "" };
+        self.text.push_str(colour);
+        self.text.push(sign);
+        self.text.push_str(&shown(block));
+        if !colour.is_empty() {
+            self.text.push_str(PLAIN);
+        }
+        self.text.push('\n');
     }
 
     fn line(&mut self, colour: &str, text: &str) {

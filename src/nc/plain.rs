@@ -6,7 +6,7 @@ use super::block::Block;
 use super::codes::{AXES, Group, bit, g_code, letters};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Control, Meaning};
+use crate::control::{Control, Meaning, Row};
 use crate::number::short_decimal;
 use crate::toolpath::FeedMode;
 
@@ -82,8 +82,12 @@ impl State {
     pub(super) fn cuts_plainly(&mut self, block: &Block, out: &mut Out<'_>) -> bool {
         let modes = &self.modes;
         let (word, control) = (block.row(Group::Motion), self.control);
-        let is_usual = word.or(modes.motion).is_some_and(|row| row.meaning == Meaning::Line)
+        // a straight cut is in force, so that the code of another one changes nothing
+        let is_line = |row: &Row| row.meaning == Meaning::Line;
+        let is_usual = modes.motion.is_some_and(is_line)
+            && word.is_none_or(is_line)
             && modes.absolute
+            && !modes.diameter
             && modes.feed_mode != FeedMode::InverseTime
             && self.holes.cycle.is_none()
             && self.turning.corner.is_none()
@@ -96,9 +100,6 @@ impl State {
             return false;
         }
         self.drive.feed = feed;
-        if let Some(row) = word {
-            self.leave_cycle(row, out);
-        }
         let mut to = self.place.position;
         let mut given = 0;
         for (axis, letter) in control.axes().iter().enumerate() {

@@ -282,7 +282,7 @@ impl State {
     }
 
     /// Ends the series of holes: the motion is not a cycle.
-    pub(super) fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
+    fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
         self.end_cycle(out);
         self.threads.end_passes(Some(row.meaning));
         self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);

@@ -82,6 +82,48 @@ fn actions(program: &str, name: &str) -> (Vec<Item>, Vec<String>) {
     (items, refused)
 }
 
+/// What changes the meaning of axis words, or comes between two moves.
+const MODES: [&str; 38] = [
+    "G7",
+    "G8",
+    "G20",
+    "G21",
+    "G40",
+    "G41 D1",
+    "G52 X1. Y2.",
+    "G54",
+    "G55",
+    "G80",
+    "G81 X1. Y1. Z-1. R2.",
+    "G90",
+    "G91",
+    "G92 X1.",
+    "G93",
+    "G94",
+    "G95",
+    "G17",
+    "G18",
+    "G0 Z9.",
+    "G33 Z1. K1.",
+    "G28 X0. Y0.",
+    "G2 X1. Y1. R5.",
+    "G43 H1",
+    "G49",
+    "G68 X0. Y0. R30.",
+    "G69",
+    "G10 L2 P1 X1.",
+    "T1 M6",
+    "M3 S100",
+    "G4 P1.",
+    "G96 S100",
+    "G73 X1. Z-1. R1. Q1.",
+    "G50 S900",
+    "G98",
+    "G99",
+    "/X1.",
+    "G53 G0 Z0.",
+];
+
 /// A block of axis words in the ways that people and systems write them.
 fn block() -> impl Strategy<Value = String> {
     let value = prop_oneof![
@@ -106,16 +148,18 @@ fn block() -> impl Strategy<Value = String> {
         1 => Just("N5 "),
     ];
     let words = prop::collection::vec(word, 1..4);
-    (code, words, prop::bool::ANY)
-        .prop_map(|(code, words, apart)| format!("{code}{}", words.join(if apart { " " } else { "" })))
+    let moves = (code, words, prop::bool::ANY)
+        .prop_map(|(code, words, apart)| format!("{code}{}", words.join(if apart { " " } else { "" })));
+    let modes = prop::sample::select(MODES.to_vec()).prop_map(str::to_owned);
+    prop_oneof![3 => moves, 1 => modes]
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
     fn a_block_with_a_comment_runs_like_one_without(
-        blocks in prop::collection::vec(block(), 1..12),
+        blocks in prop::collection::vec(block(), 1..25),
         name in prop::sample::select(vec!["fanuc", "haas", "linuxcnc", "mach3", "fadal", "fanuc-lathe", "grbl"]),
     ) {
         let program = |end: &str| {
@@ -127,7 +171,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
     fn moves_with_a_fourth_axis_that_rests_print_like_those_without(
@@ -148,6 +192,7 @@ proptest! {
     fn a_program_with_comments_is_proven_like_one_without(
         moves in moves(),
         wrong in prop::option::of((0_usize..2000, b'0'..=b'9')),
+        between in prop::option::of((0_usize..40, prop::sample::select(MODES.to_vec()))),
     ) {
         let job = job(&moves, false);
         let text = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
@@ -159,7 +204,11 @@ proptest! {
         if let Some((which, digit)) = wrong {
             program[digits[which % digits.len()]] = digit;
         }
-        let program = String::from_utf8(program).unwrap();
+        let mut program = String::from_utf8(program).unwrap();
+        if let Some((which, block)) = between {
+            let lines: Vec<usize> = program[cuts..].match_indices('\n').map(|(at, _)| cuts + at + 1).collect();
+            program.insert_str(lines[which % lines.len()], &format!("{block}\n"));
+        }
         let commented: String = program.lines().map(|line| match line.starts_with(['X', 'Y', 'Z']) {
             true => format!("{line} (c)\n"),
             false => format!("{line}\n"),

@@ -20,7 +20,10 @@ struct Cycle {
 struct Writer {
     text: String,
     at: [Option<f64>; 3],
+    /// The tool in the spindle.
     tool: f64,
+    /// The tool of the last T: it is in the spindle after M6, and D belongs to the tool before it until then.
+    next: f64,
     inch: bool,
     side: bool,
     cycle: Option<Cycle>,
@@ -181,7 +184,10 @@ impl Writer {
         }
         let dwells = list.contains(&('G', 4.0));
         let tool = list.iter().find(|word| word.0 == 'T').map(|word| word.1);
-        self.tool = tool.unwrap_or(self.tool);
+        self.next = tool.unwrap_or(self.next);
+        if list.contains(&('M', 6.0)) {
+            self.tool = self.next;
+        }
         let compensates = list.iter().any(|word| *word == ('G', 41.0) || *word == ('G', 42.0));
         let (mut length, mut extra) = (None, None);
         list.retain(|word| {

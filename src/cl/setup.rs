@@ -101,7 +101,7 @@ impl Setups {
         }
     }
 
-    /// The x axis of a setup: that of the CSYS if its z is the tool axis; else horizontal, as defined for Fanuc's G68.3.
+    /// The x axis of a setup. If z of the CSYS is the tool axis, it is x of the CSYS; else it is horizontal, as Fanuc defines it for G68.3.
     fn x_of(&self, axis: [f64; 3]) -> [f64; 3] {
         if let Some([x, z]) = self.csys
             && lies_along(z, axis)

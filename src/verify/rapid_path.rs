@@ -2,7 +2,7 @@
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, distance, lies_between, same};
 
-/// Shortest length, in tolerances, of a rapid whose direction is exact enough in its digits.
+/// The shortest rapid, as a multiple of the tolerance, whose printed digits give its direction exactly enough.
 const LEG: f64 = 4.0;
 
 /// A path as corners: the start, if known, and the ends of its rapids.

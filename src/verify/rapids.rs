@@ -87,7 +87,7 @@ fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     });
 }
 
-/// Checks the frames of a path. The tool may be moved only in the job's frames and with their registers.
+/// Checks the frames of a path. Each move of the tool must use a frame of the job and the offset registers of this frame.
 pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;

@@ -8,8 +8,8 @@ use super::rapid_path::{RapidPath, across};
 pub(super) enum Compared {
     /// The job's path, after joining moves of no length and parts of one straight rapid.
     Same,
-    /// A path with another order of axes, or higher, and not lower. `step_by_step`: each move across corresponds to one
-    /// in the job.
+    /// A path that moves the axes in another order, or is higher than the job's path, but is nowhere lower.
+    /// `step_by_step`: each move across corresponds to one in the job.
     AsGood { step_by_step: bool },
     /// Lower than the job's path at this position.
     Lower(Place, f64),

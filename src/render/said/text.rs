@@ -45,7 +45,7 @@ pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
 /// Addresses that other languages write with `=` and that describe the arc of their block, as Siemens' `I=AC(10)`, `CR=5`.
 const OF_ARCS: [&str; 9] = ["I", "J", "K", "CR", "AR", "TURN", "I1", "J1", "K1"];
 
-/// Does a text next to axis words consist only of such addresses, or parts of them? They change only the move.
+/// True if the text next to axis words has only these addresses or parts of them. Such addresses change only the move.
 fn is_argument(text: &[u8]) -> bool {
     let mut parts = text.split(u8::is_ascii_whitespace).filter(|part| !part.is_empty());
     parts.all(is_of_arc)

@@ -66,7 +66,8 @@ impl Linuxcnc {
         self.add(Piece::arc(curve, feed, rates), rates, queue);
     }
 
-    /// Ends the moves, at a stop or at the end of the program. The last move of G64 keeps the half acceleration of a blend.
+    /// Ends the moves, at a stop or at the end of the program. With G64, the last move is also calculated with half the
+    /// acceleration, as a move that blends into the next.
     pub fn stop(&mut self, rates: &Rates, queue: &mut Queue) {
         self.end_chain(rates, queue);
         if let Some(mut last) = self.last.take() {

@@ -344,7 +344,7 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     job.build(|b| b.item(&item))
 }
 
-/// Reads a cycle. Its first points wait for keys after them, later points do not.
+/// Reads a cycle. Its first points are held back until the keys after them are read; later points are passed on at once.
 fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const POINTS: &[&str] = &["points"];
     let (mut object, mut seen) = (CycleObject::default(), 0);

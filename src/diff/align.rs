@@ -148,12 +148,13 @@ fn pair(
     for at in from {
         let line = before.number(at);
         letters(old.line(line), ignore, &mut old_letters);
+        let old_words = (options.tolerance > 0.0).then(|| words(old.line(line), ignore));
         // line by line if the numbers are equal; else the next similar line
         let reach = if even { 1 } else { MOST };
         let found = (next..to.end.min(next + reach)).find_map(|candidate| {
             let number = after.number(candidate);
-            let [was, is] = [old.line(line), new.line(number)];
-            let same = options.tolerance > 0.0 && within(&words(was, ignore), &words(is, ignore), options.tolerance);
+            let is = new.line(number);
+            let same = old_words.as_ref().is_some_and(|was| within(was, &words(is, ignore), options.tolerance));
             letters(is, ignore, &mut new_letters);
             (same || likeness(&old_letters, &new_letters) >= 0.5).then_some((candidate, number, same))
         });

@@ -1,6 +1,6 @@
 //! The changes, counted by kind.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::align::{Comparison, Edit};
 use super::ignore::Ignore;
@@ -57,8 +57,9 @@ impl Summary {
                 letter => char::from(letter).to_string(),
             }
         };
+        let (olds, news) = (firsts(old), firsts(new));
         for word in new.iter().filter(|word| !is_code(word)) {
-            match first(old, word.letter) {
+            match olds[usize::from(word.letter)].checked_sub(1).map(|at| &old[at]) {
                 Some(before) if !before.is(word) => {
                     *self.letters.entry(char::from(word.letter)).or_default() += 1;
                 }
@@ -67,27 +68,33 @@ impl Summary {
             }
         }
         for word in old.iter().filter(|word| !is_code(word)) {
-            if first(new, word.letter).is_none() {
+            if news[usize::from(word.letter)] == 0 {
                 *self.less.entry(name(word, old_text)).or_default() += 1;
             }
         }
-        let is_in = |word: &Word, text: &[u8], list: &[Word], other: &[u8]| {
-            let own = text[word.span.clone()].trim_ascii();
-            list.iter().filter(|code| code.letter == word.letter).any(|code| {
-                let code = other[code.span.clone()].trim_ascii();
-                if word.letter == 0 { own == code } else { own.eq_ignore_ascii_case(code) }
-            })
+        let codes = |list: &[Word], text: &[u8]| -> Vec<String> {
+            list.iter().filter(|word| is_code(word)).map(|word| name(word, text)).collect()
         };
-        for code in new.iter().filter(|word| is_code(word) && !is_in(word, new_text, old, old_text)) {
-            *self.more.entry(name(code, new_text)).or_default() += 1;
+        let [was, is] = [old, new].map(|list| list.iter().filter(|word| is_code(word)));
+        if was.clone().count() == is.clone().count()
+            && was.zip(is).all(|(was, is)| old_text[was.span.clone()] == new_text[is.span.clone()])
+        {
+            return; // as in most blocks
         }
-        for code in old.iter().filter(|word| is_code(word) && !is_in(word, old_text, new, new_text)) {
-            *self.less.entry(name(code, old_text)).or_default() += 1;
+        let (before, after) = (codes(old, old_text), codes(new, new_text));
+        let [in_before, in_after] = [&before, &after].map(|list| list.iter().collect::<HashSet<_>>());
+        for code in after.iter().filter(|code| !in_before.contains(code)) {
+            *self.more.entry(code.clone()).or_default() += 1;
+        }
+        for code in before.iter().filter(|code| !in_after.contains(code)) {
+            *self.less.entry(code.clone()).or_default() += 1;
         }
     }
 }
 
-/// The first word with a letter.
-fn first(list: &[Word], letter: u8) -> Option<&Word> {
-    list.iter().find(|word| word.letter == letter)
+/// The first word of each letter: its position from 1; 0: there is none.
+fn firsts(list: &[Word]) -> [usize; 256] {
+    let mut firsts = [0; 256];
+    list.iter().enumerate().rev().for_each(|(at, word)| firsts[usize::from(word.letter)] = at + 1);
+    firsts
 }

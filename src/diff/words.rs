@@ -96,7 +96,9 @@ pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
 
 /// The share of common words, relative to the longer block, from the letters of both.
 pub(super) fn likeness(old: &[u8], new: &[u8]) -> f64 {
-    let shared = old.iter().filter(|letter| new.contains(letter)).count();
+    let mut has = [false; 256];
+    new.iter().for_each(|letter| has[usize::from(*letter)] = true);
+    let shared = old.iter().filter(|letter| has[usize::from(**letter)]).count();
     shared as f64 / old.len().max(new.len()).max(1) as f64
 }
 

@@ -153,7 +153,7 @@ pub mod internals {
         pub use crate::post::{Part, sample_job, sample_program, shipped};
     }
     pub mod preflight {
-        pub use crate::preflight::{Fit, Fitted, JobTool, Times, preflight};
+        pub use crate::preflight::{Fit, Fitted, JobTool, Times, preflight, preflight_by_block};
     }
     pub mod render {
         pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};

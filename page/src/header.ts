@@ -2,6 +2,7 @@
 
 import { element } from "./element.ts";
 import { base, jobName } from "./names.ts";
+import { JOBS, openButton } from "./opening.ts";
 import type { Finding, Head, Verdict } from "./scene.ts";
 
 /** In place of a verdict. */
@@ -17,25 +18,37 @@ export class Header {
   readonly saving = element("button", { class: "save", hidden: "" }, "save");
   private readonly title = element("h1", {});
   private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
+  private readonly acts = element("span", { class: "acts-of-jobs", hidden: "" });
+  private readonly closing = element("button", { title: "Close this job" }, "×");
+  private names: string[] = [];
   onJob: (job: number) => void = () => {};
+  onClose: (job: number, name: string) => void = () => {};
 
   constructor() {
-    this.root = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs);
+    this.root = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs, this.acts);
+  }
+
+  /** Jobs can be opened and closed. */
+  opens(open: (files: File[]) => void): void {
+    this.acts.hidden = false;
+    this.acts.append(openButton("+", "Open another job", JOBS, open), this.closing);
   }
 
   get jobs(): number {
     return this.tabs.childElementCount;
   }
 
-  /** Names, counts and tabs. */
-  show(head: Head, job: number): void {
+  /** Names, counts and tabs. Returns whether there are other tabs than before. */
+  show(head: Head, job: number): boolean {
     const form = head.form?.files[0];
     const names = [form && base(form), head.job.name && base(head.job.name)].filter(Boolean);
     document.title = `${names.join(" · ")} · postform`;
     this.title.textContent = form ? base(form) : base(head.job.name);
     this.showLint(head);
     const jobs = head.jobs ?? [];
-    if (this.jobs !== jobs.length) {
+    const changed = this.jobs !== jobs.length || jobs.some((name, i) => name !== this.names[i]);
+    this.names = jobs;
+    if (changed) {
       this.tabs.replaceChildren(...jobs.map((name, i) => {
         const tab = element("button", { role: "tab", class: "tab", title: name }, jobName(name), element("span", {}));
         tab.onclick = () => this.onJob(i);
@@ -44,6 +57,9 @@ export class Header {
     }
     [...this.tabs.children].forEach((tab, i) => tab.setAttribute("aria-selected", String(i === job)));
     this.tabs.hidden = jobs.length < 1;
+    this.closing.hidden = jobs.length < 2;
+    this.closing.onclick = () => this.onClose(job, jobs[job]);
+    return changed;
   }
 
   /** How many findings there are, and the first of them. */

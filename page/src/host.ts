@@ -37,6 +37,10 @@ export interface Host {
   verdict(job: number, properties: [string, string][]): Promise<Verdict>;
   /** Writes a form. Null: it is written; else why not. */
   save?(name: string, text: string, was: string): Promise<string | null>;
+  /** Opens another job. Returns its tab. */
+  add?(name: string, bytes: Uint8Array): Promise<number>;
+  /** Closes a job of this name. */
+  close?(job: number, name: string): Promise<void>;
   /** What is typed is kept without being saved. */
   readonly keeps?: boolean;
   /** Something was changed elsewhere. */
@@ -68,6 +72,16 @@ export class Server implements Host {
     return answer.ok ? null : (await answer.text()) || answer.statusText;
   }
 
+  async add(name: string, bytes: Uint8Array): Promise<number> {
+    const head = new TextEncoder().encode(`${JSON.stringify(name)}\n`);
+    const body = new Blob([head, bytes as BlobPart]);
+    return (await this.answer("add", { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body })).json();
+  }
+
+  async close(job: number, name: string): Promise<void> {
+    await this.post("close", { job, name });
+  }
+
   onChange(changed: (connected: boolean) => void): void {
     let events: EventSource | null = null;
     let opened = false;
@@ -91,8 +105,12 @@ export class Server implements Host {
     if (!document.hidden) open();
   }
 
-  private async post(path: string, body: unknown): Promise<Response> {
-    const answer = await fetch(this.base + path, this.request(body));
+  private post(path: string, body: unknown): Promise<Response> {
+    return this.answer(path, this.request(body));
+  }
+
+  private async answer(path: string, request: RequestInit): Promise<Response> {
+    const answer = await fetch(this.base + path, request);
     if (answer.ok) return answer;
     const why = (await answer.text()) || answer.statusText;
     throw answer.status === 410 ? new Gone(why) : new Error(why);

@@ -22,8 +22,17 @@ import { Timeline } from "./timeline.ts";
 const PROVING = without("proving…");
 const CHECKING = without("checking…");
 
+/** What the server answers for a tab that is closed. */
+const NO_JOB = "there is no such job";
+
 /** A rapid through stock. */
 const CRASH = { text: "this rapid goes through stock that is not cut yet", help: "the stock is the box of the cuts, up to the top of the part: look whether the tool is high enough" };
+
+/** The message of an error from the server, in one line. */
+function plain(error: unknown): string {
+  const text = error instanceof Error ? error.message : String(error);
+  return text.replace(/^error: /, "").replace(/\n\s*help: /, "; ");
+}
 
 type From = "form" | "program" | "path" | "key" | "finding" | "time";
 
@@ -115,6 +124,10 @@ export class Page {
       void this.load();
     };
     this.header.saving.onclick = () => void this.save();
+    if (this.host?.add) {
+      this.header.opens((files) => void this.addJobs(files));
+      this.header.onClose = (job, name) => void this.closeJob(job, name);
+    }
     if (editor) {
       this.form!.properties.onChange = () => {
         void this.load();
@@ -146,6 +159,32 @@ export class Page {
     keys(this);
   }
 
+  /** Opens jobs in tabs of their own, and shows the last one. */
+  async addJobs(files: File[]): Promise<void> {
+    for (const file of files) {
+      try {
+        this.job = await this.host!.add!(file.name, new Uint8Array(await file.arrayBuffer()));
+        this.program = null;
+      } catch (error) {
+        return this.say(`${file.name} was not opened: ${plain(error)}`, ["close", () => this.say("")]);
+      }
+    }
+    this.onTyped();
+    await this.load();
+  }
+
+  private async closeJob(job: number, name: string): Promise<void> {
+    try {
+      await this.host!.close!(job, name);
+    } catch (error) {
+      return this.say(`${base(name)} was not closed: ${plain(error)}`);
+    }
+    this.program = null;
+    this.job = Math.max(0, Math.min(job, this.header.jobs - 2));
+    this.onTyped();
+    await this.load();
+  }
+
   say(text: string, ...actions: [string, () => void][]): void {
     this.banner.hidden = !text;
     this.banner.replaceChildren(text, ...actions.map(([name, act]) => {
@@ -171,14 +210,18 @@ export class Page {
         // a verdict of what was there before the last key is none of what is there now
         if (!this.again) this.unchecked = null;
         if (!shown) this.show(scene);
-        else this.tellMore(scene.head);
+        else this.tellMore(scene);
         shown ??= scene.head;
         if (key) this.measure(key, !!(this.head?.verdict ?? this.head?.stopped));
         // the text that was typed in the meantime comes first
         if (this.again) break;
       }
     } catch (error) {
-      this.failed(error instanceof Error ? error.message : String(error), error instanceof Gone);
+      // another page may have closed the last tabs
+      if (this.job > 0 && plain(error) === NO_JOB) {
+        this.job--;
+        this.again = { key };
+      } else this.failed(plain(error), error instanceof Gone);
     }
     this.running = false;
     const again = this.again;
@@ -206,7 +249,7 @@ export class Page {
     const copy: [string, () => void] = ["copy what was typed", () => void navigator.clipboard.writeText(typed.join("\n"))];
     const write: [string, () => void] = ["write it again", () => void this.writeAgain()];
     const more = [...(gone && this.editor && this.host?.save ? [write] : []), ...(typed.length ? [copy] : [])];
-    this.say(`Not checked: ${why.replace(/^error: /, "").replace(/\n\s*help: /, "; ")}.${typed.length ? " What was typed is kept here." : ""}`, again, ...more);
+    this.say(`Not checked: ${why}.${typed.length ? " What was typed is kept here." : ""}`, again, ...more);
     this.sayingFailed = true;
   }
 
@@ -227,11 +270,17 @@ export class Page {
   }
 
   /** Results for the shown program that take longer than its picture: the verdict, the changes. */
-  private tellMore(head: Partial<Head>): void {
-    const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = head;
+  private tellMore(scene: Scene): void {
+    const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = scene.head;
     Object.assign(this.head!, { verdict, fit, saved, against, toolSizes });
+    this.takeTimes(scene);
     this.mark();
     this.relight(false);
+  }
+
+  /** Takes the times of the machine file, which may come after the picture. */
+  private takeTimes(scene: Scene): void {
+    if (scene.has("timedLine")) this.program?.path?.takeTimes(scene.array("timedLine", Uint32Array), scene.array("timedEnd", Float32Array));
   }
 
   /** Measures the time from a key until its result is painted. */
@@ -264,13 +313,14 @@ export class Page {
     } else if (first || !head.stopped) {
       this.program = this.old = null;
     }
-    this.titles(head);
+    const tabsChanged = this.titles(head);
+    this.takeTimes(scene);
     this.mark();
     if (first && this.program) this.line = this.firstLine();
     this.line = Math.min(this.line, Math.max(1, this.program?.lines ?? 1));
     // the form stays at its first line
     this.choose(this.line, "form", first);
-    if (first) void this.otherVerdicts();
+    if (first || tabsChanged) void this.otherVerdicts();
   }
 
   /** The first difference; otherwise the first cut, preferably one that the form printed. */
@@ -315,12 +365,13 @@ export class Page {
     }], ["keep mine", settled]);
   }
 
-  private titles(head: Head): void {
-    this.header.show(head, this.job);
+  private titles(head: Head): boolean {
+    const changed = this.header.show(head, this.job);
     this.listing.fileName = `${jobName(head.job.name) || "program"}.nc`;
-    if (!head.form) return;
+    if (!head.form) return changed;
     this.form?.properties.show(head.form.properties, head.picture?.units ?? this.shown?.picture?.units ?? "");
     this.form?.kit.show(head.form.kit);
+    return changed;
   }
 
   /** Requests the verdicts of the jobs that are not shown. */

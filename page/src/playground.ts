@@ -5,6 +5,7 @@ import { download } from "./download.ts";
 import { FormSide } from "./form.ts";
 import { element } from "./element.ts";
 import { Page } from "./main.ts";
+import { JOBS, openButton, takeDrops } from "./opening.ts";
 import { filesOfLink, linkOf } from "./share.ts";
 import { type File_, Wasm } from "./wasm.ts";
 
@@ -47,7 +48,7 @@ class Playground {
     this.page = new Page(host, new FormSide());
     this.page.onTyped = () => this.keepSoon();
     document.body.prepend(this.front());
-    this.takeDrops();
+    takeDrops("drop forms (.pf), jobs (.json, .jsonl, .cl, .apt, .FCStd), or a program to compare with (.nc)", (files) => void this.open(files));
   }
 
   async begin(): Promise<void> {
@@ -85,8 +86,6 @@ class Playground {
       await this.example(name);
       await this.restart();
     };
-    const files = element("input", { type: "file", multiple: "", hidden: "", accept: ".pf,.json,.jsonl,.cl,.apt,.cls,.nci,.FCStd,.nc,.ngc,.tap,.eia,.min,.mpf,.h" });
-    files.onchange = () => void this.open(files.files ?? []);
     const button = (text: string, title: string, act: () => void) => {
       const made = element("button", { title }, text);
       made.onclick = act;
@@ -95,7 +94,7 @@ class Playground {
     return element("div", { class: "front" },
       element("p", {}, element("b", {}, "postform"), " compiles POSTFORM files: templates from which post processors print the programs of CNC machines. Type in the form: after each key the program is printed and proven against its job. Nothing leaves this browser."),
       element("div", { class: "acts" }, examples,
-        button("open files", "Forms (.pf), jobs (.json, .cl, .FCStd ..), or a program to compare with (.nc)", () => files.click()), files,
+        openButton("open files", "Forms (.pf), jobs (.json, .cl, .FCStd ..), or a program to compare with (.nc)", `.pf,${JOBS}`, (files) => void this.open(files)),
         button("download form", "Save the form as it is shown", () => this.page.downloadForm()),
         button("share link", "Copy a link with the form and the job in it; no server gets them", () => void this.share()),
         element("a", { href: DOCS, target: "_blank", rel: "noreferrer" }, "docs"), this.said));
@@ -137,21 +136,6 @@ class Playground {
       const kept: Kept = { forms: [form, ...others], jobs, against, typed: { ...this.page.texts } };
       set(KEPT, kept).catch(() => this.say("the browser keeps nothing here: download the form before you close the page"));
     }, PAUSE);
-  }
-
-  private takeDrops(): void {
-    const drop = element("div", { class: "drop", hidden: "" }, "drop forms (.pf), jobs (.json, .jsonl, .cl, .apt, .FCStd), or a program to compare with (.nc)");
-    document.body.append(drop);
-    addEventListener("dragover", (event) => {
-      event.preventDefault();
-      drop.hidden = false;
-    });
-    addEventListener("dragleave", (event) => (drop.hidden = !!event.relatedTarget || true));
-    addEventListener("drop", (event) => {
-      event.preventDefault();
-      drop.hidden = true;
-      void this.open([...(event.dataTransfer?.files ?? [])]);
-    });
   }
 }
 

@@ -32,6 +32,8 @@ export class Timeline {
   private readonly marks = element("div", { class: "marks", "aria-hidden": "true" });
   private readonly clock = element("span", { class: "clock" });
   private program: Program | null = null;
+  /** The times of the shown moves. */
+  private times: Float32Array | null = null;
   /** Seconds from the beginning. */
   private time = 0;
   private frame = 0;
@@ -64,13 +66,16 @@ export class Timeline {
   }
 
   show(program: Program | null): void {
-    if (program?.path === this.path) {
+    const times = program?.path?.moveTime ?? null;
+    if (program?.path === this.path && times === this.times) {
       this.program = program;
       return;
     }
     this.pause();
     this.program = program;
+    this.times = times;
     this.time = 0;
+    this.clock.title = program?.path?.isTimed ? "times of the machine file" : "an estimate: without accelerations, with an assumed rapid rate";
     this.root.hidden = this.total <= 0;
     this.marks.replaceChildren(...this.changes().map(([tool, time]) => {
       const mark = element("i", { title: `T${tool} at ${clock(time)}` });

@@ -101,6 +101,19 @@ export class Wasm implements Host {
     return null;
   }
 
+  async add(name: string, bytes: Uint8Array): Promise<number> {
+    const at = this.jobs.findIndex((job) => job.name === name);
+    const tab = at < 0 ? this.jobs.length : at;
+    this.jobs[tab] = { name, bytes };
+    this.before = null;
+    return tab;
+  }
+
+  async close(job: number): Promise<void> {
+    this.jobs.splice(job, 1);
+    this.before = null;
+  }
+
   /** Takes all files away. */
   clear(): void {
     this.form = { name: "", bytes: new Uint8Array() };

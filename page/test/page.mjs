@@ -1,8 +1,9 @@
 // The page of `postform watch` in a real browser: what is typed, clicked and pressed, and what is then shown.
+import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, unlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { equal, ok, ready, root, run, test, watch } from "./harness.mjs";
+import { equal, ok, postform, ready, root, run, test, watch } from "./harness.mjs";
 
 const chosen = (page) => page.locator(".ln.on").innerText();
 const formLine = (page) => page.locator(".cm-line.cm-lit").innerText();
@@ -460,6 +461,12 @@ test("a machine says whether the program fits, and how long it takes", async ({ 
     ok(note.includes(part), `${part} in ${note}`);
   }
   ok((await page.locator(".verdict").innerText()).startsWith("proven"), "whether it is what the job asks for is another question");
+  // the timeline counts in the machine's times
+  const clock = await page.evaluate(() => {
+    const { path } = window.page.program;
+    return { total: window.page.timeline.total, timed: path.isTimed, rises: path.moveTime.every((time, i, all) => i === 0 || time >= all[i - 1]), text: document.querySelector(".timeline .clock").textContent };
+  });
+  ok(clock.timed && clock.rises && Math.abs(clock.total - 240) < 1.5 && clock.text.endsWith("4:00"), JSON.stringify(clock));
   // a form may name its machine, and one that is wrong is said
   writeFileSync(join(path, "own.toml"), 'control = "haas"\nunits = "inch"\n[axes.X]\ntravel = [0, -30]\n');
   const served = await watch(path);
@@ -475,6 +482,40 @@ test("a machine says whether the program fits, and how long it takes", async ({ 
   ok((await other.evaluate(() => [...window.page.marks.bad.values()].map((mark) => mark.text).join())).includes("PM001: T1 needs X-14.5"), "its block is marked");
   await other.close();
   served.end();
+});
+
+test("jobs are opened in tabs and closed again", async ({ open }) => {
+  const { page, address } = await open({ form: "postforms/haas.pf" });
+  const other = await page.context().newPage();
+  await other.goto(address);
+  await ready(other);
+  const tabs = (of = page) => of.getByRole("tab").allInnerTexts();
+  ok((await tabs()).length === 1 && (await page.getByTitle("Close this job").isHidden()), "one job can't be closed");
+  const choose = (...files) => page.locator('header input[type="file"]').setInputFiles(files);
+  await choose(join(root, "samples/drill-machine/job.json"), join(root, "samples/bracket/job.json"));
+  // both are named job.json: the second replaced the first, and is shown
+  await page.waitForFunction(() => window.page.program?.lines > 90 && document.querySelectorAll(".tab")[1]?.getAttribute("aria-selected") === "true");
+  await page.waitForFunction(() => [...document.querySelectorAll(".tab")].every((tab) => tab.textContent.endsWith("✓")));
+  ok((await tabs()).length === 2, `${await tabs()}`);
+  // another page of the same server has the tab, too
+  await other.waitForFunction(() => document.querySelectorAll(".tab").length === 2 && document.querySelectorAll(".tab")[1].textContent.endsWith("✓"));
+  ok((await other.getByRole("tab").nth(0).getAttribute("aria-selected")) === "true", "which still shows its own job");
+  // what is no job is named, and opens no tab
+  const path = mkdtempSync(join(tmpdir(), "postform-"));
+  writeFileSync(join(path, "photo.json"), Buffer.from([0x89, 0x50, 0x4e, 0x47, 0, 1, 2]));
+  writeFileSync(join(path, "letter.txt"), "Dear customer");
+  await choose(join(path, "letter.txt"));
+  await page.waitForFunction(() => document.querySelector(".banner").textContent.includes("letter.txt was not opened: the format of letter.txt is unknown"));
+  await choose(join(path, "photo.json"));
+  await page.waitForFunction(() => document.querySelectorAll(".tab").length === 3 && /no program/.test(document.querySelector(".verdict").textContent));
+  await page.getByTitle("Close this job").click();
+  await page.waitForFunction(() => document.querySelectorAll(".tab").length === 2 && document.querySelector(".verdict").textContent.startsWith("proven"));
+  // a tab that another page closed
+  await other.getByRole("tab").nth(1).click();
+  await other.waitForFunction(() => document.querySelectorAll(".tab")[1].getAttribute("aria-selected") === "true" && document.querySelector(".verdict").textContent.startsWith("proven"));
+  await page.getByTitle("Close this job").click();
+  await other.waitForFunction(() => document.querySelectorAll(".tab").length === 1 && document.querySelector(".verdict").textContent.startsWith("proven"));
+  ok(await page.getByTitle("Close this job").isHidden(), "the last one stays");
 });
 
 test("each kind of machine has its picture", async ({ open }) => {
@@ -653,7 +694,7 @@ test("the timeline plays the program in its time", async ({ open }) => {
 });
 
 test("the tools cut the stock, and a rapid through a block of a known size is marked", async ({ open }) => {
-  const { page } = await open();
+  const { page, path } = await open();
   await page.getByRole("button", { name: "stock" }).click();
   await page.waitForFunction(() => window.page.backplot.stock);
   await page.waitForTimeout(500);
@@ -678,6 +719,18 @@ test("the tools cut the stock, and a rapid through a block of a known size is ma
   await page.getByLabel("Y from").fill("0");
   await page.getByLabel("Y from").blur();
   await page.waitForFunction(() => window.page.marks.bad.size === 0);
+  // verify, which has code of its own, finds the same rapids; from G55 on it has a block of its own, which the page draws over the first
+  const [least, greatest, top] = [-0.3, 4, 0.3];
+  for (const [name, value] of [["X from", least], ["X to", greatest], ["Y from", least], ["Y to", greatest], ["Z top", top]]) {
+    await page.getByLabel(name).fill(String(value));
+    await page.getByLabel(name).blur();
+  }
+  const stock = `X${least}..${greatest} Y${least}..${greatest} Z${top}`;
+  const verified = spawnSync(postform, ["verify", "bracket.json", "--form", "my.pf", "--format", "json", "--stock", stock], { cwd: path, encoding: "utf8" });
+  const other = await page.evaluate(() => Array.from({ length: window.page.program.lines }, (_, i) => i + 1).find((line) => window.page.program.text(line).includes("G55 G0")));
+  const expected = JSON.parse(verified.stdout).stock.findings.map((found) => found.line).filter((line) => line < other);
+  ok(expected.length > 5, `${expected}`);
+  await page.waitForFunction(([expected, other]) => String([...window.page.marks.bad.keys()].filter((line) => line < other).sort((a, b) => a - b)) === String(expected), [expected, other]);
 });
 
 test("words are found in the program, and the program is copied", async ({ open }) => {

@@ -1,96 +1,22 @@
-//! Checks whether a program fits into its machine. The program is run again, with the machine's own offsets.
+//! Checks the actions of a program against its machine.
 
 use std::collections::BTreeMap;
-use std::io::{self, Read, Seek, SeekFrom};
 
-use super::clock::{Clock, Times};
+use super::clock::Clock;
 use super::fit::Fit;
+use super::fitted::{Fitted, JobTool};
 use super::place::{At, Base, Going, Places};
 use super::travel::Travels;
 use crate::control::{Control, Meaning};
-use crate::diag::{Code, Severity};
+use crate::diag::Code;
 use crate::machine::{Coolant, LETTERS, Machine, Sweep, offsets};
-use crate::nc::{Action, Cooling, Item, Pace, Position, RunError, RunSettings, Simulator, Turn, axes_of, sweep};
+use crate::nc::{Action, Cooling, Item, Pace, Position, Simulator, Turn, axes_of, sweep};
 use crate::times::Curve;
 use crate::toolpath::Direction;
 use crate::verify::Finding;
 
-/// The findings, and the fit of the program in the machine.
-#[derive(Debug)]
-pub struct Fitted {
-    /// The findings, in the order of the program.
-    pub findings: Vec<Finding>,
-    /// The extents, and the allowed values of unknown offsets or lengths.
-    pub fit: Fit,
-    /// Its time, or the missing accelerations of the machine.
-    pub times: Result<Times, String>,
-    /// The line of a refused block, and the reason. Everything after that block is unknown.
-    pub refused: Option<(u64, String)>,
-}
-
-impl Fitted {
-    /// Was the program run to its end without findings?
-    pub fn fits(&self) -> bool {
-        self.findings.is_empty() && self.refused.is_none()
-    }
-
-    /// Are there errors, so that the program must not run on this machine?
-    pub fn has_errors(&self) -> bool {
-        self.findings.iter().any(|finding| finding.code.row().severity == Severity::Error)
-    }
-}
-
-/// A tool of the job.
-#[derive(Clone, Debug)]
-pub struct JobTool {
-    /// Its number.
-    pub number: u32,
-    /// Its diameter in millimetres.
-    pub diameter: Option<f64>,
-    /// The radius of its corner in millimetres.
-    pub corner_radius: Option<f64>,
-}
-
-/// Runs a program on a machine.
-///
-/// # Errors
-/// The program can't be read.
-pub fn preflight(
-    mut program: impl Read + Seek,
-    settings: RunSettings,
-    machine: &Machine,
-    job: &[JobTool],
-) -> io::Result<Fitted> {
-    let bytes = program.seek(SeekFrom::End(0))?;
-    program.seek(SeekFrom::Start(0))?;
-    let settings = RunSettings { places_unknown: true, ..settings };
-    let mut run = Simulator::new(program, settings);
-    let known = machine.offsets.iter().flatten().map(|(number, at)| (*number, at.map(|value| value.unwrap_or(0.0))));
-    run.begin_on(&mut known.into_iter(), machine.references.map(Option::unwrap_or_default));
-    let mut check = Check::new(machine, settings.control, job);
-    let mut items = Vec::new();
-    let refused = loop {
-        items.clear();
-        match run.step(&mut items) {
-            Ok(more) => {
-                check.block(&items, &run);
-                if !more {
-                    break None;
-                }
-            }
-            Err(RunError::Refused(diag, line)) => {
-                check.block(&items, &run);
-                break Some((line, diag.message.clone()));
-            }
-            Err(RunError::Io(error)) => return Err(error),
-        }
-    };
-    check.memory(bytes, run.program());
-    Ok(check.finish(refused))
-}
-
 /// The state of the check while a program runs.
-struct Check<'m> {
+pub(super) struct Check<'m> {
     machine: &'m Machine,
     control: &'static Control,
     job: &'m [JobTool],
@@ -110,7 +36,7 @@ struct Check<'m> {
 }
 
 impl<'m> Check<'m> {
-    fn new(machine: &'m Machine, control: &'static Control, job: &'m [JobTool]) -> Check<'m> {
+    pub fn new(machine: &'m Machine, control: &'static Control, job: &'m [JobTool]) -> Check<'m> {
         Check {
             machine,
             control,
@@ -128,7 +54,15 @@ impl<'m> Check<'m> {
         }
     }
 
-    fn block(&mut self, items: &[Item], run: &Simulator<'_>) {
+    /// Keeps the times of blocks.
+    pub fn keep_blocks(&mut self) {
+        if let Ok(clock) = &mut self.clock {
+            clock.keep_blocks();
+        }
+    }
+
+    /// Checks the actions of a block.
+    pub fn block(&mut self, items: &[Item], run: &Simulator<'_>) {
         let before = std::mem::replace(&mut self.said, run.state().at_said_machine());
         let is_move = |item: &Item| matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
         let last = items.iter().rposition(is_move);
@@ -151,6 +85,9 @@ impl<'m> Check<'m> {
 
     fn item(&mut self, item: &Item, [said, hidden]: [u8; 2], run: &Simulator<'_>) {
         let line = (item.line, run.text());
+        if let Ok(clock) = &mut self.clock {
+            clock.at_line(item.line);
+        }
         let before = self.places.at;
         let going = |in_machine: u8, hidden: u8| Going {
             in_machine,
@@ -422,7 +359,8 @@ impl<'m> Check<'m> {
         }
     }
 
-    fn memory(&mut self, bytes: u64, program: Option<f64>) {
+    /// Checks whether the control can store the program.
+    pub fn memory(&mut self, bytes: u64, program: Option<f64>) {
         if let Some(most) = self.machine.bytes.filter(|most| bytes > *most) {
             let message = format!("the program has {bytes} bytes, but the control stores only {most}");
             self.found(Code::PM014, "bytes", message, "drip-feed it from outside, or split it", (0, b""));
@@ -449,7 +387,8 @@ impl<'m> Check<'m> {
         finding.times += 1;
     }
 
-    fn finish(self, refused: Option<(u64, String)>) -> Fitted {
+    /// The result. `refused`: the line of a refused block, and the reason.
+    pub fn finish(self, refused: Option<(u64, String)>) -> Fitted {
         let mut fit = Fit::of(self.machine, &self.travels);
         let mut findings = self.travels.findings(self.control);
         findings.extend(fit.findings(self.machine, self.control));
@@ -478,7 +417,10 @@ impl<'m> Check<'m> {
         if let Some((line, why)) = &refused {
             fit.not_checked.push(format!("everything from line {line} on: {why}"));
         }
-        let times = self.clock.map(Clock::finish);
+        let (times, block_times) = match self.clock.map(Clock::finish) {
+            Ok((times, blocks)) => (Ok(times), blocks),
+            Err(lacks) => (Err(lacks), Vec::new()),
+        };
         let has_travel = |axis: &usize| self.machine.axes[*axis].as_ref().is_some_and(|axis| axis.travel.is_some());
         let axes = if self.control.is_lathe() { &[0, 2][..] } else { &[0, 1, 2] };
         let without: Vec<String> =
@@ -489,6 +431,6 @@ impl<'m> Check<'m> {
         if let Err(lacks) = &times {
             fit.not_checked.push(format!("times with accelerations: the file does not give {lacks}"));
         }
-        Fitted { findings, fit, times, refused }
+        Fitted { findings, fit, times, block_times, refused }
     }
 }

@@ -4,7 +4,7 @@ use super::place::{At, Base};
 use crate::control::Code;
 use crate::machine::Machine;
 use crate::nc::Rotation;
-use crate::times::{Curve, PathMode, Planner, Way};
+use crate::times::{BlockTime, Curve, PathMode, Planner, Way};
 
 /// The time of a program, in seconds. Stops are not counted, because the operator ends them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -101,6 +101,16 @@ impl Clock {
         })
     }
 
+    /// Keeps the times of blocks.
+    pub fn keep_blocks(&mut self) {
+        self.planner.keep_blocks();
+    }
+
+    /// What follows belongs to the block in this line of the program.
+    pub fn at_line(&mut self, line: u64) {
+        self.planner.at_line(line);
+    }
+
     /// A rapid between two positions.
     pub fn rapid(&mut self, before: &[At; 6], after: &[At; 6]) {
         let way = self.way(before, after);
@@ -132,6 +142,7 @@ impl Clock {
     pub fn dwell(&mut self, seconds: f64) {
         self.planner.stop();
         self.times.dwells += seconds;
+        self.planner.waits(seconds);
     }
 
     /// The axes stop: for a program stop, a coolant command or an exact stop.
@@ -159,7 +170,9 @@ impl Clock {
             Rotation::Ccw => -speed,
         };
         if turning != 0.0 && !std::mem::take(&mut self.is_fresh) {
-            self.times.spindle += (turning - self.turning).abs() * self.spin_up;
+            let seconds = (turning - self.turning).abs() * self.spin_up;
+            self.times.spindle += seconds;
+            self.planner.waits(seconds);
         }
         self.turning = turning;
     }
@@ -169,12 +182,14 @@ impl Clock {
         self.end_tool();
         self.tool = tool;
         self.times.changes += self.change;
+        self.planner.waits(self.change);
         (self.turning, self.is_fresh) = (0.0, self.change > 0.0);
     }
 
-    pub fn finish(mut self) -> Times {
+    /// The times, and those of the blocks, if they were kept.
+    pub fn finish(mut self) -> (Times, Vec<BlockTime>) {
         self.end_tool();
-        self.times
+        (self.times, self.planner.take_blocks())
     }
 
     fn end_tool(&mut self) {

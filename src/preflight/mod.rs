@@ -8,9 +8,12 @@ mod check;
 mod clock;
 mod extent;
 mod fit;
+mod fitted;
 mod place;
+mod run;
 mod travel;
 
-pub use check::{Fitted, JobTool, preflight};
 pub use clock::Times;
 pub use fit::Fit;
+pub use fitted::{Fitted, JobTool};
+pub use run::{preflight, preflight_by_block};

@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::behind;
+use super::pack::Scene;
 use super::verdict::finding;
 use crate::control::Control;
 use crate::diag::Severity;
@@ -11,6 +13,7 @@ use crate::preflight::Fitted;
 use crate::render::TraceLine;
 use crate::source::Source;
 use crate::terminal::escaped;
+use crate::times::BlockTime;
 
 /// The result in a few words, the allowed values of unknown offsets or lengths, everything that is not checked, and each finding.
 pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[TraceLine], files: &[Source]) -> Value {
@@ -44,7 +47,18 @@ pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[Trace
     json!({ "kind": kind, "text": text, "more": more, "findings": findings })
 }
 
+/// The lines of the blocks in the order in which they ran, and the seconds from the beginning to the end of each on the machine.
+pub fn times(scene: &mut Scene, blocks: &[BlockTime]) {
+    let mut end = 0.0;
+    let ends = blocks.iter().map(|block| {
+        end += f64::from(block.seconds);
+        (end as f32).to_le_bytes()
+    });
+    scene.section("timedLine".into(), blocks.iter().map(|block| block.line.to_le_bytes()));
+    scene.section("timedEnd".into(), ends);
+}
+
 /// The machine's file can't be read.
-pub fn no_machine(why: &str) -> Value {
-    json!({ "kind": "bad", "text": why, "more": [], "findings": [] })
+pub fn no_machine(why: &str) -> Scene {
+    behind("fit", json!({ "kind": "bad", "text": why, "more": [], "findings": [] }))
 }

@@ -29,7 +29,7 @@ use crate::machine::Machine;
 use crate::nc::RunSettings;
 use crate::picture::{Picture, draw};
 use crate::post::{Files, Options, Post, Program, Proof};
-use crate::preflight::preflight;
+use crate::preflight::preflight_by_block;
 use crate::sema::{Limits, analyse};
 use crate::source::Source;
 use crate::terminal::escaped;
@@ -112,7 +112,7 @@ pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     scene
 }
 
-/// A small scene with one value, sent after the main scene.
+/// A small scene with one value, sent after the main scene or absorbed by it.
 pub fn behind(name: &str, value: Value) -> Scene {
     let mut scene = Scene::new();
     scene.say(name, value);
@@ -164,11 +164,17 @@ impl Printed {
         verdict::verdict(proven, self.program.trace(), self.post.files())
     }
 
-    /// Checks whether the program fits into a machine, for display in the page.
-    pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Value {
+    /// Checks whether the program fits into a machine, and how long each block takes there, for display in the page.
+    pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Scene {
         let tools = self.post.job_tools(job).unwrap_or_default();
-        match preflight(Cursor::new(self.text()), self.settings, machine, &tools) {
-            Ok(fitted) => fit::fit(&fitted, machine, self.settings.control, self.program.trace(), self.post.files()),
+        match preflight_by_block(Cursor::new(self.text()), self.settings, machine, &tools) {
+            Ok(fitted) => {
+                let control = self.settings.control;
+                let fit = fit::fit(&fitted, machine, control, self.program.trace(), self.post.files());
+                let mut scene = behind("fit", fit);
+                fit::times(&mut scene, &fitted.block_times);
+                scene
+            }
             Err(error) => no_machine(&error.to_string()),
         }
     }

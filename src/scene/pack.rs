@@ -48,6 +48,15 @@ impl Scene {
         self.body.extend_from_slice(bytes);
     }
 
+    /// Adds what another scene contains.
+    pub fn absorb(&mut self, other: Scene) {
+        self.head.extend(other.head);
+        for (name, place) in other.sections {
+            let at = |i: usize| place[i].as_u64().unwrap_or(0) as usize;
+            self.bytes(name, &other.body[at(0)..at(0) + at(1)]);
+        }
+    }
+
     /// A hash of the sections and the other inputs: equal inputs have the same one, others differ.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
         let mut hasher = DefaultHasher::new();

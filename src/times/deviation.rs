@@ -55,6 +55,7 @@ impl Deviation {
             most_entry: corner.min(speed),
             entry: 0.0,
             is_cut: feed.is_some(),
+            row: queue.row(),
         });
     }
 

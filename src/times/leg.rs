@@ -13,6 +13,8 @@ pub(super) struct Leg {
     /// Square of the speed at its beginning, as planned so far.
     pub entry: f64,
     pub is_cut: bool,
+    /// Its row in the times of blocks.
+    pub row: usize,
 }
 
 impl Leg {

@@ -14,4 +14,5 @@ mod rates;
 pub use corner::{Corner, PathMode};
 pub use curve::Curve;
 pub use planner::Planner;
+pub use queue::BlockTime;
 pub use rates::{AxisRates, Rates, Way};

@@ -4,7 +4,7 @@ use super::corner::{Corner, PathMode};
 use super::curve::Curve;
 use super::deviation::Deviation;
 use super::linuxcnc::Linuxcnc;
-use super::queue::{Queue, Spent};
+use super::queue::{BlockTime, Queue, Spent};
 use super::rates::{Rates, Way};
 
 /// Plans the speeds of moves and counts their time.
@@ -30,6 +30,30 @@ impl Planner {
             Corner::Linuxcnc(mode) => Rule::Linuxcnc(Box::new(Linuxcnc::new(mode))),
         };
         Planner { queue: Queue::new(rates.ahead.max(1)), rates, rule }
+    }
+
+    /// Keeps the times of blocks.
+    pub fn keep_blocks(&mut self) {
+        self.queue.blocks = Some(Vec::new());
+    }
+
+    /// The next moves are those of the block in this line of the program.
+    pub fn at_line(&mut self, line: u64) {
+        if let Some(blocks) = &mut self.queue.blocks
+            && blocks.last().is_none_or(|block| u64::from(block.line) != line)
+        {
+            blocks.push(BlockTime { line: line as u32, seconds: 0.0 });
+        }
+    }
+
+    /// Time of the block besides its moves.
+    pub fn waits(&mut self, seconds: f64) {
+        self.queue.adds(self.queue.row(), seconds);
+    }
+
+    /// The times of blocks in the order in which they ran; empty if they were not kept.
+    pub fn take_blocks(&mut self) -> Vec<BlockTime> {
+        self.queue.blocks.take().unwrap_or_default()
     }
 
     /// A rapid.

@@ -13,6 +13,15 @@ pub struct Spent {
     pub rapid: f64,
 }
 
+/// The time of a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockTime {
+    /// Line of the block in the program, from 1.
+    pub line: u32,
+    /// Its seconds.
+    pub seconds: f32,
+}
+
 /// Legs whose speeds may still rise.
 ///
 /// The last leg is planned to end in a stop. A new leg raises the speeds before it: first backwards until one stays the same,
@@ -24,11 +33,13 @@ pub(super) struct Queue {
     /// The entry speed of the first leg is fixed.
     legs: VecDeque<Leg>,
     spent: Spent,
+    /// The times of blocks, if they are kept.
+    pub blocks: Option<Vec<BlockTime>>,
 }
 
 impl Queue {
     pub fn new(ahead: usize) -> Queue {
-        Queue { ahead, legs: VecDeque::new(), spent: Spent::default() }
+        Queue { ahead, legs: VecDeque::new(), spent: Spent::default(), blocks: None }
     }
 
     /// The last leg; `None` if the tool is at rest.
@@ -85,6 +96,18 @@ impl Queue {
         *self.spent_on(is_cut) -= seconds;
     }
 
+    /// The row of the block that is being run.
+    pub fn row(&self) -> usize {
+        self.blocks.as_ref().map_or(0, |blocks| blocks.len().saturating_sub(1))
+    }
+
+    /// Adds seconds to a row, if the times of blocks are kept.
+    pub fn adds(&mut self, row: usize, seconds: f64) {
+        if let Some(block) = self.blocks.as_mut().and_then(|blocks| blocks.get_mut(row)) {
+            block.seconds += seconds as f32;
+        }
+    }
+
     fn count_first(&mut self) {
         if self.legs.len() > 1
             && let Some(leg) = self.legs.pop_front()
@@ -94,7 +117,9 @@ impl Queue {
     }
 
     fn count(&mut self, leg: &Leg, exit: f64) {
-        *self.spent_on(leg.is_cut) += leg.seconds(exit);
+        let seconds = leg.seconds(exit);
+        *self.spent_on(leg.is_cut) += seconds;
+        self.adds(leg.row, seconds);
     }
 
     fn spent_on(&mut self, is_cut: bool) -> &mut f64 {

@@ -11,7 +11,7 @@ use crate::support::folder::{Folder, out};
 use crate::support::root;
 use postform::internals::machine::{AxisRates, Corner, Planner, Rates, read};
 use postform::internals::nc::RunSettings;
-use postform::internals::preflight::{Times, preflight};
+use postform::internals::preflight::{Times, preflight, preflight_by_block};
 use proptest::prelude::*;
 
 /// A router and a heavy one: accelerations and rapids of X and Y, of Z.
@@ -29,6 +29,54 @@ fn times(program: &str, file: &str) -> Times {
     let machine = read("m.toml", file, &|name| Err(format!("no {name}"))).unwrap_or_else(|wrong| panic!("{wrong}"));
     let control = machine.control.unwrap_or_else(|| control("grbl"));
     preflight(Cursor::new(program), RunSettings::new(control), &machine, &[]).unwrap().times.unwrap()
+}
+
+/// The times of blocks: line and seconds.
+fn block_times(program: &str, file: &str) -> Vec<(u32, f64)> {
+    let machine = read("m.toml", file, &|name| Err(format!("no {name}"))).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let control = machine.control.unwrap_or_else(|| control("grbl"));
+    let fitted = preflight_by_block(Cursor::new(program), RunSettings::new(control), &machine, &[]).unwrap();
+    fitted.block_times.into_iter().map(|block| (block.line, f64::from(block.seconds))).collect()
+}
+
+/// The times of the blocks add up to the time of the program, whatever the control plans ahead.
+#[test]
+fn the_times_of_blocks_add_up() {
+    let linuxcnc = machine(ROUTER, "").replace("grbl", "linuxcnc");
+    for file in [machine(ROUTER, ""), machine(HEAVY, "[tools]\nchange = 7\n"), linuxcnc] {
+        for program in [square(), circle(), zigzag(), zigzag().replace("G4", "T1 M6\nG4")] {
+            let program = if file.contains("linuxcnc") { program.replace("G21", "G64 P0.5\nG21") } else { program };
+            let blocks = block_times(&program, &file);
+            let sum: f64 = blocks.iter().map(|(_, seconds)| seconds).sum();
+            let whole = times(&program, &file).whole();
+            assert!((sum - whole).abs() < 1e-3 * whole, "{file}{program}: {sum} {whole}");
+            assert!(blocks.len() > 4 && blocks.windows(2).all(|two| two[0].0 < two[1].0), "{blocks:?}");
+        }
+    }
+}
+
+/// Where the axes stop after each move, the time of a block is what it adds to the program before it.
+#[test]
+fn the_time_of_a_block_is_what_it_adds() {
+    let linuxcnc = machine(HEAVY, "").replace("grbl", "linuxcnc");
+    for file in [machine(HEAVY, ""), linuxcnc] {
+        let stops = |line: &str| {
+            if line.starts_with("G1") || line.starts_with("G0") { format!("{line}\nG4 P0.1") } else { line.to_owned() }
+        };
+        let lines: Vec<String> =
+            zigzag().lines().flat_map(|line| stops(line).lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+        let blocks = block_times(&lines.join("\n"), &file);
+        let until = |count: usize| times(&format!("{}\nM2\n", lines[..count].join("\n")), &file).whole();
+        for (at, line) in lines
+            .iter()
+            .enumerate()
+            .filter(|(_, line)| line.starts_with("G1") || line.starts_with("G4") || line.starts_with("G0"))
+        {
+            let own = blocks.iter().find(|(of, _)| *of as usize == at + 1).map_or(0.0, |(_, seconds)| *seconds);
+            let added = until(at + 1) - until(at);
+            assert!((own - added).abs() < 1e-4, "{file}{line}: {own} {added}");
+        }
+    }
 }
 
 fn square() -> String {

@@ -79,6 +79,18 @@ impl Watch {
         ))
     }
 
+    /// Opens a job with this name, as JSON, and content.
+    fn add(&self, name: &str, content: &[u8]) -> Answer {
+        let (address, token) = (self.address, &self.token);
+        let body = [name.as_bytes(), b"\n", content].concat();
+        let head = format!(
+            "POST /{token}/add HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nSec-Fetch-Site: same-origin\r\n\
+             Content-Type: application/octet-stream\r\nContent-Length: {}\r\n\r\n",
+            body.len()
+        );
+        self.send([head.as_bytes(), &body].concat())
+    }
+
     fn get(&self, path: &str) -> Answer {
         self.send(format!("GET {path} HTTP/1.1\r\nHost: {}\r\n\r\n", self.address))
     }
@@ -260,6 +272,59 @@ fn who_is_refused() {
         assert_eq!(answer.status, status, "{what}: {}", answer.head);
         assert!(!answer.head.contains("Access-Control"), "{what}: no other page may read an answer");
     }
+}
+
+/// Jobs that the page opens are kept in memory: their names are names, and never paths.
+#[test]
+fn jobs_are_opened_and_closed() {
+    let folder = bracket("watch-jobs");
+    let watch = Watch::new(&folder, &[]);
+    let names = || watch.scene(&json!({})).0["jobs"].clone();
+    let job = fs::read(root().join("samples/drill-machine/job.json")).unwrap();
+    let before = names();
+    assert_eq!(before.as_array().unwrap().len(), 1);
+    for (name, content, tab) in [
+        (r#""drill.json""#, &job[..], "1"),
+        (r#""../../my.pf.json""#, &job[..], "2"),
+        // the same name again replaces the job
+        (r#""drill.json""#, &job[..], "1"),
+        // found by its content
+        (r#""drill""#, &job[..], "3"),
+        // a broken job is a job: its tab has the error
+        (r#""empty.json""#, b"", "4"),
+    ] {
+        let answer = watch.add(name, content);
+        assert_eq!((answer.status, String::from_utf8_lossy(&answer.body).as_ref()), (200, tab), "{name}");
+    }
+    assert_eq!(names(), json!([before[0], "drill.json", "my.pf.json", "drill", "empty.json"]));
+    for (name, content, status, why) in [
+        (r#""letter""#, &b"Dear customer"[..], 422, "the format of letter is unknown"),
+        (r#""form.pf""#, b"Machine Mill", 422, "form.pf is a form, not a job"),
+        (r#""job.json.gz""#, b"\x1f\x8b\x08", 422, "the compressed file is cut off"),
+        (r#""..""#, b"{}", 422, "a job needs a name"),
+        (r#""""#, b"{}", 422, "a job needs a name"),
+        ("7", b"{}", 400, "no name of a job"),
+        ("", b"", 400, "no name of a job"),
+    ] {
+        let answer = watch.add(name, content);
+        let said = String::from_utf8_lossy(&answer.body).into_owned();
+        assert!(answer.status == status && said.contains(why), "{name}: {} {said}", answer.status);
+    }
+    let shown = watch.post("scene", &json!({ "job": 1 }));
+    let (head, body) = unpacked(&shown.body);
+    assert_eq!(head["verdict"]["kind"], "proven", "{head}");
+    assert!(section(&head, &body, "text").windows(3).any(|word| word == b"G81"));
+    // a tab that has another name by now stays
+    watch.post("close", &json!({ "job": 1, "name": "my.pf.json" }));
+    assert_eq!(names().as_array().unwrap().len(), 5);
+    for _ in 0..4 {
+        let name = names()[1].clone();
+        assert_eq!(watch.post("close", &json!({ "job": 1, "name": name })).status, 200);
+    }
+    assert_eq!(names(), before);
+    // without the last one, there is the sample job
+    watch.post("close", &json!({ "job": 0, "name": before[0] }));
+    assert_eq!(names(), json!(["the sample job"]));
 }
 
 /// The port is open on this machine only.

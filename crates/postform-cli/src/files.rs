@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, Read, Seek};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::SystemTime;
 
 use postform::internals::control::Control;
@@ -185,7 +186,11 @@ pub fn control(path: &Path) -> Result<&'static Control, String> {
 }
 
 /// The format of a job: from the option, else by its extension, else by its first bytes.
-fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
+fn job_format(
+    path: &Path,
+    args: &ReadArgs,
+    first: impl FnOnce() -> Result<Option<Format>, String>,
+) -> Result<Format, String> {
     if args.from.is_none() && is_form(path) {
         let name = name(path);
         return Err(format!(
@@ -193,7 +198,7 @@ fn job_format(path: &Path, args: &ReadArgs) -> Result<Format, String> {
              JOB --form FORM` the job comes first"
         ));
     }
-    let from = format_of(path, args.from)?;
+    let from = format_of(path, args.from, first)?;
     fits(from, path, args)?;
     Ok(from)
 }
@@ -234,13 +239,17 @@ fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
     Ok(())
 }
 
-fn format_of(path: &Path, from: Option<From>) -> Result<Format, String> {
+fn format_of(
+    path: &Path,
+    from: Option<From>,
+    first: impl FnOnce() -> Result<Option<Format>, String>,
+) -> Result<Format, String> {
     let unpacked = unpacked_name(path);
     let by_name = || Format::of_name(&unpacked.as_deref().unwrap_or(path).to_string_lossy());
     match from.map(From::format).or_else(by_name) {
         Some(format) => Ok(format),
         None if path == Path::new("-") => Ok(Format::Json),
-        None => by_content(path)?.ok_or_else(|| {
+        None => first()?.ok_or_else(|| {
             let name = name(path);
             format!("error: the format of {name} is unknown: give it with --from json, jsonl, cl, nc, nci or freecad")
         }),
@@ -268,12 +277,12 @@ const LOOKED_AT: u64 = 4096;
 
 /// Checks that the format of a job is known and that the options are allowed for it.
 pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
-    job_format(path, args).map(|_| ())
+    job_format(path, args, || by_content(path)).map(|_| ())
 }
 
 /// Opens a job; `again`: it is read more than once, so an input that is not seekable is copied into a file.
 pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
-    let format = job_format(path, args)?;
+    let format = job_format(path, args, || by_content(path))?;
     // a program needs two runs, and an archive is read from its end
     let twice = again || matches!(format, Format::Nc | Format::Freecad);
     let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
@@ -281,12 +290,49 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
         true => Job::file(format, Steady::new(Again::open(path)?.file)),
         false => Job::stream(format, open(path)?),
     };
+    settle(&mut job, format, path, args);
+    Ok(job)
+}
+
+/// Opens a job whose content is in memory; `path` is the name of its file.
+///
+/// # Errors
+/// A message: the format is unknown, or the options are not allowed for it.
+pub fn job_in_memory(path: &Path, bytes: &Arc<[u8]>, args: &ReadArgs) -> Result<Job<'static>, String> {
+    let first = || Ok(Format::of_content(&bytes[..bytes.len().min(LOOKED_AT as usize)]));
+    let format = job_format(path, args, first)?;
+    let mut job = Job::file(format, io::Cursor::new(Arc::clone(bytes)));
+    settle(&mut job, format, path, args);
+    Ok(job)
+}
+
+/// Largest content of a compressed file that is kept in memory.
+const LARGEST_UNPACKED: u64 = 2 << 30;
+
+/// The content of a file of this name, without its compression.
+///
+/// # Errors
+/// A message: the compressed content is damaged.
+pub fn unpacked_bytes(path: &Path, bytes: Vec<u8>) -> Result<Arc<[u8]>, String> {
+    if unpacked_name(path).is_none() {
+        return Ok(bytes.into());
+    }
+    let mut text = Vec::new();
+    let read = unpacked(&bytes[..]).take(LARGEST_UNPACKED + 1).read_to_end(&mut text);
+    read.map_err(|error| io_message("read", path, &error))?;
+    if text.len() as u64 > LARGEST_UNPACKED {
+        return Err(format!("error: {} is larger than {} GB", name(path), LARGEST_UNPACKED >> 30));
+    }
+    Ok(text.into())
+}
+
+/// Applies the options for reading; the name of an NC program may tell its control.
+fn settle(job: &mut Job<'_>, format: Format, path: &Path, args: &ReadArgs) {
     job.reading = args.reading();
     if format == Format::Nc {
         let name = unpacked_name(path);
         job.reading.control = job.reading.control.or_else(|| control_of_name(name.as_deref().unwrap_or(path)));
     }
-    Ok(job)
 }
 
 #[cfg(test)]

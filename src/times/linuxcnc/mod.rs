@@ -26,11 +26,13 @@ pub(super) struct Linuxcnc {
     most_entry: f64,
     /// A feed, and the consecutive cuts at this feed that may be joined into one line.
     chain: (f64, Vec<Way>),
+    /// Row of the last of these cuts in the times of blocks.
+    chain_row: usize,
 }
 
 impl Linuxcnc {
     pub fn new(mode: PathMode) -> Linuxcnc {
-        Linuxcnc { mode, last: None, most_entry: 0.0, chain: (0.0, Vec::new()) }
+        Linuxcnc { mode, last: None, most_entry: 0.0, chain: (0.0, Vec::new()), chain_row: 0 }
     }
 
     pub fn path_mode(&mut self, mode: PathMode, rates: &Rates, queue: &mut Queue) {
@@ -43,13 +45,14 @@ impl Linuxcnc {
         let tolerance = self.joined_within();
         let Some(feed) = feed.filter(|_| tolerance > 0.0 && way[3..] == [0.0; 3]) else {
             self.end_chain(rates, queue);
-            return self.add(Piece::line(way, feed, rates), rates, queue);
+            return self.add(Piece::line(way, feed, rates), queue.row(), rates, queue);
         };
         if self.chain.0 != feed || !self.joins(way, tolerance) {
             self.end_chain(rates, queue);
         }
         self.chain.0 = feed;
         self.chain.1.push(*way);
+        self.chain_row = queue.row();
     }
 
     /// An arc at a feed in millimetres per second.
@@ -63,7 +66,7 @@ impl Linuxcnc {
             return;
         }
         self.end_chain(rates, queue);
-        self.add(Piece::arc(curve, feed, rates), rates, queue);
+        self.add(Piece::arc(curve, feed, rates), queue.row(), rates, queue);
     }
 
     /// Ends the moves, at a stop or at the end of the program. With G64, the last move is also calculated with half the
@@ -111,11 +114,12 @@ impl Linuxcnc {
             return;
         }
         let way: Way = std::array::from_fn(|axis| chain.iter().map(|way| way[axis]).sum());
-        self.add(Piece::line(&way, Some(feed), rates), rates, queue);
+        self.add(Piece::line(&way, Some(feed), rates), self.chain_row, rates, queue);
     }
 
-    fn add(&mut self, piece: Option<Piece>, rates: &Rates, queue: &mut Queue) {
+    fn add(&mut self, piece: Option<Piece>, row: usize, rates: &Rates, queue: &mut Queue) {
         let Some(mut next) = piece else { return };
+        next.row = row;
         let Some(mut last) = self.last.take() else {
             self.last = Some(next);
             return;
@@ -145,7 +149,15 @@ impl Linuxcnc {
                     queue.push(last.leg(self.most_entry));
                     square.min(last.speed() * last.speed())
                 };
-                queue.push(Leg { length, speed: square, acceleration, most_entry, entry: 0.0, is_cut: last.is_cut });
+                queue.push(Leg {
+                    length,
+                    speed: square,
+                    acceleration,
+                    most_entry,
+                    entry: 0.0,
+                    is_cut: last.is_cut,
+                    row: last.row,
+                });
                 square
             }
         };

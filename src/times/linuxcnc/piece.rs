@@ -38,6 +38,8 @@ pub(super) struct Piece {
     pub acceleration: f64,
     pub round: Option<Round>,
     pub is_cut: bool,
+    /// Its row in the times of blocks.
+    pub row: usize,
     pub end: End,
     /// No move follows: the share of acceleration for its end then does not reduce the speed on an arc.
     pub is_last: bool,
@@ -149,6 +151,7 @@ impl Piece {
             acceleration,
             round: None,
             is_cut,
+            row: 0,
             end: End::Overlap,
             is_last: false,
             begins_in_overlap: false,
@@ -198,6 +201,7 @@ impl Piece {
             most_entry: most_entry.min(speed * speed),
             entry: 0.0,
             is_cut: self.is_cut,
+            row: self.row,
         }
     }
 }

@@ -59,8 +59,10 @@ impl Guard {
             Some(Some(origin)) if origin.strip_prefix("http://").is_some_and(|host| self.is_host(host)) => {}
             _ => return Err(Answer::no(403, "requests from other pages are refused")),
         }
-        if asked.method == "POST" && !matches!(asked.field("content-type"), Some(Some("application/json"))) {
-            return Err(Answer::no(415, "send application/json"));
+        // no page can send these types to another origin without asking first
+        let kind = if rest == "add" { "application/octet-stream" } else { "application/json" };
+        if asked.method == "POST" && asked.field("content-type") != Some(Some(kind)) {
+            return Err(Answer::no(415, &format!("send {kind}")));
         }
         Ok(rest)
     }
@@ -118,6 +120,10 @@ mod tests {
             // requests that the form of any web page can send
             ("POST", "/abc/save", vec![host, own, ("content-type", "text/plain")], Err(415)),
             ("POST", "/abc/save", vec![host, own], Err(415)),
+            ("POST", "/abc/add", vec![host, own, ("content-type", "text/plain")], Err(415)),
+            ("POST", "/abc/add", vec![host, own, json], Err(415)),
+            ("POST", "/abc/add", vec![host, own, ("content-type", "application/octet-stream")], Ok("add")),
+            ("POST", "/abc/save", vec![host, own, ("content-type", "application/octet-stream")], Err(415)),
         ] {
             assert_eq!(
                 status(&asked(method, path, &fields)),

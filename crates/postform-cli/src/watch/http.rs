@@ -7,8 +7,10 @@ use std::time::{Duration, Instant};
 
 /// Longest head of a request.
 const LONGEST_HEAD: usize = 16 << 10;
-/// Largest body: the forms of a page, as JSON.
+/// Largest body of a request about forms: their texts, as JSON.
 pub const LARGEST_BODY: usize = 8 << 20;
+/// Largest job that can be opened in the page.
+pub const LARGEST_JOB: usize = 512 << 20;
 /// Maximum number of fields in a head.
 const MOST_FIELDS: usize = 64;
 /// A request that takes longer is refused.
@@ -93,11 +95,16 @@ fn field(header: &httparse::Header<'_>) -> (String, String) {
     (header.name.to_ascii_lowercase(), String::from_utf8_lossy(header.value).trim().to_owned())
 }
 
-/// Reads the body of a request; `read` is the part that was already received.
+/// Reads the body of a request, of at most `most` bytes; `read` is the part that was already received.
 ///
 /// # Errors
 /// As [`read_head`].
-pub fn read_body(stream: &mut TcpStream, asked: &Asked, mut read: Vec<u8>) -> Result<Vec<u8>, Option<Answer>> {
+pub fn read_body(
+    stream: &mut TcpStream,
+    asked: &Asked,
+    mut read: Vec<u8>,
+    most: usize,
+) -> Result<Vec<u8>, Option<Answer>> {
     if asked.field("transfer-encoding").is_some() {
         return Err(Some(Answer::no(501, "send the body in one piece, with its length")));
     }
@@ -108,7 +115,7 @@ pub fn read_body(stream: &mut TcpStream, asked: &Asked, mut read: Vec<u8>) -> Re
     let Some(length) = length.parse::<usize>().ok().filter(|_| digits) else {
         return Err(Some(Answer::no(400, "the length of the body is not a number")));
     };
-    if length > LARGEST_BODY {
+    if length > most {
         return Err(Some(Answer::no(413, "the body is too large")));
     }
     let until = Instant::now() + PATIENCE;

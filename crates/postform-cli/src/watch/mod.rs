@@ -2,6 +2,7 @@
 
 mod guard;
 mod http;
+mod jobs;
 mod kept;
 mod session;
 
@@ -23,7 +24,7 @@ use super::poll::Watched;
 use super::say::message;
 use super::say::no_thread;
 use guard::Guard;
-use http::{Answer, Asked};
+use http::{Answer, Asked, LARGEST_BODY, LARGEST_JOB};
 use kept::Kept;
 use session::{Ask, NotSaved, Save, Session};
 
@@ -126,7 +127,7 @@ impl Shared {
         let what = self.guard.admit(&asked)?.to_owned();
         let allowed = match what.as_str() {
             "" | "events" => "GET",
-            "scene" | "verdict" | "help" | "save" => "POST",
+            "scene" | "verdict" | "help" | "save" | "add" | "close" => "POST",
             _ => return Err(Some(Answer::no(404, "not found"))),
         };
         if asked.method != allowed {
@@ -142,6 +143,12 @@ impl Shared {
             "" => page(),
             "save" => self.save(&body(stream, &asked, read)?),
             "verdict" => said(self.session.verdict(&body(stream, &asked, read)?)),
+            "add" => self.add(http::read_body(stream, &asked, read, LARGEST_JOB)?),
+            "close" => {
+                self.session.close(&body(stream, &asked, read)?);
+                self.tell();
+                Answer::of("text/plain; charset=utf-8", "")
+            }
             "help" => said(self.session.help(&body(stream, &asked, read)?)),
             _ => {
                 let ask = body(stream, &asked, read)?;
@@ -172,6 +179,22 @@ impl Shared {
             Ok(()) => Answer::of("text/plain; charset=utf-8", ""),
             Err(NotSaved::Unknown) => Answer::no(404, "this is not a file of this form"),
             Err(NotSaved::Conflict(why)) => Answer::no(409, &why),
+        }
+    }
+
+    /// Opens a job: the body is its name as JSON, a line end, and its content.
+    fn add(&self, mut body: Vec<u8>) -> Answer {
+        let end = body.iter().position(|&byte| byte == b'\n').unwrap_or(0);
+        let Ok(name) = serde_json::from_slice::<String>(&body[..end]) else {
+            return Answer::no(400, "this request has no name of a job");
+        };
+        body.drain(..=end);
+        match self.session.add(&name, body) {
+            Ok(tab) => {
+                self.tell();
+                Answer::of("application/json", tab.to_string())
+            }
+            Err(why) => Answer::no(422, &why),
         }
     }
 
@@ -207,7 +230,7 @@ fn is_closed(stream: &TcpStream) -> bool {
 
 /// The JSON body of a request.
 fn body<T: DeserializeOwned>(stream: &mut TcpStream, asked: &Asked, read: Vec<u8>) -> Result<T, Option<Answer>> {
-    let bytes = http::read_body(stream, asked, read)?;
+    let bytes = http::read_body(stream, asked, read, LARGEST_BODY)?;
     serde_json::from_slice(&bytes)
         .map_err(|error| Some(Answer::no(400, &format!("this request can't be read: {error}"))))
 }

@@ -13,11 +13,11 @@ use postform::internals::lint::Levels;
 use postform::internals::machine::Machine;
 use postform::internals::post::sample_job;
 use postform::internals::scene::{At, Printed, Request, Scene, behind, help, no_machine, program_of, scene};
-use postform::{Files, Job, Limits, Options, Proof, Source};
+use postform::{Files, Limits, Options, Proof, Source};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::super::args::{LimitsArg, ReadArgs, WatchArgs};
+use super::super::args::{LimitsArg, WatchArgs};
 use super::super::clock;
 use super::super::config::Config;
 use super::super::files::{self, io_message};
@@ -25,6 +25,7 @@ use super::super::forms::FormFile;
 use super::super::machine;
 use super::super::output::{write_new, write_whole};
 use super::super::prompt;
+use super::jobs::{Close, Jobs, Opened};
 
 /// A program with fewer bytes is proven so fast that its picture can wait for the verdict.
 const SMALL: usize = 256 << 10;
@@ -82,9 +83,8 @@ pub enum NotSaved {
 /// The settings and files of the page.
 pub struct Session {
     form: PathBuf,
-    jobs: Vec<PathBuf>,
+    jobs: Jobs,
     against: Option<PathBuf>,
-    read: ReadArgs,
     limits: Limits,
     levels: Levels,
     options: Options,
@@ -92,8 +92,6 @@ pub struct Session {
     config: Option<PathBuf>,
     /// The machine's file from the command line, and the one from postform.toml; the form's own machine ranks between them.
     machine: [Option<PathBuf>; 2],
-    /// Display names of the jobs.
-    names: Vec<String>,
     /// Number of changes of the files.
     generation: AtomicU64,
     saved: Mutex<Option<Saved>>,
@@ -106,7 +104,8 @@ pub struct Session {
 /// The program that the saved form printed for a job.
 #[derive(Clone)]
 struct Saved {
-    job: usize,
+    /// Name of the job.
+    job: String,
     /// The properties that were set.
     properties: Vec<(String, String)>,
     /// The number of file changes at that time.
@@ -142,10 +141,7 @@ impl Session {
             }
         })?;
         let form = form.analyse(&HashMap::new()).form;
-        let jobs = if args.job.is_empty() { config.jobs.clone() } else { args.job };
-        for job in &jobs {
-            files::check_format(job, &args.read)?;
-        }
+        let jobs = Jobs::of(if args.job.is_empty() { &config.jobs } else { &args.job }, args.read)?;
         if let Some(against) = &args.against {
             files::open_program(against)?;
         }
@@ -158,13 +154,8 @@ impl Session {
         let proof = args.control.proof(None);
         Ok(Session {
             form: args.form,
-            names: match jobs.is_empty() {
-                true => vec!["the sample job".to_owned()],
-                false => jobs.iter().map(|path| files::name(path)).collect(),
-            },
             jobs,
             against: args.against,
-            read: args.read,
             limits,
             levels: config.levels,
             options,
@@ -188,7 +179,12 @@ impl Session {
             Err(_) => vec![self.form.clone()],
         };
         let named = self.machine.iter().flatten();
-        paths.extend(self.jobs.iter().chain(&self.against).chain(&self.config).chain(named).cloned());
+        paths.extend(
+            self.jobs
+                .paths()
+                .into_iter()
+                .chain([&self.against, &self.config].into_iter().flatten().chain(named).cloned()),
+        );
         paths.extend(lock(&self.shown).iter().cloned());
         paths
     }
@@ -206,7 +202,8 @@ impl Session {
     pub fn show(&self, ask: &Ask, send: &mut dyn FnMut(Scene)) -> Result<(), String> {
         let generation = self.generation.load(Ordering::Acquire);
         let form = self.read_form()?;
-        let (mut scene, printed) = self.print(&form, ask)?;
+        let job = &self.jobs.at(ask.job)?;
+        let (mut scene, printed) = self.print(&form, ask, job)?;
         *lock(&self.shown) = form.paths();
         let against = match &self.against {
             Some(path) => Some((files::name(path), read(path)?)),
@@ -215,12 +212,12 @@ impl Session {
         let names = scene.said("form").and_then(|form| form["files"].as_array().cloned()).unwrap_or_default();
         let texts: Vec<String> = names.iter().map(|name| self.text(&form, name.as_str().unwrap_or_default())).collect();
         scene.say("texts", json!(texts));
-        scene.say("jobs", json!(self.names));
+        scene.say("jobs", json!(self.jobs.names()));
         let Some(printed) = printed else {
             send(scene);
             return Ok(());
         };
-        let sample = self.sample(&form, &ask.texts);
+        let sample = self.sample(job, &form, &ask.texts);
         let machine = self.machine(&form, &ask.texts);
         let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
         // most edits do not change the program, so the page need not draw it again
@@ -232,7 +229,7 @@ impl Session {
         }
         let is_small = printed.text().len() < SMALL;
         if ask.texts.is_empty() {
-            self.keep_saved(ask, generation, printed.text());
+            self.keep_saved(ask, job, generation, printed.text());
         }
         thread::scope(|scope| {
             let (sender, behind_it) = channel();
@@ -240,35 +237,35 @@ impl Session {
             let (printed, against) = (&printed, &against);
             if let Some(machine) = &machine {
                 scope.spawn(move || {
-                    let fit = match (machine, self.job(ask.job, sample)) {
+                    let fit = match (machine, self.jobs.open(job, sample)) {
                         (Err(why), _) => no_machine(why),
                         (Ok(machine), Ok(job)) => printed.fit(job, machine),
                         (Ok(_), Err(_)) => return,
                     };
-                    _ = fits.send(("fit", fit));
+                    _ = fits.send(fit);
                 });
             } else {
                 drop(fits);
             }
             scope.spawn(move || {
                 // if the job can't be read any more, the next scene reports it
-                if let Ok(job) = self.job(ask.job, sample) {
-                    _ = proves.send(("verdict", printed.verdict(job)));
+                if let Ok(job) = self.jobs.open(job, sample) {
+                    _ = proves.send(behind("verdict", printed.verdict(job)));
                 }
-                if let Some(job) = self.job(ask.job, sample).ok().filter(|_| !same) {
-                    _ = proves.send(("toolSizes", printed.tools(job)));
+                if let Some(job) = self.jobs.open(job, sample).ok().filter(|_| !same) {
+                    _ = proves.send(behind("toolSizes", printed.tools(job)));
                 }
             });
             let (old, typed) = (against.as_ref(), !ask.texts.is_empty());
             if old.is_some() || typed {
                 scope.spawn(move || {
                     if typed {
-                        let before = self.saved_program(ask, generation);
+                        let before = self.saved_program(ask, job, generation);
                         let found = printed.since_saved(before.as_deref(), &diff::Options::default());
-                        _ = found.map(|found| compares.send(("saved", found)));
+                        _ = found.map(|found| compares.send(behind("saved", found)));
                     }
                     let found = old.and_then(|(name, old)| printed.against(name, old, &diff::Options::default()));
-                    _ = found.map(|found| compares.send(("against", found)));
+                    _ = found.map(|found| compares.send(behind("against", found)));
                 });
             } else {
                 drop(compares);
@@ -280,12 +277,12 @@ impl Session {
                 printed.draw_old(&mut scene, old);
             }
             if is_small {
-                behind_it.into_iter().for_each(|(name, value)| scene.say(name, value));
+                behind_it.into_iter().for_each(|more| scene.absorb(more));
                 send(scene);
             } else {
-                behind_it.try_iter().for_each(|(name, value)| scene.say(name, value));
+                behind_it.try_iter().for_each(|more| scene.absorb(more));
                 send(scene);
-                behind_it.into_iter().for_each(|(name, value)| send(behind(name, value)));
+                behind_it.into_iter().for_each(send);
             }
         });
         Ok(())
@@ -297,9 +294,10 @@ impl Session {
     /// A message: a file can't be read.
     pub fn verdict(&self, ask: &Ask) -> Result<Value, String> {
         let form = self.read_form()?;
-        let (scene, printed) = self.print(&form, ask)?;
+        let job = &self.jobs.at(ask.job)?;
+        let (scene, printed) = self.print(&form, ask, job)?;
         Ok(match printed {
-            Some(printed) => printed.verdict(self.job(ask.job, self.sample(&form, &ask.texts))?),
+            Some(printed) => printed.verdict(self.jobs.open(job, self.sample(job, &form, &ask.texts))?),
             None => json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) }),
         })
     }
@@ -310,38 +308,31 @@ impl Session {
     /// A message: a file can't be read.
     pub fn help(&self, ask: &AskHelp) -> Result<Value, String> {
         let form = self.read_form()?;
-        Ok(help(self.request(&Typed { form: &form, texts: &ask.texts }, ask.job, &[])?, &ask.at))
+        let job = self.jobs.at(ask.job)?;
+        Ok(help(self.request(&Typed { form: &form, texts: &ask.texts }, &job, &[]), &ask.at))
     }
 
     /// Prints the program of a form.
-    fn print(&self, form: &FormFile, ask: &Ask) -> Result<(Scene, Option<Printed>), String> {
-        Ok(scene(self.request(&Typed { form, texts: &ask.texts }, ask.job, &ask.properties)?))
+    fn print(&self, form: &FormFile, ask: &Ask, job: &Opened) -> Result<(Scene, Option<Printed>), String> {
+        Ok(scene(self.request(&Typed { form, texts: &ask.texts }, job, &ask.properties)))
     }
 
-    fn request<'a>(
-        &'a self,
-        typed: &'a Typed<'a>,
-        job: usize,
-        properties: &[(String, String)],
-    ) -> Result<Request<'a>, String> {
+    fn request<'a>(&'a self, typed: &'a Typed<'a>, job: &'a Opened, properties: &[(String, String)]) -> Request<'a> {
         let mut options = self.options.clone();
-        options.job_file = self.names.get(job).cloned();
+        options.job_file = Some(job.name.clone());
         let machine = self.machine(typed.form, typed.texts).and_then(Result::ok);
         options.rates = machine.and_then(|machine| machine.rates().ok());
-        Ok(Request {
+        Request {
             form: typed.of(typed.form.source()),
             files: typed,
             limits: self.limits,
             levels: &self.levels,
-            job: match job < self.names.len() {
-                true => self.job(job, self.sample(typed.form, typed.texts)).map_err(plain),
-                false => return Err("error: there is no such job".into()),
-            },
-            job_name: self.names.get(job).map_or("", String::as_str),
+            job: self.jobs.open(job, self.sample(job, typed.form, typed.texts)).map_err(plain),
+            job_name: &job.name,
             options,
             properties: properties.to_vec(),
             proof: self.proof.clone(),
-        })
+        }
     }
 
     /// The machine into which programs must fit: from the command line, else from the form, else from postform.toml.
@@ -352,16 +343,25 @@ impl Session {
         Some(machine::read(&path).map_err(plain))
     }
 
-    /// The sample job, if no job is given.
-    fn sample(&self, form: &FormFile, texts: &HashMap<String, String>) -> Option<&'static str> {
-        self.jobs.is_empty().then(|| sample_job(&form.analyse(texts).form.settings))
+    /// The text of the sample job, if this is the sample job.
+    fn sample(&self, job: &Opened, form: &FormFile, texts: &HashMap<String, String>) -> Option<&'static str> {
+        job.is_sample().then(|| sample_job(&form.analyse(texts).form.settings))
     }
 
-    fn job(&self, job: usize, sample: Option<&'static str>) -> Result<Job<'static>, String> {
-        if let Some(sample) = sample {
-            return Ok(Job::json(sample));
-        }
-        files::job(self.jobs.get(job).ok_or("error: there is no such job")?, &self.read, true)
+    /// Opens another job. Returns its tab.
+    ///
+    /// # Errors
+    /// A message: it is not a job.
+    pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<usize, String> {
+        let tab = self.jobs.add(name, bytes)?;
+        self.forget();
+        Ok(tab)
+    }
+
+    /// Closes a job.
+    pub fn close(&self, close: &Close) {
+        self.jobs.close(close);
+        self.forget();
     }
 
     /// Files were changed: results from the old files are dropped.
@@ -370,23 +370,27 @@ impl Session {
     }
 
     /// The program that the saved form prints for a job; it is printed only once until a file is changed.
-    fn saved_program(&self, ask: &Ask, generation: u64) -> Option<Arc<str>> {
-        let same =
-            |known: &Saved| (known.job, known.generation, &known.properties) == (ask.job, generation, &ask.properties);
+    fn saved_program(&self, ask: &Ask, job: &Opened, generation: u64) -> Option<Arc<str>> {
+        let same = |known: &Saved| {
+            (&known.job, known.generation, &known.properties) == (&job.name, generation, &ask.properties)
+        };
         let known = lock(&self.saved).clone().filter(same);
         if let Some(known) = known {
             return Some(known.program);
         }
         let form = self.read_form().ok()?;
-        let program =
-            program_of(self.request(&Typed { form: &form, texts: &HashMap::new() }, ask.job, &ask.properties).ok()?)?;
-        Some(self.keep_saved(ask, generation, &program))
+        let program = program_of(self.request(&Typed { form: &form, texts: &HashMap::new() }, job, &ask.properties))?;
+        Some(self.keep_saved(ask, job, generation, &program))
     }
 
-    fn keep_saved(&self, ask: &Ask, generation: u64, program: &str) -> Arc<str> {
+    fn keep_saved(&self, ask: &Ask, job: &Opened, generation: u64, program: &str) -> Arc<str> {
         let program: Arc<str> = program.into();
-        *lock(&self.saved) =
-            Some(Saved { job: ask.job, properties: ask.properties.clone(), generation, program: Arc::clone(&program) });
+        *lock(&self.saved) = Some(Saved {
+            job: job.name.clone(),
+            properties: ask.properties.clone(),
+            generation,
+            program: Arc::clone(&program),
+        });
         program
     }
 

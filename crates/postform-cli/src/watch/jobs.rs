@@ -1,0 +1,142 @@
+//! The jobs of a page: those of the command line, and those that were opened in the page.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use postform::Job;
+use postform::internals::terminal::escaped;
+use serde::Deserialize;
+
+use super::super::args::ReadArgs;
+use super::super::files;
+
+/// The jobs, in the order of their tabs.
+pub struct Jobs {
+    list: Mutex<Vec<Opened>>,
+    read: ReadArgs,
+}
+
+/// A job.
+#[derive(Clone)]
+pub struct Opened {
+    /// Its display name.
+    pub name: String,
+    content: Content,
+}
+
+#[derive(Clone)]
+enum Content {
+    /// A file, which is read again each time.
+    File(PathBuf),
+    /// The content of a file that was opened in the page.
+    Memory(PathBuf, Arc<[u8]>),
+    /// The sample job for the form's kind of machine.
+    Sample,
+}
+
+/// A request to close a job.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Close {
+    /// The job, counted from 0.
+    job: usize,
+    /// Its name, from the scene.
+    name: String,
+}
+
+impl Opened {
+    /// Is it the sample job?
+    pub fn is_sample(&self) -> bool {
+        matches!(self.content, Content::Sample)
+    }
+}
+
+impl Jobs {
+    /// The jobs of these files.
+    ///
+    /// # Errors
+    /// A message: the format of a file is unknown.
+    pub fn of(paths: &[PathBuf], read: ReadArgs) -> Result<Jobs, String> {
+        for path in paths {
+            files::check_format(path, &read)?;
+        }
+        let opened = |path: &PathBuf| Opened { name: files::name(path), content: Content::File(path.clone()) };
+        Ok(Jobs { list: Mutex::new(paths.iter().map(opened).collect()), read })
+    }
+
+    fn list(&self) -> MutexGuard<'_, Vec<Opened>> {
+        self.list.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The names of the tabs.
+    pub fn names(&self) -> Vec<String> {
+        let list = self.list();
+        if list.is_empty() { vec![sample().name] } else { list.iter().map(|job| job.name.clone()).collect() }
+    }
+
+    /// The files of the jobs.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        let path = |job: &Opened| match &job.content {
+            Content::File(path) => Some(path.clone()),
+            _ => None,
+        };
+        self.list().iter().filter_map(path).collect()
+    }
+
+    /// The job of a tab.
+    ///
+    /// # Errors
+    /// A message: there is no such tab; another page may have closed it.
+    pub fn at(&self, tab: usize) -> Result<Opened, String> {
+        let list = self.list();
+        match list.get(tab) {
+            Some(job) => Ok(job.clone()),
+            None if list.is_empty() && tab == 0 => Ok(sample()),
+            None => Err("error: there is no such job".into()),
+        }
+    }
+
+    /// Opens a job. `sample`: the text of the sample job.
+    ///
+    /// # Errors
+    /// A message: its file can't be read.
+    pub fn open(&self, job: &Opened, sample: Option<&'static str>) -> Result<Job<'static>, String> {
+        match &job.content {
+            Content::File(path) => files::job(path, &self.read, true),
+            Content::Memory(name, bytes) => files::job_in_memory(name, bytes, &self.read),
+            Content::Sample => Ok(Job::json(sample.unwrap_or_default())),
+        }
+    }
+
+    /// Adds a job with the content of a file. A job of the same name that was added before is replaced. Returns its tab.
+    ///
+    /// # Errors
+    /// A message: the content is not a job.
+    pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<usize, String> {
+        let path = Path::new(name).file_name().map(PathBuf::from).ok_or("error: a job needs a name")?;
+        let bytes = files::unpacked_bytes(&path, bytes)?;
+        files::job_in_memory(&path, &bytes, &self.read)?;
+        let name = escaped(&path.to_string_lossy());
+        let mut list = self.list();
+        let before = list.iter().position(|job| matches!(&job.content, Content::Memory(known, _) if *known == path));
+        let opened = Opened { name, content: Content::Memory(path, bytes) };
+        if let Some(tab) = before {
+            list[tab] = opened;
+            return Ok(tab);
+        }
+        list.push(opened);
+        Ok(list.len() - 1)
+    }
+
+    /// Removes the job of a tab. Nothing happens if the tab has another name now.
+    pub fn close(&self, close: &Close) {
+        let mut list = self.list();
+        if list.get(close.job).is_some_and(|job| job.name == close.name) {
+            list.remove(close.job);
+        }
+    }
+}
+
+fn sample() -> Opened {
+    Opened { name: "the sample job".to_owned(), content: Content::Sample }
+}

@@ -1,0 +1,40 @@
+// Files that are opened: by a button, or dropped onto the page.
+
+import { element } from "./element.ts";
+
+/** The ends of names of jobs. */
+export const JOBS = ".json,.jsonl,.cl,.apt,.cls,.nci,.FCStd,.nc,.ngc,.tap,.eia,.min,.mpf,.h,.gz";
+
+/** A button that asks for files. */
+export function openButton(text: string, title: string, accept: string, open: (files: File[]) => void): HTMLElement {
+  const input = element("input", { type: "file", multiple: "", hidden: "", accept });
+  const button = element("button", { title }, text);
+  button.onclick = () => input.click();
+  input.onchange = () => {
+    open([...(input.files ?? [])]);
+    // the same file can be opened again
+    input.value = "";
+  };
+  return element("span", {}, button, input);
+}
+
+/** Opens files that are dropped anywhere. */
+export function takeDrops(text: string, open: (files: File[]) => void): void {
+  const drop = element("div", { class: "drop", hidden: "" }, text);
+  document.body.append(drop);
+  addEventListener("dragover", (event) => {
+    // text that is dragged inside the page is not a file
+    if (!event.dataTransfer?.types.includes("Files")) return;
+    event.preventDefault();
+    drop.hidden = false;
+  });
+  addEventListener("dragleave", (event) => {
+    if (!event.relatedTarget) drop.hidden = true;
+  });
+  addEventListener("drop", (event) => {
+    if (drop.hidden) return;
+    event.preventDefault();
+    drop.hidden = true;
+    open([...(event.dataTransfer?.files ?? [])]);
+  });
+}

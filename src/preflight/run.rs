@@ -1,0 +1,72 @@
+//! Runs a program on a machine: with the machine's own offsets, from an unknown position.
+
+use std::io::{self, Read, Seek, SeekFrom};
+
+use super::check::Check;
+use super::fitted::{Fitted, JobTool};
+use crate::machine::Machine;
+use crate::nc::{RunError, RunSettings, Simulator};
+
+/// Runs a program on a machine.
+///
+/// # Errors
+/// The program can't be read.
+pub fn preflight(
+    program: impl Read + Seek,
+    settings: RunSettings,
+    machine: &Machine,
+    job: &[JobTool],
+) -> io::Result<Fitted> {
+    run(program, settings, machine, job, false)
+}
+
+/// Runs a program on a machine, and keeps the time of each of its blocks.
+///
+/// # Errors
+/// The program can't be read.
+pub fn preflight_by_block(
+    program: impl Read + Seek,
+    settings: RunSettings,
+    machine: &Machine,
+    job: &[JobTool],
+) -> io::Result<Fitted> {
+    run(program, settings, machine, job, true)
+}
+
+fn run(
+    mut program: impl Read + Seek,
+    settings: RunSettings,
+    machine: &Machine,
+    job: &[JobTool],
+    by_block: bool,
+) -> io::Result<Fitted> {
+    let bytes = program.seek(SeekFrom::End(0))?;
+    program.seek(SeekFrom::Start(0))?;
+    let settings = RunSettings { places_unknown: true, ..settings };
+    let mut run = Simulator::new(program, settings);
+    let known = machine.offsets.iter().flatten().map(|(number, at)| (*number, at.map(|value| value.unwrap_or(0.0))));
+    run.begin_on(&mut known.into_iter(), machine.references.map(Option::unwrap_or_default));
+    let mut check = Check::new(machine, settings.control, job);
+    if by_block {
+        check.keep_blocks();
+    }
+    let mut items = Vec::new();
+    let refused = loop {
+        items.clear();
+        match run.step(&mut items) {
+            Ok(more) => {
+                check.block(&items, &run);
+                if !more {
+                    break None;
+                }
+            }
+            Err(RunError::Refused(diag, line)) => {
+                check.block(&items, &run);
+                break Some((line, diag.message.clone()));
+            }
+            Err(RunError::Io(error)) => return Err(error),
+        }
+    };
+    check.memory(bytes, run.program());
+    Ok(check.finish(refused))
+}

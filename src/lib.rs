@@ -60,6 +60,7 @@ mod sema;
 mod setup;
 mod source;
 mod span;
+mod stock;
 mod survey;
 mod syntax;
 mod terminal;
@@ -154,6 +155,7 @@ pub mod internals {
     }
     pub mod preflight {
         pub use crate::preflight::{Fit, Fitted, JobTool, Times, preflight, preflight_by_block};
+        pub use crate::stock::{Stock, StockCheck, check_stock};
     }
     pub mod render {
         pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};

@@ -374,6 +374,7 @@ codes! {
     // PM: the machine
     PM001 Error "an axis beyond its travel"
     PM002 Error "a rapid through a fixture"
+    PM003 Error "a rapid through the stock"
     PM010 Warning "a feed or speed that the machine does not have"
     PM011 Warning "a tool that the machine's table does not have"
     PM012 Warning "more tools than places in the magazine"

@@ -63,13 +63,19 @@ impl Frames {
         self.rotation[self.active]
     }
 
-    /// Converts a position of the program to machine coordinates.
-    pub fn to_machine(&self, at: &Position) -> Position {
+    /// Converts a position of the program to the coordinates of its work offset: with the shift and the rotation.
+    pub fn to_work(&self, at: &Position) -> Position {
         let mut place = *at;
         for (value, shift) in place.iter_mut().zip(&self.shift.by) {
             *value += shift;
         }
         turn(&mut place, self.angle());
+        place
+    }
+
+    /// Converts a position of the program to machine coordinates.
+    pub fn to_machine(&self, at: &Position) -> Position {
+        let mut place = self.to_work(at);
         for (axis, value) in place.iter_mut().enumerate() {
             *value += self.work[self.active][axis] + self.work[0][axis];
         }

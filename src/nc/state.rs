@@ -183,6 +183,19 @@ impl State {
         self.place.frames.to_machine(at)
     }
 
+    /// Converts a position of the program to the coordinates of its work offset, in the units in force. A shift from an unknown
+    /// position is left out: the program then counts from its own zero.
+    pub fn in_work_offset(&self, at: &Position) -> Position {
+        let frames = &self.place.frames;
+        let mut at = *at;
+        for (axis, value) in at.iter_mut().enumerate() {
+            if frames.shift.unknown & 1 << axis != 0 {
+                *value -= frames.shift.by[axis];
+            }
+        }
+        frames.to_work(&at)
+    }
+
     /// The number of the work offset in force: G54 is 1, the first additional one is 10. Controls that number their
     /// offsets keep their own numbers.
     pub fn work_number(&self) -> usize {

@@ -13,7 +13,7 @@ mod view;
 
 pub use run::draw;
 pub use state::{Change, Register};
-pub use strips::Strips;
+pub use strips::{Strips, round};
 pub use svg::{Sheet, svg, svg_over};
 pub use view::View;
 

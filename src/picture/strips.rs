@@ -143,8 +143,8 @@ fn turning(from: [f64; 3], to: [f64; 3], angles: [f64; 3], turned: [f64; 3], pus
     }
 }
 
-/// The points of an arc between its ends.
-fn round(from: [f64; 3], to: [f64; 3], turn: &Turn, error: f64, push: &mut impl FnMut([f64; 3])) {
+/// The points of an arc between its ends, except its end.
+pub fn round(from: [f64; 3], to: [f64; 3], turn: &Turn, error: f64, push: &mut impl FnMut([f64; 3])) {
     let [first, second, across] = axes_of(turn.plane);
     let wide = |at: [f64; 3]| [at[0], at[1], at[2], 0.0, 0.0, 0.0];
     let swept = sweep(&wide(from), &Turn { to: wide(to), ..*turn });

@@ -71,10 +71,8 @@ impl Post {
     /// # Errors
     /// The job can't be read.
     #[doc(hidden)]
-    pub fn job_tools(&self, mut job: Job<'_>) -> Result<Vec<JobTool>, Error> {
-        let mut tools = Tools { scale: 1.0, tools: Vec::new() };
-        taken(Some(&self.0.program.settings), &mut tools, |sink| job.read(sink))?;
-        Ok(tools.tools)
+    pub fn job_tools(&self, job: Job<'_>) -> Result<Vec<JobTool>, Error> {
+        tools_of(Some(&self.0.program), job)
     }
 
     /// Adds the form lines and job items to machine findings, from the blocks that caused them.
@@ -167,6 +165,12 @@ struct Tools {
     tools: Vec<JobTool>,
 }
 
+fn tools_of(form: Option<&compile::Program>, mut job: Job<'_>) -> Result<Vec<JobTool>, Error> {
+    let mut tools = Tools { scale: 1.0, tools: Vec::new() };
+    taken(form.map(|form| &form.settings), &mut tools, |sink| job.read(sink))?;
+    Ok(tools.tools)
+}
+
 impl Sink for Tools {
     fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
         match event {
@@ -194,6 +198,15 @@ impl Proof {
     pub fn verify(&self, job: Job<'_>, program: impl Read + Seek) -> Result<Proven, Error> {
         let options = Options { units: self.units, ..Options::default() };
         prove(None, job, program, &options, self)
+    }
+
+    /// The tools of a job without a form, with their diameters in millimetres.
+    ///
+    /// # Errors
+    /// The job can't be read.
+    #[doc(hidden)]
+    pub fn job_tools(&self, job: Job<'_>) -> Result<Vec<JobTool>, Error> {
+        tools_of(None, job)
     }
 
     /// Settings of the control for a program that this form printed.

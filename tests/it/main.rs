@@ -66,6 +66,7 @@ mod sheets;
 mod silent;
 mod simulate;
 mod slips;
+mod stock;
 mod streams;
 mod support;
 mod texts;

@@ -98,30 +98,11 @@ impl Fitting<'_> {
 
     /// Shows the findings, and everything that is not checked.
     pub fn show(&self, fitted: &Fitted, (job, sources): (Option<&Path>, &[Source]), reporter: &Reporter) {
-        let diags: Vec<Diag> = fitted.findings.iter().map(|finding| self.diag(finding, job)).collect();
+        let diags: Vec<Diag> = fitted.findings.iter().map(|finding| diag(finding, self.program, job)).collect();
         say(&reporter.text(&diags, sources));
         for what in &fitted.fit.not_checked {
             message(&format!("not checked: {}", escaped(what)));
         }
-    }
-
-    /// A finding with its location in the job, or in the program if there is no job.
-    fn diag(&self, finding: &Finding, job: Option<&Path>) -> Diag {
-        let Some(job) = job else {
-            let text = match finding.block.as_str() {
-                "" => finding.message.clone(),
-                block => format!("{}, in `{block}`", finding.message),
-            };
-            let mut diag = Diag::new(finding.code, text).help(finding.help);
-            if finding.line > 0 {
-                diag = diag.place(Location::line(finding.line));
-            }
-            place_in(self.program, &mut diag);
-            return diag;
-        };
-        let mut diag = finding.diag(self.program);
-        place_in(&files::name(job), &mut diag);
-        diag
     }
 
     /// The allowed range for each unknown offset and length, one sentence each.
@@ -152,17 +133,7 @@ impl Fitting<'_> {
     /// The result as JSON for other programs.
     pub fn document(&self, fitted: &Fitted) -> serde_json::Value {
         let mut document = fitted.fit.json(self.machine, self.control());
-        let findings: Vec<serde_json::Value> = fitted
-            .findings
-            .iter()
-            .map(|finding| {
-                serde_json::json!({
-                    "code": finding.code.name(), "severity": finding.code.row().severity.name(),
-                    "message": finding.message, "help": finding.help, "line": finding.line, "block": finding.block,
-                    "times": finding.times,
-                })
-            })
-            .collect();
+        let findings: Vec<serde_json::Value> = fitted.findings.iter().map(finding_json).collect();
         if let Ok(times) = &fitted.times {
             document["seconds"] = times.json();
         }
@@ -170,6 +141,34 @@ impl Fitting<'_> {
         document["fits"] = fitted.fits().into();
         document
     }
+}
+
+/// A finding of a program with its location in the job, or in the program if there is no job.
+pub fn diag(finding: &Finding, program: &str, job: Option<&Path>) -> Diag {
+    let Some(job) = job else {
+        let text = match finding.block.as_str() {
+            "" => finding.message.clone(),
+            block => format!("{}, in `{block}`", finding.message),
+        };
+        let mut diag = Diag::new(finding.code, text).help(finding.help);
+        if finding.line > 0 {
+            diag = diag.place(Location::line(finding.line));
+        }
+        place_in(program, &mut diag);
+        return diag;
+    };
+    let mut diag = finding.diag(program);
+    place_in(&files::name(job), &mut diag);
+    diag
+}
+
+/// A finding of a program as JSON.
+pub fn finding_json(finding: &Finding) -> serde_json::Value {
+    serde_json::json!({
+        "code": finding.code.name(), "severity": finding.code.row().severity.name(),
+        "message": finding.message, "help": finding.help, "line": finding.line, "block": finding.block,
+        "times": finding.times,
+    })
 }
 
 /// A form's program on a machine; findings have form lines and job items if the job can be read again.

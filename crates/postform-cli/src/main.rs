@@ -41,6 +41,7 @@ mod sheet;
 mod shells;
 mod simulate;
 mod spool;
+mod stock;
 mod test;
 mod unnamed;
 mod verdict;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::io::{self, Write};
+use std::io::{self, Seek as _, Write};
 use std::path::{Path, PathBuf};
 
 use postform::diag::Severity;
@@ -21,6 +21,7 @@ use super::prepare::{Prepared, prepare};
 use super::rendered::{denied, rendered};
 use super::report::{Reporter, stopped};
 use super::spool::Spool;
+use super::stock::{self, Milling};
 use super::verdict::Sides;
 use super::{Ending, many, output};
 
@@ -98,7 +99,8 @@ fn tried(
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);
     // a printed program may need its job twice: for the survey, or for printing it again into a file
-    let mut job = files::job(job_path, &args.read, args.nc.is_none())?;
+    let twice = args.nc.is_none() || args.stock.is_some();
+    let mut job = files::job(job_path, &args.read, twice)?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
     let files = prepared.map_or(&[][..], |prepared| prepared.post.files());
     let sides = Sides { job: job_path, program: &name, files };
@@ -113,7 +115,8 @@ fn tried(
             (sides.tried(proven, args.options.quiet, reporter)?, Some(program))
         }
         (None, Some(prepared)) => {
-            let mut spool = machine.as_ref().map(|_| Spool::new()).transpose().map_err(|error| spooled(&error))?;
+            let runs_again = machine.is_some() || args.stock.is_some();
+            let mut spool = runs_again.then(Spool::new).transpose().map_err(|error| spooled(&error))?;
             let mut take = |part: Part<'_>| spool.as_mut().map_or(Ok(()), |spool| spool.write_all(part.text));
             let tried = of_form(&mut job, prepared, &proof, &sides, (args.options.quiet, &mut take), reporter)?;
             (tried, spool.map(Spool::into_file).transpose().map_err(|error| spooled(&error))?)
@@ -124,6 +127,18 @@ fn tried(
         Ok(proven) => proven,
         Err(ending) => return Ok((String::new(), ending)),
     };
+    let mut in_stock = None;
+    if let (Some(block), Some(program)) = (args.stock, &program) {
+        let form = prepared.map(|prepared| (&prepared.post, &prepared.options));
+        let milling = Milling { block, program: &name, form, control: &control, proof: &proof };
+        let mut program = program.try_clone().map_err(|error| spooled(&error))?;
+        program.rewind().map_err(|error| spooled(&error))?;
+        let checked = milling.checked(&mut job, program)?;
+        if args.format == VerifyFormat::Text {
+            milling.show(&checked, (job_path, files), reporter);
+        }
+        in_stock = Some((checked, milling));
+    }
     let mut on_machine = None;
     if let (Some(machine), Some(program)) = (&machine, program) {
         let (fitted, fitting) = match prepared {
@@ -141,7 +156,8 @@ fn tried(
         }
         on_machine = Some((fitted, fitting));
     }
-    let fits = on_machine.as_ref().is_none_or(|(fitted, _)| fitted.fits());
+    let fits = on_machine.as_ref().is_none_or(|(fitted, _)| fitted.fits())
+        && in_stock.as_ref().is_none_or(|(checked, _)| checked.is_clean());
     let text = match args.format {
         VerifyFormat::Text => {
             match &proven.verdict {
@@ -151,10 +167,14 @@ fn tried(
             }
             let of_machine =
                 on_machine.map(|(fitted, fitting)| fitting.sentences(&fitted) + &fitting.sentence(&fitted));
-            sides.sentence(&proven) + &of_machine.unwrap_or_default()
+            let of_stock = in_stock.map(|(checked, milling)| milling.sentence(&checked));
+            sides.sentence(&proven) + &of_stock.unwrap_or_default() + &of_machine.unwrap_or_default()
         }
         VerifyFormat::Json => {
             let mut document = sides.document(&proven);
+            if let Some((checked, _)) = in_stock {
+                document["stock"] = stock::document(&checked);
+            }
             if let Some((fitted, fitting)) = on_machine {
                 document["machine"] = fitting.document(&fitted);
             }

@@ -2,6 +2,7 @@
 
 import type { Path } from "../scene.ts";
 import type { Plate } from "./ground.ts";
+import { lowest } from "./sweep.ts";
 import type { Shape } from "./tool.ts";
 
 /** The finest cell in millimetres, and the most cells along a side. */
@@ -11,8 +12,6 @@ const MOST_CELLS = 1000;
 const TOLERANCE = 0.2;
 /** Pieces between two looks at the clock. */
 const BATCH = 64;
-/** Positions of a round tool along a piece. */
-const SAMPLES = 5;
 
 /** A block of material, from the middle of the picture. */
 export interface Block {
@@ -87,7 +86,7 @@ export class Stock {
     const to: [number, number, number] = [points[at + 3], points[at + 4], points[at + 5]];
     if (Math.min(from[2], to[2]) >= this.top) return;
     if (kind === 0) {
-      if (this.passes(from, to, shape.radius - this.cell)) this.crashes.add(path.moveLine[move]);
+      if (this.passes(from, to, shape)) this.crashes.add(path.moveLine[move]);
     } else this.cut(from, to, shape, tool);
   }
 
@@ -104,34 +103,14 @@ export class Stock {
   private cut(from: number[], to: number[], { radius, corner }: Shape, tool: number): void {
     const [left, right, low, high] = this.around(from, to, radius);
     const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-    const length = dx * dx + dy * dy;
-    const flat = radius - corner;
-    const lowest = Math.min(from[2], to[2]);
+    const floor = Math.min(from[2], to[2]);
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
       for (let column = left; column <= right; column++) {
         const px = this.x + column * this.cell - from[0];
         const cell = row * this.wide + column;
-        if (this.heights[cell] <= lowest) continue;
-        // the part of the piece along which the tool is over the cell
-        const nearest = length > 0 ? (px * dx + py * dy) / length : 0;
-        const [ox, oy] = [px - nearest * dx, py - nearest * dy];
-        const room = radius * radius - ox * ox - oy * oy;
-        if (room < 0) continue;
-        const reach = length > 0 ? Math.sqrt(room / length) : 0;
-        const [first, last] = [Math.max(0, nearest - reach), Math.min(1, nearest + reach)];
-        if (length > 0 && first > last) continue;
-        let height: number;
-        if (corner <= 0) height = from[2] + dz * (length === 0 ? (dz < 0 ? 1 : 0) : dz < 0 ? last : first);
-        else {
-          height = Infinity;
-          for (let sample = 0; sample < SAMPLES; sample++) {
-            const share = length === 0 ? sample / (SAMPLES - 1) : first + ((last - first) * sample) / (SAMPLES - 1);
-            const away = Math.hypot(px - share * dx, py - share * dy) - flat;
-            const rise = away > 0 ? corner - Math.sqrt(Math.max(0, corner * corner - away * away)) : 0;
-            height = Math.min(height, from[2] + dz * share + rise);
-          }
-        }
+        if (this.heights[cell] <= floor) continue;
+        const height = lowest(radius, corner, px, py, from[2], dx, dy, dz);
         if (height < this.heights[cell]) {
           this.heights[cell] = Math.max(height, this.bottom);
           this.tools[cell] = tool;
@@ -140,19 +119,21 @@ export class Stock {
     }
   }
 
-  /** Does a rapid go through the stock? */
-  private passes(from: number[], to: number[], radius: number): boolean {
+  /** Does a rapid go through the stock? Cells at the edge of the tool are not looked at: their surface may be up to a cell farther away. */
+  private passes(from: number[], to: number[], shape: Shape): boolean {
+    const radius = shape.radius - this.cell;
     if (radius <= 0) return false;
+    const corner = Math.min(shape.corner, radius);
     const [left, right, low, high] = this.around(from, to, radius);
     const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-    const length = dx * dx + dy * dy;
+    const floor = Math.min(from[2], to[2]) + this.tolerance;
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
       for (let column = left; column <= right; column++) {
+        const height = this.heights[row * this.wide + column];
+        if (height <= floor) continue;
         const px = this.x + column * this.cell - from[0];
-        const nearest = length > 0 ? Math.max(0, Math.min(1, (px * dx + py * dy) / length)) : dz < 0 ? 1 : 0;
-        const away = Math.hypot(px - nearest * dx, py - nearest * dy);
-        if (away <= radius && from[2] + dz * nearest < this.heights[row * this.wide + column] - this.tolerance) return true;
+        if (lowest(radius, corner, px, py, from[2], dx, dy, dz) < height - this.tolerance) return true;
       }
     }
     return false;

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use postform::internals::preflight::Stock;
 
 use super::controls::length;
 use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions, UnitsArg};
@@ -35,6 +36,9 @@ pub struct VerifyArgs {
     /// Output format of the verdict
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: VerifyFormat,
+    /// Also look for rapids through the stock: a block in its work offset, in the job's units, such as "X0..100 Y0..60 Z-20..0"
+    #[arg(long, value_name = "BLOCK", allow_hyphen_values = true)]
+    pub stock: Option<Stock>,
     /// Number of jobs that are verified at the same time [default: one per core]
     #[arg(long = "jobs", value_name = "N")]
     pub at_a_time: Option<NonZeroUsize>,

@@ -1,0 +1,41 @@
+// The lowest height of a moving tool over a point.
+
+/** Each makes the interval a third shorter: 20 leave a 3000th of the way over a point. */
+const NARROWINGS = 20;
+
+/** Height of a tool's surface above its tip, at a distance from its axis of at most its radius. */
+function rise(radius: number, corner: number, away: number): number {
+  const beyond = away - (radius - corner);
+  return beyond <= 0 ? 0 : corner - Math.sqrt(Math.max(0, corner * corner - beyond * beyond));
+}
+
+/**
+ * The lowest height of a tool over a point, while its tip moves straight by (dx, dy, dz) from the height `from`; Infinity if it is never over
+ * the point. `x` and `y`: the point, from the start of the tip. The same as `Shape::lowest` of src/stock/sweep.rs.
+ */
+export function lowest(radius: number, corner: number, x: number, y: number, from: number, dx: number, dy: number, dz: number): number {
+  const length = dx * dx + dy * dy;
+  if (length === 0) {
+    const away = Math.hypot(x, y);
+    return away <= radius ? from + Math.min(0, dz) + rise(radius, corner, away) : Infinity;
+  }
+  const nearest = (x * dx + y * dy) / length;
+  const [ox, oy] = [x - nearest * dx, y - nearest * dy];
+  const room = radius * radius - ox * ox - oy * oy;
+  if (room < 0) return Infinity;
+  // the part of the way on which the tool is over the point
+  const reach = Math.sqrt(room / length);
+  const [first, last] = [Math.max(0, nearest - reach), Math.min(1, nearest + reach)];
+  if (first > last) return Infinity;
+  if (corner <= 0) return from + dz * (dz < 0 ? last : first);
+  const height = (part: number) => from + dz * part + rise(radius, corner, Math.min(radius, Math.hypot(x - part * dx, y - part * dy)));
+  if (dz === 0) return height(Math.max(first, Math.min(last, nearest)));
+  // the height is a convex function of the part: a sum of a line and a rounded corner
+  let [low, high] = [first, last];
+  for (let i = 0; i < NARROWINGS; i++) {
+    const third = (high - low) / 3;
+    if (height(low + third) <= height(high - third)) high -= third;
+    else low += third;
+  }
+  return Math.min(height((low + high) / 2), height(first), height(last));
+}

@@ -1,0 +1,340 @@
+//! Runs a program in its stock.
+
+use std::collections::BTreeMap;
+use std::io::{self, Read, Seek};
+
+use super::centre::{Centre, Piece};
+use super::field::{Field, cell_of};
+use super::size::Stock;
+use super::sweep::Shape;
+use crate::diag::Code;
+use crate::nc::{Action, Item, Position, RunError, RunSettings, Simulator, Turn};
+use crate::picture::round;
+use crate::preflight::JobTool;
+use crate::toolpath::{Side, Units};
+use crate::verify::Finding;
+
+/// Maximum number of findings; further rapids are only counted.
+const MOST_FINDINGS: usize = 100;
+/// Greatest deviation of a piece from its arc, in millimetres.
+const ERROR: f64 = 0.02;
+
+/// The result of a check.
+#[derive(Clone, Debug, Default)]
+pub struct StockCheck {
+    /// Rapids through the stock, at most a hundred: one finding for each block.
+    pub findings: Vec<Finding>,
+    /// Number of blocks with a rapid through the stock.
+    pub blocks: usize,
+    /// What was not checked, a sentence each. Empty: every move was checked.
+    pub not_checked: Vec<String>,
+    /// The program uses cutter compensation: it is assumed to compensate the radius of the tool.
+    pub compensates: bool,
+}
+
+impl StockCheck {
+    /// Was every move checked, without a finding?
+    pub fn is_clean(&self) -> bool {
+        self.blocks == 0 && self.not_checked.is_empty()
+    }
+}
+
+/// Runs a program and looks for rapids through the stock. `block` is in millimetres; `tools` are those of the job. `units` are
+/// those of the messages.
+///
+/// # Errors
+/// The program can't be read.
+pub fn check_stock(
+    program: impl Read + Seek,
+    settings: RunSettings,
+    block: &Stock,
+    tools: &[JobTool],
+    units: Units,
+) -> io::Result<StockCheck> {
+    let mut check = Check::new(block, tools, units);
+    if settings.control.is_lathe() || settings.control.is_wire() {
+        check.checked.not_checked.push("the stock: it is checked only on mills with three axes".into());
+        return Ok(check.checked);
+    }
+    let mut run = Simulator::new(program, RunSettings { places_unknown: true, ..settings });
+    check.work = run.state().work_number();
+    let mut items = Vec::new();
+    loop {
+        items.clear();
+        check.from = *run.state().position();
+        let step = run.step(&mut items);
+        check.block(&items, &run);
+        match step {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(RunError::Refused(diag, line)) => {
+                check.missing(Missing::After(line, diag.message.clone()), line);
+                break;
+            }
+            Err(RunError::Io(error)) => return Err(error),
+        }
+    }
+    Ok(check.finish())
+}
+
+/// What could not be checked.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Missing {
+    /// A tool without a diameter.
+    Diameter(u32),
+    /// A tool that is thinner than the cells.
+    Thin(u32),
+    /// The tool in the spindle is unknown.
+    Tool,
+    /// A position below the top of the stock is unknown.
+    Position,
+    /// A rotary axis is not at zero.
+    Rotary,
+    /// The program was refused at a line.
+    After(u64, String),
+}
+
+/// The state of a check while the program runs. Lengths are millimetres.
+struct Check<'a> {
+    stock: &'a Stock,
+    tools: &'a [JobTool],
+    units: Units,
+    /// The stock in each work offset, from the first move below its top.
+    fields: BTreeMap<usize, Field>,
+    /// Position of the tip in its work offset; NaN if unknown.
+    at: [f64; 3],
+    /// The same position as the program counts it, in its units.
+    from: Position,
+    tool: Option<u32>,
+    side: Option<Side>,
+    centre: Centre,
+    /// Number of the work offset in force.
+    work: usize,
+    checked: StockCheck,
+    /// What was not checked, with the first line and the number of moves.
+    missing: BTreeMap<Missing, (u64, u64)>,
+    /// The last block with a finding.
+    last: u64,
+}
+
+/// How a move is made.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Rapid,
+    Cut,
+}
+
+impl<'a> Check<'a> {
+    fn new(stock: &'a Stock, tools: &'a [JobTool], units: Units) -> Check<'a> {
+        Check {
+            stock,
+            tools,
+            units,
+            fields: BTreeMap::new(),
+            at: [f64::NAN; 3],
+            from: Position::default(),
+            // a program without tool changes uses the only tool of its job
+            tool: match tools {
+                [tool] => Some(tool.number),
+                _ => None,
+            },
+            side: None,
+            centre: Centre::default(),
+            work: 0,
+            checked: StockCheck::default(),
+            missing: BTreeMap::new(),
+            last: 0,
+        }
+    }
+
+    fn block(&mut self, items: &[Item], run: &Simulator<'_>) {
+        for item in items {
+            let line = (item.line, run.text());
+            match &item.action {
+                Action::Rapid { to, machine, .. } => self.goes(Kind::Rapid, to, *machine, None, line, run),
+                Action::Feed { to, machine, .. } => self.goes(Kind::Cut, to, *machine, None, line, run),
+                Action::Arc(turn) => self.goes(Kind::Cut, &turn.to, turn.machine, Some(turn), line, run),
+                Action::Work(_) => {
+                    self.breaks();
+                    self.work = run.state().work_number();
+                }
+                Action::Tool(number) => self.tool = Some(*number as u32).filter(|number| *number != 0),
+                Action::Compensation(on) => {
+                    self.side = on.map(|(side, _)| side);
+                    self.checked.compensates |= on.is_some();
+                }
+                _ => {}
+            }
+        }
+        // frames and lengths move the tip's coordinates without a move
+        self.at = in_stock(run.state().position(), run.state().at_machine(), run);
+    }
+
+    fn goes(
+        &mut self,
+        kind: Kind,
+        to: &Position,
+        machine: u8,
+        arc: Option<&Turn>,
+        line: (u64, &[u8]),
+        run: &Simulator<'_>,
+    ) {
+        let from = std::mem::replace(&mut self.at, in_stock(to, machine, run));
+        let program_from = std::mem::replace(&mut self.from, *to);
+        let to_stock = self.at;
+        // an unknown height is over everything: only the machine's own positions are unknown
+        let low = [from[2], to_stock[2]].into_iter().filter(|z| z.is_finite()).fold(f64::INFINITY, f64::min);
+        if low >= self.stock.top {
+            return self.breaks();
+        }
+        let sideways = from[0] != to_stock[0] || from[1] != to_stock[1];
+        let unknown = [from, to_stock].iter().any(|at| !at[0].is_finite() || !at[1].is_finite())
+            || !to_stock[2].is_finite() && sideways
+            || !from[2].is_finite() && (sideways || kind == Kind::Cut);
+        if to[3..].iter().any(|angle| *angle != 0.0) {
+            return self.not_checked(Missing::Rotary, line.0);
+        }
+        if unknown {
+            return self.not_checked(Missing::Position, line.0);
+        }
+        if !to_stock[2].is_finite() {
+            return self.breaks();
+        }
+        let Some(shape) = self.shape(line.0) else { return self.breaks() };
+        // from an unknown height, the tool comes down on a vertical line
+        let above = if from[2].is_finite() { from[2] } else { to_stock[2].max(self.stock.top) };
+        let from = [from[0], from[1], above];
+        let side = self.side.filter(|_| kind == Kind::Cut);
+        let mut begin = from;
+        let mut piece = |check: &mut Check<'_>, to: [f64; 3]| {
+            let piece = Piece { from: std::mem::replace(&mut begin, to), to, shape, side };
+            let ready = check.centre.takes(piece);
+            ready.into_iter().flatten().enumerate().for_each(|(at, piece)| {
+                // a piece that waited is a cut
+                let kind = if at == 0 && piece.side.is_some() { Kind::Cut } else { kind };
+                check.makes(kind, &piece, line);
+            });
+        };
+        if let Some(turn) = arc {
+            let ends = [&program_from, to].map(|at| [at[0], at[1], at[2]]);
+            let mut points = Vec::new();
+            round(ends[0], ends[1], turn, ERROR / run.state().units().in_mm(), &mut |at| points.push(at));
+            for at in points {
+                piece(self, in_stock(&[at[0], at[1], at[2], 0.0, 0.0, 0.0], 0, run));
+            }
+        }
+        piece(self, to_stock);
+    }
+
+    /// A piece whose path is known: a cut changes the stock, a rapid is compared with it.
+    fn makes(&mut self, kind: Kind, piece: &Piece, (line, block): (u64, &[u8])) {
+        let field = self.fields.entry(self.work).or_insert_with(|| Field::new(self.stock));
+        if kind == Kind::Cut {
+            return field.cut(piece.shape, piece.from, piece.to);
+        }
+        let Some(hit) = field.hit(piece.shape, piece.from, piece.to) else { return };
+        if self.last == line {
+            return;
+        }
+        self.last = line;
+        self.checked.blocks += 1;
+        if self.checked.findings.len() == MOST_FINDINGS {
+            return;
+        }
+        let tool = self.tool.map_or("the tool".to_owned(), |tool| format!("T{tool}"));
+        let shown = |mm: f64| shown(mm, self.units);
+        let message = format!(
+            "{tool} goes through the stock at rapid: {} {} below its surface at X{} Y{}",
+            shown(hit.depth),
+            self.units.name(),
+            shown(hit.at[0]),
+            shown(hit.at[1]),
+        );
+        self.checked.findings.push(Finding {
+            code: Code::PM003,
+            message,
+            help: "retract the tool above the stock, or move around it; or correct the size of the stock",
+            place: None,
+            line,
+            block: String::from_utf8_lossy(block).trim().to_owned(),
+            form: None,
+            times: 1,
+        });
+    }
+
+    /// The shape of the tool in the spindle.
+    fn shape(&mut self, line: u64) -> Option<Shape> {
+        let Some(number) = self.tool else {
+            self.missing(Missing::Tool, line);
+            return None;
+        };
+        let tool = self.tools.iter().find(|tool| tool.number == number);
+        let Some(diameter) = tool.and_then(|tool| tool.diameter).filter(|diameter| *diameter > 0.0) else {
+            self.missing(Missing::Diameter(number), line);
+            return None;
+        };
+        let radius = diameter / 2.0;
+        let corner = tool.and_then(|tool| tool.corner_radius).unwrap_or(0.0).clamp(0.0, radius);
+        let shape = Shape { radius, corner };
+        if Field::is_too_thin(shape, cell_of(self.stock)) {
+            self.missing(Missing::Thin(number), line);
+        }
+        Some(shape)
+    }
+
+    /// A move is left out.
+    fn not_checked(&mut self, what: Missing, line: u64) {
+        self.missing(what, line);
+        self.breaks();
+    }
+
+    fn missing(&mut self, what: Missing, line: u64) {
+        self.missing.entry(what).or_insert((line, 0)).1 += 1;
+    }
+
+    /// The next move does not continue the path: the piece that waits for it is cut.
+    fn breaks(&mut self) {
+        if let Some(piece) = self.centre.ends(None) {
+            self.makes(Kind::Cut, &piece, (0, b""));
+        }
+    }
+
+    fn finish(mut self) -> StockCheck {
+        for (what, (line, moves)) in std::mem::take(&mut self.missing) {
+            let some = if moves == 1 { "1 move".to_owned() } else { format!("{moves} moves") };
+            self.checked.not_checked.push(match what {
+                Missing::Diameter(tool) => {
+                    format!("{some} of T{tool} in the stock, from line {line} on: the job does not give its diameter")
+                }
+                Missing::Thin(tool) => {
+                    let cell = shown(cell_of(self.stock), self.units);
+                    format!("rapids of T{tool}: its radius is not greater than a cell of the stock ({cell} {})", self.units.name())
+                }
+                Missing::Tool => {
+                    format!("{some} in the stock, from line {line} on: the program does not name the tool in the spindle")
+                }
+                Missing::Position => {
+                    format!("{some} at the height of the stock, from line {line} on: a position is known only at the machine")
+                }
+                Missing::Rotary => {
+                    format!("{some} from line {line} on: a rotary axis is not at 0, and the stock is checked only in three axes")
+                }
+                Missing::After(line, why) => format!("everything from line {line} on: {why}"),
+            });
+        }
+        self.checked
+    }
+}
+
+/// A position in its work offset in millimetres; NaN where only the machine has it.
+fn in_stock(at: &Position, machine: u8, run: &Simulator<'_>) -> [f64; 3] {
+    let scale = run.state().units().in_mm();
+    let place = run.state().in_work_offset(at);
+    std::array::from_fn(|axis| if machine & 1 << axis == 0 { place[axis] * scale } else { f64::NAN })
+}
+
+/// A length for messages.
+fn shown(mm: f64, units: Units) -> String {
+    let digits = if units == Units::Inch { 1e4 } else { 1e3 };
+    format!("{}", (mm / units.in_mm() * digits).round() / digits + 0.0)
+}

@@ -1,0 +1,294 @@
+//! Rapids through the stock, `verify --stock`: examples, and random programs beside a judge that moves the tool in small steps.
+
+use std::fmt::Write as _;
+use std::io::Cursor;
+
+use crate::support::control;
+use crate::support::folder::Folder;
+use postform::internals::nc::{RunSettings, Unpointed};
+use postform::internals::preflight::{JobTool, Stock, StockCheck, check_stock};
+use postform::toolpath::Units;
+use proptest::prelude::*;
+
+const HEAD: &str = "G21 G90 G94 G17 G40\nT1 M6\nG54 G0 X-20 Y0 S1000 M3\nG43 H1 Z50\n";
+
+fn tools() -> Vec<JobTool> {
+    let tool = |number, diameter, corner_radius| JobTool { number, diameter, corner_radius };
+    vec![
+        tool(1, Some(10.0), None),
+        tool(2, Some(6.0), Some(3.0)),
+        tool(3, None, None),
+        tool(4, Some(0.4), None),
+        tool(5, Some(10.0), Some(2.0)),
+    ]
+}
+
+fn checked(program: &str, stock: &str) -> StockCheck {
+    let settings = RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control("haas")) };
+    let block: Stock = stock.parse().unwrap();
+    check_stock(Cursor::new(program), settings, &block, &tools(), Units::Mm).unwrap()
+}
+
+/// The findings of a program after the head, as `LINE MESSAGE`, then everything that is not checked. Line 5 is its first.
+fn found(program: &str, stock: &str) -> Vec<String> {
+    let checked = checked(&format!("{HEAD}{program}\nM30\n"), stock);
+    let found = checked.findings.iter().map(|found| format!("{} {}", found.line, found.message));
+    found.chain(checked.not_checked).collect()
+}
+
+const STOCK: &str = "X0..100 Y0..60 Z-20..0";
+
+#[test]
+fn a_rapid_is_a_finding_where_nothing_was_cut() {
+    let at_depth = found("G0 Z-5\nX120", STOCK);
+    assert_eq!(at_depth, ["6 T1 goes through the stock at rapid: 5 mm below its surface at X0.125 Y0.125"]);
+    // over the top, beside the block and under it
+    let nothing: [&str; 0] = [];
+    assert_eq!(found("G0 Z0.1\nX120", STOCK), nothing);
+    assert_eq!(found("G0 Y-10 Z-5\nX120", STOCK), nothing);
+    assert_eq!(found("G0 Z-15 X-20\nY30 Z-5\nG1 X120 F500\nG0 X-20", STOCK), nothing);
+    // through the slot, and beside it
+    assert_eq!(
+        found("G0 Y30 Z-5\nG1 X120 F500\nG0 Y31\nX-20", STOCK),
+        ["8 T1 goes through the stock at rapid: 5 mm below its surface at X0.125 Y35.125"]
+    );
+    // deeper than the slot
+    let deeper = found("G0 Y30 Z-5\nG1 X120 F500\nG0 Z-6\nX-20", STOCK);
+    assert_eq!(deeper, ["8 T1 goes through the stock at rapid: 1 mm below its surface at X0.125 Y25.375"]);
+    // down on the block, from a height that is unknown
+    let down = found("G28 G91 Z0\nG90 G0 X50 Y30\nZ-2", STOCK);
+    assert_eq!(down.len(), 1, "{down:?}");
+    assert!(down[0].starts_with("7 T1 goes through the stock at rapid: 2 mm"), "{down:?}");
+}
+
+#[test]
+fn cycles_and_arcs_cut() {
+    let nothing: [&str; 0] = [];
+    assert_eq!(found("G0 X50 Y30 Z5\nG81 Z-20 R2 F100\nG80\nG0 Z-19\nZ5", STOCK), nothing);
+    let ring = "G0 X-20 Y30\nZ-5\nG1 X30 F500\nG2 X30 Y30 I20 J0\nG0 X-20\n";
+    assert_eq!(found(ring, STOCK), nothing);
+    let across = found(&format!("{ring}G1 X30\nG0 X70"), STOCK);
+    assert_eq!(across.len(), 1, "{across:?}");
+}
+
+#[test]
+fn a_compensated_cut_removes_material_beside_its_path() {
+    // the tool is to the left of Y30: it cuts from Y30 to Y40
+    let slot = "G0 X-20 Y30 Z-5\nG1 G41 D1 X-10 F500\nX120\nG40 X130\n";
+    let nothing: [&str; 0] = [];
+    assert_eq!(found(&format!("{slot}G0 Y35\nX-20"), STOCK), nothing);
+    assert_eq!(found(&format!("{slot}G0 Y30\nX-20"), STOCK).len(), 1);
+    assert!(checked(&format!("{HEAD}{slot}M30\n"), STOCK).compensates);
+    // around an inner corner and an outer corner, and back on the path of the centre
+    let corner = "G0 X-20 Y30 Z-5\nG1 G41 D1 X-10 F500\nX50\nY70\nG40 Y80\n";
+    assert_eq!(found(&format!("{corner}G0 X45\nY35\nX-20"), STOCK), nothing);
+    let outer = "G0 X-20 Y30 Z-5\nG1 G42 D1 X-10 F500\nX50\nY70\nG40 Y80\n";
+    assert_eq!(found(&format!("{outer}G0 X55\nY25\nX-20"), STOCK), nothing);
+}
+
+#[test]
+fn each_work_offset_has_its_own_stock_and_shifts_move_in_it() {
+    let slot = "G0 X-20 Y30\nZ-5\nG1 X120 F500\nG0 X-20\nZ50\n";
+    let nothing: [&str; 0] = [];
+    assert_eq!(found(&format!("{slot}G55\n{slot}"), STOCK), nothing);
+    // G55 has not been cut
+    let other = found(&format!("{slot}G55\nG0 X-20 Y30\nZ-5\nX120"), STOCK);
+    assert_eq!(other.len(), 1, "{other:?}");
+    // a shift moves the slot
+    let shifted = "G52 Y10\nG0 X-20 Y20\nZ-5\nX120\n";
+    assert_eq!(found(&format!("{slot}{shifted}"), STOCK), nothing);
+    assert_eq!(found(&format!("{slot}G52 Y0\n{}", &shifted[8..]), STOCK).len(), 1);
+}
+
+#[test]
+fn what_is_not_checked_is_named() {
+    let only = |program: &str, stock: &str| match found(program, stock).as_slice() {
+        [one] => one.clone(),
+        other => panic!("{other:?}"),
+    };
+    let no_diameter = only("G0 Z-5 T3 M6\nG1 X120 F500", "X0..100 Y0..60 Z0");
+    assert!(
+        no_diameter.contains("T3 in the stock") && no_diameter.contains("does not give its diameter"),
+        "{no_diameter}"
+    );
+    let thin = only("T4 M6\nG0 X-20 Y0 Z-5\nX120", STOCK);
+    assert!(thin.starts_with("rapids of T4: its radius is not greater than a cell"), "{thin}");
+    let machine = only("G0 Z-5\nG28 G91 Y0", STOCK);
+    assert!(machine.contains("known only at the machine"), "{machine}");
+    let rotary = only("G0 A90\nZ-5\nX120", STOCK);
+    assert!(rotary.contains("a rotary axis is not at 0"), "{rotary}");
+    let refused = only("G0 X50 Y30\nG2 X1", STOCK);
+    assert!(refused.starts_with("everything from line 6 on"), "{refused}");
+    let settings = RunSettings::new(control("haas-lathe"));
+    let lathe = check_stock(Cursor::new("G0 X1\n"), settings, &STOCK.parse().unwrap(), &tools(), Units::Mm).unwrap();
+    assert_eq!(lathe.not_checked.len(), 1);
+    assert!(!lathe.is_clean());
+}
+
+#[test]
+fn a_wrong_block_gets_its_reason() {
+    for (text, reason) in [
+        ("", "X and Y and Z is missing"),
+        ("X0..1 Y0..1", "Z is missing"),
+        ("X0..1 Y0..1 Z1..0", "`Z1..0` is not below"),
+        ("X0..1 Y0..1 Z0 Z1", "Z is given twice"),
+        ("X0 Y0..1 Z0", "`X0` is not a range"),
+        ("X0..NaN Y0..1 Z0", "`X0..NaN` is not a range"),
+        ("X0..1e9 Y0..1 Z0", "is not a range"),
+        ("A0..1", "`A0..1` does not begin with X, Y or Z"),
+        ("é0..1", "does not begin"),
+    ] {
+        let why = text.parse::<Stock>().unwrap_err();
+        let reason = reason.replace("`Z1..0` is not below", "the lowest position in `Z1..0` is not below");
+        assert!(why.contains(reason.trim_start_matches("X and Y and Z ")), "{text}: {why}");
+        assert!(why.contains("X0..100 Y0..60 Z-20..0"), "{text}: {why}");
+    }
+}
+
+/// The command: findings with their lines, the sentence, the exit status, JSON, and a stream as the job.
+#[test]
+fn the_command_says_where() {
+    let folder = Folder::new("stock");
+    let job = r#"{"postform":1,"program":7,"name":"PART","units":"mm","machine":"mill","tools":[{"number":1,"diameter":10}],"operations":[{"name":"a","tool":1,"work":1,"spindle":{"speed":1000,"direction":"cw"},"coolant":"off","feed":100,"path":[{"rapid":[-10,30,5]},{"rapid":[-10,30,-5]},{"rapid":[110,30,-5]},{"line":[110,40,-5]},{"rapid":[110,40,5]}]}]}"#;
+    folder.write("job.json", job);
+    let form = concat!(env!("CARGO_MANIFEST_DIR"), "/../../postforms/haas.pf");
+    let verify = |stock: &str, more: &[&str]| {
+        folder.run(&[&["verify", "job.json", "--form", form, "--stock", stock], more].concat())
+    };
+    let crash = verify("X0..100 Y0..60 Z-20..0", &[]);
+    assert_eq!(crash.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&crash.stderr).into_owned();
+    assert!(said.contains("PM003 at job.json:1:") && said.contains("goes through the stock at rapid: 5 mm"), "{said}");
+    let sentence = String::from_utf8_lossy(&crash.stdout).into_owned();
+    assert!(sentence.ends_with("the program makes rapids through the stock: 1 block\n"), "{sentence}");
+    let clean = verify("X0..100 Y0..20 Z-20..0", &[]);
+    assert_eq!(clean.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&clean.stdout).ends_with("the program makes no rapid through the stock\n"));
+    let json = verify("X0..100 Y0..60 Z-20..0", &["--format", "json"]);
+    let document: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(document["stock"]["blocks"], 1);
+    assert_eq!(document["stock"]["findings"][0]["code"], "PM003");
+    assert_eq!(json.status.code(), Some(1));
+    // with an existing program, and no form: tools and units come from the job
+    let printed = folder.run(&["render", "job.json", "--form", form, "-o", "part.nc"]);
+    assert!(printed.status.success());
+    let existing =
+        folder.run(&["verify", "job.json", "--nc", "part.nc", "--control", "haas", "--stock", "X0..100 Y0..60 Z0"]);
+    assert_eq!(existing.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&existing.stdout).contains("part.nc makes rapids through the stock: 1 block"));
+}
+
+/// A random program on a small stock: words, and for the judge its moves.
+#[derive(Clone, Debug)]
+struct Cut {
+    rapid: bool,
+    tool: usize,
+    to: [f64; 3],
+}
+
+fn cuts() -> impl Strategy<Value = Vec<Cut>> {
+    let to = (-6..26i32, -6..26i32, prop_oneof![2 => -6..3i32, 1 => Just(1)]);
+    let cut = (prop::bool::weighted(0.4), prop_oneof![4 => Just(9usize), 1 => 0..3usize], to);
+    prop::collection::vec(cut, 1..12).prop_map(|moves| {
+        let mut tool = 0;
+        let mut at = [0.0; 3];
+        let moves = moves.into_iter().map(|(rapid, change, (x, y, z))| {
+            tool = if change < 3 { change } else { tool };
+            let mut to = [f64::from(x), f64::from(y), f64::from(z)];
+            // many real moves are along one axis
+            match x.rem_euclid(4) {
+                0 => to = [at[0], at[1], to[2]],
+                1 => to[2] = at[2],
+                _ => {}
+            }
+            at = to;
+            Cut { rapid, tool, to }
+        });
+        moves.collect()
+    })
+}
+
+/// The judge: the tool is moved in steps of a fiftieth of a millimetre, and every cell is asked. Returns, for each move, the
+/// depth of a rapid in the stock.
+fn judged(moves: &[Cut], side: f64, cell: f64) -> Vec<f64> {
+    let shapes = [(5.0, 0.0), (3.0, 3.0), (5.0, 2.0)];
+    let count = (side / cell).round() as usize;
+    let mut heights = vec![0.0f64; count * count];
+    let (mut from, mut tool) = ([-6.0, -6.0, 3.0], 0);
+    moves
+        .iter()
+        .map(|cut| {
+            // a new tool comes down at the same point
+            if std::mem::replace(&mut tool, cut.tool) != cut.tool {
+                from[2] = 3.0;
+            }
+            let (radius, corner): (f64, f64) = shapes[cut.tool];
+            let way: [f64; 3] = std::array::from_fn(|axis| cut.to[axis] - from[axis]);
+            let steps = (way.iter().map(|part| part * part).sum::<f64>().sqrt() / 0.02).ceil().max(1.0);
+            let radius_here = if cut.rapid { radius - cell } else { radius };
+            let corner = corner.min(radius_here);
+            let mut deepest = 0.0f64;
+            for step in 0..=steps as usize {
+                let at: [f64; 3] = std::array::from_fn(|axis| from[axis] + way[axis] * step as f64 / steps);
+                let cells = |axis: usize| {
+                    let low = ((at[axis] - radius_here) / cell).max(0.0) as usize;
+                    low..(((at[axis] + radius_here) / cell).max(0.0).ceil() as usize).min(count)
+                };
+                for row in cells(1) {
+                    let y = (row as f64 + 0.5) * cell - at[1];
+                    for column in cells(0) {
+                        let away = ((column as f64 + 0.5) * cell - at[0]).hypot(y);
+                        if away > radius_here {
+                            continue;
+                        }
+                        let beyond = (away - (radius_here - corner)).max(0.0);
+                        let surface = at[2] + corner - (corner * corner - beyond * beyond).max(0.0).sqrt();
+                        let height = &mut heights[row * count + column];
+                        if !cut.rapid {
+                            *height = height.min(surface);
+                        } else if *height > -4.0 {
+                            deepest = deepest.max(*height - surface.max(-4.0));
+                        }
+                    }
+                }
+            }
+            from = cut.to;
+            deepest
+        })
+        .collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if cfg!(debug_assertions) { 16 } else { 1000 }))]
+
+    /// The findings are those of a judge that moves the tool in small steps. A depth near the tolerance may be either.
+    #[test]
+    fn random_rapids_are_judged_alike(moves in cuts()) {
+        let numbers = [1, 2, 5];
+        let mut program = String::from("G21 G90 G94 G17 G54\nT1 M6\nG0 X-6 Y-6\nG43 H1 Z3\nF500\n");
+        let (mut lines, mut line, mut tool, mut at) = (Vec::new(), 6, 0, [-6.0, -6.0, 3.0]);
+        for cut in &moves {
+            if cut.tool != tool {
+                tool = cut.tool;
+                let [x, y, _] = at;
+                writeln!(program, "T{} M6\nG0 X{x} Y{y}\nG43 H1 Z3", numbers[tool]).unwrap();
+                line += 3;
+            }
+            at = cut.to;
+            let [x, y, z] = at;
+            writeln!(program, "G{} X{x} Y{y} Z{z}", u8::from(!cut.rapid)).unwrap();
+            lines.push(line);
+            line += 1;
+        }
+        program += "M30\n";
+        let checked = checked(&program, "X0..20 Y0..20 Z-4..0");
+        prop_assert_eq!(&checked.not_checked, &Vec::<String>::new());
+        for ((depth, line), cut) in judged(&moves, 20.0, 0.25).into_iter().zip(lines).zip(&moves) {
+            let found = checked.findings.iter().any(|finding| finding.line == line);
+            prop_assert!(cut.rapid || !found, "{program}: a cut in line {line}");
+            if !(0.15..0.25).contains(&depth) {
+                prop_assert_eq!(found, depth > 0.2, "{}: {} in line {}", program, depth, line);
+            }
+        }
+    }
+}

@@ -14,6 +14,7 @@ import { tags } from "@lezer/highlight";
 import { element } from "./element.ts";
 import { help } from "./help.ts";
 import type { At, Help } from "./host.ts";
+import { indentation } from "./indent.ts";
 import { base } from "./names.ts";
 import type { Finding, Place } from "./scene.ts";
 
@@ -131,7 +132,7 @@ export class Editor {
       extensions: [
         lineNumbers(), highlightActiveLineGutter(), history(), drawSelection(), bracketMatching(), highlightActiveLine(),
         help((at) => this.onHelp({ ...at, file: this.name })),
-        highlightSelectionMatches(), lintGutter(), litLines, language, syntaxHighlighting(look),
+        highlightSelectionMatches(), lintGutter(), litLines, language, indentation, syntaxHighlighting(look),
         EditorState.readOnly.of(!this.isEditable),
         EditorView.contentAttributes.of({ "aria-label": "Form", spellcheck: "false", tabindex: "0" }),
         keymap.of([

@@ -6,8 +6,8 @@ export class Find {
   readonly root = element("div", { class: "find", role: "search", hidden: "" });
   private readonly field = element("input", { type: "text", "aria-label": "Find in the program", placeholder: "find, as G83 or X1.5", spellcheck: "false" });
   private readonly told = element("span", { "aria-live": "polite" });
-  /** Goes to the next line with a text; false: there is none. */
-  onFind: (text: string, by: 1 | -1) => boolean = () => false;
+  /** Goes to the next line with a text, or to the one before; 0: stays if the line has it. Returns whether a line has it. */
+  onFind: (text: string, by: 1 | -1 | 0) => boolean = () => false;
   onClose: () => void = () => {};
 
   constructor() {
@@ -25,7 +25,8 @@ export class Find {
       else return;
       event.preventDefault();
     };
-    this.field.oninput = () => (this.told.textContent = "");
+    // a longer text is found from where the shorter one was
+    this.field.oninput = () => this.go(0);
   }
 
   open(): void {
@@ -39,7 +40,7 @@ export class Find {
     this.onClose();
   }
 
-  private go(by: 1 | -1): void {
+  private go(by: 1 | -1 | 0): void {
     const found = this.field.value === "" || this.onFind(this.field.value, by);
     this.told.textContent = found ? "" : "not in the program";
   }

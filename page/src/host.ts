@@ -9,6 +9,8 @@ export interface Ask {
   texts: Record<string, string>;
   /** The program that is shown already: it need not be sent again. */
   shown?: string | null;
+  /** The hashes of the sections that the page has. */
+  has?: Record<string, string>;
   /** Properties of the form and their values. */
   properties?: [string, string][];
 }

@@ -43,7 +43,7 @@ export class Listing {
     this.root = element("section", { class: "program", "aria-label": "Program" },
       element("h2", {}, "Program", this.head, this.tools()), this.find.root, this.view, this.note);
     this.find.onFind = (text, by) => {
-      const line = this.program?.find(text, this.line, by) ?? 0;
+      const line = (by ? this.program?.find(text, this.line, by) : this.program?.find(text, this.line - 1, 1)) ?? 0;
       if (line) this.onFound(line);
       return line > 0;
     };

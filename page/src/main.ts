@@ -53,8 +53,8 @@ export class Page {
   private readonly banner = element("div", { class: "banner", role: "alert", hidden: "" });
 
   private head: Head | null = null;
-  /** The head of the scene that brought the shown program. */
-  private shown: Head | null = null;
+  /** The scene that brought the shown program. */
+  private shown: Scene | null = null;
   program: Program | null = null;
   private old: Program | null = null;
   private line = 1;
@@ -205,8 +205,9 @@ export class Page {
     this.running = true;
     try {
       let shown: Head | null = null;
-      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: (this.form?.properties.set ?? []), shown: this.program && this.shown?.program })) {
-        const scene = new Scene(bytes);
+      const before = this.shown;
+      for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: (this.form?.properties.set ?? []), shown: this.program && this.shown?.head.program, has: before?.head.hashes })) {
+        const scene = new Scene(bytes, before);
         // a verdict of what was there before the last key is none of what is there now
         if (!this.again) this.unchecked = null;
         if (!shown) this.show(scene);
@@ -301,8 +302,10 @@ export class Page {
     const first = !this.program;
     this.takeTexts(head);
     // the same program is not sent again
-    if (head.same) Object.assign(head, { picture: this.shown?.picture, "old/picture": this.shown?.["old/picture"], toolSizes: this.shown?.toolSizes });
-    else if (head.picture) this.shown = head;
+    if (head.same) {
+      const { picture, "old/picture": old, toolSizes } = this.shown?.head ?? {};
+      Object.assign(head, { picture, "old/picture": old, toolSizes });
+    } else if (head.picture) this.shown = scene;
     document.body.classList.toggle("stale", !!head.stopped);
     if (head.same) {
       // as it was
@@ -369,7 +372,7 @@ export class Page {
     const changed = this.header.show(head, this.job);
     this.listing.fileName = `${jobName(head.job.name) || "program"}.nc`;
     if (!head.form) return changed;
-    this.form?.properties.show(head.form.properties, head.picture?.units ?? this.shown?.picture?.units ?? "");
+    this.form?.properties.show(head.form.properties, head.picture?.units ?? this.shown?.head.picture?.units ?? "");
     this.form?.kit.show(head.form.kit);
     return changed;
   }
@@ -625,6 +628,7 @@ export class Page {
 
   private async saveTyped(): Promise<void> {
     if (!this.host?.save) return;
+    const names = Object.keys(this.typed).map(base);
     for (const [name, text] of Object.entries(this.typed)) {
       if (this.conflicts.has(name)) return this.sayConflict(name);
       const wrong = await this.host.save(name, text, this.saved[name] ?? "");
@@ -635,6 +639,7 @@ export class Page {
     this.header.saving.hidden = true;
     this.say("");
     await this.load();
+    this.foot.textContent = `${names.join(", ")} ${names.length > 1 ? "are" : "is"} saved`;
     void this.otherVerdicts();
   }
 }

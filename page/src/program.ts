@@ -44,9 +44,6 @@ export class Program {
     this.lineForm = of ? new Int32Array() : scene.array("lineForm", Int32Array);
     this.lineItem = of ? new Uint32Array() : scene.array("lineItem", Uint32Array);
     if (before?.path && scene.hasProgramOf(before.scene, of)) {
-      // the origins are copied, so that the new scene can be freed
-      [this.lineForm, this.lineItem] = [this.lineForm.slice(), this.lineItem.slice()];
-      this.scene = before.scene;
       this.path = before.path;
       [this.bytes, this.starts, this.changes] = [before.bytes, before.starts, before.changes];
       [this.moveFrom, this.moveTo, this.stands] = [before.moveFrom, before.moveTo, before.stands];

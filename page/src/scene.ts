@@ -113,6 +113,9 @@ export interface Head {
   against?: Hunks;
   saved?: Hunks;
   sections: Record<string, [number, number]>;
+  /** The hashes of all sections, and the names of those that were not sent, because the page has them. */
+  hashes?: Record<string, string>;
+  kept?: string[];
 }
 
 /** A program's path. */
@@ -233,31 +236,45 @@ export function lengthOf(bytes: Uint8Array): number | null {
 /** A complete scene. */
 export class Scene {
   readonly head: Head;
-  private readonly start: number;
+  /** The sections. Each has a buffer of its own, so that later scenes can share it and the rest is freed. */
+  private readonly found = new Map<string, Uint8Array>();
 
-  constructor(private readonly buffer: ArrayBuffer) {
+  /** `before`: the scene whose sections are not sent again. */
+  constructor(buffer: ArrayBuffer, before: Scene | null = null) {
     if (lengthOf(new Uint8Array(buffer)) !== buffer.byteLength) throw new Error("the scene is cut off");
     const length = new DataView(buffer).getUint32(4, true);
-    this.start = PREFIX + length;
     this.head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, PREFIX, length)));
+    const start = PREFIX + length;
+    for (const [name, [offset, length]] of Object.entries(this.head.sections)) this.found.set(name, new Uint8Array(buffer.slice(start + offset, start + offset + length)));
+    for (const name of this.head.kept ?? []) {
+      const bytes = before?.found.get(name);
+      if (!bytes) throw new Error(`the scene lacks ${name}`);
+      this.found.set(name, bytes);
+    }
   }
 
   has(name: string): boolean {
-    return name in this.head.sections;
+    return this.found.has(name);
   }
 
   array<T>(name: string, of: Numbers<T>): T {
-    const [offset, length] = this.head.sections[name] ?? [0, 0];
-    return new of(this.buffer, this.start + offset, length / of.BYTES_PER_ELEMENT);
+    const { buffer, byteOffset, byteLength } = this.found.get(name) ?? new Uint8Array();
+    return new of(buffer as ArrayBuffer, byteOffset, byteLength / of.BYTES_PER_ELEMENT);
   }
 
   bytes(name: string): Uint8Array {
     return this.array(name, Uint8Array);
   }
 
-  /** Do two scenes have the same program with the same motions? The origins of its lines are not compared. */
+  /** Do two scenes have the same program with the same motions? The origins of its lines are not compared. Equal sections then share their bytes. */
   hasProgramOf(other: Scene, of: string): boolean {
-    return PROGRAM.every((name) => equal(this.bytes(of + name), other.bytes(of + name)));
+    return PROGRAM.every((name) => {
+      const [own, known] = [this, other].map((scene) => scene.found.get(of + name));
+      if (!own || !known) return own === known;
+      if (!equal(own, known)) return false;
+      this.found.set(of + name, known);
+      return true;
+    });
   }
 }
 
@@ -267,6 +284,7 @@ const PROGRAM = [
 
 function equal(a: Uint8Array, b: Uint8Array): boolean {
   if (a.length !== b.length) return false;
+  if (a.buffer === b.buffer && a.byteOffset === b.byteOffset) return true;
   // sections begin at multiples of eight bytes of their buffers
   const words = a.length >> 2;
   const [p, q] = [a, b].map((bytes) => new Uint32Array(bytes.buffer, bytes.byteOffset, words));
@@ -280,8 +298,9 @@ export function formLine(packed: number): { file: number; line: number } | null 
   return packed < 0 ? null : { file: packed >> LINE_BITS, line: packed & ((1 << LINE_BITS) - 1) };
 }
 
-function alike(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
+function alike(a: Uint8Array | Uint32Array | Float32Array, b: typeof a): boolean {
   if (a.length !== b.length) return false;
+  if (a.buffer === b.buffer && a.byteOffset === b.byteOffset) return true;
   // an unknown position is not a number
   for (let i = 0; i < a.length; i++) if (a[i] !== b[i] && (a[i] === a[i] || b[i] === b[i])) return false;
   return true;

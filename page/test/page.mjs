@@ -32,6 +32,33 @@ test("three panes, and what was proven", async ({ open }) => {
   equal(await page.evaluate(() => window.page.program.all()), program, "byte for byte as render prints it");
 });
 
+test("lines between @if and @end are indented, and saving is confirmed", async ({ open }) => {
+  const { page, path } = await open();
+  await type(page, "1stToolChange\n", "");
+  await page.keyboard.type("@if [tool] > 3\nM1\n@else\nM0\n@end\n");
+  await ready(page);
+  const text = await page.evaluate(() => window.page.editor.text);
+  ok(text.includes("1stToolChange\n@if [tool] > 3\n  M1\n@else\n  M0\n@end\n"), text.slice(text.indexOf("1stToolChange"), text.indexOf("1stToolChange") + 80));
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => document.querySelector("footer").textContent.includes("my.pf is saved"));
+  ok(readFileSync(join(path, "my.pf"), "utf8").includes("  M1\n@else"), "and it is");
+});
+
+test("the program is searched while the word is typed", async ({ open }) => {
+  const { page } = await open();
+  await page.getByRole("region", { name: "Program", exact: true }).getByText("find").click();
+  const field = page.getByLabel("Find in the program");
+  const seen = [];
+  for (const letter of "G98 G83") {
+    await field.press(letter === " " ? "Space" : letter);
+    seen.push(await line(page));
+  }
+  ok((await chosen(page)).includes("G98 G83"), await chosen(page));
+  ok(seen.every((at, i) => i === 0 || at >= seen[i - 1]), `a longer word is found from the shorter one on: ${seen}`);
+  await field.press("x");
+  ok((await page.locator(".find").innerText()).includes("not in the program"), "what is not there");
+});
+
 test("a wrong word is underlined and said", async ({ open }) => {
   const { page, path } = await open();
   const before = readFileSync(join(path, "my.pf"), "utf8");

@@ -1,5 +1,6 @@
 //! A head in JSON, and sections of numbers.
 
+use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use serde_json::{Map, Value, json};
@@ -11,8 +12,23 @@ const MAGIC: &[u8; 4] = b"PFS2";
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     head: Map<String, Value>,
-    sections: Map<String, Value>,
-    body: Vec<u8>,
+    sections: Vec<Section>,
+}
+
+/// Numbers or text, by a name.
+#[derive(Clone, Debug)]
+struct Section {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl Section {
+    /// Equal bytes have the same hash, others differ.
+    fn hash(&self) -> String {
+        let mut hasher = DefaultHasher::new();
+        self.bytes.hash(&mut hasher);
+        format!("{:016x}", hasher.finish())
+    }
 }
 
 impl Scene {
@@ -31,58 +47,78 @@ impl Scene {
         self.head.get(name)
     }
 
-    /// Adds a section; each begins at a multiple of eight bytes.
+    /// Adds a section of numbers.
     pub(super) fn section<const N: usize>(&mut self, name: String, values: impl IntoIterator<Item = [u8; N]>) {
-        self.body.resize(self.body.len().next_multiple_of(8), 0);
-        let start = self.body.len();
         let values = values.into_iter();
-        self.body.reserve(values.size_hint().0 * N);
-        values.for_each(|value| self.body.extend_from_slice(&value));
-        self.sections.insert(name, json!([start, self.body.len() - start]));
+        let mut bytes = Vec::with_capacity(values.size_hint().0 * N);
+        values.for_each(|value| bytes.extend_from_slice(&value));
+        self.bytes(name, bytes);
     }
 
     /// Adds a section of bytes.
-    pub(super) fn bytes(&mut self, name: String, bytes: &[u8]) {
-        self.body.resize(self.body.len().next_multiple_of(8), 0);
-        self.sections.insert(name, json!([self.body.len(), bytes.len()]));
-        self.body.extend_from_slice(bytes);
+    pub(super) fn bytes(&mut self, name: String, bytes: Vec<u8>) {
+        self.sections.push(Section { name, bytes });
     }
 
     /// Adds what another scene contains.
     pub fn absorb(&mut self, other: Scene) {
         self.head.extend(other.head);
-        for (name, place) in other.sections {
-            let at = |i: usize| place[i].as_u64().unwrap_or(0) as usize;
-            self.bytes(name, &other.body[at(0)..at(0) + at(1)]);
-        }
+        self.sections.extend(other.sections);
     }
 
     /// A hash of the sections and the other inputs: equal inputs have the same one, others differ.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
         let mut hasher = DefaultHasher::new();
-        (&self.body, run, old).hash(&mut hasher);
+        self.sections.iter().for_each(|section| section.bytes.hash(&mut hasher));
+        (run, old).hash(&mut hasher);
         format!("{:016x}", hasher.finish())
     }
 
     /// Removes the sections, for a client that already has them.
     pub fn without_sections(&mut self) {
         self.sections.clear();
-        self.body.clear();
+    }
+
+    /// Removes each section that the client has: `known` contains their hashes by name, as the head of an earlier scene named
+    /// them. The head then lists the removed ones as `kept`.
+    pub fn without_known(&mut self, known: &HashMap<String, String>) {
+        let mut hashes = Map::new();
+        let mut kept = Vec::new();
+        self.sections.retain(|section| {
+            let hash = section.hash();
+            let is_known = known.get(&section.name) == Some(&hash);
+            if is_known {
+                kept.push(json!(section.name));
+            }
+            hashes.insert(section.name.clone(), hash.into());
+            !is_known
+        });
+        self.say("hashes", Value::Object(hashes));
+        self.say("kept", Value::Array(kept));
     }
 
     /// The whole scene: `PFS2`, the lengths of the head and of the sections, the head, spaces up to a multiple of eight, the
-    /// sections. Numbers are little-endian. Offsets of sections are relative to the first section. Several scenes may follow
-    /// each other.
+    /// sections. Numbers are little-endian. Offsets of sections are relative to the first section; each is a multiple of eight.
+    /// Several scenes may follow each other.
     pub fn into_bytes(mut self) -> Vec<u8> {
-        self.head.insert("sections".to_owned(), Value::Object(self.sections));
+        let mut places = Map::new();
+        let mut length = 0;
+        for Section { name, bytes } in &self.sections {
+            places.insert(name.clone(), json!([length, bytes.len()]));
+            length += bytes.len().next_multiple_of(8);
+        }
+        self.head.insert("sections".to_owned(), Value::Object(places));
         let mut head = Value::Object(self.head).to_string().into_bytes();
         head.resize(head.len().next_multiple_of(8), b' ');
-        let mut out = Vec::with_capacity(16 + head.len() + self.body.len());
+        let mut out = Vec::with_capacity(16 + head.len() + length);
         out.extend_from_slice(MAGIC);
         out.extend_from_slice(&(head.len() as u32).to_le_bytes());
-        out.extend_from_slice(&(self.body.len() as u64).to_le_bytes());
+        out.extend_from_slice(&(length as u64).to_le_bytes());
         out.append(&mut head);
-        out.append(&mut self.body);
+        for Section { bytes, .. } in self.sections {
+            out.extend_from_slice(&bytes);
+            out.resize(out.len().next_multiple_of(8), 0);
+        }
         out
     }
 }

@@ -16,7 +16,7 @@ const LINE_BITS: u32 = 20;
 
 /// The program's text.
 pub fn text(scene: &mut Scene, of: &str, text: &[u8]) {
-    scene.bytes(format!("{of}text"), String::from_utf8_lossy(text).as_bytes());
+    scene.bytes(format!("{of}text"), String::from_utf8_lossy(text).into_owned().into_bytes());
 }
 
 /// For each line its form line and its job item: operation, item, point, line of the job. A subprogram is an operation with the

@@ -45,7 +45,7 @@ export function colours(): Colours {
     ink: read("--ink"),
     dim: read("--dim"),
     part: read("--part"),
-    grid: read("--line"),
+    grid: read("--grid"),
     stock: read("--stock"),
     axes: ["--x", "--y", "--z"].map(read),
     ramp: Array.from({ length: RAMP }, (_, i) => read(`--r${i}`)),

@@ -42,6 +42,9 @@ pub struct Ask {
     /// The identifier of the program that the page shows, from its scene.
     #[serde(default)]
     shown: Option<String>,
+    /// The hashes of the sections that the page has, from the heads of their scenes.
+    #[serde(default)]
+    has: HashMap<String, String>,
     /// Values of the form's properties, by their names.
     #[serde(default)]
     properties: Vec<(String, String)>,
@@ -278,9 +281,11 @@ impl Session {
             }
             if is_small {
                 behind_it.into_iter().for_each(|more| scene.absorb(more));
+                scene.without_known(&ask.has);
                 send(scene);
             } else {
                 behind_it.try_iter().for_each(|more| scene.absorb(more));
+                scene.without_known(&ask.has);
                 send(scene);
                 behind_it.into_iter().for_each(send);
             }

@@ -195,6 +195,13 @@ export class Path {
     );
   }
 
+  /** Whether both paths make the same picture, in the same place. */
+  looksLike(other: Path): boolean {
+    if (this === other) return true;
+    const of = ({ units, letters, tools, middle, extents, view }: PictureHead) => JSON.stringify([units, letters, tools, middle, extents, view]);
+    return of(this.head) === of(other.head) && this.drawsLike(other) && alike(this.holes, other.holes) && alike(this.holeTool, other.holeTool);
+  }
+
   get pieces(): number {
     return this.points.length / 3 - 1;
   }

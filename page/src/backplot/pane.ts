@@ -50,6 +50,8 @@ export class Backplot {
   private line = 0;
   private lit: number[] = [];
   private bad: number[] = [];
+  /** The moves that are drawn emphasised, and the point at which the tool is. */
+  private emphasis = "";
   private plate: Plate | null = null;
   private meaning: Meaning = "tool";
   private shades: Shades | null = null;
@@ -148,7 +150,7 @@ export class Backplot {
     const marked = String(differences) === String(this.bad);
     this.program = program;
     this.bad = differences;
-    if (path && path === before && (old?.path ?? null) === this.oldPath) return marked ? undefined : this.redraw();
+    if (path && before && (old?.path ?? null) === this.oldPath && path.looksLike(before)) return this.keep(path === before, marked);
     this.painter.forget([...this.levels, ...this.old]);
     this.old = old?.path ? levels(shifted(old.path, program)) : [];
     this.oldPath = old?.path ?? null;
@@ -181,6 +183,27 @@ export class Backplot {
       this.canvas.setAttribute("aria-label", "No path: there is no program");
       this.legend.replaceChildren();
     }
+    this.redraw();
+  }
+
+  /** Another program, or the same one, with the picture that is drawn: only colours that follow its words may change. */
+  private keep(isSame: boolean, marked: boolean): void {
+    if (!isSame) {
+      this.known = null;
+      if (this.stock) this.showStock();
+      if (this.meaning === "operation" || this.meaning === "feed") return this.colourBy(this.meaning);
+    }
+    if (!marked) this.redraw();
+    else this.emphasise();
+  }
+
+  /** Draws again if other moves are emphasised than before: those of the selected block, of the blocks of its form line, of differences. */
+  private emphasise(): void {
+    const { program } = this;
+    const moves = program ? [this.line, ...this.lit, ...this.bad].map((line) => program.moves(line)) : [];
+    const emphasis = `${moves.join(" ")} at ${program?.pointAfter(this.line)}`;
+    if (emphasis === this.emphasis) return;
+    this.emphasis = emphasis;
     this.redraw();
   }
 
@@ -271,11 +294,12 @@ export class Backplot {
   /** Selects a line; `lit` are other lines that belong to it. */
   choose(line: number, lit: number[]): void {
     [this.line, this.lit] = [line, lit];
-    this.redraw();
+    this.emphasise();
   }
 
   /** The timeline: the tool is at a position after a point of the path, and what comes then is faint. Null: all of it is drawn. */
   drawTo(cursor: { point: number; at: Vector } | null): void {
+    if (!cursor && !this.cursor) return;
     this.cursor = cursor;
     if (cursor) this.moves();
     this.redraw();

@@ -29,6 +29,15 @@ impl Report {
         self.facts.extend(remarks.facts);
         self.warnings.extend(remarks.warnings);
     }
+
+    /// Adds the warnings and facts of a job among joined jobs, which is counted from 1.
+    pub(crate) fn add_part(&mut self, other: Report, part: u16) {
+        self.facts.extend(other.facts);
+        self.warnings.extend(other.warnings.into_iter().map(|mut warning| {
+            warning.place.get_or_insert_default().part = part;
+            warning
+        }));
+    }
 }
 
 /// The report, and the current location in the file.

@@ -188,6 +188,7 @@ codes! {
     PJ011 Error "a part of the job without its beginning or its end"
     PJ012 Error "tools in another order than `tool_order`"
     PJ013 Error "too much before an operation's first move"
+    PJ014 Error "jobs that can't be joined"
     // PD: the FreeCAD document
     PD001 Error "a file that is not a FreeCAD document"
     PD002 Error "a document without the requested job"

@@ -14,6 +14,8 @@ pub struct Location {
     pub column: Option<u32>,
     /// Step of the job, as a path in the document: `operations[0].path[3].cycle.points[2]`.
     pub step: Option<String>,
+    /// The job among joined jobs, from 1; 0: the job is not joined.
+    pub part: u16,
     /// Line of the program that was printed from the job, from 1, if the finding is about it.
     pub program_line: Option<u64>,
 }

@@ -1,25 +1,27 @@
 //! Jobs: the work to be machined, in any format. A job turns bytes into events.
 
 mod format;
+mod join;
+mod read;
 mod select;
 
 pub use format::Format;
 pub use select::Selection;
 
+use join::Joining;
+use read::{Counted, cl_options, read_document_of_freecad, read_nc, read_once};
 use select::Selecting;
 use std::cell::Cell;
 use std::fmt;
-use std::io::{self, BufReader, Cursor, Read, Seek};
+use std::io::{BufReader, Cursor, Read, Seek};
 use std::rc::Rc;
 
-use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, Setup, read_cl};
+use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, Setup};
 use crate::control::Control;
 use crate::diag::Diag;
 use crate::error::Error;
-use crate::nc::{JobOptions, RunSettings, Unpointed, read_program};
-use crate::nci::{self, read_nci};
-use crate::remarks::Remarks;
-use crate::toolpath::json::{read_document, read_document_again, read_lines};
+use crate::nc::Unpointed;
+use crate::toolpath::json::read_document_again;
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
 /// Information that a CL file, NCI file or NC program may lack. JSON needs none of it.
@@ -66,6 +68,8 @@ enum Input<'a> {
     /// `None`: it has been read.
     Stream(Option<Box<dyn Read + 'a>>),
     Events(Box<Maker<'a>>),
+    /// Jobs that are read as one, and their names.
+    Joined(Vec<Job<'a>>, Rc<[String]>),
 }
 
 /// A job that can be read: its input and its format. It is not read until it is rendered or verified.
@@ -140,9 +144,16 @@ impl<'a> Job<'a> {
 
     /// Adds the job's name to the locations in this job.
     pub(crate) fn name_places(&self, diags: &mut [Diag]) {
-        let Some(name) = &self.name else { return };
         for place in diags.iter_mut().filter_map(|diag| diag.place.as_mut()) {
-            place.file.get_or_insert_with(|| name.to_string());
+            let name = match (&self.input, &self.name) {
+                (Input::Joined(parts, _), _) => {
+                    parts.get(usize::from(place.part).saturating_sub(1)).and_then(|part| part.name.as_deref())
+                }
+                (_, name) => name.as_deref(),
+            };
+            if let Some(name) = name {
+                place.file.get_or_insert_with(|| name.to_owned());
+            }
         }
     }
 
@@ -165,6 +176,19 @@ impl<'a> Job<'a> {
         Job::new(Format::Json, Input::Events(Box::new(make)))
     }
 
+    /// One job made of several: their operations follow each other. Program number, name and other data of the head are those of
+    /// the first job. Locations in errors have the names of the jobs ([`Job::named`]).
+    ///
+    /// Reading is an error (PJ014) if a job would have another meaning than alone: other units or tools, or a first operation
+    /// that does not give what the job before has left in force.
+    pub fn join(parts: Vec<Job<'a>>) -> Job<'a> {
+        let name =
+            |(at, part): (usize, &Job<'_>)| part.name.as_deref().map_or(format!("job {}", at + 1), str::to_owned);
+        let names = parts.iter().enumerate().map(name).collect();
+        let format = parts.first().map_or(Format::Json, |part| part.format);
+        Job::new(format, Input::Joined(parts, names))
+    }
+
     /// Borrows the job, so that it can be rendered first and verified afterwards.
     pub fn again(&mut self) -> Job<'_> {
         let input = match &mut self.input {
@@ -172,21 +196,30 @@ impl<'a> Job<'a> {
             Input::File(file) => Input::File(Box::new(file)),
             Input::Stream(input) => Input::Stream(input.take()),
             Input::Events(make) => Input::Events(Box::new(make)),
+            Input::Joined(parts, names) => Input::Joined(parts.iter_mut().map(Job::again).collect(), Rc::clone(names)),
         };
         Job { reading: self.reading.clone(), name: self.name.clone(), ..Job::new(self.format, input) }
     }
 
     /// Can the job be read only once?
     pub fn is_stream(&self) -> bool {
-        matches!(self.input, Input::Stream(_))
+        match &self.input {
+            Input::Stream(_) => true,
+            Input::Joined(parts, _) => parts.iter().any(Job::is_stream),
+            _ => false,
+        }
     }
 
     /// Reads a stream into memory, so that it can be read more than once.
     pub(crate) fn hold(&mut self) -> Result<(), Error> {
-        if let Input::Stream(Some(input)) = &mut self.input {
-            let mut text = Vec::new();
-            input.read_to_end(&mut text)?;
-            self.input = Input::File(Box::new(Cursor::new(text)));
+        match &mut self.input {
+            Input::Stream(Some(input)) => {
+                let mut text = Vec::new();
+                input.read_to_end(&mut text)?;
+                self.input = Input::File(Box::new(Cursor::new(text)));
+            }
+            Input::Joined(parts, _) => parts.iter_mut().try_for_each(Job::hold)?,
+            _ => {}
         }
         Ok(())
     }
@@ -208,7 +241,7 @@ impl<'a> Job<'a> {
 
     /// The number of bytes read so far, counted during the read. `None`: this number does not show the progress.
     pub(crate) fn bytes_read(&self) -> Option<Rc<Cell<u64>>> {
-        (!matches!(self.input, Input::Events(_))).then(|| Rc::clone(&self.read))
+        (!matches!(self.input, Input::Events(_) | Input::Joined(..))).then(|| Rc::clone(&self.read))
     }
 
     /// Reads the job from its beginning and pushes its events. Memory does not grow with the job.
@@ -312,6 +345,19 @@ impl<'a> Job<'a> {
                 }
             }
             Input::Events(make) => make(&mut Ahead(Hold::new(sink))),
+            Input::Joined(parts, names) => {
+                let mut joining = Joining::new(sink, names);
+                for (part, at) in parts.iter_mut().zip(1..) {
+                    joining.next();
+                    let read = part.read_on(&mut joining);
+                    if let Input::File(input) = &mut part.input {
+                        input.rewind()?;
+                    }
+                    report.add_part(part.take_report(), at);
+                    read.map_err(|error| of_part(error, at))?;
+                }
+                Ok(())
+            }
         }
     }
 }
@@ -322,109 +368,19 @@ impl fmt::Debug for Job<'_> {
     }
 }
 
+/// An error with the part of the joined job that it is about.
+fn of_part(error: ReadError, part: u16) -> ReadError {
+    match error {
+        ReadError::Job(mut diag) => {
+            diag.place.get_or_insert_default().part = part;
+            ReadError::Job(diag)
+        }
+        other => other,
+    }
+}
+
 /// Number of bytes of a document that are read at once.
 const DOCUMENT_BUFFER: usize = 128 << 10;
-
-/// Formats that are read from beginning to end.
-fn read_once(
-    input: impl Read,
-    format: Format,
-    reading: &Reading,
-    report: &mut Report,
-    sink: &mut dyn Sink,
-) -> Result<(), ReadError> {
-    match format {
-        Format::JsonLines => read_lines(input, sink),
-        Format::Cl => read_cl(input, &cl_options(reading), report, sink),
-        Format::Nci => {
-            let mut own = Remarks::default();
-            let read = read_nci(input, &nci::Options { units: reading.units }, &mut own, sink);
-            report.add(own);
-            read
-        }
-        _ => read_document(input, sink),
-    }
-}
-
-/// The options for a CL file.
-fn cl_options(reading: &Reading) -> cl::Options {
-    cl::Options {
-        dialect: reading.dialect,
-        units: reading.units,
-        tool: reading.tool.clone(),
-        speed: reading.speed,
-        feed: reading.feed,
-        start: reading.start,
-        end: reading.end,
-        setup: reading.setup,
-    }
-}
-
-/// Reads an NC program; this needs two runs.
-fn read_nc(
-    input: impl io::Read + Seek,
-    reading: &Reading,
-    report: &mut Report,
-    sink: &mut dyn Sink,
-) -> Result<(), ReadError> {
-    let settings = RunSettings {
-        unpointed: reading.unpointed,
-        units: reading.units.unwrap_or(Units::Mm),
-        assumed: reading.control.is_none(),
-        ..RunSettings::new(reading.control.unwrap_or_else(Control::usual))
-    };
-    let tool = reading.tool.as_ref().and_then(Assumed::one);
-    let options = JobOptions { settings, units: reading.units, tool, start: reading.start };
-    read_program(input, &options, &mut report.warnings, sink)
-}
-
-/// Reads a document of FreeCAD; an archive is not read in sequence.
-#[cfg(feature = "freecad")]
-fn read_document_of_freecad(
-    input: impl Read + Seek,
-    reading: &Reading,
-    report: &mut Report,
-    sink: &mut dyn Sink,
-) -> Result<(), ReadError> {
-    use crate::freecad::{self, read_freecad};
-    let mut own = Remarks::default();
-    let read = read_freecad(input, &freecad::Options { job: reading.job.clone() }, &mut own, sink);
-    report.add(own);
-    read
-}
-
-/// Reports that this build can't read documents of FreeCAD.
-#[cfg(not(feature = "freecad"))]
-fn read_document_of_freecad(
-    _: impl Read + Seek,
-    _: &Reading,
-    _: &mut Report,
-    _: &mut dyn Sink,
-) -> Result<(), ReadError> {
-    let diag = crate::diag::Diag::new(crate::diag::Code::PD001, "this build of postform can't read FreeCAD documents")
-        .help("build it with the feature `freecad`");
-    Err(ReadError::Job(Box::new(diag)))
-}
-
-/// Counts the bytes that are read.
-struct Counted<R> {
-    input: R,
-    count: Rc<Cell<u64>>,
-}
-
-impl<R: Read> Read for Counted<R> {
-    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        let count = self.input.read(out)?;
-        self.count.set(self.count.get() + count as u64);
-        Ok(count)
-    }
-}
-
-impl<R: Seek> Seek for Counted<R> {
-    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
-        self.input.seek(to)
-    }
-}
 
 /// The units in the first event.
 struct FirstUnits(Option<Units>);

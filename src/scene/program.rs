@@ -31,7 +31,7 @@ pub fn origins(scene: &mut Scene, trace: &[TraceLine], files: &[Source], text: &
             forms[at] = ((span.file as i32) << LINE_BITS) | source.line(span.start) as i32;
         }
         let place = &traced.place;
-        let operation = if place.subprogram > 0 { place.subprogram | 1 << 31 } else { place.operation };
+        let operation = if place.subprogram > 0 { u32::from(place.subprogram) | 1 << 31 } else { place.operation };
         items[at] = [operation, place.item as u32, place.point, place.line as u32];
     }
     scene.section("lineForm".into(), forms.into_iter().map(i32::to_le_bytes));

@@ -17,8 +17,10 @@ pub struct Place {
     pub item: u64,
     /// Point of the item's cycle, from 1; 0 for the item itself.
     pub point: u32,
-    /// Subprogram, from 1, instead of an operation.
-    pub subprogram: u32,
+    /// Subprogram, from 1, instead of an operation. All above 65,535 share that number.
+    pub subprogram: u16,
+    /// The job among joined jobs, from 1; 0: the job is not joined.
+    pub part: u16,
 }
 
 impl Place {
@@ -42,7 +44,7 @@ impl Place {
 impl From<Place> for Location {
     fn from(place: Place) -> Location {
         let line = if place.line > 0 { Location::at(place.line, place.column.max(1)) } else { Location::default() };
-        line.step(place.path())
+        Location { part: place.part, ..line.step(place.path()) }
     }
 }
 

@@ -26,6 +26,7 @@ mod guide;
 mod headers;
 mod increments;
 mod integrations;
+mod joined_jobs;
 mod key_order;
 mod kit;
 mod languages;

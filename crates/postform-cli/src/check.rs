@@ -52,7 +52,7 @@ fn checked(path: &Path, args: &CheckArgs, reporter: &Reporter) -> Result<(String
             say(&reporter.text(&unprintable, &[]));
             Ok((text, unprintable.first().map_or(Ending::Clean, Ending::of)))
         }
-        Err(error) => Ok((listed(&setups), stopped(error, path, reporter, &[])?)),
+        Err(error) => Ok((listed(&setups), stopped(error, &[path], reporter, &[])?)),
     }
 }
 

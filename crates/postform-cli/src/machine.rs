@@ -16,7 +16,7 @@ use super::args::{ControlArgs, FitArgs, MachineArg, MachineArgs, MachineCommand,
 use super::config::Config;
 use super::files::{self, io_message};
 use super::prepare::Prepared;
-use super::report::{Reporter, count, place_in};
+use super::report::{Reporter, count, place_in, place_in_jobs};
 use super::say::{message, say};
 use super::{Ending, inputs, output};
 
@@ -97,8 +97,8 @@ impl Fitting<'_> {
     }
 
     /// Shows the findings, and everything that is not checked.
-    pub fn show(&self, fitted: &Fitted, (job, sources): (Option<&Path>, &[Source]), reporter: &Reporter) {
-        let diags: Vec<Diag> = fitted.findings.iter().map(|finding| diag(finding, self.program, job)).collect();
+    pub fn show(&self, fitted: &Fitted, (jobs, sources): (&[&Path], &[Source]), reporter: &Reporter) {
+        let diags: Vec<Diag> = fitted.findings.iter().map(|finding| diag(finding, self.program, jobs)).collect();
         say(&reporter.text(&diags, sources));
         for what in &fitted.fit.not_checked {
             message(&format!("not checked: {}", escaped(what)));
@@ -144,8 +144,8 @@ impl Fitting<'_> {
 }
 
 /// A finding of a program with its location in the job, or in the program if there is no job.
-pub fn diag(finding: &Finding, program: &str, job: Option<&Path>) -> Diag {
-    let Some(job) = job else {
+pub fn diag(finding: &Finding, program: &str, jobs: &[&Path]) -> Diag {
+    if jobs.is_empty() {
         let text = match finding.block.as_str() {
             "" => finding.message.clone(),
             block => format!("{}, in `{block}`", finding.message),
@@ -156,9 +156,9 @@ pub fn diag(finding: &Finding, program: &str, job: Option<&Path>) -> Diag {
         }
         place_in(program, &mut diag);
         return diag;
-    };
+    }
     let mut diag = finding.diag(program);
-    place_in(&files::name(job), &mut diag);
+    place_in_jobs(jobs, &mut diag);
     diag
 }
 
@@ -213,7 +213,7 @@ pub fn fit(args: &FitArgs, colour: bool) -> Result<Ending, String> {
     let fitted = fitting.fitted(program)?;
     let text = match args.format {
         VerifyFormat::Text => {
-            fitting.show(&fitted, (None, &[]), &Reporter::new(colour));
+            fitting.show(&fitted, (&[], &[]), &Reporter::new(colour));
             let time = fitted.times.as_ref().map_or_else(|_| String::new(), |times| fitting.time(times));
             let table = fitted.fit.table(&machine, fitting.control());
             table + &time + &fitting.sentences(&fitted) + &fitting.sentence(&fitted)

@@ -100,7 +100,7 @@ fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File
     };
     let Some(prepared) = prepare(&form, &args.options, &args.file, reporter)? else { return Ok(None) };
     let mut job = files::job(&args.file, &args.read, true)?;
-    let Ok((program, _)) = rendered(&mut job, &args.file, &prepared, false, reporter)? else { return Ok(None) };
+    let Ok((program, _)) = rendered(&mut job, &[&args.file], &prepared, false, reporter)? else { return Ok(None) };
     let units = match args.options.units {
         Some(units) => units.units(),
         None => units_of(&mut job, &args.file)?,

@@ -9,9 +9,9 @@ use postform::internals::render::TraceLine;
 use postform::{ErrorKind, Job, Options};
 
 use super::Ending;
-use super::files::{self, io_message};
+use super::files::io_message;
 use super::prepare::Prepared;
-use super::report::{Reporter, place_in, stopped};
+use super::report::{Reporter, place_in_jobs, stopped};
 use super::say::say;
 use super::spool::Spool;
 
@@ -19,7 +19,7 @@ use super::spool::Spool;
 /// and the reason has been shown.
 pub fn rendered(
     job: &mut Job<'_>,
-    path: &Path,
+    jobs: &[&Path],
     prepared: &Prepared,
     trace: bool,
     reporter: &Reporter,
@@ -38,24 +38,24 @@ pub fn rendered(
         Err(error) => {
             return match (error.kind(), error.io()) {
                 (ErrorKind::Output, Some(error)) => Err(fail(error)),
-                _ => stopped(error, path, reporter, prepared.post.files()).map(Err),
+                _ => stopped(error, jobs, reporter, prepared.post.files()).map(Err),
             };
         }
     };
-    if denied(&rendered.notes, path, prepared, reporter) {
+    if denied(&rendered.notes, jobs, prepared, reporter) {
         return Ok(Err(Ending::Findings));
     }
     Ok(Ok((file.into_file().map_err(|error| fail(&error))?, lines)))
 }
 
 /// Shows the warnings of job and renderer if warnings are denied. Returns whether there are any.
-pub fn denied(notes: &[Diag], job: &Path, prepared: &Prepared, reporter: &Reporter) -> bool {
+pub fn denied(notes: &[Diag], jobs: &[&Path], prepared: &Prepared, reporter: &Reporter) -> bool {
     let warnings = notes.iter().filter(|diag| diag.severity == Severity::Warning);
     let mut notes: Vec<Diag> = warnings.cloned().collect();
     if !prepared.denies || notes.is_empty() {
         return false;
     }
-    notes.iter_mut().for_each(|diag| place_in(&files::name(job), diag));
+    notes.iter_mut().for_each(|diag| place_in_jobs(jobs, diag));
     say(&reporter.text(&notes, prepared.post.files()));
     true
 }

@@ -210,8 +210,9 @@ fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
 ///
 /// # Errors
 /// A message: the job can't be read, or the request makes no sense.
-pub fn stopped(error: Error, job: &Path, reporter: &Reporter, files: &[Source]) -> Result<Ending, String> {
+pub fn stopped(error: Error, jobs: &[&Path], reporter: &Reporter, files: &[Source]) -> Result<Ending, String> {
     if let Some(error) = error.io() {
+        let [job] = jobs else { return Err(format!("error: can't read {}: {error}", names(jobs))) };
         return Err(io_message("read", job, error));
     }
     let ending = match error.kind() {
@@ -220,7 +221,7 @@ pub fn stopped(error: Error, job: &Path, reporter: &Reporter, files: &[Source]) 
         _ => Ending::Findings,
     };
     let mut errors: Vec<Diag> = error.into_findings().diags.into_iter().filter(Diag::is_error).collect();
-    errors.iter_mut().for_each(|diag| place_in(&name(job), diag));
+    errors.iter_mut().for_each(|diag| place_in_jobs(jobs, diag));
     say(&reporter.text(&errors, files));
     Ok(ending)
 }
@@ -228,6 +229,19 @@ pub fn stopped(error: Error, job: &Path, reporter: &Reporter, files: &[Source]) 
 /// Adds the name of the job or program to the location of a finding.
 pub fn place_in(file: &str, diag: &mut Diag) {
     diag.place.get_or_insert_default().file = Some(file.to_owned());
+}
+
+/// Adds the name of the job, or of the one among joined jobs, to the location of a finding.
+pub fn place_in_jobs(jobs: &[&Path], diag: &mut Diag) {
+    let part = diag.place.as_ref().map_or(0, |place| usize::from(place.part));
+    if let Some(job) = jobs.get(part.saturating_sub(1)) {
+        place_in(&name(job), diag);
+    }
+}
+
+/// The names of jobs in a sentence.
+pub fn names(jobs: &[&Path]) -> String {
+    jobs.iter().map(|job| name(job)).collect::<Vec<String>>().join(" and ")
 }
 
 /// Maximum number of a form's findings that a run shows.

@@ -51,13 +51,13 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     let (post, options) = (&prepared.post, &prepared.options);
     let mut sheet = match post.setup(job.again(), options) {
         Ok(sheet) => sheet,
-        Err(error) => return stopped(error, &args.job, reporter, post.files()),
+        Err(error) => return stopped(error, &[&args.job], reporter, post.files()),
     };
-    let Ok((mut program, _)) = rendered(&mut job, &args.job, &prepared, false, reporter)? else {
+    let Ok((mut program, _)) = rendered(&mut job, &[&args.job], &prepared, false, reporter)? else {
         return Ok(Ending::Findings);
     };
     let proof = args.control.proof(None);
-    let sides = Sides { job: &args.job, program: "the program", files: post.files() };
+    let sides = Sides { jobs: &[&args.job], program: "the program", files: post.files() };
     let fail = |error: std::io::Error| io_message("read", Path::new("the program"), &error);
     let copy = program.try_clone().map_err(fail)?;
     let proven = post.verify_with(job.again(), copy, options, &proof);
@@ -72,7 +72,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (copy, "the program"))?;
         // they are also in the sheet
         if !args.options.quiet {
-            fitting.show(&fitted, (Some(&args.job), post.files()), reporter);
+            fitting.show(&fitted, (&[&args.job], post.files()), reporter);
         }
         if let Ok(times) = &fitted.times {
             sheet.take_times(times);

@@ -62,7 +62,7 @@ impl Milling<'_> {
 
     /// Shows the findings, and everything that is not checked.
     pub fn show(&self, checked: &StockCheck, (job, sources): (&Path, &[Source]), reporter: &Reporter) {
-        let diags: Vec<Diag> = checked.findings.iter().map(|finding| diag(finding, self.program, Some(job))).collect();
+        let diags: Vec<Diag> = checked.findings.iter().map(|finding| diag(finding, self.program, &[job])).collect();
         say(&reporter.text(&diags, sources));
         for what in &checked.not_checked {
             message(&format!("not checked: {}", escaped(what)));

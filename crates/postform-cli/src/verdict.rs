@@ -8,14 +8,13 @@ use postform::internals::verify::{Finding, Verdict};
 use postform::{Error, ErrorKind, Proven};
 
 use super::Ending;
-use super::files;
-use super::report::{self, Reporter, place_in, stopped};
+use super::report::{self, Reporter, place_in, place_in_jobs, stopped};
 use super::say::say;
 
 /// The two sides of a proof.
 pub struct Sides<'a> {
-    /// The job.
-    pub job: &'a Path,
+    /// The job, or the joined jobs.
+    pub jobs: &'a [&'a Path],
     /// The name of the program.
     pub program: &'a str,
     /// The form's files, if there is a form.
@@ -44,7 +43,8 @@ impl Sides<'_> {
         match proven {
             Ok(proven) => Ok(Ok(proven)),
             Err(error) => {
-                let failed = if error.kind() == ErrorKind::Program { Path::new(self.program) } else { self.job };
+                let program = [Path::new(self.program)];
+                let failed = if error.kind() == ErrorKind::Program { &program } else { self.jobs };
                 stopped(error, failed, reporter, &[]).map(Err)
             }
         }
@@ -69,14 +69,14 @@ impl Sides<'_> {
     fn diag(&self, finding: &Finding, severity: Severity) -> Diag {
         let mut diag = finding.diag(self.program);
         diag.severity = severity;
-        place_in(&files::name(self.job), &mut diag);
+        place_in_jobs(self.jobs, &mut diag);
         diag
     }
 
     /// The verdict in a sentence.
     pub fn sentence(&self, proven: &Proven) -> String {
-        let Sides { program, job, .. } = self;
-        let job = files::name(job);
+        let Sides { program, jobs, .. } = self;
+        let job = report::names(jobs);
         let counts = proven.counts;
         let compared =
             format!("{}, {}", report::count(counts.cuts as usize, "cut"), report::count(counts.holes as usize, "hole"));
@@ -98,7 +98,7 @@ impl Sides<'_> {
         postform::internals::report::proof(
             &proven.verdict,
             proven.counts,
-            [&files::name(self.job), self.program],
+            [&report::names(self.jobs), self.program],
             self.files,
         )
     }

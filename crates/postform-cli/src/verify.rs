@@ -103,7 +103,7 @@ fn tried(
     let mut job = files::job(job_path, &args.read, twice)?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
     let files = prepared.map_or(&[][..], |prepared| prepared.post.files());
-    let sides = Sides { job: job_path, program: &name, files };
+    let sides = Sides { jobs: &[job_path], program: &name, files };
     let (tried, program) = match (&args.nc, prepared) {
         (Some(path), prepared) => {
             let file = Again::open(path)?.into_file()?;
@@ -152,7 +152,7 @@ fn tried(
             }
         };
         if args.format == VerifyFormat::Text {
-            fitting.show(&fitted, (Some(job_path), files), reporter);
+            fitting.show(&fitted, (&[job_path], files), reporter);
         }
         on_machine = Some((fitted, fitting));
     }
@@ -204,12 +204,12 @@ fn of_form(
     let (post, options) = (&prepared.post, &prepared.options);
     let Printed { rendered, proven } = beside::print(post, job.again(), options, proof, take)?;
     match rendered {
-        Ok(rendered) if denied(&rendered.notes, sides.job, prepared, reporter) => Ok(Err(Ending::Findings)),
+        Ok(rendered) if denied(&rendered.notes, sides.jobs, prepared, reporter) => Ok(Err(Ending::Findings)),
         Ok(_) => {
             let proven = in_a_file(proven, job, prepared, proof, sides, reporter)?;
             sides.tried(proven, quiet, reporter)
         }
-        Err(error) => stopped(error, sides.job, reporter, post.files()).map(Err),
+        Err(error) => stopped(error, sides.jobs, reporter, post.files()).map(Err),
     }
 }
 
@@ -226,7 +226,7 @@ pub fn in_a_file(
     if job.is_stream() || !proven.as_ref().is_ok_and(needs_a_file) {
         return Ok(proven);
     }
-    let Ok((file, _)) = rendered(job, sides.job, prepared, false, reporter)? else { return Ok(proven) };
+    let Ok((file, _)) = rendered(job, sides.jobs, prepared, false, reporter)? else { return Ok(proven) };
     let (post, options) = (&prepared.post, &prepared.options);
     let proven = post.verify_with(job.again(), file, options, proof);
     Ok(proven.and_then(|proven| post.located(proven, job.again(), options)))

@@ -97,7 +97,7 @@ impl<'s> Builder<'s> {
             return fault(Code::PJ004, "a subprogram without a number", "give each subprogram a \"number\"");
         };
         let number = whole("number", number)?;
-        self.place.subprogram += 1;
+        self.place.subprogram = self.place.subprogram.saturating_add(1);
         self.place.item = 0;
         self.in_subprogram = true;
         self.push(Event::SubStart(number))

@@ -269,7 +269,8 @@ impl RenderOptions {
 /// `postform render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input; with --out-dir several, or folders of jobs
+    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input; with --out-dir or --join several, or folders
+    /// of jobs
     #[arg(required = true, value_name = "JOB")]
     pub jobs: Vec<PathBuf>,
     /// The form of the machine [default: that in postform.toml]
@@ -281,6 +282,9 @@ pub struct RenderArgs {
     /// Print each job into this folder, which is created if it does not exist
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "trace", "stream", "watch"])]
     pub out_dir: Option<PathBuf>,
+    /// Make one program of all jobs, in the order of the command line
+    #[arg(long, conflicts_with = "out_dir")]
+    pub join: bool,
     /// Skip programs that are newer than their job, form, machine and postform.toml
     #[arg(long, requires = "out_dir")]
     pub changed: bool,

@@ -96,7 +96,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
             let name = files::output_name(output);
             let file = output.file_name().map(|name| name.to_string_lossy().into_owned());
             let task = Task {
-                job: &program.job,
+                jobs: &[&program.job],
                 output: folder,
                 name: file.as_deref(),
                 called: &name,
@@ -156,7 +156,7 @@ fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) ->
             Err(format!("error: {} has no {what}\n  help: choose another --split", files::name(job)))
         }
         Ok(found) => Ok(Ok(found)),
-        Err(error) => stopped(error, job, reporter, &[]).map(Err),
+        Err(error) => stopped(error, &[job], reporter, &[]).map(Err),
     });
     match found {
         Ok(found) => {
@@ -186,7 +186,7 @@ fn name(
     options.job_file = Some(own_name.clone());
     let (name, number) = match ready.prepared.post.file_name(job, &options) {
         Ok(named) => named,
-        Err(error) => return stopped(error, &program.job, reporter, &[]).map(Err),
+        Err(error) => return stopped(error, &[&program.job], reporter, &[]).map(Err),
     };
     let Some(pattern) = pattern else { return Ok(Ok(name)) };
     let extension = name.rsplit_once('.').map_or("nc", |(_, extension)| extension);

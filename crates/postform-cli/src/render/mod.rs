@@ -39,17 +39,38 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
             "error: {option} needs a folder for the programs\n  help: give --out-dir FOLDER in place of -o"
         ));
     }
-    let [job] = args.jobs.as_slice() else {
-        return Err("error: several jobs need a folder for their programs\n  help: give --out-dir FOLDER".into());
-    };
-    if args.watch { poll::repeat(|| inputs(job, args), || one(job, args, colour)) } else { one(job, args, colour) }
+    let jobs = if args.join { joined(args)? } else { args.jobs.clone() };
+    let jobs: Vec<&Path> = jobs.iter().map(PathBuf::as_path).collect();
+    if jobs.len() > 1 && !args.join {
+        let help = "give --out-dir FOLDER, or --join to make one program of them";
+        return Err(format!("error: several jobs need a folder for their programs\n  help: {help}"));
+    }
+    if args.watch {
+        poll::repeat(|| inputs(&jobs, args), || one(&jobs, args, colour))
+    } else {
+        one(&jobs, args, colour)
+    }
 }
 
-/// The files to watch: the job, the form, called forms, and postform.toml.
-fn inputs(job: &Path, args: &RenderArgs) -> Vec<PathBuf> {
-    let config = Config::near(job).unwrap_or_default();
+/// The jobs to join; folders are replaced by the jobs in them. One of them may be standard input.
+fn joined(args: &RenderArgs) -> Result<Vec<PathBuf>, String> {
+    let is_input = |job: &PathBuf| job.as_path() == Path::new("-");
+    if args.jobs.iter().filter(|job| is_input(job)).count() > 1 {
+        return Err("error: standard input (-) is given more than once".into());
+    }
+    let expanded = args.jobs.iter().map(|job| match is_input(job) {
+        true => Ok(vec![job.clone()]),
+        false => super::many::jobs(std::slice::from_ref(job)),
+    });
+    Ok(expanded.collect::<Result<Vec<_>, String>>()?.concat())
+}
+
+/// The files to watch: the jobs, the form, called forms, and postform.toml.
+fn inputs(jobs: &[&Path], args: &RenderArgs) -> Vec<PathBuf> {
+    let config = jobs.first().and_then(|job| Config::near(job).ok()).unwrap_or_default();
     let form = args.form.clone().or(config.form);
-    let mut paths: Vec<PathBuf> = config.path.into_iter().chain([job.to_path_buf()]).chain(form.clone()).collect();
+    let jobs = jobs.iter().map(|job| job.to_path_buf());
+    let mut paths: Vec<PathBuf> = config.path.into_iter().chain(jobs).chain(form.clone()).collect();
     if let Some(file) = form.and_then(|form| FormFile::read(&form, postform::Limits::default()).ok()) {
         file.analyse(&Changed::new());
         paths.extend(file.paths());
@@ -57,15 +78,16 @@ fn inputs(job: &Path, args: &RenderArgs) -> Vec<PathBuf> {
     paths
 }
 
-/// Renders one job.
-fn one(job: &Path, args: &RenderArgs, colour: bool) -> Result<Ending, String> {
+/// Renders one job, or joined jobs. Form and machine are those of the first one.
+fn one(jobs: &[&Path], args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
-    files::check_format(job, &args.read)?;
+    let Some(job) = jobs.first() else { return Err("error: there is no job".into()) };
+    jobs.iter().try_for_each(|job| files::check_format(job, &args.read))?;
     let config = Config::near(job)?;
     let form = form_of(job, args, &config)?;
     let Some(ready) = Ready::of(&form, job, args, &config, &reporter)? else { return Ok(Ending::Findings) };
     distinct(args)?;
-    let task = Task { job, output: &args.output, name: None, called: "the program", part: None, number: None };
+    let task = Task { jobs, output: &args.output, name: None, called: "the program", part: None, number: None };
     print::print(&task, &ready, args, &reporter)
 }
 

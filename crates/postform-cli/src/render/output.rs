@@ -38,12 +38,14 @@ pub struct Output<'p> {
     target: Target,
     trace: Option<(PathBuf, Target)>,
     files: &'p [Source],
+    /// The job, or the joined jobs.
+    jobs: &'p [&'p Path],
     /// The write error is that of the source map, not of the program.
     trace_failed: bool,
 }
 
 impl<'p> Output<'p> {
-    /// Prepares the outputs; `files` are those of the form. In a folder the program gets its name from [`Output::name`]; `name`
+    /// Prepares the outputs; `files` are those of the form, `jobs` the job or the joined jobs. In a folder the program gets its name from [`Output::name`]; `name`
     /// is this name if it is already known.
     ///
     /// # Errors
@@ -52,11 +54,11 @@ impl<'p> Output<'p> {
         (path, name): (&Path, Option<&str>),
         trace: Option<&Path>,
         stream: bool,
-        files: &'p [Source],
+        (files, jobs): (&'p [Source], &'p [&'p Path]),
     ) -> Result<Output<'p>, String> {
         let target = if is_folder(path) { Target::open_in(path, name)? } else { Target::open(path, stream)? };
         let trace = trace.map(|path| Ok::<_, String>((path.to_path_buf(), Target::open(path, false)?))).transpose()?;
-        Ok(Output { path: path.to_path_buf(), target, trace, files, trace_failed: false })
+        Ok(Output { path: path.to_path_buf(), target, trace, files, jobs, trace_failed: false })
     }
 
     /// Sets the name of a program in a folder, and returns its path. `None`: it already has a name.
@@ -82,7 +84,7 @@ impl<'p> Output<'p> {
         let Some((_, target)) = &mut self.trace else { return Ok(()) };
         let mut text = Vec::new();
         for line in part.trace {
-            trace_line(line, self.files, &mut text);
+            trace_line(line, self.files, self.jobs, &mut text);
         }
         target.write(&text).inspect_err(|_| self.trace_failed = true)
     }
@@ -114,14 +116,17 @@ impl<'p> Output<'p> {
     }
 }
 
-/// One line of the source map.
-fn trace_line(line: &TraceLine, files: &[Source], out: &mut Vec<u8>) {
+/// One line of the source map. The file of a job is named only among joined jobs.
+fn trace_line(line: &TraceLine, files: &[Source], jobs: &[&Path], out: &mut Vec<u8>) {
     let form = line.form.and_then(|span| {
         let source = files.get(span.file as usize)?;
         Some(serde_json::json!({ "file": source.name, "line": source.line(span.start) + 1 }))
     });
     let place = &line.place;
-    let job = serde_json::json!({ "line": place.line, "column": place.column, "path": place.path() });
+    let mut job = serde_json::json!({ "line": place.line, "column": place.column, "path": place.path() });
+    if let Some(file) = usize::from(place.part).checked_sub(1).and_then(|part| jobs.get(part)) {
+        job["file"] = file.to_string_lossy().into();
+    }
     let row = serde_json::json!({ "line": line.line, "form": form, "job": job });
     out.extend_from_slice(row.to_string().as_bytes());
     out.push(b'\n');

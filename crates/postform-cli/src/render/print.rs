@@ -6,7 +6,7 @@ use std::path::Path;
 use postform::diag::Severity;
 use postform::internals::post;
 use postform::internals::verify::Verdict;
-use postform::{Error, ErrorKind, Proven};
+use postform::{Error, ErrorKind, Job, Proven};
 
 use super::super::Ending;
 use super::super::args::RenderArgs;
@@ -14,7 +14,7 @@ use super::super::beside::{self, Printed};
 use super::super::files::{self, io_message};
 use super::super::machine;
 use super::super::progress::Progress;
-use super::super::report::{Reporter, place_in, stopped};
+use super::super::report::{Reporter, names, place_in_jobs, stopped};
 use super::super::say::{message, say};
 use super::super::spool::Spool;
 use super::super::verdict::Sides;
@@ -25,8 +25,8 @@ use super::split::Part;
 
 /// A program to print.
 pub struct Task<'a> {
-    /// The job.
-    pub job: &'a Path,
+    /// The job, or the jobs to join.
+    pub jobs: &'a [&'a Path],
     /// The output of the program: a file, a folder, or `-`.
     pub output: &'a Path,
     /// The file name in that folder. `None`: the name from the form.
@@ -60,11 +60,12 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         ));
     }
     let again = prepared.post.may_read_twice(&prepared.options).map_err(error)? && !args.stream;
-    let mut job = files::job(task.job, &args.read, again)?;
+    let mut job = job_of(task.jobs, args, again)?;
     if let Some(part) = task.part {
         part.select(&mut job.reading);
     }
-    let mut output = Output::open((task.output, task.name), args.trace.as_deref(), args.stream, prepared.post.files())?;
+    let mut output =
+        Output::open((task.output, task.name), args.trace.as_deref(), args.stream, (prepared.post.files(), task.jobs))?;
     let mut options = prepared.options.clone();
     options.program = task.number.or(options.program);
     options.trace = args.trace.is_some();
@@ -94,15 +95,14 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         Err(error) => error.findings().diags.iter().filter(|diag| !diag.is_error()).cloned().collect(),
     };
     let file_name = printed.as_ref().map(|rendered| rendered.file_name.clone()).unwrap_or_default();
-    let name = files::name(task.job);
-    notes.iter_mut().for_each(|diag| place_in(&name, diag));
+    notes.iter_mut().for_each(|diag| place_in_jobs(task.jobs, diag));
     let denied = args.options.denies_warnings() && notes.iter().any(|diag| diag.severity == Severity::Warning);
     notes.retain(|diag| args.options.shows(diag));
     say(&reporter.text(&notes, prepared.post.files()));
     if let Err(error) = printed {
         return match (error.kind(), error.io()) {
             (ErrorKind::Output, Some(error)) => output.failed(error),
-            _ => stopped(error, task.job, reporter, prepared.post.files()),
+            _ => stopped(error, task.jobs, reporter, prepared.post.files()),
         };
     }
     if denied {
@@ -110,7 +110,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         return Ok(Ending::Findings);
     }
     if let Some((proof, proven)) = proven {
-        let sides = Sides { job: task.job, program: task.called, files: prepared.post.files() };
+        let sides = Sides { jobs: task.jobs, program: task.called, files: prepared.post.files() };
         let proven = in_a_file(proven, &mut job, prepared, proof, &sides, reporter)?;
         let told = Told { required: ready.required, quiet: args.options.quiet, form: &ready.form };
         match told.verdict(proven, &sides, reporter)? {
@@ -127,7 +127,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (program, task.called))?;
         let stops = fitted.has_errors() && !args.no_verify;
         if !args.options.quiet || stops {
-            fitting.show(&fitted, (Some(task.job), post.files()), reporter);
+            fitting.show(&fitted, (task.jobs, post.files()), reporter);
             say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
         }
         if stops {
@@ -142,6 +142,17 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         message(&format!("{} is written", files::output_name(&path)));
     }
     output.finish()
+}
+
+/// The job of a task.
+fn job_of(jobs: &[&Path], args: &RenderArgs, again: bool) -> Result<Job<'static>, String> {
+    if let [job] = jobs {
+        return files::job(job, &args.read, again);
+    }
+    let open = |job: &&Path| Ok(files::job(job, &args.read, again)?.named(&files::name(job)));
+    let mut joined = Job::join(jobs.iter().map(open).collect::<Result<_, String>>()?);
+    joined.reading = args.read.reading();
+    Ok(joined)
 }
 
 /// The output about a proof.
@@ -166,7 +177,7 @@ impl Told<'_> {
                 false
             }
             Verdict::NotProven(unproven) if !self.quiet || self.required => {
-                let command = format!("postform verify {} --form {}", files::name(sides.job), files::name(self.form));
+                let command = format!("postform verify {} --form {}", names(sides.jobs), files::name(self.form));
                 sides.brief(&unproven.notes, &command);
                 !self.required
             }

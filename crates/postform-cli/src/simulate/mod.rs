@@ -108,7 +108,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         message(&format!("and {left_out} more warnings"));
     }
     if let Some((fitting, fitted)) = fitting.zip(fitted) {
-        fitting.show(&fitted, (None, &[]), &reporter);
+        fitting.show(&fitted, (&[], &[]), &reporter);
         say(&(fitting.sentences(&fitted) + &fitting.sentence(&fitted)));
         return Ok(if fitted.fits() { Ending::Clean } else { Ending::Findings });
     }

@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use postform::Job;
 use postform::internals::terminal::escaped;
-use serde::Deserialize;
 
 use super::super::args::ReadArgs;
 use super::super::files;
+use super::ask::Close;
 
 /// The jobs, in the order of their tabs.
 pub struct Jobs {
@@ -32,16 +32,6 @@ enum Content {
     Memory(PathBuf, Arc<[u8]>),
     /// The sample job for the form's kind of machine.
     Sample,
-}
-
-/// A request to close a job.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Close {
-    /// The job, counted from 0.
-    job: usize,
-    /// Its name, from the scene.
-    name: String,
 }
 
 impl Opened {

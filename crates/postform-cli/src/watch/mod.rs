@@ -1,5 +1,6 @@
 //! `postform watch`: serves the page, to this machine only.
 
+mod ask;
 mod guard;
 mod http;
 mod jobs;
@@ -23,10 +24,11 @@ use super::output::standard_output;
 use super::poll::Watched;
 use super::say::message;
 use super::say::no_thread;
+use ask::{Ask, Save};
 use guard::Guard;
 use http::{Answer, Asked, LARGEST_BODY, LARGEST_JOB};
 use kept::Kept;
-use session::{Ask, NotSaved, Save, Session};
+use session::{NotSaved, Session};
 
 /// Maximum number of connections at the same time; a page needs two or three.
 const MOST_CONNECTIONS: usize = 64;

@@ -12,9 +12,8 @@ use postform::internals::diff;
 use postform::internals::lint::Levels;
 use postform::internals::machine::Machine;
 use postform::internals::post::sample_job;
-use postform::internals::scene::{At, Printed, Request, Scene, behind, help, no_machine, program_of, scene};
+use postform::internals::scene::{Printed, Request, Scene, behind, help, no_machine, program_of, scene};
 use postform::{Files, Limits, Options, Proof, Source};
-use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::super::args::{LimitsArg, WatchArgs};
@@ -25,55 +24,11 @@ use super::super::forms::FormFile;
 use super::super::machine;
 use super::super::output::{write_new, write_whole};
 use super::super::prompt;
-use super::jobs::{Close, Jobs, Opened};
+use super::ask::{Ask, AskHelp, Close, Save};
+use super::jobs::{Jobs, Opened};
 
 /// A program with fewer bytes is proven so fast that its picture can wait for the verdict.
 const SMALL: usize = 256 << 10;
-
-/// A request of a page for a scene.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Ask {
-    /// The job, counted from 0.
-    job: usize,
-    /// Unsaved texts of forms, by their names.
-    #[serde(default)]
-    texts: HashMap<String, String>,
-    /// The identifier of the program that the page shows, from its scene.
-    #[serde(default)]
-    shown: Option<String>,
-    /// The hashes of the sections that the page has, from the heads of their scenes.
-    #[serde(default)]
-    has: HashMap<String, String>,
-    /// Values of the form's properties, by their names.
-    #[serde(default)]
-    properties: Vec<(String, String)>,
-}
-
-/// A request of a page for help about a word.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AskHelp {
-    /// The job, counted from 0.
-    job: usize,
-    /// Unsaved texts of forms, by their names.
-    #[serde(default)]
-    texts: HashMap<String, String>,
-    /// The location of the word.
-    at: At,
-}
-
-/// A request to save a form.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Save {
-    /// Name of the file, from the scene.
-    name: String,
-    /// The text to save.
-    text: String,
-    /// The text on the disk when it was read.
-    was: String,
-}
 
 /// The reason why a form was not saved.
 pub enum NotSaved {

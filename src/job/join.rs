@@ -1,0 +1,260 @@
+//! Joins jobs to one: their operations follow each other, and the head is that of the first job.
+//!
+//! What one job leaves in force must not change the meaning of the next one. Each job is therefore checked at its first
+//! operation: everything that the jobs before it have set must be given again there, because alone the job would not have it.
+
+use crate::diag::{Code, Diag};
+use crate::lang::{Coolant, Machine};
+use crate::toolpath::{
+    Axes, Event, FeedMode, First, Flow, Place, Sink, Spindle, SpindleTurn, Start, Stop, Tool, ToolChange,
+};
+
+/// Passes on the events of several jobs as those of one.
+pub(super) struct Joining<'s> {
+    sink: &'s mut dyn Sink,
+    names: &'s [String],
+    /// The job that is read, from 1.
+    part: u16,
+    start: Option<Start>,
+    /// No operation of this job has begun yet.
+    is_new: bool,
+    held: Held,
+    tools: Vec<Tool>,
+    /// Subprograms of the jobs before.
+    subprograms: Vec<f64>,
+    in_subprogram: bool,
+}
+
+/// What the jobs so far have left in force.
+#[derive(Default)]
+struct Held {
+    /// Axes that were moved, as bits.
+    axes: u8,
+    work: Option<f64>,
+    spindle: Spindle,
+    coolant: Option<Coolant>,
+    feed_mode: Option<FeedMode>,
+    is_tilted: bool,
+    is_compensated: bool,
+    set: Vec<String>,
+}
+
+impl<'s> Joining<'s> {
+    pub fn new(sink: &'s mut dyn Sink, names: &'s [String]) -> Joining<'s> {
+        Joining {
+            sink,
+            names,
+            part: 0,
+            start: None,
+            is_new: false,
+            held: Held::default(),
+            tools: Vec::new(),
+            subprograms: Vec::new(),
+            in_subprogram: false,
+        }
+    }
+
+    /// The next job begins.
+    pub fn next(&mut self) {
+        self.part = self.part.saturating_add(1);
+        self.is_new = self.part > 1;
+    }
+
+    fn name(&self, part: u16) -> &str {
+        self.names.get(usize::from(part).saturating_sub(1)).map_or("the job", String::as_str)
+    }
+
+    /// The job can't follow the ones before it.
+    fn wrong(&self, why: &str, help: &'static str, place: Place) -> Stop {
+        let message = format!("{} can't follow {}: {why}", self.name(self.part), self.name(self.part - 1));
+        Diag::new(Code::PJ014, message).help(help).place(place).into()
+    }
+
+    /// The head of a job: only the first one is passed on.
+    fn start(&mut self, own: &Start, place: Place) -> Flow {
+        let Some(first) = &self.start else {
+            // the list ends with the tools of this job
+            let head = Start { tool_order: None, ..own.clone() };
+            self.start = Some(head.clone());
+            return self.sink.event(Event::Start(&head), place);
+        };
+        let wrong = if first.units != own.units {
+            let why = format!("its units are {}, not {}", own.units.name(), first.units.name());
+            Some(self.wrong(&why, "export both jobs in the same units", place))
+        } else if first.machine != own.machine {
+            Some(self.wrong("it is for another type of machine", "join jobs for the same machine", place))
+        } else if first.set != own.set {
+            let why = "its head sets other values under `set`, which apply to the whole program";
+            Some(self.wrong(why, "give all heads the same `set`, or set values in the operations", place))
+        } else {
+            None
+        };
+        wrong.map_or(Flow::Continue(()), Flow::Break)
+    }
+
+    /// An operation begins. The first one of a job must give what the jobs before it have left in force.
+    fn change(&mut self, change: &ToolChange, place: Place) -> Flow {
+        let mut own = change.clone();
+        if std::mem::take(&mut self.is_new) {
+            if let Err(wrong) = self.is_complete(change, place) {
+                return Flow::Break(*wrong);
+            }
+            // alone, the job would begin without coolant
+            if self.held.coolant.is_some_and(|coolant| coolant != Coolant::OFF) && own.coolant.is_none() {
+                own.coolant = Some(Coolant::OFF);
+            }
+            if std::mem::take(&mut self.held.is_tilted) {
+                self.sink.event(Event::Tilt([0.0, 0.0, 1.0]), place)?;
+            }
+        }
+        if let Some(tool) = &change.tool
+            && let Err(wrong) = self.is_same_tool(tool, place)
+        {
+            return Flow::Break(*wrong);
+        }
+        self.held.work = own.work.or(self.held.work);
+        self.held.coolant = own.coolant.or(self.held.coolant);
+        self.held.feed_mode = own.feed_mode.or(self.held.feed_mode);
+        self.spindle(own.spindle.unwrap_or_default());
+        own.set.iter().for_each(|(name, _)| self.sets(name));
+        match &own.first {
+            First::Rapid(to) => self.held.axes |= to.given,
+            First::Hole(_, hole) => self.held.axes |= hole.at.given,
+            First::Cut | First::Nothing => {}
+        }
+        self.sink.event(Event::ToolChange(&own), place)
+    }
+
+    fn is_complete(&self, change: &ToolChange, place: Place) -> Result<(), Box<Stop>> {
+        let held = &self.held;
+        let spindle = change.spindle.unwrap_or_default();
+        let needs_turn = held.spindle.turn.is_some_and(|turn| turn != SpindleTurn::Off);
+        let missing = if change.work.is_none() && held.work.is_some() {
+            Some("work offset")
+        } else if needs_turn && spindle.turn.is_none() {
+            Some("direction of the spindle")
+        } else if needs_turn && spindle.speed.is_none() && spindle.turn != Some(SpindleTurn::Off) {
+            Some("spindle speed")
+        } else if held.spindle.css == Some(true) && spindle.css.is_none() {
+            Some("choice between surface speed and revolutions per minute (`css`)")
+        } else if change.feed_mode.is_none() && held.feed_mode.is_some() {
+            Some("feed mode")
+        } else {
+            None
+        };
+        let why = if let Some(missing) = missing {
+            format!("its first operation does not give its {missing}, so that of the job before would stay in force")
+        } else if let Some(name) = held.set.iter().find(|name| !change.set.iter().any(|(own, _)| own == *name)) {
+            format!("its first operation does not set `{name}`, so the value of the job before would stay in force")
+        } else if held.is_compensated {
+            "the job before ends with cutter compensation on".to_owned()
+        } else if let Some(axis) = self.missing_axis(change) {
+            format!(
+                "it does not begin with a rapid or a hole that gives {axis}, so the position of the job before would count"
+            )
+        } else {
+            return Ok(());
+        };
+        Err(Box::new(self.wrong(
+            &why,
+            "give it in the first operation of the job, or print the jobs separately",
+            place,
+        )))
+    }
+
+    /// An axis that the first move must give, but does not.
+    fn missing_axis(&self, change: &ToolChange) -> Option<char> {
+        let machine = self.start.as_ref().map(|start| start.machine).unwrap_or_default();
+        let usual = match machine {
+            Machine::Lathe => 0b101,
+            Machine::Mill => 0b111,
+            _ => 0b011,
+        };
+        let given = match &change.first {
+            First::Rapid(Axes { given, .. }) => *given,
+            First::Hole(_, hole) => hole.at.given,
+            First::Cut => 0,
+            First::Nothing => return None,
+        };
+        let missing = (usual | self.held.axes) & !given;
+        ['X', 'Y', 'Z', 'A', 'B', 'C']
+            .into_iter()
+            .enumerate()
+            .find(|(axis, _)| missing & 1 << axis != 0)
+            .map(|(_, axis)| axis)
+    }
+
+    /// Is a tool the one that earlier jobs have under its number?
+    fn is_same_tool(&mut self, tool: &Tool, place: Place) -> Result<(), Box<Stop>> {
+        let data =
+            |tool: &Tool| [tool.diameter, tool.corner_radius, tool.length_offset, tool.diameter_offset, tool.turret];
+        match self.tools.iter().find(|known| known.number == tool.number) {
+            None => self.tools.push(tool.clone()),
+            Some(known) if data(known) != data(tool) && self.part > 1 => {
+                let why = format!("its tool {} has another diameter, corner radius or offset", tool.number);
+                let help = "number the tools of all jobs alike, as they are in the machine";
+                return Err(Box::new(self.wrong(&why, help, place)));
+            }
+            Some(_) => {}
+        }
+        Ok(())
+    }
+
+    fn spindle(&mut self, spindle: Spindle) {
+        let held = &mut self.held.spindle;
+        held.turn = spindle.turn.or(held.turn);
+        held.css = spindle.css.or(held.css);
+    }
+
+    fn sets(&mut self, name: &str) {
+        if !self.held.set.iter().any(|known| known == name) {
+            self.held.set.push(name.to_owned());
+        }
+    }
+
+    /// Follows what stays in force.
+    fn follow(&mut self, event: &Event<'_>) {
+        match event {
+            Event::Rapid(to) | Event::Line { to, .. } => self.held.axes |= to.given,
+            Event::Arc { arc, .. } => self.held.axes |= arc.to.given,
+            Event::Infeed { infeed, .. } => {
+                self.held.axes |= infeed.to.given;
+                self.held.is_compensated = true;
+            }
+            Event::Outfeed { to, .. } => {
+                self.held.axes |= to.given;
+                self.held.is_compensated = false;
+            }
+            Event::Hole(hole) => self.held.axes |= hole.at.given,
+            Event::Work(work) => self.held.work = Some(*work),
+            Event::Spindle(spindle) => self.spindle(*spindle),
+            Event::Coolant(coolant) => self.held.coolant = Some(*coolant),
+            Event::Tilt(axis) => self.held.is_tilted = *axis != [0.0, 0.0, 1.0],
+            Event::Set(name, _) => self.sets(name),
+            _ => {}
+        }
+    }
+}
+
+impl Sink for Joining<'_> {
+    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
+        let place = Place { part: self.part, ..place };
+        match &event {
+            Event::Start(start) => return self.start(start, place),
+            Event::ToolChange(change) => return self.change(change, place),
+            Event::Finish if usize::from(self.part) < self.names.len() => return Flow::Continue(()),
+            Event::SubStart(number) => {
+                if self.subprograms.contains(number) {
+                    let why = format!("both have a subprogram {number}");
+                    return Flow::Break(self.wrong(&why, "number the subprograms of all jobs differently", place));
+                }
+                self.subprograms.push(*number);
+                self.in_subprogram = true;
+            }
+            Event::SubEnd => self.in_subprogram = false,
+            _ if !self.in_subprogram => self.follow(&event),
+            _ => {}
+        }
+        self.sink.event(event, place)
+    }
+}

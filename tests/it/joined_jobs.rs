@@ -1,0 +1,175 @@
+//! `render --join`: several jobs as one program.
+
+use crate::support::folder::{Folder, err, out};
+use crate::support::root;
+use postform::{Job, NoFiles, Options, Post, Source};
+use proptest::prelude::*;
+
+/// A job for a mill: the head, and its operations.
+fn job(head: &str, operations: &str) -> String {
+    format!(
+        r#"{{"postform":1,{head}"tools":[{{"number":1,"diameter":10,"length_offset":1}},{{"number":2,"diameter":6,"length_offset":2}}],"operations":[{operations}]}}"#
+    )
+}
+
+const HEAD: &str = r#""program":7,"name":"PART","units":"mm","machine":"mill","#;
+const FIRST: &str = r#"{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"coolant":"flood","feed":100,"path":[{"rapid":[0,0,5]},{"line":[0,0,-1]},{"line":[10,0,-1]},{"rapid":[10,0,5]}]}"#;
+const SECOND: &str = r#"{"tool":2,"work":55,"spindle":{"speed":2000,"direction":"cw"},"feed":80,"path":[{"rapid":[3,4,5]},{"line":[3,4,-2]},{"rapid":[3,4,5]}]}"#;
+
+fn post(form: &str) -> Post {
+    let text = std::fs::read_to_string(root().join("postforms").join(form)).unwrap();
+    Post::compile(Source::from_text(form, text), &NoFiles).unwrap()
+}
+
+/// Joins jobs named a, b, c.
+fn join(texts: &[String]) -> Job<'_> {
+    Job::join(texts.iter().zip(["a", "b", "c", "d"]).map(|(text, name)| Job::json(text).named(name)).collect())
+}
+
+/// The error of joining two jobs: its location and message.
+fn refused(first: &str, second: &str) -> String {
+    let texts = [first.to_owned(), second.to_owned()];
+    let error = post("haas.pf").render(join(&texts), &Options::default()).unwrap_err();
+    let diag = error.findings().diags.iter().find(|diag| diag.is_error()).unwrap().clone();
+    format!("{} {} {}", diag.code.name(), diag.place.unwrap(), diag.message)
+}
+
+#[test]
+fn the_second_job_follows_the_first() {
+    let texts = [job(HEAD, FIRST), job(&HEAD.replace("PART", "OTHER"), SECOND)];
+    let program = post("haas.pf").render(join(&texts), &Options::default()).unwrap();
+    assert!(program.verdict().is_proven());
+    let text = program.text();
+    assert!(text.contains("(PART)") && !text.contains("(OTHER)"), "{text}");
+    assert_eq!(text.matches("M30").count(), 1, "{text}");
+    // flood is not left on for the job without coolant
+    let second = &text[text.find("G55 X3. Y4.").unwrap()..];
+    assert!(!second.contains("M8"), "{text}");
+}
+
+/// What one job leaves in force must not change the next one.
+#[test]
+fn a_job_that_would_change_its_meaning_is_refused() {
+    let first = job(HEAD, FIRST);
+    let second = |from: &str, to: &str| job(HEAD, &SECOND.replace(from, to));
+    let tilted = job(HEAD, &FIRST.replace(r#"{"rapid":[10,0,5]}"#, r#"{"rapid":[10,0,5]},{"set":{"depth":3}}"#));
+    for (first, second, reason) in [
+        (&first, job(&HEAD.replace("mm", "inch"), SECOND), "its units are inch, not mm"),
+        (&first, job(&HEAD.replace("mill", "lathe"), SECOND), "another type of machine"),
+        (&first, job(&format!(r#"{HEAD}"set":{{"x":1}},"#), SECOND), "sets other values under `set`"),
+        (&first, second(r#""work":55,"#, ""), "does not give its work offset"),
+        (&first, second(r#","direction":"cw""#, ""), "does not give its direction of the spindle"),
+        (&first, second(r#""speed":2000,"#, ""), "does not give its spindle speed"),
+        (&first, second("[3,4,5]},{\"line\"", "[3,4]},{\"line\""), "gives Z"),
+        (&first, second(r#"{"rapid":[3,4,5]},{"line""#, r#"{"line""#), "gives X"),
+        (&first, job(HEAD, SECOND).replace(r#""diameter":6"#, r#""diameter":8"#), "its tool 2"),
+        (&tilted, job(HEAD, SECOND), "does not set `depth`"),
+    ] {
+        // the tool of the second job is used by the first one, too
+        let first = first.replace(r#""operations":["#, &format!(r#""operations":[{SECOND},"#)).replace("}}}", "}}");
+        let found = refused(&first, &second);
+        assert!(found.starts_with("PJ014 b:") && found.contains("b can't follow a: "), "{reason}: {found}");
+        assert!(found.contains(reason), "{reason}: {found}");
+    }
+}
+
+/// An error is located in its own job, whoever finds it: the reader, the renderer, or the proof.
+#[test]
+fn errors_name_their_job() {
+    let folder = Folder::new("joined");
+    folder.write("a.json", job(HEAD, FIRST));
+    folder.write("b.json", job(HEAD, SECOND));
+    folder.write("cut.json", &job(HEAD, SECOND)[..200]);
+    folder.write("no-feed.json", job(HEAD, &SECOND.replace(r#""feed":80,"#, "")));
+    let form = std::fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    folder.write("my.pf", &form);
+    folder.write(
+        "bad.pf",
+        form + "\nLineCode\n@if [tool] = 2\n  G1 X[h] Y[v] Z[d-1] F[frate]\n@else\n  G1 X[h] Y[v] Z[d] F[frate]\n@end\nEnd\n",
+    );
+    let run = |second: &str, form: &str| folder.run(&["render", "a.json", second, "--join", "--form", form]);
+    assert!(err(&run("cut.json", "my.pf")).contains("PJ007 at cut.json:1:"), "{}", err(&run("cut.json", "my.pf")));
+    let no_feed = run("no-feed.json", "my.pf");
+    assert!(err(&no_feed).contains(" at no-feed.json:1:"), "{}", err(&no_feed));
+    let wrong = err(&run("b.json", "bad.pf"));
+    assert!(wrong.contains("PV001 at b.json:1:") && !wrong.contains(" at a.json"), "{wrong}");
+    assert!(wrong.contains("different: the program does not make the motions of a.json and b.json"), "{wrong}");
+    let missing = run("c.json", "my.pf");
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(err(&missing).contains("can't read c.json"), "{}", err(&missing));
+    // without --join, several jobs need a folder
+    let several = folder.run(&["render", "a.json", "b.json", "--form", "my.pf"]);
+    assert!(
+        several.status.code() == Some(2) && err(&several).contains("or --join to make one program"),
+        "{}",
+        err(&several)
+    );
+    // the source map names the files, and standard input may be one of the jobs
+    let traced = folder.run(&[
+        "render",
+        "a.json",
+        "b.json",
+        "--join",
+        "--form",
+        "my.pf",
+        "--trace",
+        "trace.jsonl",
+        "-o",
+        "part.nc",
+    ]);
+    assert!(traced.status.success(), "{}", err(&traced));
+    let trace = folder.read("trace.jsonl");
+    assert!(trace.contains(r#""file":"a.json""#) && trace.contains(r#""file":"b.json""#), "{trace}");
+    let fed = folder.feed(&["render", "-", "b.json", "--join", "--form", "my.pf"], job(HEAD, FIRST).as_bytes());
+    assert_eq!(out(&fed), folder.read("part.nc"));
+}
+
+/// The cuts and holes of a program, by the simulator, with their work offset.
+fn cuts(folder: &Folder, program: &str) -> Vec<String> {
+    folder.write("program.nc", program);
+    let simulated = folder.run(&["simulate", "program.nc", "--control", "haas"]);
+    assert!(simulated.status.success(), "{}", err(&simulated));
+    let mut work = String::new();
+    let mut found = Vec::new();
+    for line in out(&simulated).lines() {
+        let words: Vec<&str> = line.split_whitespace().skip(1).collect();
+        match words.first().copied() {
+            Some("work") => work = words[1..].join(" "),
+            Some("feed" | "arc" | "hole") => found.push(format!("{work}: {}", words.join(" "))),
+            _ => {}
+        }
+    }
+    found
+}
+
+fn operations() -> impl Strategy<Value = String> {
+    let operation = (1..=2u32, 54..=57u32, -20..20i32, -20..20i32, prop::bool::ANY, prop::bool::ANY).prop_map(|(tool, work, x, y, coolant, drills)| {
+        let coolant = if coolant { r#""coolant":"flood","# } else { "" };
+        let path = match drills {
+            true => format!(r#"{{"cycle":{{"kind":"drill","depth":5,"clear":2,"feed":50,"points":[[{x},{y},0],[{},{y},0]]}}}}"#, x + 5),
+            false => format!(r#"{{"rapid":[{x},{y},5]}},{{"line":[{x},{y},-1]}},{{"line":[{y},{x},-2]}},{{"rapid":[{y},{x},5]}}"#),
+        };
+        format!(r#"{{"tool":{tool},"work":{work},"spindle":{{"speed":{},"direction":"cw"}},{coolant}"feed":100,"path":[{path}]}}"#, 900 + x)
+    });
+    prop::collection::vec(operation, 1..4).prop_map(|operations| operations.join(","))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// The joined program makes the cuts of the separate programs, one after the other, and is proven.
+    #[test]
+    fn a_joined_program_makes_the_cuts_of_its_parts(parts in prop::collection::vec(operations(), 2..4)) {
+        let folder = Folder::new("joined-random");
+        let post = post("haas.pf");
+        let texts: Vec<String> = parts.iter().map(|operations| job(HEAD, operations)).collect();
+        let separate: Vec<String> = texts.iter().flat_map(|text| {
+            let program = post.render(Job::json(text), &Options::default()).unwrap();
+            cuts(&folder, program.text())
+        }).collect();
+        prop_assert!(!separate.is_empty());
+        let joined = post.render(join(&texts), &Options::default()).unwrap();
+        prop_assert!(joined.verdict().is_proven());
+        prop_assert_eq!(cuts(&folder, joined.text()), separate, "{}", joined.text());
+    }
+}

@@ -150,6 +150,7 @@ pub mod internals {
         pub use crate::picture::{Kind, Picture, Register, Sheet, View, draw, svg, svg_over};
     }
     pub mod post {
+        pub use crate::job::KeptJob;
         pub use crate::post::reading::taken;
         pub use crate::post::{Part, sample_job, sample_program, shipped};
     }
@@ -193,9 +194,10 @@ pub mod internals {
         pub use crate::trace::Trace;
     }
     pub mod verify {
+        pub use crate::toolpath::kept::Kept;
         pub use crate::verify::{
-            Batch, Comparer, Equivalences, Expectation, Finding, Kept, Motions, NoMotion, UNPROVEN, Verdict,
-            compare_motions, prove_beside, tolerances,
+            Batch, Comparer, Equivalences, Expectation, Finding, Motions, NoMotion, UNPROVEN, Verdict, compare_motions,
+            prove_beside, tolerances,
         };
     }
     pub mod json {

@@ -6,7 +6,7 @@ use crate::remarks::Remarks;
 use crate::toolpath::Place;
 
 /// Results of reading, besides the events.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The system that wrote the file.
     pub dialect: Option<Dialect>,

@@ -2,10 +2,12 @@
 
 mod format;
 mod join;
+mod kept;
 mod read;
 mod select;
 
 pub use format::Format;
+pub use kept::KeptJob;
 pub use select::Selection;
 
 use join::Joining;
@@ -70,6 +72,7 @@ enum Input<'a> {
     Events(Box<Maker<'a>>),
     /// Jobs that are read as one, and their names.
     Joined(Vec<Job<'a>>, Rc<[String]>),
+    Kept(KeptJob),
 }
 
 /// A job that can be read: its input and its format. It is not read until it is rendered or verified.
@@ -197,6 +200,7 @@ impl<'a> Job<'a> {
             Input::Stream(input) => Input::Stream(input.take()),
             Input::Events(make) => Input::Events(Box::new(make)),
             Input::Joined(parts, names) => Input::Joined(parts.iter_mut().map(Job::again).collect(), Rc::clone(names)),
+            Input::Kept(kept) => Input::Kept(kept.clone()),
         };
         Job { reading: self.reading.clone(), name: self.name.clone(), ..Job::new(self.format, input) }
     }
@@ -241,7 +245,7 @@ impl<'a> Job<'a> {
 
     /// The number of bytes read so far, counted during the read. `None`: this number does not show the progress.
     pub(crate) fn bytes_read(&self) -> Option<Rc<Cell<u64>>> {
-        (!matches!(self.input, Input::Events(_) | Input::Joined(..))).then(|| Rc::clone(&self.read))
+        (!matches!(self.input, Input::Events(_) | Input::Joined(..) | Input::Kept(_))).then(|| Rc::clone(&self.read))
     }
 
     /// Reads the job from its beginning and pushes its events. Memory does not grow with the job.
@@ -345,6 +349,10 @@ impl<'a> Job<'a> {
                 }
             }
             Input::Events(make) => make(&mut Ahead(Hold::new(sink))),
+            Input::Kept(kept) => {
+                *report = kept.report.clone();
+                kept.read(sink)
+            }
             Input::Joined(parts, names) => {
                 let mut joining = Joining::new(sink, names);
                 for (part, at) in parts.iter_mut().zip(1..) {

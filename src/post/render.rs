@@ -11,8 +11,8 @@ use crate::diag::{Code, Diag};
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
 use crate::render::Renderer;
-use crate::toolpath::{Event, Flow, Place, Sink, Stop, flow};
-use crate::verify::{Batch, Kept, Verdict};
+use crate::toolpath::{Event, Flow, Kept, Place, Sink, Stop, flow};
+use crate::verify::{Batch, Verdict};
 
 /// Size of the text in bytes after which it is passed on.
 const CHUNK: usize = 64 * 1024;

@@ -2,9 +2,8 @@
 
 use super::intended::Job;
 use super::intent::{Done, Intent, unproven};
-use super::owned_event::Kept;
 use super::tables::Unmodelled;
-use crate::toolpath::{Call, Place};
+use crate::toolpath::{Call, Kept, Place};
 
 /// The largest number of items run by calls.
 const MOST_DONE: u64 = 20_000_000;

@@ -1,9 +1,8 @@
 //! Subprograms of the job. Their items are kept where they are defined, and repeated at each call.
 
 use super::intent::{Done, unproven};
-use super::owned_event::Kept;
 use super::tables::Unmodelled;
-use crate::toolpath::{Event, Place};
+use crate::toolpath::{Event, Kept, Place};
 
 /// The largest number of kept items.
 const MOST: usize = 1 << 18;

@@ -8,13 +8,12 @@ use std::rc::Rc;
 
 use super::comparer::Comparer;
 use super::expectation::Expectation;
-use super::owned_event::Kept;
 use super::report::Counts;
 use super::verdict::Verdict;
 use crate::diag::Diag;
 use crate::nc::RunSettings;
 use crate::render::TraceLine;
-use crate::toolpath::{Event, Place, Sink};
+use crate::toolpath::{Event, Kept, Place, Sink};
 
 /// The events that a renderer took, and the text that it printed for them so far.
 #[derive(Clone, Debug, Default)]

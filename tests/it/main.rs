@@ -27,6 +27,7 @@ mod headers;
 mod increments;
 mod integrations;
 mod joined_jobs;
+mod kept_jobs;
 mod key_order;
 mod kit;
 mod languages;

@@ -90,7 +90,7 @@ impl Again {
 /// A file that must not change while it is read more than once.
 struct Steady {
     file: File,
-    stamp: Option<(u64, SystemTime, (i64, i64))>,
+    stamp: Option<Stamp>,
 }
 
 impl Steady {
@@ -99,9 +99,20 @@ impl Steady {
     }
 }
 
-/// Size and time of the last change, if the system has them; also the change time of the file's entry, which no program can set back.
-fn stamp(file: &File) -> Option<(u64, SystemTime, (i64, i64))> {
-    let meta = file.metadata().ok()?;
+/// Size and time of the last change; also the change time of the file's entry, which no program can set back.
+pub type Stamp = (u64, SystemTime, (i64, i64));
+
+/// The state of an open file, if the system has it.
+fn stamp(file: &File) -> Option<Stamp> {
+    stamp_in(&file.metadata().ok()?)
+}
+
+/// The state of a file at a path.
+pub fn stamp_of(path: &Path) -> Option<Stamp> {
+    stamp_in(&fs::metadata(path).ok()?)
+}
+
+fn stamp_in(meta: &fs::Metadata) -> Option<Stamp> {
     #[cfg(unix)]
     let entry = {
         use std::os::unix::fs::MetadataExt;

@@ -2,19 +2,37 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use postform::Job;
+use postform::internals::post::KeptJob;
 use postform::internals::terminal::escaped;
 
 use super::super::args::ReadArgs;
-use super::super::files;
+use super::super::files::{self, Stamp};
 use super::ask::Close;
 
 /// The jobs, in the order of their tabs.
 pub struct Jobs {
     list: Mutex<Vec<Opened>>,
     read: ReadArgs,
+    /// The events of the job that was shown last.
+    kept: Mutex<Option<Events>>,
 }
+
+/// Events of a job, and the state of its file when they were read.
+struct Events {
+    content: Content,
+    stamp: Option<Stamp>,
+    /// `None`: the job has too many events, or contains an error.
+    job: Option<KeptJob>,
+}
+
+/// A file that was changed so shortly before may change again without another time of the change.
+const SETTLED: Duration = Duration::from_secs(1);
+
+/// The events of a longer job are not kept, but read again each time: 300,000 events take 35 MB.
+const MOST_KEPT: usize = 300_000;
 
 /// A job.
 #[derive(Clone)]
@@ -24,7 +42,7 @@ pub struct Opened {
     content: Content,
 }
 
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 enum Content {
     /// A file, which is read again each time.
     File(PathBuf),
@@ -35,6 +53,14 @@ enum Content {
 }
 
 impl Opened {
+    /// The state of the file; `None` for a job in memory.
+    fn stamp(&self) -> Option<Stamp> {
+        match &self.content {
+            Content::File(path) => files::stamp_of(path),
+            _ => None,
+        }
+    }
+
     /// Is it the sample job?
     pub fn is_sample(&self) -> bool {
         matches!(self.content, Content::Sample)
@@ -51,7 +77,7 @@ impl Jobs {
             files::check_format(path, &read)?;
         }
         let opened = |path: &PathBuf| Opened { name: files::name(path), content: Content::File(path.clone()) };
-        Ok(Jobs { list: Mutex::new(paths.iter().map(opened).collect()), read })
+        Ok(Jobs { list: Mutex::new(paths.iter().map(opened).collect()), read, kept: Mutex::default() })
     }
 
     fn list(&self) -> MutexGuard<'_, Vec<Opened>> {
@@ -86,11 +112,36 @@ impl Jobs {
         }
     }
 
+    /// Keeps the events of the job that is shown, because each key of the form reads them several times.
+    pub fn keep(&self, job: &Opened) {
+        let stamp = job.stamp();
+        let is_kept = |kept: &Events| kept.content == job.content && kept.stamp == stamp;
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if job.is_sample() || kept.as_ref().is_some_and(is_kept) {
+            return;
+        }
+        *kept = None;
+        if stamp.is_some_and(|(_, changed, _)| changed.elapsed().is_ok_and(|ago| ago < SETTLED)) {
+            return;
+        }
+        let events = self.read(job, None).ok().and_then(|mut read| KeptJob::of(&mut read, MOST_KEPT));
+        *kept = Some(Events { content: job.content.clone(), stamp, job: events });
+    }
+
     /// Opens a job. `sample`: the text of the sample job.
     ///
     /// # Errors
     /// A message: its file can't be read.
     pub fn open(&self, job: &Opened, sample: Option<&'static str>) -> Result<Job<'static>, String> {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = kept.as_ref().filter(|kept| kept.content == job.content && kept.stamp == job.stamp());
+        match same.and_then(|kept| kept.job.as_ref()) {
+            Some(kept) => Ok(kept.job()),
+            None => self.read(job, sample),
+        }
+    }
+
+    fn read(&self, job: &Opened, sample: Option<&'static str>) -> Result<Job<'static>, String> {
         match &job.content {
             Content::File(path) => files::job(path, &self.read, true),
             Content::Memory(name, bytes) => files::job_in_memory(name, bytes, &self.read),

@@ -161,6 +161,7 @@ impl Session {
         let generation = self.generation.load(Ordering::Acquire);
         let form = self.read_form()?;
         let job = &self.jobs.at(ask.job)?;
+        self.jobs.keep(job);
         let (mut scene, printed) = self.print(&form, ask, job)?;
         *lock(&self.shown) = form.paths();
         let against = match &self.against {

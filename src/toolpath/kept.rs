@@ -1,6 +1,6 @@
 //! Events that live longer than their reader.
 
-use crate::toolpath::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread, ToolChange};
+use super::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread, ToolChange};
 
 /// An event that lives longer than its reader, so that it can be sent to another thread.
 #[derive(Clone, Debug)]

@@ -32,7 +32,7 @@ impl KeptJob {
 
     /// The job again: its events without their text.
     pub fn job(&self) -> Job<'static> {
-        Job { reading: self.reading.clone(), ..Job::new(self.format, Input::Kept(self.clone())) }
+        Job { reading: self.reading.clone(), ..Job::new(self.format, Input::Kept(Box::new(self.clone()))) }
     }
 
     /// Pushes the events.

@@ -72,7 +72,7 @@ enum Input<'a> {
     Events(Box<Maker<'a>>),
     /// Jobs that are read as one, and their names.
     Joined(Vec<Job<'a>>, Rc<[String]>),
-    Kept(KeptJob),
+    Kept(Box<KeptJob>),
 }
 
 /// A job that can be read: its input and its format. It is not read until it is rendered or verified.

@@ -21,6 +21,7 @@ mod frames;
 mod grbl;
 mod holes;
 mod job;
+mod json;
 mod jumps;
 mod languages;
 mod lathe;
@@ -52,6 +53,7 @@ pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Threading,
 pub(crate) use arcs::axes_of;
 pub use foreign::{control_of_name, settings_for};
 pub use job::{JobOptions, read_program};
+pub use json::{json_line, plane_name, stop_name, turn_name};
 pub use modal::Modal;
 pub use pace::Pace;
 pub use scan::{Kind, Token, tokens};

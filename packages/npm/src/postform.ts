@@ -55,6 +55,45 @@ export interface Program {
   findings: Finding[];
 }
 
+/** Six axes X Y Z A B C; null: the position is known only at the machine. */
+export type Position = [number | null, number | null, number | null, number | null, number | null, number | null];
+
+/** An action of the machine: besides its line, the keys of one kind, as `postform simulate --format json` prints them. */
+export interface Action {
+  /** The line of the program, from 1. */
+  line: number;
+  rapid?: Position;
+  feed?: Position;
+  /** The end of an arc; `center` and `plane` belong to it. */
+  arc?: Position;
+  center?: [number, number, number];
+  plane?: "xy" | "zx" | "yz";
+  turn?: "cw" | "ccw";
+  turns?: number;
+  /** The feed, or the lead of a thread. */
+  f?: number;
+  lead?: number;
+  /** The axes whose position is that of the machine. */
+  machine?: string;
+  dwell?: number;
+  spindle?: "cw" | "ccw" | "stop";
+  s?: number;
+  orient?: number;
+  stop?: "program" | "optional" | "end";
+  tool?: number;
+  coolant?: "flood" | "mist" | "off";
+  units?: "mm" | "inch";
+  work?: number;
+}
+
+/** What a machine does with a program. */
+export interface Simulated {
+  actions: Action[];
+  warnings: Finding[];
+  /** The block that the control refuses; the program was run up to it. */
+  refused: Finding | null;
+}
+
 /** A form, a job or an option that makes no program, or a program that does not do what its job asks for. */
 export class PostformError extends Error {
   /** The program, where it is refused. */
@@ -91,6 +130,12 @@ export class Postform {
       throw Object.assign(error, { program: program.program, verdict: program.verdict });
     }
     return program;
+  }
+
+  /** Runs a program by the rules of a control, such as `haas`. With `startUnknown`, positions that depend on the start are null. */
+  async simulate(program: string, options: { control?: string; units?: "mm" | "inch"; startUnknown?: boolean } = {}): Promise<Simulated> {
+    const { control, units, startUnknown } = options;
+    return this.ask({ command: "simulate", program, control, startUnknown, options: { units } });
   }
 
   /** The verdict about a program; it may be `different`. */

@@ -30,6 +30,21 @@ test("a wrong program is different, and a form that prints one is refused", asyn
   });
 });
 
+test("a program is run", async () => {
+  const { actions, warnings, refused } = await postform.simulate("G21 G90 G54\nT1 M6\nG0 X1. Y2.\nG2 X3. Y2. I1. J0. F100.\nM30\n", { control: "haas" });
+  const kinds = actions.map(({ line, ...action }) => `${line} ${Object.keys(action)[0]}`);
+  assert.deepEqual(kinds.filter((kind) => !kind.includes("spindle")), ["1 units", "1 work", "2 tool", "3 rapid", "4 arc", "5 stop"]);
+  const arc = actions.find((action) => action.arc);
+  assert.deepEqual([arc.arc.slice(0, 2), arc.center.slice(0, 2), arc.turn, arc.f], [[3, 2], [2, 2], "cw", 100]);
+  assert.deepEqual([warnings, refused], [[], null]);
+  const unknown = await postform.simulate("G0 X1.\nM30\n", { control: "haas", startUnknown: true });
+  assert.deepEqual(unknown.actions[0].rapid.slice(0, 3), [1, null, null]);
+  const wrong = await postform.simulate("G0 X1.\nG777\n", { control: "haas" });
+  assert.equal(wrong.actions.length, 1);
+  assert.deepEqual([wrong.refused.line, wrong.refused.severity], [2, "error"]);
+  await assert.rejects(postform.simulate("", { control: "hass" }), /no control hass; there are .*haas/);
+});
+
 test("findings have their positions", async () => {
   const findings = await postform.lint({ name: "a.pf", text: form.text.replace("M30", "Q[nothing]") });
   const finding = findings.find((finding) => finding.code === "PF202");

@@ -1,6 +1,5 @@
 //! `postform simulate`.
 
-mod json;
 mod summary;
 mod text;
 
@@ -8,8 +7,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use postform::diag::Diag;
-use postform::internals::nc::{RunError, RunSettings, Simulator, Tally, settings_for};
-use postform::toolpath::{Direction, Plane, StopKind};
+use postform::internals::nc::{RunError, RunSettings, Simulator, Tally, json_line, settings_for};
 
 use super::Ending;
 use super::args::{ControlArgs, MotionFormat, SimulateArgs, StartArg};
@@ -54,7 +52,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
             if args.dry {
                 tally.add(item);
             } else if args.format == MotionFormat::Json {
-                json::json(item, unknown, &mut text);
+                json_line(item, unknown, &mut text);
             } else {
                 text::line(item, simulator.text(), shown, &mut text);
             }
@@ -138,20 +136,4 @@ fn ignore_closed(error: io::Error) -> Result<(), String> {
         return Ok(());
     }
     Err(io_message("write", Path::new("standard output"), &error))
-}
-
-fn plane_name(plane: Plane) -> &'static str {
-    match plane {
-        Plane::Xy => "xy",
-        Plane::Xz => "zx",
-        Plane::Yz => "yz",
-    }
-}
-
-fn turn_name(direction: Direction) -> &'static str {
-    if direction == Direction::Cw { "cw" } else { "ccw" }
-}
-
-fn stop_name(kind: StopKind) -> &'static str {
-    if kind == StopKind::Program { "program" } else { "optional" }
 }

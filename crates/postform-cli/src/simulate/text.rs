@@ -1,9 +1,7 @@
 //! Actions as lines of text.
 
-use postform::internals::nc::{Action, Item, RunSettings};
+use postform::internals::nc::{Action, Item, RunSettings, plane_name, stop_name, turn_name};
 use postform::internals::number::quantise;
-
-use super::{plane_name, stop_name, turn_name};
 
 /// The display of positions.
 #[derive(Clone, Copy)]

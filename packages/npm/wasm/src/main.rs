@@ -1,12 +1,14 @@
 //! One request: JSON on standard input. One answer: JSON on standard output. `packages/npm/src/index.ts` has both.
 
 use std::collections::HashMap;
-use std::io::{Read, Write};
+use std::io::{Cursor, Read, Write};
 
-use postform::diag::Findings;
+use postform::diag::{Findings, Location};
+use postform::internals::control;
+use postform::internals::nc::{RunError, Simulator, json_line};
 use postform::internals::report::row;
 use postform::toolpath::Units;
-use postform::{Clock, Error, Format, Job, Options, Post, Source, Verdict};
+use postform::{Clock, Control, Error, Format, Job, Options, Post, RunSettings, Source, Verdict};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -14,13 +16,18 @@ use serde_json::{Value, json};
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct Request {
     command: Command,
-    form: Text,
+    form: Option<Text>,
     /// Forms that it calls, by their names.
     #[serde(default)]
     files: HashMap<String, String>,
     job: Option<Text>,
-    /// The program that is verified.
+    /// The program that is verified or run.
     program: Option<String>,
+    /// The control that runs the program, by its name.
+    control: Option<String>,
+    /// Positions that depend on the position of the machine at the start are null.
+    #[serde(default)]
+    start_unknown: bool,
     #[serde(default)]
     options: Asked,
 }
@@ -30,6 +37,7 @@ struct Request {
 enum Command {
     Lint,
     Render,
+    Simulate,
     Verify,
 }
 
@@ -85,12 +93,62 @@ fn rows(findings: &Findings) -> Vec<Value> {
     findings.diags.iter().map(|diag| json!(row(diag, &findings.files))).collect()
 }
 
+/// The actions of a machine that runs a program, its warnings, and the block that the control refuses.
+fn simulate(request: &Request) -> Value {
+    let named = request.control.as_deref().unwrap_or("fanuc");
+    let Some(control) = Control::named(named) else {
+        let error =
+            format!("there is no control {named}; there are {}", control::names().collect::<Vec<_>>().join(", "));
+        return json!({ "error": error, "findings": [] });
+    };
+    let units = request.options.units.map_or(Units::Mm, Units::from);
+    let settings = RunSettings { units, places_unknown: request.start_unknown, ..RunSettings::new(control) };
+    let mut simulator = Simulator::new(Cursor::new(request.program.as_deref().unwrap_or_default()), settings);
+    let (mut items, mut actions, mut warnings) = (Vec::new(), vec![b'['], Vec::new());
+    let refused = loop {
+        items.clear();
+        let step = simulator.step(&mut items);
+        for item in &items {
+            let before = actions.len();
+            json_line(item, request.start_unknown, &mut actions);
+            if actions.len() > before {
+                // the line end becomes the comma of the list
+                actions.pop();
+                actions.push(b',');
+            }
+        }
+        warnings.extend(simulator.take_warnings());
+        match step {
+            Ok(true) => {}
+            Ok(false) => break None,
+            Err(RunError::Refused(mut diag, line)) => {
+                diag.place.get_or_insert_with(|| Location::line(line));
+                break Some(json!(row(&diag, &[])));
+            }
+            Err(RunError::Io(error)) => return json!({ "error": error.to_string(), "findings": [] }),
+        }
+    };
+    if actions.len() > 1 {
+        actions.pop();
+    }
+    actions.push(b']');
+    let warnings: Vec<Value> = warnings.iter().map(|diag| json!(row(diag, &[]))).collect();
+    match serde_json::from_slice::<Value>(&actions) {
+        Ok(actions) => json!({ "actions": actions, "warnings": warnings, "refused": refused }),
+        Err(error) => json!({ "error": error.to_string(), "findings": [] }),
+    }
+}
+
 fn answer(request: &Request) -> Result<Value, Error> {
+    if request.command == Command::Simulate {
+        return Ok(simulate(request));
+    }
+    let Some(form) = &request.form else { return Ok(json!({ "error": "give a form", "findings": [] })) };
     let files = |name: &str| match request.files.get(name) {
         Some(text) => Ok(Source::from_text(name, text.as_str())),
         None => Err("can't be found: give it in `files`".to_owned()),
     };
-    let post = Post::compile(Source::from_text(request.form.name.as_str(), request.form.text.as_str()), &files);
+    let post = Post::compile(Source::from_text(form.name.as_str(), form.text.as_str()), &files);
     if request.command == Command::Lint {
         let findings = post.as_ref().map_or_else(|error| rows(error.findings()), |post| rows(post.findings()));
         return Ok(json!({ "findings": findings }));

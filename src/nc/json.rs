@@ -1,11 +1,11 @@
 //! Actions as JSON Lines.
 
-use postform::internals::nc::{Action, Item};
+use super::action::{Action, Item};
+use crate::toolpath::{Direction, Plane, StopKind};
 
-use super::{plane_name, stop_name, turn_name};
-
-/// One action as a JSON object. `unknown`: unknown positions are null.
-pub fn json(item: &Item, unknown: bool, out: &mut Vec<u8>) {
+/// Writes an action as a JSON object and a line end; an action without an object, such as a comment, writes nothing. `unknown`:
+/// unknown positions are null.
+pub fn json_line(item: &Item, unknown: bool, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let start = out.len();
     out.extend_from_slice(b"{\"line\":");
@@ -93,4 +93,23 @@ fn name(before: &[u8], value: &str, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     out.extend_from_slice(value.as_bytes());
     out.push(b'"');
+}
+
+/// Name of a plane, by its axes in their order.
+pub fn plane_name(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Xy => "xy",
+        Plane::Xz => "zx",
+        Plane::Yz => "yz",
+    }
+}
+
+/// Name of the direction of an arc.
+pub fn turn_name(direction: Direction) -> &'static str {
+    if direction == Direction::Cw { "cw" } else { "ccw" }
+}
+
+/// Name of a stop.
+pub fn stop_name(kind: StopKind) -> &'static str {
+    if kind == StopKind::Program { "program" } else { "optional" }
 }

@@ -9,7 +9,7 @@ use crate::sema::{Formula, Values};
 pub struct WorkWord {
     /// The G code before it in its block.
     pub code: Option<Code>,
-    /// The letter of the word; `None`: a value after a text.
+    /// The letter of the word. `None`: the value follows a text and has no letter.
     pub letter: Option<u8>,
     /// The value is the number of a G code.
     pub is_code: bool,

@@ -54,7 +54,7 @@ const MOST_LINES: usize = 24;
 const ORDER: &[u8] = b"XYZUVWABCIJKRQFPESTHDONLGM";
 
 impl Document {
-    /// The actions for the findings that a span touches. `print` returns the program of the current job with changed text of
+    /// The actions for the findings that lie wholly or partly in a span. `print` returns the program of the current job with changed text of
     /// files, by file name; `None` if it can't be printed.
     pub fn actions(&self, within: Span, print: &mut dyn FnMut(&Changed) -> Option<String>) -> Vec<Action> {
         let mut actions = Vec::new();

@@ -260,7 +260,7 @@ impl<'a> View<'a> {
         Some(if self.has_format[usize::from(letter)] { letter } else { letter.to_ascii_uppercase() })
     }
 
-    /// The axis that a word with this letter moves: 0 and 1 across, 2 the depth; `None` for other letters.
+    /// The axis that a word with this letter moves: 0 and 1 are the axes of the plane, 2 is the depth axis. `None`: the letter moves no axis.
     pub fn axis(&self, letter: u8) -> Option<usize> {
         self.settings.axes.iter().position(|&axis| axis == self.letters[letter].printed)
     }

@@ -42,7 +42,7 @@ pub struct Block {
     pub percent: bool,
     /// Columns of the first comment, without its delimiters.
     pub comment: Option<(usize, usize)>,
-    /// Axes whose words are positions in any distance mode, as bits.
+    /// Axes whose words are absolute positions, in G90 and in G91, as bits.
     pub(super) absolute: u8,
     /// Axes whose words are increments in any distance mode, as bits.
     pub(super) incremental: u8,

@@ -38,7 +38,7 @@ impl Needs {
 /// An axis.
 #[derive(Clone, Copy, Debug)]
 pub struct At {
-    /// Position in machine coordinates, as far as its base is known: millimetres or degrees.
+    /// Position in millimetres or degrees: in machine coordinates if its base is known, otherwise relative to the base.
     pub value: f64,
     pub base: Base,
 }

@@ -1,4 +1,4 @@
-//! Changes of the program: compared with an old program, and with the form as last saved.
+//! Two lists of changes of the program: from an old program, and from the program that the last saved form prints.
 
 use std::io::Cursor;
 

@@ -58,7 +58,7 @@ fn is_put_in(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
         && !is_part(s, cut, found)
 }
 
-/// Whether the job's short cut disappears in the digits of the program. The program must stay as near to the job as it
+/// Whether a very short cut of the job has no length in the program, because positions are rounded. The program must stay as near to the job as it
 /// can.
 fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     let Some(found) = s.next()? else { return Ok(true) };

@@ -1,4 +1,4 @@
-//! The usual cut: a straight cut that follows another one, equal in job and program. It is compared without copies,
+//! The most frequent case: a straight cut after a straight cut, the same in job and program. It is compared without copies,
 //! because most cuts of long jobs are of this kind. All other cuts take the general path, which has the same result for
 //! usual cuts.
 

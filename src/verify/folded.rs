@@ -31,7 +31,7 @@ pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
     apart <= LAST_DIGITS * a.abs() || apart <= WHOLE * a.abs() && (to_whole(a, b) || to_whole(b, a))
 }
 
-/// Takes all strokes of the program's current hole. Returns the depths of the strokes that go down.
+/// Reads all strokes with which the program drills its current hole. Returns the depths of the strokes that go down.
 ///
 /// # Errors
 /// The program can't be run further.

@@ -127,7 +127,7 @@ struct Queue<I: Iterator> {
     events: VecDeque<Rc<I::Item>>,
     /// Batches whose text is still to be run.
     texts: VecDeque<Rc<I::Item>>,
-    /// Batches with the origins of lines: those still to be run, the current one and the one before.
+    /// Batches of lines with their origins: the batch that is being run, the one before it, and those after it.
     traces: VecDeque<Rc<I::Item>>,
     /// Whether no more text is read, because the control refused a block. This is reported at the job's next cut.
     unread: bool,

@@ -43,7 +43,7 @@ impl State {
         refuse(Code::PN006, "a chamfer or rounded corner, but the next block does not move along the other axis", NEXT)
     }
 
-    /// Makes a straight cut of a lathe with the corner at its start and the corner at its end.
+    /// Makes a straight turning cut, with the corners at its start and at its end.
     pub(in crate::nc) fn cut_with_corners(&mut self, block: &Block, feed: f64, out: &mut Out<'_>) -> Done {
         let from = self.place.position;
         let asked = asked(block)?;

@@ -331,7 +331,7 @@ impl Said {
         self.depth_moved = moved;
     }
 
-    /// Is the frame of axis words that are printed now different from that of the job's positions?
+    /// Do the axis words that are printed now use another coordinate frame than the positions of the job?
     pub fn is_elsewhere(&self, shape: &Shape) -> bool {
         self.shift != Shift::None || !shape.program.settings.incremental && self.distance_is_wrong(shape)
     }

@@ -9,7 +9,7 @@ use postform::Source;
 use super::uri;
 use crate::files;
 
-/// The kind of a file, by its name or by the editor's language.
+/// The kind of a file, by its name or by the language that the editor has set for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A form.

@@ -131,7 +131,8 @@ async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGen
     for (;;) {
       const length = lengthOf(bytes.subarray(0, filled));
       if (length !== null && filled >= length) {
-        yield bytes.slice(0, length).buffer;
+        // a buffer of just this scene is not copied
+        yield length === bytes.length ? bytes.buffer : bytes.slice(0, length).buffer;
         bytes = bytes.slice(length, filled);
         filled = bytes.length;
         continue;

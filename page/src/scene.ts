@@ -243,7 +243,7 @@ export function lengthOf(bytes: Uint8Array): number | null {
 /** A complete scene. */
 export class Scene {
   readonly head: Head;
-  /** The sections. Each has a buffer of its own, so that later scenes can share it and the rest is freed. */
+  /** The sections. Those of an earlier scene have a buffer of their own, so that the rest of that scene can be freed. */
   private readonly found = new Map<string, Uint8Array>();
 
   /** `before`: the scene whose sections are not sent again. */
@@ -252,11 +252,11 @@ export class Scene {
     const length = new DataView(buffer).getUint32(4, true);
     this.head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, PREFIX, length)));
     const start = PREFIX + length;
-    for (const [name, [offset, length]] of Object.entries(this.head.sections)) this.found.set(name, new Uint8Array(buffer.slice(start + offset, start + offset + length)));
+    for (const [name, [offset, length]] of Object.entries(this.head.sections)) this.found.set(name, new Uint8Array(buffer, start + offset, length));
     for (const name of this.head.kept ?? []) {
       const bytes = before?.found.get(name);
       if (!bytes) throw new Error(`the scene lacks ${name}`);
-      this.found.set(name, bytes);
+      this.found.set(name, bytes.byteLength < bytes.buffer.byteLength ? bytes.slice() : bytes);
     }
   }
 

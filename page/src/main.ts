@@ -149,7 +149,7 @@ export class Page {
     }
     this.host?.onChange?.((connected) => {
       if (connected) {
-        this.say("");
+        // the scene takes the message of a failure away; others stay
         void this.load();
       } else this.failed("postform has ended, or can't be reached");
     });
@@ -161,14 +161,20 @@ export class Page {
 
   /** Opens jobs in tabs of their own, and shows the last one. */
   async addJobs(files: File[]): Promise<void> {
+    const close: [string, () => void] = ["close", () => this.say("")];
+    let tabs = this.header.jobs;
+    const replaced: string[] = [];
     for (const file of files) {
       try {
         this.job = await this.host!.add!(file.name, new Uint8Array(await file.arrayBuffer()));
         this.program = null;
       } catch (error) {
-        return this.say(`${file.name} was not opened: ${plain(error)}`, ["close", () => this.say("")]);
+        return this.say(`${file.name} was not opened: ${plain(error)}`, close);
       }
+      if (this.job < tabs) replaced.push(file.name);
+      tabs = Math.max(tabs, this.job + 1);
     }
+    if (replaced.length) this.say(`${replaced.join(", ")}: an opened job of the same name was replaced.`, close);
     this.onTyped();
     await this.load();
   }

@@ -524,6 +524,7 @@ test("jobs are opened in tabs and closed again", async ({ open }) => {
   await page.waitForFunction(() => window.page.program?.lines > 90 && document.querySelectorAll(".tab")[1]?.getAttribute("aria-selected") === "true");
   await page.waitForFunction(() => [...document.querySelectorAll(".tab")].every((tab) => tab.textContent.endsWith("✓")));
   ok((await tabs()).length === 2, `${await tabs()}`);
+  ok((await page.locator(".banner").innerText()).includes("job.json: an opened job of the same name was replaced"), "which is said");
   // another page of the same server has the tab, too
   await other.waitForFunction(() => document.querySelectorAll(".tab").length === 2 && document.querySelectorAll(".tab")[1].textContent.endsWith("✓"));
   ok((await other.getByRole("tab").nth(0).getAttribute("aria-selected")) === "true", "which still shows its own job");

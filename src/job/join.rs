@@ -20,8 +20,8 @@ pub(super) struct Joining<'s> {
     is_new: bool,
     held: Held,
     tools: Vec<Tool>,
-    /// Subprograms of the jobs before.
-    subprograms: Vec<f64>,
+    /// Numbers of the subprograms, and the jobs that contain them.
+    subprograms: Vec<(f64, u16)>,
     in_subprogram: bool,
 }
 
@@ -135,8 +135,8 @@ impl<'s> Joining<'s> {
             Some("direction of the spindle")
         } else if needs_turn && spindle.speed.is_none() && spindle.turn != Some(SpindleTurn::Off) {
             Some("spindle speed")
-        } else if held.spindle.css == Some(true) && spindle.css.is_none() {
-            Some("choice between surface speed and revolutions per minute (`css`)")
+        } else if held.spindle.max.is_some() && spindle.css == Some(true) && spindle.max.is_none() {
+            Some("highest spindle speed (`max`)")
         } else if change.feed_mode.is_none() && held.feed_mode.is_some() {
             Some("feed mode")
         } else {
@@ -203,7 +203,7 @@ impl<'s> Joining<'s> {
     fn spindle(&mut self, spindle: Spindle) {
         let held = &mut self.held.spindle;
         held.turn = spindle.turn.or(held.turn);
-        held.css = spindle.css.or(held.css);
+        held.max = spindle.max.or(held.max);
     }
 
     fn sets(&mut self, name: &str) {
@@ -244,12 +244,18 @@ impl Sink for Joining<'_> {
             Event::ToolChange(change) => return self.change(change, place),
             Event::Finish if usize::from(self.part) < self.names.len() => return Flow::Continue(()),
             Event::SubStart(number) => {
-                if self.subprograms.contains(number) {
+                if self.subprograms.iter().any(|(known, _)| known == number) {
                     let why = format!("both have a subprogram {number}");
                     return Flow::Break(self.wrong(&why, "number the subprograms of all jobs differently", place));
                 }
-                self.subprograms.push(*number);
+                self.subprograms.push((*number, self.part));
                 self.in_subprogram = true;
+            }
+            Event::SubCall(call)
+                if self.subprograms.iter().any(|(known, part)| *known == call.sub && *part != self.part) =>
+            {
+                let why = format!("it calls subprogram {}, which only an earlier job contains", call.sub);
+                return Flow::Break(self.wrong(&why, "add the subprogram to the job that calls it", place));
             }
             Event::SubEnd => self.in_subprogram = false,
             _ if !self.in_subprogram => self.follow(&event),

@@ -52,7 +52,8 @@ fn the_second_job_follows_the_first() {
 fn a_job_that_would_change_its_meaning_is_refused() {
     let first = job(HEAD, FIRST);
     let second = |from: &str, to: &str| job(HEAD, &SECOND.replace(from, to));
-    let tilted = job(HEAD, &FIRST.replace(r#"{"rapid":[10,0,5]}"#, r#"{"rapid":[10,0,5]},{"set":{"depth":3}}"#));
+    let sets = job(HEAD, &FIRST.replace(r#"{"rapid":[10,0,5]}"#, r#"{"rapid":[10,0,5]},{"set":{"depth":3}}"#));
+    let surface = job(HEAD, &FIRST.replace(r#""speed":1000"#, r#""speed":100,"mode":"css","max":3000"#));
     for (first, second, reason) in [
         (&first, job(&HEAD.replace("mm", "inch"), SECOND), "its units are inch, not mm"),
         (&first, job(&HEAD.replace("mill", "lathe"), SECOND), "another type of machine"),
@@ -63,13 +64,39 @@ fn a_job_that_would_change_its_meaning_is_refused() {
         (&first, second("[3,4,5]},{\"line\"", "[3,4]},{\"line\""), "gives Z"),
         (&first, second(r#"{"rapid":[3,4,5]},{"line""#, r#"{"line""#), "gives X"),
         (&first, job(HEAD, SECOND).replace(r#""diameter":6"#, r#""diameter":8"#), "its tool 2"),
-        (&tilted, job(HEAD, SECOND), "does not set `depth`"),
+        (&sets, job(HEAD, SECOND), "does not set `depth`"),
+        (&surface, second(r#""speed":2000,"#, r#""speed":100,"mode":"css","#), "highest spindle speed"),
     ] {
         // the tool of the second job is used by the first one, too
         let first = first.replace(r#""operations":["#, &format!(r#""operations":[{SECOND},"#)).replace("}}}", "}}");
         let found = refused(&first, &second);
         assert!(found.starts_with("PJ014 b:") && found.contains("b can't follow a: "), "{reason}: {found}");
         assert!(found.contains(reason), "{reason}: {found}");
+    }
+}
+
+/// A subprogram belongs to its own job.
+#[test]
+fn subprograms_are_not_shared() {
+    let text = std::fs::read_to_string(root().join("samples/sub-call/form.pf")).unwrap();
+    let post = Post::compile(Source::from_text("form.pf", text), &NoFiles).unwrap();
+    let head = HEAD.replace("mm", "inch");
+    let with = |numbers: &[u32]| {
+        let sub = |number| format!(r#"{{"number":{number},"path":[{{"line":[10,0,-1],"feed":9}}]}}"#);
+        format!(r#"{head}"subprograms":[{}],"#, numbers.iter().map(sub).collect::<Vec<_>>().join(","))
+    };
+    let calls = |operation: &str, number: u32| {
+        operation.replacen("},{\"rapid\"", &format!("}},{{\"call\":{{\"sub\":{number}}}}},{{\"rapid\""), 1)
+    };
+    let render = |texts: &[String]| post.render(join(texts), &Options::default());
+    let first = job(&with(&[5]), &calls(FIRST, 5));
+    assert!(render(&[first.clone(), job(&with(&[6]), &calls(SECOND, 6))]).is_ok());
+    for (second, reason) in [
+        (job(&with(&[5]), &calls(SECOND, 5)), "both have a subprogram 5"),
+        (job(&with(&[6]), &calls(SECOND, 5)), "it calls subprogram 5, which only an earlier job contains"),
+    ] {
+        let error = render(&[first.clone(), second]).unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
     }
 }
 

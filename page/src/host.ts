@@ -152,6 +152,7 @@ async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGen
       filled += value.length;
     }
   } finally {
-    void reader.cancel();
+    // a page that is left has lost its connection already
+    reader.cancel().catch(() => {});
   }
 }

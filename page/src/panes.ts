@@ -6,6 +6,8 @@ import { element } from "./element.ts";
 const LEAST = 90;
 /** Pixels a key moves a handle. */
 const STEP = 24;
+/** Milliseconds between the two presses of a double click. */
+const DOUBLE = 400;
 const KEPT = "postform-panes";
 
 /** Puts handles between the panes of a row. */
@@ -41,16 +43,20 @@ export function withHandles(row: HTMLElement, panes: HTMLElement[]): void {
       [widths[i], widths[i + 1]] = [left, both - left];
       set(widths.map(Math.round));
     };
+    // a pointer that is held for a drag makes no double click in every browser
+    let pressed = -Infinity;
     handle.onpointerdown = (event) => {
-      handle.setPointerCapture(event.pointerId);
       event.preventDefault();
+      const isSecond = event.timeStamp - pressed < DOUBLE;
+      pressed = isSecond ? -Infinity : event.timeStamp;
+      if (isSecond) return set(null);
+      handle.setPointerCapture(event.pointerId);
     };
     handle.onpointermove = (event) => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
       const box = handle.getBoundingClientRect();
       move(event.clientX - (box.left + box.width / 2));
     };
-    handle.ondblclick = () => set(null);
     handle.onkeydown = (event) => {
       const by = { ArrowLeft: -STEP, ArrowRight: STEP }[event.key];
       if (!by) return;

@@ -20,18 +20,21 @@ export function lowest(radius: number, corner: number, x: number, y: number, fro
     return away <= radius ? from + Math.min(0, dz) + rise(radius, corner, away) : Infinity;
   }
   const nearest = (x * dx + y * dy) / length;
-  const [ox, oy] = [x - nearest * dx, y - nearest * dy];
+  const ox = x - nearest * dx;
+  const oy = y - nearest * dy;
   const room = radius * radius - ox * ox - oy * oy;
   if (room < 0) return Infinity;
   // the part of the way on which the tool is over the point
   const reach = Math.sqrt(room / length);
-  const [first, last] = [Math.max(0, nearest - reach), Math.min(1, nearest + reach)];
+  const first = nearest > reach ? nearest - reach : 0;
+  const last = nearest + reach < 1 ? nearest + reach : 1;
   if (first > last) return Infinity;
   if (corner <= 0) return from + dz * (dz < 0 ? last : first);
   const height = (part: number) => from + dz * part + rise(radius, corner, Math.min(radius, Math.hypot(x - part * dx, y - part * dy)));
   if (dz === 0) return height(Math.max(first, Math.min(last, nearest)));
   // the height is a convex function of the part: a sum of a line and a rounded corner
-  let [low, high] = [first, last];
+  let low = first;
+  let high = last;
   for (let i = 0; i < NARROWINGS; i++) {
     const third = (high - low) / 3;
     if (height(low + third) <= height(high - third)) high -= third;

@@ -1,11 +1,13 @@
-// The parts of the page that need a form and a job: the editor, the properties, the posts to begin with, the stock.
+// The parts of the page that need a form and a job: the editor, the properties, the posts to begin with, the stock, the times of the machine.
 
 import "./form.css";
+import { explain, layOut } from "./asked.ts";
 import { solid } from "./backplot/solid.ts";
 import { Editor } from "./editor.ts";
 import { sourcesOf } from "./formats.ts";
 import { Kit } from "./kit.ts";
 import { Properties } from "./properties.ts";
+import { takeTimes } from "./times.ts";
 
 export class FormSide {
   readonly editor = new Editor(true);
@@ -13,6 +15,9 @@ export class FormSide {
   readonly kit = new Kit();
   readonly sourcesOf = sourcesOf;
   readonly solid = solid;
+  readonly takeTimes = takeTimes;
+  readonly layOut = layOut;
+  readonly explain = explain;
 
   constructor() {
     const { root } = this.editor;

@@ -2,7 +2,6 @@
 
 import { element } from "./element.ts";
 import { base, jobName } from "./names.ts";
-import { JOBS, openButton } from "./opening.ts";
 import type { Finding, Head, Verdict } from "./scene.ts";
 
 /** In place of a verdict. */
@@ -18,20 +17,13 @@ export class Header {
   readonly saving = element("button", { class: "save", hidden: "" }, "save");
   private readonly title = element("h1", {});
   private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
-  private readonly acts = element("span", { class: "acts-of-jobs", hidden: "" });
-  private readonly closing = element("button", { title: "Close this job" }, "×");
   private names: string[] = [];
   onJob: (job: number) => void = () => {};
-  onClose: (job: number, name: string) => void = () => {};
+  /** The names of the tabs, and the shown one. */
+  onTabs: (names: string[], job: number) => void = () => {};
 
   constructor() {
-    this.root = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs, this.acts);
-  }
-
-  /** Jobs can be opened and closed. */
-  opens(open: (files: File[]) => void): void {
-    this.acts.hidden = false;
-    this.acts.append(openButton("+", "Open another job", JOBS, open), this.closing);
+    this.root = element("header", {}, this.title, this.saving, this.verdict, this.fit, this.lint, this.tabs);
   }
 
   get jobs(): number {
@@ -57,8 +49,7 @@ export class Header {
     }
     [...this.tabs.children].forEach((tab, i) => tab.setAttribute("aria-selected", String(i === job)));
     this.tabs.hidden = jobs.length < 1;
-    this.closing.hidden = jobs.length < 2;
-    this.closing.onclick = () => this.onClose(job, jobs[job]);
+    this.onTabs(jobs, job);
     return changed;
   }
 

@@ -29,7 +29,7 @@ const NO_JOB = "there is no such job";
 const CRASH = { text: "this rapid goes through stock that is not cut yet", help: "the stock is the box of the cuts, up to the top of the part: look whether the tool is high enough" };
 
 /** The message of an error from the server, in one line. */
-function plain(error: unknown): string {
+export function plain(error: unknown): string {
   const text = error instanceof Error ? error.message : String(error);
   return text.replace(/^error: /, "").replace(/\n\s*help: /, "; ");
 }
@@ -44,7 +44,7 @@ export class Page {
   readonly backplot: Backplot;
   readonly timeline = new Timeline();
   readonly editor: Editor | null;
-  private readonly header = new Header();
+  readonly header = new Header();
   private readonly state = new StateStrip();
   private readonly foot = element("span", { class: "where", "aria-live": "polite" });
   private readonly timing = element("span", { class: "ms", title: "From the key to the new picture and verdict" });
@@ -118,16 +118,8 @@ export class Page {
       if (fit) this.listing.note.replaceChildren(...fitNote(fit));
     };
     this.header.lint.onclick = () => this.nextFinding(1);
-    this.header.onJob = (job) => {
-      this.job = job;
-      this.program = null;
-      void this.load();
-    };
+    this.header.onJob = (job) => void this.showJob(job);
     this.header.saving.onclick = () => void this.save();
-    if (this.host?.add) {
-      this.header.opens((files) => void this.addJobs(files));
-      this.header.onClose = (job, name) => void this.closeJob(job, name);
-    }
     if (editor) {
       this.form!.properties.onChange = () => {
         void this.load();
@@ -137,8 +129,8 @@ export class Page {
       editor.onEdit = (name, text) => this.edit(name, text);
       editor.onLine = (file, line) => this.chooseFormLine(file, line);
       editor.onHelp = async (at) => (await this.host?.help({ job: this.job, texts: this.typed }, at)) ?? null;
-      editor.onFormat = () => void this.format();
-      editor.onCode = (code) => void this.explainCode(code);
+      editor.onFormat = () => void this.form!.layOut(editor, this.host!, { job: this.job, texts: this.typed });
+      editor.onCode = (code) => void this.form!.explain(this.host!, this.job, code);
       editor.onSave = () => void this.save();
       editor.onLeave = () => listing.focus();
       editor.onHint = () => (this.foot.textContent = "Esc again: to the keys of the program · Tab: out of the form");
@@ -159,35 +151,10 @@ export class Page {
     keys(this);
   }
 
-  /** Opens jobs in tabs of their own, and shows the last one. */
-  async addJobs(files: File[]): Promise<void> {
-    const close: [string, () => void] = ["close", () => this.say("")];
-    let tabs = this.header.jobs;
-    const replaced: string[] = [];
-    for (const file of files) {
-      try {
-        this.job = await this.host!.add!(file.name, new Uint8Array(await file.arrayBuffer()));
-        this.program = null;
-      } catch (error) {
-        return this.say(`${file.name} was not opened: ${plain(error)}`, close);
-      }
-      if (this.job < tabs) replaced.push(file.name);
-      tabs = Math.max(tabs, this.job + 1);
-    }
-    if (replaced.length) this.say(`${replaced.join(", ")}: an opened job of the same name was replaced.`, close);
-    this.onTyped();
-    await this.load();
-  }
-
-  private async closeJob(job: number, name: string): Promise<void> {
-    try {
-      await this.host!.close!(job, name);
-    } catch (error) {
-      return this.say(`${base(name)} was not closed: ${plain(error)}`);
-    }
+  /** Shows another job. */
+  async showJob(job: number): Promise<void> {
+    this.job = job;
     this.program = null;
-    this.job = Math.max(0, Math.min(job, this.header.jobs - 2));
-    this.onTyped();
     await this.load();
   }
 
@@ -280,14 +247,9 @@ export class Page {
   private tellMore(scene: Scene): void {
     const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = scene.head;
     Object.assign(this.head!, { verdict, fit, saved, against, toolSizes });
-    this.takeTimes(scene);
+    if (this.program?.path) this.form?.takeTimes(this.program.path, scene);
     this.mark();
     this.relight(false);
-  }
-
-  /** Takes the times of the machine file, which may come after the picture. */
-  private takeTimes(scene: Scene): void {
-    if (scene.has("timedLine")) this.program?.path?.takeTimes(scene.array("timedLine", Uint32Array), scene.array("timedEnd", Float32Array));
   }
 
   /** Measures the time from a key until its result is painted. */
@@ -323,7 +285,7 @@ export class Page {
       this.program = this.old = null;
     }
     const tabsChanged = this.titles(head);
-    this.takeTimes(scene);
+    if (this.program?.path) this.form?.takeTimes(this.program.path, scene);
     this.mark();
     if (first && this.program) this.line = this.firstLine();
     this.line = Math.min(this.line, Math.max(1, this.program?.lines ?? 1));
@@ -543,28 +505,6 @@ export class Page {
     if (!verdict || this.head?.stopped || this.unchecked) return;
     if (verdict.line) this.choose(verdict.line, "finding");
     this.listing.note.replaceChildren(...verdictNote(verdict));
-  }
-
-  /** Lays the form out as `postform fmt` does. */
-  private async format(): Promise<void> {
-    const { editor, host } = this;
-    if (!editor || !host) return;
-    const before = editor.text;
-    const help = await host.help({ job: this.job, texts: this.typed }, { file: editor.name, line: 0, column: 0, ask: "format" }).catch(() => null);
-    // what was typed in the meantime is not overwritten
-    if (help?.text && editor.text === before) editor.layOut(help.text);
-  }
-
-  /** Shows the explanation of a code in a dialog. */
-  private async explainCode(code: string): Promise<void> {
-    const ask = { job: this.job, texts: {} };
-    const help = await this.host?.help(ask, { file: code, line: 0, column: 0, ask: "explain" }).catch(() => null);
-    const close = element("button", { autofocus: "" }, "close");
-    const dialog = element("dialog", { "aria-label": `What ${code} means`, class: "explained" }, element("pre", {}, help?.text ?? `${code} has no explanation`), close);
-    close.onclick = () => dialog.close();
-    dialog.onclose = () => dialog.remove();
-    document.body.append(dialog);
-    dialog.showModal();
   }
 
   nextDifference(by: number): void {

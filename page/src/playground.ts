@@ -4,6 +4,7 @@ import { get, set } from "idb-keyval";
 import { download } from "./download.ts";
 import { FormSide } from "./form.ts";
 import { element } from "./element.ts";
+import { JobTabs } from "./jobs.ts";
 import { Page } from "./main.ts";
 import { JOBS, openButton, takeDrops } from "./opening.ts";
 import { filesOfLink, linkOf } from "./share.ts";
@@ -46,6 +47,7 @@ class Playground {
 
   constructor(private readonly host: Wasm) {
     this.page = new Page(host, new FormSide());
+    new JobTabs(this.page, host);
     this.page.onTyped = () => this.keepSoon();
     document.body.prepend(this.front());
     takeDrops("drop forms (.pf), jobs (.json, .jsonl, .cl, .apt, .FCStd), or a program to compare with (.nc)", (files) => void this.open(files));

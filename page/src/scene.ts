@@ -126,7 +126,7 @@ export class Path {
   readonly moveKind: Uint8Array;
   readonly moveTool: Uint8Array;
   /** Seconds from the beginning of the program to the end of each move, with an assumed rapid rate and no accelerations. */
-  private readonly ownTime: Float32Array;
+  readonly ownTime: Float32Array;
   /** The seconds that are shown: those of the machine file, if there is one. */
   moveTime: Float32Array;
   /** The times are those of the machine file: with accelerations, tool changes and the machine's own rapid rates. */
@@ -152,37 +152,6 @@ export class Path {
 
   get moves(): number {
     return this.moveLine.length;
-  }
-
-  /**
-   * Takes the times of the machine file: the lines of blocks in the order in which they ran, and the seconds to the end of each.
-   * The moves of a block share its time as in the program's own times.
-   */
-  takeTimes(lines: Uint32Array, ends: Float32Array): void {
-    const { moves, moveLine, ownTime } = this;
-    const times = new Float32Array(moves);
-    const isTimed = new Uint8Array(lines.reduce((most, line) => Math.max(most, line), 0) + 1);
-    for (const line of lines) isTimed[line] = 1;
-    let [block, begin] = [0, 0];
-    for (let first = 0; first < moves; ) {
-      const line = moveLine[first];
-      let last = first;
-      while (last + 1 < moves && moveLine[last + 1] === line) last++;
-      let end = begin;
-      if (isTimed[line]) {
-        while (block < lines.length && lines[block] !== line) begin = ends[block++];
-        end = block < lines.length ? ends[block++] : begin;
-      }
-      const [before, after] = [first > 0 ? ownTime[first - 1] : 0, ownTime[last]];
-      for (let move = first; move <= last; move++) {
-        const share = after > before ? (ownTime[move] - before) / (after - before) : 1;
-        times[move] = begin + share * (end - begin);
-      }
-      begin = end;
-      first = last + 1;
-    }
-    this.moveTime = times;
-    this.isTimed = true;
   }
 
   /** Whether both paths have the same pieces, of the same kinds and tools. */

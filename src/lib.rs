@@ -163,7 +163,7 @@ pub mod internals {
         pub use crate::render::{Clock, Cycles, Options, Renderer, TraceLine, survey_terms};
     }
     pub mod report {
-        pub use crate::report::{Row, github, github_property, github_text, json, proof, row, sarif};
+        pub use crate::report::{Row, finding, github, github_property, github_text, json, proof, row, sarif};
     }
     pub mod restart {
         pub use crate::restart::{Asked, Refused, Restarted, Target, restart};

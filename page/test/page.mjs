@@ -756,7 +756,7 @@ test("the tools cut the stock, and a rapid through a block of a known size is ma
   const stock = `X${least}..${greatest} Y${least}..${greatest} Z${top}`;
   const verified = spawnSync(postform, ["verify", "bracket.json", "--form", "my.pf", "--format", "json", "--stock", stock], { cwd: path, encoding: "utf8" });
   const other = await page.evaluate(() => Array.from({ length: window.page.program.lines }, (_, i) => i + 1).find((line) => window.page.program.text(line).includes("G55 G0")));
-  const expected = JSON.parse(verified.stdout).stock.findings.map((found) => found.line).filter((line) => line < other);
+  const expected = JSON.parse(verified.stdout).stock.findings.map((found) => found.program_line).filter((line) => line < other);
   ok(expected.length > 5, `${expected}`);
   await page.waitForFunction(([expected, other]) => String([...window.page.marks.bad.keys()].filter((line) => line < other).sort((a, b) => a - b)) === String(expected), [expected, other]);
 });

@@ -36,6 +36,12 @@ struct Held {
     feed_mode: Option<FeedMode>,
     is_tilted: bool,
     is_compensated: bool,
+    /// The tool of the last operation.
+    tool: Option<f64>,
+    /// The tool went home after its last move.
+    is_home: bool,
+    /// A job contains text that is printed as it is.
+    has_text: bool,
     set: Vec<String>,
 }
 
@@ -112,11 +118,13 @@ impl<'s> Joining<'s> {
         {
             return Flow::Break(*wrong);
         }
+        self.held.tool = own.tool.as_ref().map(|tool| tool.number);
         self.held.work = own.work.or(self.held.work);
         self.held.coolant = own.coolant.or(self.held.coolant);
         self.held.feed_mode = own.feed_mode.or(self.held.feed_mode);
         self.spindle(own.spindle.unwrap_or_default());
         own.set.iter().for_each(|(name, _)| self.sets(name));
+        self.held.is_home &= matches!(own.first, First::Nothing);
         match &own.first {
             First::Rapid(to) => self.held.axes |= to.given,
             First::Hole(_, hole) => self.held.axes |= hole.at.given,
@@ -146,8 +154,16 @@ impl<'s> Joining<'s> {
             format!("its first operation does not give its {missing}, so that of the job before would stay in force")
         } else if let Some(name) = held.set.iter().find(|name| !change.set.iter().any(|(own, _)| own == *name)) {
             format!("its first operation does not set `{name}`, so the value of the job before would stay in force")
+        } else if held.has_text {
+            "a job before it contains text for the program, whose effect is unknown".to_owned()
         } else if held.is_compensated {
             "the job before ends with cutter compensation on".to_owned()
+        } else if !self.is_of(Machine::Edm)
+            && !held.is_home
+            && change.tool.as_ref().map(|tool| tool.number) == held.tool
+        {
+            "the tool stays the same, so nothing retracts it between the jobs; end the job before with `home`"
+                .to_owned()
         } else if let Some(axis) = self.missing_axis(change) {
             format!(
                 "it does not begin with a rapid or a hole that gives {axis}, so the position of the job before would count"
@@ -162,13 +178,17 @@ impl<'s> Joining<'s> {
         )))
     }
 
+    fn is_of(&self, machine: Machine) -> bool {
+        self.start.as_ref().is_some_and(|start| start.machine == machine)
+    }
+
     /// An axis that the first move must give, but does not.
     fn missing_axis(&self, change: &ToolChange) -> Option<char> {
-        let machine = self.start.as_ref().map(|start| start.machine).unwrap_or_default();
-        let usual = match machine {
-            Machine::Lathe => 0b101,
-            Machine::Mill => 0b111,
-            _ => 0b011,
+        // a lathe's axes are Z and X, in this order
+        let (usual, names) = match self.is_of(Machine::Mill) {
+            true => (0b111, ['X', 'Y', 'Z', 'A', 'B', 'C']),
+            false if self.is_of(Machine::Lathe) => (0b011, ['Z', 'X', 'Y', 'A', 'B', 'C']),
+            false => (0b011, ['X', 'Y', 'Z', 'A', 'B', 'C']),
         };
         let given = match &change.first {
             First::Rapid(Axes { given, .. }) => *given,
@@ -177,11 +197,7 @@ impl<'s> Joining<'s> {
             First::Nothing => return None,
         };
         let missing = (usual | self.held.axes) & !given;
-        ['X', 'Y', 'Z', 'A', 'B', 'C']
-            .into_iter()
-            .enumerate()
-            .find(|(axis, _)| missing & 1 << axis != 0)
-            .map(|(_, axis)| axis)
+        names.into_iter().enumerate().find(|(axis, _)| missing & 1 << axis != 0).map(|(_, axis)| axis)
     }
 
     /// Is a tool the one that earlier jobs have under its number?
@@ -214,7 +230,21 @@ impl<'s> Joining<'s> {
 
     /// Follows what stays in force.
     fn follow(&mut self, event: &Event<'_>) {
+        let moves = matches!(
+            event,
+            Event::Rapid(_)
+                | Event::Line { .. }
+                | Event::Arc { .. }
+                | Event::Infeed { .. }
+                | Event::Outfeed { .. }
+                | Event::Hole(_)
+                | Event::Thread(_)
+                | Event::SubCall(_)
+        );
+        self.held.is_home &= !moves;
         match event {
+            Event::Home => self.held.is_home = true,
+            Event::Text(_) => self.held.has_text = true,
             Event::Rapid(to) | Event::Line { to, .. } => self.held.axes |= to.given,
             Event::Arc { arc, .. } => self.held.axes |= arc.to.given,
             Event::Infeed { infeed, .. } => {

@@ -8,6 +8,6 @@ mod sarif;
 
 pub use github::{annotations as github, data as github_text, property as github_property};
 pub use json::report as json;
-pub use proof::proof;
+pub use proof::{finding, proof};
 pub use row::{Row, row};
 pub use sarif::log as sarif;

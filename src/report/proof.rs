@@ -40,7 +40,8 @@ fn some(line: u64) -> Option<u64> {
     Some(line).filter(|line| *line > 0)
 }
 
-fn finding(found: &Finding, files: &[Source]) -> Value {
+/// A finding about a program, with its locations in the job, the form and the program. `files` are those of the form.
+pub fn finding(found: &Finding, files: &[Source]) -> Value {
     let form = found.form.and_then(|span| Some((files.get(span.file as usize)?, span)));
     json!({
         "code": found.code.name(), "key": found.code.key(), "message": found.message, "help": found.help,

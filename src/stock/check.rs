@@ -8,7 +8,7 @@ use super::field::{Field, cell_of};
 use super::size::Stock;
 use super::sweep::Shape;
 use crate::diag::Code;
-use crate::nc::{Action, Item, Position, RunError, RunSettings, Simulator, Turn};
+use crate::nc::{Action, Item, Position, Rotation, RunError, RunSettings, Simulator, Turn};
 use crate::picture::round;
 use crate::preflight::JobTool;
 use crate::toolpath::{Side, Units};
@@ -90,6 +90,8 @@ enum Missing {
     Position,
     /// A rotary axis is not at zero.
     Rotary,
+    /// The spindle is stopped at an angle: a bar may be moved away from its wall.
+    Oriented,
     /// The program was refused at a line.
     After(u64, String),
 }
@@ -107,6 +109,7 @@ struct Check<'a> {
     from: Position,
     tool: Option<u32>,
     side: Option<Side>,
+    is_oriented: bool,
     centre: Centre,
     /// Number of the work offset in force.
     work: usize,
@@ -139,6 +142,7 @@ impl<'a> Check<'a> {
                 _ => None,
             },
             side: None,
+            is_oriented: false,
             centre: Centre::default(),
             work: 0,
             checked: StockCheck::default(),
@@ -159,6 +163,8 @@ impl<'a> Check<'a> {
                     self.work = run.state().work_number();
                 }
                 Action::Tool(number) => self.tool = Some(*number as u32).filter(|number| *number != 0),
+                Action::Orient(_) => self.is_oriented = true,
+                Action::Spindle(rotation, _) if *rotation != Rotation::Stop => self.is_oriented = false,
                 Action::Compensation(on) => {
                     self.side = on.map(|(side, _)| side);
                     self.checked.compensates |= on.is_some();
@@ -182,8 +188,17 @@ impl<'a> Check<'a> {
         let from = std::mem::replace(&mut self.at, in_stock(to, machine, run));
         let program_from = std::mem::replace(&mut self.from, *to);
         let to_stock = self.at;
+        // the points of an arc before its end
+        let mut points = Vec::new();
+        if let Some(turn) = arc {
+            let ends = [&program_from, to].map(|at| [at[0], at[1], at[2]]);
+            round(ends[0], ends[1], turn, ERROR / run.state().units().in_mm(), &mut |at| {
+                points.push(in_stock(&[at[0], at[1], at[2], 0.0, 0.0, 0.0], 0, run));
+            });
+        }
         // an unknown height is over everything: only the machine's own positions are unknown
-        let low = [from[2], to_stock[2]].into_iter().filter(|z| z.is_finite()).fold(f64::INFINITY, f64::min);
+        let heights = [from[2], to_stock[2]].into_iter().chain(points.iter().map(|at| at[2]));
+        let low = heights.filter(|z| z.is_finite()).fold(f64::INFINITY, f64::min);
         if low >= self.stock.top {
             return self.breaks();
         }
@@ -201,6 +216,9 @@ impl<'a> Check<'a> {
             return self.breaks();
         }
         let Some(shape) = self.shape(line.0) else { return self.breaks() };
+        if self.is_oriented && kind == Kind::Rapid {
+            return self.not_checked(Missing::Oriented, line.0);
+        }
         // from an unknown height, the tool comes down on a vertical line
         let above = if from[2].is_finite() { from[2] } else { to_stock[2].max(self.stock.top) };
         let from = [from[0], from[1], above];
@@ -215,14 +233,7 @@ impl<'a> Check<'a> {
                 check.makes(kind, &piece, line);
             });
         };
-        if let Some(turn) = arc {
-            let ends = [&program_from, to].map(|at| [at[0], at[1], at[2]]);
-            let mut points = Vec::new();
-            round(ends[0], ends[1], turn, ERROR / run.state().units().in_mm(), &mut |at| points.push(at));
-            for at in points {
-                piece(self, in_stock(&[at[0], at[1], at[2], 0.0, 0.0, 0.0], 0, run));
-            }
-        }
+        points.into_iter().for_each(|at| piece(self, at));
         piece(self, to_stock);
     }
 
@@ -304,7 +315,7 @@ impl<'a> Check<'a> {
             let some = if moves == 1 { "1 move".to_owned() } else { format!("{moves} moves") };
             self.checked.not_checked.push(match what {
                 Missing::Diameter(tool) => {
-                    format!("{some} of T{tool} in the stock, from line {line} on: the job does not give its diameter")
+                    format!("{some} of T{tool} in the stock, from line {line} on: no operation of the job gives the diameter of this tool")
                 }
                 Missing::Thin(tool) => {
                     let cell = shown(cell_of(self.stock), self.units);
@@ -318,6 +329,9 @@ impl<'a> Check<'a> {
                 }
                 Missing::Rotary => {
                     format!("{some} from line {line} on: a rotary axis is not at 0, and the stock is checked only in three axes")
+                }
+                Missing::Oriented => {
+                    format!("{some} with the spindle stopped at an angle, from line {line} on: the tool may have an edge on one side only")
                 }
                 Missing::After(line, why) => format!("everything from line {line} on: {why}"),
             });

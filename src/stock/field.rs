@@ -69,10 +69,11 @@ impl Field {
     /// The deepest point at which a tool is below the surface on a straight move of its tip. A cell at the edge of the tool is
     /// not looked at: its surface may be up to a cell farther away.
     pub fn hit(&self, shape: Shape, from: [f64; 3], to: [f64; 3]) -> Option<Hit> {
-        let radius = shape.radius - self.cell;
-        if from[2].min(to[2]) >= self.block.top || radius <= 0.0 {
+        if from[2].min(to[2]) >= self.block.top || Field::is_too_thin(shape, self.cell) {
             return None;
         }
+        // the cell under the axis is always looked at
+        let radius = (shape.radius - self.cell).max(self.cell * std::f64::consts::FRAC_1_SQRT_2);
         let shape = Shape { radius, corner: shape.corner.min(radius) };
         let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
         let mut deepest: Option<Hit> = None;

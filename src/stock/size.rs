@@ -61,7 +61,8 @@ impl FromStr for Stock {
         let [Some(x), Some(y), Some(z)] = ranges else {
             let missing = ['X', 'Y', 'Z'].into_iter().zip(ranges).filter(|(_, range)| range.is_none());
             let missing: Vec<String> = missing.map(|(letter, _)| letter.to_string()).collect();
-            return Err(format!("{} is missing: {SHAPE}", missing.join(" and ")));
+            let verb = if missing.len() == 1 { "is" } else { "are" };
+            return Err(format!("{} {verb} missing: {SHAPE}", missing.join(" and ")));
         };
         Ok(Stock { least: [x[0], y[0]], greatest: [x[1], y[1]], bottom: z[0], top: z[1] })
     }

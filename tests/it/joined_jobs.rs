@@ -53,6 +53,7 @@ fn a_job_that_would_change_its_meaning_is_refused() {
     let first = job(HEAD, FIRST);
     let second = |from: &str, to: &str| job(HEAD, &SECOND.replace(from, to));
     let sets = job(HEAD, &FIRST.replace(r#"{"rapid":[10,0,5]}"#, r#"{"rapid":[10,0,5]},{"set":{"depth":3}}"#));
+    let text = job(HEAD, &FIRST.replace(r#"{"rapid":[10,0,5]}"#, r#"{"rapid":[10,0,5]},{"text":"G68 R30."}"#));
     let surface = job(HEAD, &FIRST.replace(r#""speed":1000"#, r#""speed":100,"mode":"css","max":3000"#));
     for (first, second, reason) in [
         (&first, job(&HEAD.replace("mm", "inch"), SECOND), "its units are inch, not mm"),
@@ -65,10 +66,12 @@ fn a_job_that_would_change_its_meaning_is_refused() {
         (&first, second(r#"{"rapid":[3,4,5]},{"line""#, r#"{"line""#), "gives X"),
         (&first, job(HEAD, SECOND).replace(r#""diameter":6"#, r#""diameter":8"#), "its tool 2"),
         (&sets, job(HEAD, SECOND), "does not set `depth`"),
+        (&text, job(HEAD, SECOND), "contains text for the program"),
+        (&first, second("\"tool\":2", "\"tool\":1"), "the tool stays the same"),
         (&surface, second(r#""speed":2000,"#, r#""speed":100,"mode":"css","#), "highest spindle speed"),
     ] {
         // the tool of the second job is used by the first one, too
-        let first = first.replace(r#""operations":["#, &format!(r#""operations":[{SECOND},"#)).replace("}}}", "}}");
+        let first = first.replace(r#""operations":["#, &format!(r#""operations":[{SECOND},"#));
         let found = refused(&first, &second);
         assert!(found.starts_with("PJ014 b:") && found.contains("b can't follow a: "), "{reason}: {found}");
         assert!(found.contains(reason), "{reason}: {found}");
@@ -184,19 +187,52 @@ fn operations() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// The joined program makes the cuts of the separate programs, one after the other, and is proven.
+    /// The joined program makes the cuts of the separate programs, one after the other, and is proven. Where the tool stays the
+    /// same, the job before ends with `home`; without it, the jobs are refused.
     #[test]
-    fn a_joined_program_makes_the_cuts_of_its_parts(parts in prop::collection::vec(operations(), 2..4)) {
+    fn a_joined_program_makes_the_cuts_of_its_parts(parts in prop::collection::vec(operations(), 2..4), home in prop::bool::weighted(0.7)) {
         let folder = Folder::new("joined-random");
         let post = post("haas.pf");
-        let texts: Vec<String> = parts.iter().map(|operations| job(HEAD, operations)).collect();
+        let tool = |part: &str, last: bool| {
+            let at = if last { part.rfind("\"tool\":") } else { part.find("\"tool\":") };
+            part.as_bytes()[at.unwrap() + 7]
+        };
+        let same = parts.windows(2).any(|two| tool(&two[0], true) == tool(&two[1], false));
+        let ended = |operations: &String| match home {
+            true => format!("{},{{\"home\":true}}]}}", operations.strip_suffix("]}").unwrap()),
+            false => operations.clone(),
+        };
+        let texts: Vec<String> = parts.iter().map(|operations| job(HEAD, &ended(operations))).collect();
         let separate: Vec<String> = texts.iter().flat_map(|text| {
             let program = post.render(Job::json(text), &Options::default()).unwrap();
             cuts(&folder, program.text())
         }).collect();
         prop_assert!(!separate.is_empty());
+        if same && !home {
+            let error = post.render(join(&texts), &Options::default()).unwrap_err().to_string();
+            prop_assert!(error.contains("the tool stays the same"), "{}", error);
+            return Ok(());
+        }
         let joined = post.render(join(&texts), &Options::default()).unwrap();
         prop_assert!(joined.verdict().is_proven());
         prop_assert_eq!(cuts(&folder, joined.text()), separate, "{}", joined.text());
     }
+}
+
+/// The axes of a lathe are Z and X.
+#[test]
+fn lathe_jobs_follow_each_other() {
+    let path = r#"[{"rapid":[5,30]},{"line":[-10,30],"feed":0.2},{"rapid":[-10,40]}]"#;
+    let lathe = |tool: u32| {
+        format!(
+            r#"{{"postform":1,"program":7,"name":"A","units":"mm","machine":"lathe","tools":[{{"number":{tool}}}],"operations":[{{"tool":{tool},"spindle":{{"speed":500,"direction":"cw"}},"coolant":"off","feed_mode":"per_rev","path":{path}}}]}}"#
+        )
+    };
+    let post = post("haas-lathe.pf");
+    let joined = post.render(join(&[lathe(1), lathe(2)]), &Options::default()).unwrap();
+    assert!(joined.text().contains("T202") || joined.text().contains("T0202"), "{}", joined.text());
+    assert!(!joined.text().contains('Y'), "{}", joined.text());
+    let no_x = lathe(2).replace("[5,30]", "[5]");
+    let error = post.render(join(&[lathe(1), no_x]), &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("gives X"), "{error}");
 }

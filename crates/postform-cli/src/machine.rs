@@ -163,7 +163,7 @@ pub fn diag(finding: &Finding, program: &str, jobs: &[&Path]) -> Diag {
 }
 
 /// A finding of a program as JSON.
-pub fn finding_json(finding: &Finding) -> serde_json::Value {
+fn finding_json(finding: &Finding) -> serde_json::Value {
     serde_json::json!({
         "code": finding.code.name(), "severity": finding.code.row().severity.name(),
         "message": finding.message, "help": finding.help, "line": finding.line, "block": finding.block,

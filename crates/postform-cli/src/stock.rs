@@ -6,13 +6,14 @@ use std::path::Path;
 use postform::diag::Diag;
 use postform::internals::nc::RunSettings;
 use postform::internals::preflight::{JobTool, Stock, StockCheck, check_stock};
+use postform::internals::report::finding;
 use postform::internals::terminal::escaped;
 use postform::toolpath::Units;
 use postform::{Job, Options, Post, Proof, Source};
 
 use super::args::ControlArgs;
 use super::files::io_message;
-use super::machine::{diag, finding_json};
+use super::machine::diag;
 use super::report::{Reporter, count};
 use super::say::{message, say};
 
@@ -36,13 +37,11 @@ impl Milling<'_> {
     /// # Errors
     /// The job or the program can't be read.
     pub fn checked(&self, job: &mut Job<'_>, program: impl Read + Seek) -> Result<StockCheck, String> {
-        let units = match self.proof.units {
-            Some(units) => units,
-            None => job.units().map_err(|error| format!("error: {error}"))?.unwrap_or(Units::Mm),
-        };
+        let units = job.units().map_err(|error| format!("error: {error}"))?.unwrap_or(Units::Mm);
+        let of_program = self.proof.units.unwrap_or(units);
         let (tools, settings) = match self.form {
-            Some((post, _)) => (post.job_tools(job.again()), post.run_settings(self.proof, units)),
-            None => (self.proof.job_tools(job.again()), self.settings(units)),
+            Some((post, _)) => (post.job_tools(job.again()), post.run_settings(self.proof, of_program)),
+            None => (self.proof.job_tools(job.again()), self.settings(of_program)),
         };
         let tools: Vec<JobTool> = tools.map_err(|error| format!("error: {error}"))?;
         let block = self.block.scaled(units.in_mm());
@@ -87,10 +86,10 @@ impl Milling<'_> {
     }
 }
 
-/// The result as JSON.
-pub fn document(checked: &StockCheck) -> serde_json::Value {
+/// The result as JSON; `files` are those of the form.
+pub fn document(checked: &StockCheck, files: &[Source]) -> serde_json::Value {
     serde_json::json!({
         "blocks": checked.blocks, "not_checked": checked.not_checked,
-        "findings": checked.findings.iter().map(finding_json).collect::<Vec<_>>(),
+        "findings": checked.findings.iter().map(|found| finding(found, files)).collect::<Vec<_>>(),
     })
 }

@@ -173,7 +173,7 @@ fn tried(
         VerifyFormat::Json => {
             let mut document = sides.document(&proven);
             if let Some((checked, _)) = in_stock {
-                document["stock"] = stock::document(&checked);
+                document["stock"] = stock::document(&checked, files);
             }
             if let Some((fitted, fitting)) = on_machine {
                 document["machine"] = fitting.document(&fitted);

@@ -121,8 +121,9 @@ export class Stock {
 
   /** Does a rapid go through the stock? Cells at the edge of the tool are not looked at: their surface may be up to a cell farther away. */
   private passes(from: number[], to: number[], shape: Shape): boolean {
-    const radius = shape.radius - this.cell;
-    if (radius <= 0) return false;
+    if (shape.radius <= this.cell) return false;
+    // the cell under the axis is always looked at
+    const radius = Math.max(shape.radius - this.cell, this.cell * Math.SQRT1_2);
     const corner = Math.min(shape.corner, radius);
     const [left, right, low, high] = this.around(from, to, radius);
     const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];

@@ -52,6 +52,30 @@ fn programs_are_the_same_however_many_are_printed_at_a_time() {
     assert_eq!(said[0], said[2]);
 }
 
+/// A control that stores programs by their numbers keeps only one of two with the same number.
+#[test]
+fn equal_program_numbers_are_warned_of() {
+    let folder = shop("numbers");
+    let plate = folder.read("jobs/plate/job.json");
+    folder.write("jobs/cover/job.json", &plate);
+    let run = |form: &str, more: &[&str]| {
+        let arguments = [&["render", "jobs", "--form", form, "--out-dir", "nc", "--jobs", "1"], more].concat();
+        let output = folder.run(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        err(&output)
+    };
+    let said = run("haas.pf", &[]);
+    let warning = "warning: nc/cover.nc and nc/plate.nc have the same program number";
+    assert!(said.contains(warning) && said.contains("number all programs upwards: --program"), "{said}");
+    // with numbers of their own, without messages, and for a form that prints no number
+    assert!(!run("haas.pf", &["--program", "10"]).contains("same program number"));
+    assert!(!run("haas.pf", &["--quiet"]).contains("same program number"));
+    fs::copy(root().join("postforms/grbl.pf"), folder.0.join("grbl.pf")).unwrap();
+    folder.write("jobs/bracket/job.json", &plate);
+    let form = folder.read("grbl.pf");
+    assert_eq!(run("grbl.pf", &[]).contains("same program number"), form.contains("[program#"));
+}
+
 #[test]
 fn alike_names_are_an_error_before_anything_is_written() {
     let folder = shop("alike");

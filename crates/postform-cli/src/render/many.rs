@@ -1,6 +1,7 @@
 //! Prints many jobs, or the parts of jobs, into a folder.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -23,6 +24,8 @@ struct Planned {
     part: Option<Part>,
     /// The number of the program; `None`: from the job.
     number: Option<u32>,
+    /// The number that the program prints, if it is known.
+    printed: Option<u32>,
     /// The index of the form.
     ready: usize,
     /// The path of the program, or the reason why it can't be printed.
@@ -69,11 +72,17 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let mut planned = each_on(args.at_a_time, numbered.collect(), |mut program: Planned| {
         if program.to.is_ok() {
             let name = refused(|| name(&program, &forms.ready[program.ready], pattern.as_ref(), args, &reporter));
-            program.to = name.map(|name| folder.join(name));
+            match name {
+                Ok((name, number)) => (program.to, program.printed) = (Ok(folder.join(name)), number),
+                Err(refused) => program.to = Err(refused),
+            }
         }
         program
     });
     apart(&planned)?;
+    if !args.options.quiet {
+        same_numbers(&planned, &forms.ready);
+    }
     fs::create_dir_all(folder).map_err(|error| io_message("write", folder, &error))?;
     if args.changed {
         let all = planned.len();
@@ -148,7 +157,7 @@ fn refused<R>(work: impl FnOnce() -> Result<Result<R, Ending>, String>) -> Resul
 
 /// The programs of a job.
 fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) -> Vec<Planned> {
-    let planned = |part, number, to| Planned { job: job.to_path_buf(), part, number, ready, to };
+    let planned = |part, number, to| Planned { job: job.to_path_buf(), part, number, printed: None, ready, to };
     let Some(by) = args.split else { return vec![planned(None, None, Ok(PathBuf::new()))] };
     let found = refused(|| match split::parts(&mut files::job(job, &args.read, true)?, by) {
         Ok(found) if found.parts.is_empty() => {
@@ -168,14 +177,14 @@ fn parts_of(job: &Path, ready: usize, args: &RenderArgs, reporter: &Reporter) ->
     }
 }
 
-/// The name of a program's file.
+/// The name of a program's file, and the program's number.
 fn name(
     program: &Planned,
     ready: &Ready,
     pattern: Option<&Pattern>,
     args: &RenderArgs,
     reporter: &Reporter,
-) -> Result<Result<String, Ending>, String> {
+) -> Result<Result<(String, Option<u32>), Ending>, String> {
     let mut job = files::job(&program.job, &args.read, false)?;
     if let Some(part) = program.part {
         part.select(&mut job.reading);
@@ -188,11 +197,12 @@ fn name(
         Ok(named) => named,
         Err(error) => return stopped(error, &[&program.job], reporter, &[]).map(Err),
     };
-    let Some(pattern) = pattern else { return Ok(Ok(name)) };
+    let number = number.map(|number| number as u32);
+    let Some(pattern) = pattern else { return Ok(Ok((name, number))) };
     let extension = name.rsplit_once('.').map_or("nc", |(_, extension)| extension);
     let job = own_name.rsplit_once('.').map_or(own_name.as_str(), |(stem, _)| stem);
-    let number = number.map(|number| number as u32);
-    pattern.name(&Values { job, part: program.part, number, extension }).map(Ok)
+    let name = pattern.name(&Values { job, part: program.part, number, extension })?;
+    Ok(Ok((name, number)))
 }
 
 /// The file name of a job; a file called `job` gets the name of its folder.
@@ -227,6 +237,38 @@ fn apart(planned: &[Planned]) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Maximum number of equal program numbers that are named.
+const MOST_NUMBERS: usize = 5;
+
+/// Warns of programs with the same number: a control that stores programs by their numbers keeps only one of them.
+fn same_numbers(planned: &[Planned], forms: &[Ready]) {
+    let prints: Vec<bool> = forms
+        .iter()
+        .map(|form| form.prepared.post.files().iter().any(|file| file.text.contains("[program#")))
+        .collect();
+    let mut first: HashMap<(usize, u32), &Planned> = HashMap::new();
+    let mut equal = Vec::new();
+    for program in planned.iter().filter(|program| program.to.is_ok() && prints[program.ready]) {
+        let Some(number) = program.printed else { continue };
+        match first.entry((program.ready, number)) {
+            Entry::Vacant(entry) => _ = entry.insert(program),
+            Entry::Occupied(entry) => equal.push((number, *entry.get(), program)),
+        }
+    }
+    let name = |program: &Planned| program.to.as_ref().map_or(String::new(), |to| files::output_name(to));
+    for (number, one, other) in equal.iter().take(MOST_NUMBERS) {
+        message(&format!(
+            "warning: {} and {} have the same program number {number}\n  help: give different numbers in the jobs, \
+             or number all programs upwards: --program {number}",
+            name(one),
+            name(other)
+        ));
+    }
+    if equal.len() > MOST_NUMBERS {
+        message(&format!("and {} more with a number that another program has", equal.len() - MOST_NUMBERS));
+    }
 }
 
 /// Does a program exist that is newer than all of its sources?

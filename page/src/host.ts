@@ -30,6 +30,12 @@ export interface Help {
   list?: { label: string; kind: string; detail: string; at: Place; text: string; snippet: string | null; info: string | null }[];
 }
 
+/** The tab of an opened job, and whether the job replaced one of the same name. */
+export interface Added {
+  tab: number;
+  replaced: boolean;
+}
+
 export interface Host {
   /** A scene, and after that of a long program what took longer than its picture: the verdict, and what changed. */
   scenes(ask: Ask): AsyncIterable<ArrayBuffer>;
@@ -39,8 +45,8 @@ export interface Host {
   verdict(job: number, properties: [string, string][]): Promise<Verdict>;
   /** Writes a form. Null: it is written; else why not. */
   save?(name: string, text: string, was: string): Promise<string | null>;
-  /** Opens another job. Returns its tab. */
-  add?(name: string, bytes: Uint8Array): Promise<number>;
+  /** Opens another job. */
+  add?(name: string, bytes: Uint8Array): Promise<Added>;
   /** Closes a job of this name. */
   close?(job: number, name: string): Promise<void>;
   /** What is typed is kept without being saved. */
@@ -74,7 +80,7 @@ export class Server implements Host {
     return answer.ok ? null : (await answer.text()) || answer.statusText;
   }
 
-  async add(name: string, bytes: Uint8Array): Promise<number> {
+  async add(name: string, bytes: Uint8Array): Promise<Added> {
     const head = new TextEncoder().encode(`${JSON.stringify(name)}\n`);
     const body = new Blob([head, bytes as BlobPart]);
     return (await this.answer("add", { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body })).json();

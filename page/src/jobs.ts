@@ -23,30 +23,34 @@ export class JobTabs {
   async open(files: File[]): Promise<void> {
     const { page } = this;
     const close: [string, () => void] = ["close", () => page.say("")];
-    let [shown, tabs] = [page.shownJob, page.header.jobs];
+    let shown = page.shownJob;
     const replaced: string[] = [];
+    let wrong = "";
     for (const file of files) {
       try {
-        shown = await this.host.add(file.name, new Uint8Array(await file.arrayBuffer()));
+        const added = await this.host.add(file.name, new Uint8Array(await file.arrayBuffer()));
+        shown = added.tab;
+        if (added.replaced) replaced.push(file.name);
       } catch (error) {
-        return page.say(`${file.name} was not opened: ${plain(error)}`, close);
+        wrong = `${file.name} was not opened: ${plain(error)}`;
+        break;
       }
-      if (shown < tabs) replaced.push(file.name);
-      tabs = Math.max(tabs, shown + 1);
     }
-    if (replaced.length) page.say(`${replaced.join(", ")}: an opened job of the same name was replaced.`, close);
+    if (wrong) page.say(wrong, close);
+    else if (replaced.length) page.say(`${replaced.join(", ")}: an opened job of the same name was replaced.`, close);
     page.onTyped();
     await page.showJob(shown);
   }
 
   private async close(job: number, name: string): Promise<void> {
     const { page } = this;
+    const last = page.header.jobs - 2;
     try {
       await this.host.close(job, name);
     } catch (error) {
       return page.say(`${base(name)} was not closed: ${plain(error)}`);
     }
     page.onTyped();
-    await page.showJob(Math.max(0, Math.min(job, page.header.jobs - 2)));
+    await page.showJob(Math.max(0, Math.min(job, last)));
   }
 }

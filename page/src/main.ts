@@ -62,11 +62,11 @@ export class Page {
   /** The texts on the disk, and the typed texts that are not saved. */
   private saved: Record<string, string> = {};
   private typed: Record<string, string> = {};
-  /** Files that were changed on the disk and here; the user has not yet chosen which text to keep. */
   /** The tools of the job, as far as they are known. */
   private sizes: ToolSize[] = [];
   /** Lines whose rapids go through the stock. */
   private crashes = new Set<number>();
+  /** Files that were changed on the disk and here; the user has not yet chosen which text to keep. */
   private readonly conflicts = new Set<string>();
   /** Shown in place of a verdict while the shown text has none: it is being checked, or the check failed. */
   private unchecked: Verdict | null = null;
@@ -155,6 +155,7 @@ export class Page {
   async showJob(job: number): Promise<void> {
     this.job = job;
     this.program = null;
+    this.sizes = [];
     await this.load();
   }
 
@@ -179,7 +180,10 @@ export class Page {
     try {
       let shown: Head | null = null;
       const before = this.shown;
+      const asked = this.job;
       for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: (this.form?.properties.set ?? []), shown: this.program && this.shown?.head.program, has: before?.head.hashes })) {
+        // another job was chosen in the meantime
+        if (this.job !== asked) break;
         const scene = new Scene(bytes, before);
         // a verdict of what was there before the last key is none of what is there now
         if (!this.again) this.unchecked = null;
@@ -272,7 +276,7 @@ export class Page {
     // the same program is not sent again
     if (head.same) {
       const { picture, "old/picture": old, toolSizes } = this.shown?.head ?? {};
-      Object.assign(head, { picture, "old/picture": old, toolSizes });
+      Object.assign(head, { picture, "old/picture": old, toolSizes: head.toolSizes ?? toolSizes });
     } else if (head.picture) this.shown = scene;
     document.body.classList.toggle("stale", !!head.stopped);
     if (head.same) {
@@ -347,15 +351,17 @@ export class Page {
 
   /** Requests the verdicts of the jobs that are not shown. */
   private async otherVerdicts(): Promise<void> {
+    const run = ++this.verdictRun;
     for (let job = 0; job < this.header.jobs; job++) {
       if (job === this.job || !this.host) continue;
-      try {
-        this.header.mark(job, await this.host.verdict(job, (this.form?.properties.set ?? [])));
-      } catch (error) {
-        this.header.mark(job, without(error instanceof Error ? error.message : String(error)));
-      }
+      const verdict = await this.host.verdict(job, (this.form?.properties.set ?? [])).catch((error) => without(plain(error)));
+      // the tabs, the form or its properties are others now
+      if (run !== this.verdictRun) return;
+      this.header.mark(job, verdict);
     }
   }
+
+  private verdictRun = 0;
 
   /** Marks differences, changes and findings in the panes. */
   private mark(): void {

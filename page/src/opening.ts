@@ -32,7 +32,7 @@ export function takeDrops(text: string, open: (files: File[]) => void): void {
     if (!event.relatedTarget) drop.hidden = true;
   });
   addEventListener("drop", (event) => {
-    if (drop.hidden) return;
+    if (!event.dataTransfer?.types.includes("Files")) return;
     event.preventDefault();
     drop.hidden = true;
     open([...(event.dataTransfer?.files ?? [])]);

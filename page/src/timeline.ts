@@ -72,9 +72,12 @@ export class Timeline {
       return;
     }
     this.pause();
+    // other times of the same moves: the tool stays at its move
+    const whole = this.times?.at(-1) ?? 0;
+    const share = program?.path === this.path && whole > 0 ? this.time / whole : 0;
     this.program = program;
     this.times = times;
-    this.time = 0;
+    this.time = share * this.total;
     this.clock.title = program?.path?.isTimed ? "times of the machine file" : "an estimate: without accelerations, with an assumed rapid rate";
     this.root.hidden = this.total <= 0;
     this.marks.replaceChildren(...this.changes().map(([tool, time]) => {

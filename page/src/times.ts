@@ -10,6 +10,7 @@ export function takeTimes(path: Path, scene: Scene): void {
   if (!scene.has("timedLine")) return;
   const lines = scene.array("timedLine", Uint32Array);
   const ends = scene.array("timedEnd", Float32Array);
+  if (!lines.length) return;
   const { moves, moveLine, ownTime } = path;
   const times = new Float32Array(moves);
   const isTimed = new Uint8Array(lines.reduce((most, line) => Math.max(most, line), 0) + 1);
@@ -22,7 +23,11 @@ export function takeTimes(path: Path, scene: Scene): void {
     let end = begin;
     if (isTimed[line]) {
       while (block < lines.length && lines[block] !== line) begin = ends[block++];
-      end = block < lines.length ? ends[block++] : begin;
+      // a block that is repeated has all times up to the next block that moves
+      const next = last + 1 < moves ? moveLine[last + 1] : 0;
+      for (let at = block; at < lines.length && lines[at] !== next; at++) {
+        if (lines[at] === line) [end, block] = [ends[at], at + 1];
+      }
     }
     const [before, after] = [first > 0 ? ownTime[first - 1] : 0, ownTime[last]];
     for (let move = first; move <= last; move++) {
@@ -32,6 +37,7 @@ export function takeTimes(path: Path, scene: Scene): void {
     begin = end;
     first = last + 1;
   }
+  if (path.isTimed && times.every((time, move) => time === path.moveTime[move])) return;
   path.moveTime = times;
   path.isTimed = true;
 }

@@ -1,6 +1,6 @@
 // postform as WebAssembly, with the files that are open.
 
-import type { Ask, At, Help, Host } from "./host.ts";
+import type { Added, Ask, At, Help, Host } from "./host.ts";
 import { type Verdict, Scene } from "./scene.ts";
 
 export interface File_ {
@@ -101,15 +101,16 @@ export class Wasm implements Host {
     return null;
   }
 
-  async add(name: string, bytes: Uint8Array): Promise<number> {
+  async add(name: string, bytes: Uint8Array): Promise<Added> {
     const at = this.jobs.findIndex((job) => job.name === name);
     const tab = at < 0 ? this.jobs.length : at;
     this.jobs[tab] = { name, bytes };
     this.before = null;
-    return tab;
+    return { tab, replaced: at >= 0 };
   }
 
-  async close(job: number): Promise<void> {
+  async close(job: number, name: string): Promise<void> {
+    if (this.jobs[job]?.name !== name) return;
     this.jobs.splice(job, 1);
     this.before = null;
   }

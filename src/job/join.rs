@@ -3,10 +3,12 @@
 //! What one job leaves in force must not change the meaning of the next one. Each job is therefore checked at its first
 //! operation: everything that the jobs before it have set must be given again there, because alone the job would not have it.
 
+use std::collections::HashMap;
+
 use crate::diag::{Code, Diag};
 use crate::lang::{Coolant, Machine};
 use crate::toolpath::{
-    Axes, Event, FeedMode, First, Flow, Place, Sink, Spindle, SpindleTurn, Start, Stop, Tool, ToolChange,
+    Axes, Event, FeedMode, First, Flow, Place, Sink, Spindle, SpindleTurn, Start, Stop, Tool, ToolChange, key,
 };
 
 /// Passes on the events of several jobs as those of one.
@@ -19,10 +21,10 @@ pub(super) struct Joining<'s> {
     /// No operation of this job has begun yet.
     is_new: bool,
     held: Held,
-    tools: Vec<Tool>,
-    /// Numbers of the subprograms, and the jobs that contain them.
-    subprograms: Vec<(f64, u16)>,
-    in_subprogram: bool,
+    /// The tools by their numbers, with the jobs that used them first.
+    tools: HashMap<u64, (Tool, u16)>,
+    /// The jobs that contain the subprograms, by their numbers.
+    subprograms: HashMap<u64, u16>,
 }
 
 /// What the jobs so far have left in force.
@@ -54,9 +56,8 @@ impl<'s> Joining<'s> {
             start: None,
             is_new: false,
             held: Held::default(),
-            tools: Vec::new(),
-            subprograms: Vec::new(),
-            in_subprogram: false,
+            tools: HashMap::new(),
+            subprograms: HashMap::new(),
         }
     }
 
@@ -70,9 +71,9 @@ impl<'s> Joining<'s> {
         self.names.get(usize::from(part).saturating_sub(1)).map_or("the job", String::as_str)
     }
 
-    /// The job can't follow the ones before it.
-    fn wrong(&self, why: &str, help: &'static str, place: Place) -> Stop {
-        let message = format!("{} can't follow {}: {why}", self.name(self.part), self.name(self.part - 1));
+    /// The job can't follow an earlier one.
+    fn wrong(&self, earlier: u16, why: &str, help: &'static str, place: Place) -> Stop {
+        let message = format!("{} can't follow {}: {why}", self.name(self.part), self.name(earlier));
         Diag::new(Code::PJ014, message).help(help).place(place).into()
     }
 
@@ -86,12 +87,12 @@ impl<'s> Joining<'s> {
         };
         let wrong = if first.units != own.units {
             let why = format!("its units are {}, not {}", own.units.name(), first.units.name());
-            Some(self.wrong(&why, "export both jobs in the same units", place))
+            Some(self.wrong(1, &why, "export both jobs in the same units", place))
         } else if first.machine != own.machine {
-            Some(self.wrong("it is for another type of machine", "join jobs for the same machine", place))
+            Some(self.wrong(1, "it is for another type of machine", "join jobs for the same machine", place))
         } else if first.set != own.set {
             let why = "its head sets other values under `set`, which apply to the whole program";
-            Some(self.wrong(why, "give all heads the same `set`, or set values in the operations", place))
+            Some(self.wrong(1, why, "give all heads the same `set`, or set values in the operations", place))
         } else {
             None
         };
@@ -150,20 +151,24 @@ impl<'s> Joining<'s> {
         } else {
             None
         };
+        let give = "give it in the first operation of the job, or print the jobs separately";
+        let mut help = give;
         let why = if let Some(missing) = missing {
             format!("its first operation does not give its {missing}, so that of the job before would stay in force")
         } else if let Some(name) = held.set.iter().find(|name| !change.set.iter().any(|(own, _)| own == *name)) {
             format!("its first operation does not set `{name}`, so the value of the job before would stay in force")
         } else if held.has_text {
+            help = "make the job with text the last one, or print the jobs separately";
             "a job before it contains text for the program, whose effect is unknown".to_owned()
         } else if held.is_compensated {
+            help = "turn the compensation off at the end of that job";
             "the job before ends with cutter compensation on".to_owned()
         } else if !self.is_of(Machine::Edm)
             && !held.is_home
             && change.tool.as_ref().map(|tool| tool.number) == held.tool
         {
-            "the tool stays the same, so nothing retracts it between the jobs; end the job before with `home`"
-                .to_owned()
+            help = "end the job before with `home`, or print the jobs separately";
+            "the tool stays the same, so nothing retracts it between the jobs".to_owned()
         } else if let Some(axis) = self.missing_axis(change) {
             format!(
                 "it does not begin with a rapid or a hole that gives {axis}, so the position of the job before would count"
@@ -171,11 +176,7 @@ impl<'s> Joining<'s> {
         } else {
             return Ok(());
         };
-        Err(Box::new(self.wrong(
-            &why,
-            "give it in the first operation of the job, or print the jobs separately",
-            place,
-        )))
+        Err(Box::new(self.wrong(self.part - 1, &why, help, place)))
     }
 
     fn is_of(&self, machine: Machine) -> bool {
@@ -193,8 +194,7 @@ impl<'s> Joining<'s> {
         let given = match &change.first {
             First::Rapid(Axes { given, .. }) => *given,
             First::Hole(_, hole) => hole.at.given,
-            First::Cut => 0,
-            First::Nothing => return None,
+            First::Cut | First::Nothing => 0,
         };
         let missing = (usual | self.held.axes) & !given;
         names.into_iter().enumerate().find(|(axis, _)| missing & 1 << axis != 0).map(|(_, axis)| axis)
@@ -204,12 +204,12 @@ impl<'s> Joining<'s> {
     fn is_same_tool(&mut self, tool: &Tool, place: Place) -> Result<(), Box<Stop>> {
         let data =
             |tool: &Tool| [tool.diameter, tool.corner_radius, tool.length_offset, tool.diameter_offset, tool.turret];
-        match self.tools.iter().find(|known| known.number == tool.number) {
-            None => self.tools.push(tool.clone()),
-            Some(known) if data(known) != data(tool) && self.part > 1 => {
+        match self.tools.get(&key(tool.number)) {
+            None => _ = self.tools.insert(key(tool.number), (tool.clone(), self.part)),
+            Some((known, part)) if *part != self.part && data(known) != data(tool) => {
                 let why = format!("its tool {} has another diameter, corner radius or offset", tool.number);
                 let help = "number the tools of all jobs alike, as they are in the machine";
-                return Err(Box::new(self.wrong(&why, help, place)));
+                return Err(Box::new(self.wrong(*part, &why, help, place)));
             }
             Some(_) => {}
         }
@@ -273,23 +273,23 @@ impl Sink for Joining<'_> {
             Event::Start(start) => return self.start(start, place),
             Event::ToolChange(change) => return self.change(change, place),
             Event::Finish if usize::from(self.part) < self.names.len() => return Flow::Continue(()),
-            Event::SubStart(number) => {
-                if self.subprograms.iter().any(|(known, _)| known == number) {
+            Event::SubStart(number) => match self.subprograms.get(&key(*number)) {
+                Some(&part) if part != self.part => {
                     let why = format!("both have a subprogram {number}");
-                    return Flow::Break(self.wrong(&why, "number the subprograms of all jobs differently", place));
+                    let help = "number the subprograms of all jobs differently";
+                    return Flow::Break(self.wrong(part, &why, help, place));
                 }
-                self.subprograms.push((*number, self.part));
-                self.in_subprogram = true;
+                _ => _ = self.subprograms.insert(key(*number), self.part),
+            },
+            Event::SubCall(call) => {
+                if let Some(&part) = self.subprograms.get(&key(call.sub)).filter(|part| **part != self.part) {
+                    let why = format!("it calls subprogram {}, which only an earlier job contains", call.sub);
+                    return Flow::Break(self.wrong(part, &why, "add the subprogram to the job that calls it", place));
+                }
+                self.follow(&event);
             }
-            Event::SubCall(call)
-                if self.subprograms.iter().any(|(known, part)| *known == call.sub && *part != self.part) =>
-            {
-                let why = format!("it calls subprogram {}, which only an earlier job contains", call.sub);
-                return Flow::Break(self.wrong(&why, "add the subprogram to the job that calls it", place));
-            }
-            Event::SubEnd => self.in_subprogram = false,
-            _ if !self.in_subprogram => self.follow(&event),
-            _ => {}
+            // what a subprogram sets stays in force, too
+            _ => self.follow(&event),
         }
         self.sink.event(event, place)
     }

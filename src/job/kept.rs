@@ -30,7 +30,7 @@ impl KeptJob {
         Some(KeptJob { events: keeper.events.into(), report: job.report.clone(), format, reading })
     }
 
-    /// The job again: its events without their text.
+    /// A job that pushes the kept events; its text is not read again.
     pub fn job(&self) -> Job<'static> {
         Job { reading: self.reading.clone(), ..Job::new(self.format, Input::Kept(Box::new(self.clone()))) }
     }

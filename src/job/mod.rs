@@ -15,7 +15,7 @@ use read::{Counted, cl_options, read_document_of_freecad, read_nc, read_once};
 use select::Selecting;
 use std::cell::Cell;
 use std::fmt;
-use std::io::{BufReader, Cursor, Read, Seek};
+use std::io::{self, BufReader, Cursor, Read, Seek};
 use std::rc::Rc;
 
 use crate::cl::{self, Assumed, AssumedSpeed, Dialect, Report, Setup};
@@ -333,7 +333,8 @@ impl<'a> Job<'a> {
                 }
             }
             Input::Stream(input) => {
-                let Some(input) = input.take() else { return Ok(()) };
+                let again = || io::Error::other("a job that comes as a stream can be read only once");
+                let input = input.take().ok_or_else(again)?;
                 let mut input = Counted { input, count };
                 match format {
                     Format::Nc | Format::Freecad => {

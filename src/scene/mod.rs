@@ -172,7 +172,9 @@ impl Printed {
                 let control = self.settings.control;
                 let fit = fit::fit(&fitted, machine, control, self.program.trace(), self.post.files());
                 let mut scene = behind("fit", fit);
-                fit::times(&mut scene, &fitted.block_times);
+                if !fitted.block_times.is_empty() {
+                    fit::times(&mut scene, &fitted.block_times);
+                }
                 scene
             }
             Err(error) => no_machine(&error.to_string()),

@@ -23,7 +23,7 @@ struct Section {
 }
 
 impl Section {
-    /// Equal bytes have the same hash, others differ.
+    /// Equal bytes have the same hash; other bytes almost never have it.
     fn hash(&self) -> String {
         let mut hasher = DefaultHasher::new();
         self.bytes.hash(&mut hasher);
@@ -66,7 +66,7 @@ impl Scene {
         self.sections.extend(other.sections);
     }
 
-    /// A hash of the sections and the other inputs: equal inputs have the same one, others differ.
+    /// A hash of the sections and the other inputs: equal inputs have the same one, other inputs almost never.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
         let mut hasher = DefaultHasher::new();
         self.sections.iter().for_each(|section| section.bytes.hash(&mut hasher));

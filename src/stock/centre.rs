@@ -44,7 +44,9 @@ impl Centre {
         let before = self.ends(Some(&piece).filter(|piece| begins_there && piece.side.is_some()));
         let from = before.filter(|_| begins_there).map_or(piece.from, |before| before.to);
         if piece.side.is_none() {
-            return [before, Some(Piece { from, ..piece })];
+            // a retract goes straight up from where the tool is
+            let to = if piece.left().is_none() { [from[0], from[1], piece.to[2]] } else { piece.to };
+            return [before, Some(Piece { from, to, ..piece })];
         }
         self.waits = Some((piece, from));
         [before, None]

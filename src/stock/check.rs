@@ -1,6 +1,6 @@
 //! Runs a program in its stock.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Read, Seek};
 
 use super::centre::{Centre, Piece};
@@ -110,14 +110,16 @@ struct Check<'a> {
     tool: Option<u32>,
     side: Option<Side>,
     is_oriented: bool,
+    /// The height is unknown, but it is not the machine's own: the work offset was changed below the top of the stock.
+    may_be_low: bool,
     centre: Centre,
     /// Number of the work offset in force.
     work: usize,
     checked: StockCheck,
     /// What was not checked, with the first line and the number of moves.
     missing: BTreeMap<Missing, (u64, u64)>,
-    /// The last block with a finding.
-    last: u64,
+    /// Lines of the blocks with a finding.
+    lines: BTreeSet<u64>,
 }
 
 /// How a move is made.
@@ -143,11 +145,12 @@ impl<'a> Check<'a> {
             },
             side: None,
             is_oriented: false,
+            may_be_low: false,
             centre: Centre::default(),
             work: 0,
             checked: StockCheck::default(),
             missing: BTreeMap::new(),
-            last: 0,
+            lines: BTreeSet::new(),
         }
     }
 
@@ -155,10 +158,15 @@ impl<'a> Check<'a> {
         for item in items {
             let line = (item.line, run.text());
             match &item.action {
-                Action::Rapid { to, machine, .. } => self.goes(Kind::Rapid, to, *machine, None, line, run),
+                Action::Rapid { to, machine, placed, .. } => {
+                    // G28 and G53 lift the tool; after a change of the work offset it may still be low
+                    self.may_be_low &= placed & 0b100 == 0;
+                    self.goes(Kind::Rapid, to, *machine, None, line, run);
+                }
                 Action::Feed { to, machine, .. } => self.goes(Kind::Cut, to, *machine, None, line, run),
                 Action::Arc(turn) => self.goes(Kind::Cut, &turn.to, turn.machine, Some(turn), line, run),
                 Action::Work(_) => {
+                    self.may_be_low |= self.at[2] < self.stock.top;
                     self.breaks();
                     self.work = run.state().work_number();
                 }
@@ -196,7 +204,12 @@ impl<'a> Check<'a> {
                 points.push(in_stock(&[at[0], at[1], at[2], 0.0, 0.0, 0.0], 0, run));
             });
         }
-        // an unknown height is over everything: only the machine's own positions are unknown
+        if to_stock[2].is_finite() {
+            self.may_be_low = false;
+        } else if self.may_be_low {
+            return self.not_checked(Missing::Position, line.0);
+        }
+        // an unknown height is over everything, because it is the machine's own
         let heights = [from[2], to_stock[2]].into_iter().chain(points.iter().map(|at| at[2]));
         let low = heights.filter(|z| z.is_finite()).fold(f64::INFINITY, f64::min);
         if low >= self.stock.top {
@@ -206,7 +219,7 @@ impl<'a> Check<'a> {
         let unknown = [from, to_stock].iter().any(|at| !at[0].is_finite() || !at[1].is_finite())
             || !to_stock[2].is_finite() && sideways
             || !from[2].is_finite() && (sideways || kind == Kind::Cut);
-        if to[3..].iter().any(|angle| *angle != 0.0) {
+        if program_from[3..].iter().chain(&to[3..]).any(|angle| *angle != 0.0) {
             return self.not_checked(Missing::Rotary, line.0);
         }
         if unknown {
@@ -244,10 +257,13 @@ impl<'a> Check<'a> {
             return field.cut(piece.shape, piece.from, piece.to);
         }
         let Some(hit) = field.hit(piece.shape, piece.from, piece.to) else { return };
-        if self.last == line {
+        if !self.lines.insert(line) {
+            // the block runs again, in a subprogram or a loop
+            if let Some(known) = self.checked.findings.iter_mut().find(|known| known.line == line) {
+                known.times += 1;
+            }
             return;
         }
-        self.last = line;
         self.checked.blocks += 1;
         if self.checked.findings.len() == MOST_FINDINGS {
             return;

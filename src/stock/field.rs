@@ -1,5 +1,7 @@
 //! The heights of a stock.
 
+use std::ops::Range;
+
 use super::size::Stock;
 use super::sweep::Shape;
 
@@ -50,15 +52,14 @@ impl Field {
         if f64::from(lowest) >= self.block.top {
             return;
         }
-        let [columns, rows] = self.around(from, to, shape.radius);
-        for row in rows {
+        for row in self.rows(from, to, shape.radius) {
             let y = self.middle(1, row) - from[1];
-            for column in columns.clone() {
+            for column in self.columns(row, from, to, shape.radius) {
+                let x = self.middle(0, column) - from[0];
                 let height = &mut self.heights[row * self.wide + column];
                 if *height <= lowest {
                     continue;
                 }
-                let x = self.block.least[0] + (column as f64 + 0.5) * self.cell - from[0];
                 if let Some(lowest) = shape.lowest([x, y], from[2], way) {
                     *height = height.min(lowest as f32);
                 }
@@ -77,10 +78,9 @@ impl Field {
         let shape = Shape { radius, corner: shape.corner.min(radius) };
         let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
         let mut deepest: Option<Hit> = None;
-        let [columns, rows] = self.around(from, to, radius);
-        for row in rows {
+        for row in self.rows(from, to, radius) {
             let y = self.middle(1, row);
-            for column in columns.clone() {
+            for column in self.columns(row, from, to, radius) {
                 let height = f64::from(self.heights[row * self.wide + column]);
                 if height <= self.block.bottom || height - TOLERANCE <= from[2].min(to[2]) {
                     continue;
@@ -106,14 +106,32 @@ impl Field {
         self.block.least[axis] + (at as f64 + 0.5) * self.cell
     }
 
-    /// The columns and rows that a tool may touch.
-    fn around(&self, from: [f64; 3], to: [f64; 3], radius: f64) -> [std::ops::Range<usize>; 2] {
-        [(0, self.wide), (1, self.deep)].map(|(axis, cells)| {
-            // a conversion to usize is 0 for negative numbers
-            let cell = |at: f64| (at - self.block.least[axis]) / self.cell;
-            let low = cell(from[axis].min(to[axis]) - radius).floor() as usize;
-            let high = (cell(from[axis].max(to[axis]) + radius).ceil() as usize).min(cells);
-            low.min(high)..high
-        })
+    /// The rows that a tool may touch on a straight move.
+    fn rows(&self, from: [f64; 3], to: [f64; 3], radius: f64) -> Range<usize> {
+        self.cells(1, from[1].min(to[1]) - radius, from[1].max(to[1]) + radius)
+    }
+
+    /// The columns of a row that it may touch: those beside the part of the move that is near the row.
+    fn columns(&self, row: usize, from: [f64; 3], to: [f64; 3], radius: f64) -> Range<usize> {
+        let way: [f64; 2] = std::array::from_fn(|axis| to[axis] - from[axis]);
+        let beside = [-radius, radius].map(|by| (self.middle(1, row) + by - from[1]) / way[1]);
+        let [first, last] = match way[1] == 0.0 {
+            true => [0.0, 1.0],
+            false => [beside[0].min(beside[1]).max(0.0), beside[0].max(beside[1]).min(1.0)],
+        };
+        if first > last {
+            return 0..0;
+        }
+        let ends = [first, last].map(|part| from[0] + way[0] * part);
+        self.cells(0, ends[0].min(ends[1]) - radius, ends[0].max(ends[1]) + radius)
+    }
+
+    /// The columns (axis 0) or rows (axis 1) between two positions.
+    fn cells(&self, axis: usize, low: f64, high: f64) -> Range<usize> {
+        let count = if axis == 0 { self.wide } else { self.deep };
+        // a conversion to usize is 0 for negative numbers
+        let cell = |at: f64| (at - self.block.least[axis]) / self.cell;
+        let high = (cell(high).ceil() as usize).min(count);
+        (cell(low).floor() as usize).min(high)..high
     }
 }

@@ -92,8 +92,9 @@ impl Queue {
     }
 
     /// Two moves overlap for this time.
-    pub fn overlap(&mut self, seconds: f64, is_cut: bool) {
+    pub fn overlap(&mut self, seconds: f64, is_cut: bool, row: usize) {
         *self.spent_on(is_cut) -= seconds;
+        self.adds(row, -seconds);
     }
 
     /// The row of the block that is being run.

@@ -103,6 +103,23 @@ fn subprograms_are_not_shared() {
     }
 }
 
+/// A message names the job that conflicts, which need not be the one before.
+#[test]
+fn the_job_that_conflicts_is_named() {
+    let third = job(HEAD, FIRST).replace(r#""diameter":10"#, r#""diameter":8"#);
+    let texts = [job(HEAD, FIRST), job(HEAD, SECOND), third];
+    let error = post("haas.pf").render(join(&texts), &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("c can't follow a: its tool 1"), "{error}");
+    // what is in a subprogram stays in force, too
+    let form = std::fs::read_to_string(root().join("samples/sub-call/form.pf")).unwrap();
+    let post = Post::compile(Source::from_text("form.pf", form), &NoFiles).unwrap();
+    let head = HEAD.replace("mm", "inch");
+    let sub = r#""subprograms":[{"number":5,"path":[{"line":[10,0,-1],"feed":9},{"text":"M100"}]}],"#;
+    let first = job(&format!("{head}{sub}"), &FIRST.replacen("},{\"rapid\"", "},{\"call\":{\"sub\":5}},{\"rapid\"", 1));
+    let error = post.render(join(&[first, job(&head, SECOND)]), &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("contains text for the program"), "{error}");
+}
+
 /// An error is located in its own job, whoever finds it: the reader, the renderer, or the proof.
 #[test]
 fn errors_name_their_job() {

@@ -74,6 +74,32 @@ fn cycles_and_arcs_cut() {
     assert_eq!(across.len(), 1, "{across:?}");
 }
 
+/// A height that a change of the work offset has made unknown may be in the stock; one that G28 or G53 made unknown is not.
+#[test]
+fn an_unknown_height_after_a_work_offset_is_not_clean() {
+    let low = found("G0 Y30\nZ-5\nG55\nG0 X120 Y50\nX-20\nZ50\nX0", STOCK);
+    assert_eq!(low.len(), 1, "{low:?}");
+    assert!(low[0].starts_with("2 moves at the height of the stock, from line 8 on"), "{low:?}");
+    let nothing: [&str; 0] = [];
+    assert_eq!(found("G0 Y30\nZ-5\nG53 G0 Z0\nG55\nG0 X120 Y50\nX-20\nG43 H1 Z50", STOCK), nothing);
+    assert_eq!(found("G0 Y30\nG55\nG0 X120 Y50\nG43 H1 Z50", STOCK), nothing);
+}
+
+/// A retract under compensation goes straight up from the path of the centre.
+#[test]
+fn a_retract_under_compensation_is_no_finding() {
+    let nothing: [&str; 0] = [];
+    assert_eq!(found("G0 X-20 Y30 Z-5\nG1 G41 D1 X-10 F500\nX50\nG0 Z20\nG40 X0", STOCK), nothing);
+}
+
+/// A block that runs again is one finding with its number of times.
+#[test]
+fn a_block_that_runs_again_is_one_finding() {
+    let checked = checked(&format!("{HEAD}M98 P2 L3\nM30\nO2\nG0 X-20 Y30\nZ-5\nX120\nZ50\nM99\n"), STOCK);
+    assert_eq!(checked.blocks, 1, "{checked:?}");
+    assert_eq!((checked.findings[0].line, checked.findings[0].times), (10, 3));
+}
+
 /// An arc in a vertical plane cuts below its ends.
 #[test]
 fn an_arc_whose_ends_are_above_the_stock_cuts() {

@@ -284,17 +284,18 @@ fn jobs_are_opened_and_closed() {
     let before = names();
     assert_eq!(before.as_array().unwrap().len(), 1);
     for (name, content, tab) in [
-        (r#""drill.json""#, &job[..], "1"),
-        (r#""../../my.pf.json""#, &job[..], "2"),
+        (r#""drill.json""#, &job[..], [1, 0]),
+        (r#""../../my.pf.json""#, &job[..], [2, 0]),
         // the same name again replaces the job
-        (r#""drill.json""#, &job[..], "1"),
+        (r#""drill.json""#, &job[..], [1, 1]),
         // found by its content
-        (r#""drill""#, &job[..], "3"),
+        (r#""drill""#, &job[..], [3, 0]),
         // a broken job is a job: its tab has the error
-        (r#""empty.json""#, b"", "4"),
+        (r#""empty.json""#, b"", [4, 0]),
     ] {
         let answer = watch.add(name, content);
-        assert_eq!((answer.status, String::from_utf8_lossy(&answer.body).as_ref()), (200, tab), "{name}");
+        let added: Value = serde_json::from_slice(&answer.body).unwrap();
+        assert_eq!((answer.status, &added), (200, &json!({ "tab": tab[0], "replaced": tab[1] == 1 })), "{name}");
     }
     assert_eq!(names(), json!([before[0], "drill.json", "my.pf.json", "drill", "empty.json"]));
     for (name, content, status, why) in [

@@ -318,7 +318,7 @@ pub fn job_in_memory(path: &Path, bytes: &Arc<[u8]>, args: &ReadArgs) -> Result<
 }
 
 /// Largest content of a compressed file that is kept in memory.
-const LARGEST_UNPACKED: u64 = 2 << 30;
+const LARGEST_UNPACKED: u64 = 512 << 20;
 
 /// The content of a file of this name, without its compression.
 ///
@@ -332,7 +332,7 @@ pub fn unpacked_bytes(path: &Path, bytes: Vec<u8>) -> Result<Arc<[u8]>, String> 
     let read = unpacked(&bytes[..]).take(LARGEST_UNPACKED + 1).read_to_end(&mut text);
     read.map_err(|error| io_message("read", path, &error))?;
     if text.len() as u64 > LARGEST_UNPACKED {
-        return Err(format!("error: {} is larger than {} GB", name(path), LARGEST_UNPACKED >> 30));
+        return Err(format!("error: {} is larger than {} MB", name(path), LARGEST_UNPACKED >> 20));
     }
     Ok(text.into())
 }

@@ -89,7 +89,7 @@ impl Milling<'_> {
 /// The result as JSON; `files` are those of the form.
 pub fn document(checked: &StockCheck, files: &[Source]) -> serde_json::Value {
     serde_json::json!({
-        "blocks": checked.blocks, "not_checked": checked.not_checked,
+        "blocks": checked.blocks, "not_checked": checked.not_checked, "assumes_compensation": checked.compensates,
         "findings": checked.findings.iter().map(|found| finding(found, files)).collect::<Vec<_>>(),
     })
 }

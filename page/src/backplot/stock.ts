@@ -90,22 +90,33 @@ export class Stock {
     } else this.cut(from, to, shape, tool);
   }
 
-  /** The cells that a tool of a radius may touch along a piece: columns and rows. */
-  private around(from: number[], to: number[], radius: number): [number, number, number, number] {
-    const column = (x: number) => Math.round((x - this.x) / this.cell);
+  /** The rows that a tool of a radius may touch along a piece. */
+  private rows(from: number[], to: number[], radius: number): [number, number] {
     const row = (y: number) => Math.round((y - this.y) / this.cell);
-    return [
-      Math.max(0, column(Math.min(from[0], to[0]) - radius)), Math.min(this.wide - 1, column(Math.max(from[0], to[0]) + radius)),
-      Math.max(0, row(Math.min(from[1], to[1]) - radius)), Math.min(this.deep - 1, row(Math.max(from[1], to[1]) + radius)),
-    ];
+    return [Math.max(0, row(Math.min(from[1], to[1]) - radius)), Math.min(this.deep - 1, row(Math.max(from[1], to[1]) + radius))];
+  }
+
+  /** The columns of a row that a tool may touch along a piece: those beside the part of the piece that is near the row. */
+  private columns(row: number, from: number[], to: number[], radius: number): [number, number] {
+    const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    let [first, last] = [0, 1];
+    if (dy !== 0) {
+      const middle = this.y + row * this.cell - from[1];
+      const [a, b] = [(middle - radius) / dy, (middle + radius) / dy];
+      [first, last] = [Math.max(0, Math.min(a, b)), Math.min(1, Math.max(a, b))];
+    }
+    const [a, b] = [from[0] + dx * first, from[0] + dx * last];
+    const column = (x: number) => Math.round((x - this.x) / this.cell);
+    return [Math.max(0, column(Math.min(a, b) - radius)), first > last ? -1 : Math.min(this.wide - 1, column(Math.max(a, b) + radius))];
   }
 
   private cut(from: number[], to: number[], { radius, corner }: Shape, tool: number): void {
-    const [left, right, low, high] = this.around(from, to, radius);
+    const [low, high] = this.rows(from, to, radius);
     const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
     const floor = Math.min(from[2], to[2]);
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
+      const [left, right] = this.columns(row, from, to, radius);
       for (let column = left; column <= right; column++) {
         const px = this.x + column * this.cell - from[0];
         const cell = row * this.wide + column;
@@ -125,11 +136,12 @@ export class Stock {
     // the cell under the axis is always looked at
     const radius = Math.max(shape.radius - this.cell, this.cell * Math.SQRT1_2);
     const corner = Math.min(shape.corner, radius);
-    const [left, right, low, high] = this.around(from, to, radius);
+    const [low, high] = this.rows(from, to, radius);
     const [dx, dy, dz] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
     const floor = Math.min(from[2], to[2]) + this.tolerance;
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
+      const [left, right] = this.columns(row, from, to, radius);
       for (let column = left; column <= right; column++) {
         const height = this.heights[row * this.wide + column];
         if (height <= floor) continue;

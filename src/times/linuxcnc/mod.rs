@@ -137,7 +137,7 @@ impl Linuxcnc {
             }
             Joint::Overlap(seconds) => {
                 queue.push(last.leg(self.most_entry));
-                queue.overlap(seconds, last.is_cut);
+                queue.overlap(seconds, last.is_cut, last.row);
                 0.0
             }
             Joint::Arc { length, speed, acceleration, swallows } => {

@@ -35,7 +35,7 @@ const SETTLED: Duration = Duration::from_secs(1);
 const MOST_KEPT: usize = 300_000;
 
 /// A job.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 pub struct Opened {
     /// Its display name.
     pub name: String,
@@ -149,11 +149,12 @@ impl Jobs {
         }
     }
 
-    /// Adds a job with the content of a file. A job of the same name that was added before is replaced. Returns its tab.
+    /// Adds a job with the content of a file. A job of the same name that was added before is replaced. Returns its tab, and
+    /// whether it replaced a job.
     ///
     /// # Errors
     /// A message: the content is not a job.
-    pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<usize, String> {
+    pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<(usize, bool), String> {
         let path = Path::new(name).file_name().map(PathBuf::from).ok_or("error: a job needs a name")?;
         let bytes = files::unpacked_bytes(&path, bytes)?;
         files::job_in_memory(&path, &bytes, &self.read)?;
@@ -163,10 +164,10 @@ impl Jobs {
         let opened = Opened { name, content: Content::Memory(path, bytes) };
         if let Some(tab) = before {
             list[tab] = opened;
-            return Ok(tab);
+            return Ok((tab, true));
         }
         list.push(opened);
-        Ok(list.len() - 1)
+        Ok((list.len() - 1, false))
     }
 
     /// Removes the job of a tab. Nothing happens if the tab has another name now.

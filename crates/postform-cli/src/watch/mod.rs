@@ -192,9 +192,10 @@ impl Shared {
         };
         body.drain(..=end);
         match self.session.add(&name, body) {
-            Ok(tab) => {
+            Ok((tab, replaced)) => {
                 self.tell();
-                Answer::of("application/json", tab.to_string())
+                let added = serde_json::json!({ "tab": tab, "replaced": replaced });
+                Answer::of("application/json", added.to_string())
             }
             Err(why) => Answer::no(422, &why),
         }

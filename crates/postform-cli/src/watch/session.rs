@@ -62,8 +62,7 @@ pub struct Session {
 /// The program that the saved form printed for a job.
 #[derive(Clone)]
 struct Saved {
-    /// Name of the job.
-    job: String,
+    job: Opened,
     /// The properties that were set.
     properties: Vec<(String, String)>,
     /// The number of file changes at that time.
@@ -211,7 +210,7 @@ impl Session {
                 if let Ok(job) = self.jobs.open(job, sample) {
                     _ = proves.send(behind("verdict", printed.verdict(job)));
                 }
-                if let Some(job) = self.jobs.open(job, sample).ok().filter(|_| !same) {
+                if let Ok(job) = self.jobs.open(job, sample) {
                     _ = proves.send(behind("toolSizes", printed.tools(job)));
                 }
             });
@@ -309,14 +308,14 @@ impl Session {
         job.is_sample().then(|| sample_job(&form.analyse(texts).form.settings))
     }
 
-    /// Opens another job. Returns its tab.
+    /// Opens another job. Returns its tab, and whether it replaced a job.
     ///
     /// # Errors
     /// A message: it is not a job.
-    pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<usize, String> {
-        let tab = self.jobs.add(name, bytes)?;
+    pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<(usize, bool), String> {
+        let added = self.jobs.add(name, bytes)?;
         self.forget();
-        Ok(tab)
+        Ok(added)
     }
 
     /// Closes a job.
@@ -332,9 +331,8 @@ impl Session {
 
     /// The program that the saved form prints for a job; it is printed only once until a file is changed.
     fn saved_program(&self, ask: &Ask, job: &Opened, generation: u64) -> Option<Arc<str>> {
-        let same = |known: &Saved| {
-            (&known.job, known.generation, &known.properties) == (&job.name, generation, &ask.properties)
-        };
+        let same =
+            |known: &Saved| (&known.job, known.generation, &known.properties) == (job, generation, &ask.properties);
         let known = lock(&self.saved).clone().filter(same);
         if let Some(known) = known {
             return Some(known.program);
@@ -347,7 +345,7 @@ impl Session {
     fn keep_saved(&self, ask: &Ask, job: &Opened, generation: u64, program: &str) -> Arc<str> {
         let program: Arc<str> = program.into();
         *lock(&self.saved) = Some(Saved {
-            job: job.name.clone(),
+            job: job.clone(),
             properties: ask.properties.clone(),
             generation,
             program: Arc::clone(&program),

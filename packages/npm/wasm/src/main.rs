@@ -93,6 +93,9 @@ fn rows(findings: &Findings) -> Vec<Value> {
     findings.diags.iter().map(|diag| json!(row(diag, &findings.files))).collect()
 }
 
+/// Most bytes of actions as JSON: their values take several times as much memory.
+const MOST_ACTIONS: usize = 100 << 20;
+
 /// The actions of a machine that runs a program, its warnings, and the block that the control refuses.
 fn simulate(request: &Request) -> Value {
     let named = request.control.as_deref().unwrap_or("fanuc");
@@ -118,6 +121,13 @@ fn simulate(request: &Request) -> Value {
             }
         }
         warnings.extend(simulator.take_warnings());
+        if actions.len() > MOST_ACTIONS {
+            let error = format!(
+                "the program makes more than {} MB of actions: run it with the command line",
+                MOST_ACTIONS >> 20
+            );
+            return json!({ "error": error, "findings": [] });
+        }
         match step {
             Ok(true) => {}
             Ok(false) => break None,

@@ -119,6 +119,13 @@ for (const name of await page.locator("[aria-label=Example] option").allInnerTex
   ok(/proven/.test(await page.locator(".verdict").innerText()), `${name}: ${await page.locator(".verdict").innerText()}`);
 }
 
+// jobs are opened by the button and closed again
+await page.locator('header input[type="file"]').setInputFiles([join(root, "samples/drill-machine/job.json")]);
+await page.waitForFunction(() => document.querySelectorAll(".tab").length === 2 && document.querySelectorAll(".tab")[1].getAttribute("aria-selected") === "true");
+await page.getByTitle("Close this job").click();
+await page.waitForFunction(() => document.querySelectorAll(".tab").length === 1);
+await ready(page);
+
 await page.evaluate(() => {
   const { view } = window.page.editor;
   view.dispatch({ changes: { from: 0, insert: "Nonsense here\n" } });

@@ -96,18 +96,27 @@ export class Stock {
     return [Math.max(0, row(Math.min(from[1], to[1]) - radius)), Math.min(this.deep - 1, row(Math.max(from[1], to[1]) + radius))];
   }
 
-  /** The columns of a row that a tool may touch along a piece: those beside the part of the piece that is near the row. */
-  private columns(row: number, from: number[], to: number[], radius: number): [number, number] {
-    const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-    let [first, last] = [0, 1];
+  /** The columns of the last row that was asked for. */
+  private left = 0;
+  private right = -1;
+
+  /** Finds the columns of a row that a tool may touch along a piece: those beside the part of the piece that is near the row. */
+  private columns(row: number, from: number[], to: number[], radius: number): void {
+    const dx = to[0] - from[0];
+    const dy = to[1] - from[1];
+    let first = 0;
+    let last = 1;
     if (dy !== 0) {
       const middle = this.y + row * this.cell - from[1];
-      const [a, b] = [(middle - radius) / dy, (middle + radius) / dy];
-      [first, last] = [Math.max(0, Math.min(a, b)), Math.min(1, Math.max(a, b))];
+      const a = (middle - radius) / dy;
+      const b = (middle + radius) / dy;
+      first = Math.max(0, Math.min(a, b));
+      last = Math.min(1, Math.max(a, b));
     }
-    const [a, b] = [from[0] + dx * first, from[0] + dx * last];
-    const column = (x: number) => Math.round((x - this.x) / this.cell);
-    return [Math.max(0, column(Math.min(a, b) - radius)), first > last ? -1 : Math.min(this.wide - 1, column(Math.max(a, b) + radius))];
+    const a = from[0] + dx * first - this.x;
+    const b = from[0] + dx * last - this.x;
+    this.left = Math.max(0, Math.round((Math.min(a, b) - radius) / this.cell));
+    this.right = first > last ? -1 : Math.min(this.wide - 1, Math.round((Math.max(a, b) + radius) / this.cell));
   }
 
   private cut(from: number[], to: number[], { radius, corner }: Shape, tool: number): void {
@@ -116,7 +125,8 @@ export class Stock {
     const floor = Math.min(from[2], to[2]);
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
-      const [left, right] = this.columns(row, from, to, radius);
+      this.columns(row, from, to, radius);
+      const { left, right } = this;
       for (let column = left; column <= right; column++) {
         const px = this.x + column * this.cell - from[0];
         const cell = row * this.wide + column;
@@ -141,7 +151,8 @@ export class Stock {
     const floor = Math.min(from[2], to[2]) + this.tolerance;
     for (let row = low; row <= high; row++) {
       const py = this.y + row * this.cell - from[1];
-      const [left, right] = this.columns(row, from, to, radius);
+      this.columns(row, from, to, radius);
+      const { left, right } = this;
       for (let column = left; column <= right; column++) {
         const height = this.heights[row * this.wide + column];
         if (height <= floor) continue;

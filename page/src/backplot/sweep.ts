@@ -30,6 +30,11 @@ export function lowest(radius: number, corner: number, x: number, y: number, fro
   const last = nearest + reach < 1 ? nearest + reach : 1;
   if (first > last) return Infinity;
   if (corner <= 0) return from + dz * (dz < 0 ? last : first);
+  return lowestRounded(radius, corner, x, y, from, dx, dy, dz, nearest, first, last);
+}
+
+/** The same for a tool with a rounded corner, between two parts of the way. A function of its own: its closure costs time where it is not needed. */
+function lowestRounded(radius: number, corner: number, x: number, y: number, from: number, dx: number, dy: number, dz: number, nearest: number, first: number, last: number): number {
   const height = (part: number) => from + dz * part + rise(radius, corner, Math.min(radius, Math.hypot(x - part * dx, y - part * dy)));
   if (dz === 0) return height(Math.max(first, Math.min(last, nearest)));
   // the height is a convex function of the part: a sum of a line and a rounded corner

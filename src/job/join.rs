@@ -151,8 +151,7 @@ impl<'s> Joining<'s> {
         } else {
             None
         };
-        let give = "give it in the first operation of the job, or print the jobs separately";
-        let mut help = give;
+        let mut help = "give it in the first operation of the job, or print the jobs separately";
         let why = if let Some(missing) = missing {
             format!("its first operation does not give its {missing}, so that of the job before would stay in force")
         } else if let Some(name) = held.set.iter().find(|name| !change.set.iter().any(|(own, _)| own == *name)) {

@@ -22,12 +22,13 @@ impl KeptJob {
             return None;
         }
         let mut keeper = Keeper { events: Vec::new(), most };
-        let reading = std::mem::take(&mut job.reading.select);
+        // a selection applies when the kept events are read
+        let select = std::mem::take(&mut job.reading.select);
         let read = job.read(&mut keeper);
-        job.reading.select = reading;
+        job.reading.select = select;
         read.ok().filter(|()| keeper.events.len() <= most)?;
-        let (format, reading) = (job.format, job.reading.clone());
-        Some(KeptJob { events: keeper.events.into(), report: job.report.clone(), format, reading })
+        let reading = job.reading.clone();
+        Some(KeptJob { events: keeper.events.into(), report: job.take_report(), format: job.format, reading })
     }
 
     /// A job that pushes the kept events; its text is not read again.

@@ -1,5 +1,6 @@
 //! A head in JSON, and sections of numbers.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -20,14 +21,18 @@ pub struct Scene {
 struct Section {
     name: String,
     bytes: Vec<u8>,
+    /// The hash of the bytes, from its first use on.
+    hash: OnceCell<u64>,
 }
 
 impl Section {
     /// Equal bytes have the same hash; other bytes almost never have it.
-    fn hash(&self) -> String {
-        let mut hasher = DefaultHasher::new();
-        self.bytes.hash(&mut hasher);
-        format!("{:016x}", hasher.finish())
+    fn hash(&self) -> u64 {
+        *self.hash.get_or_init(|| {
+            let mut hasher = DefaultHasher::new();
+            self.bytes.hash(&mut hasher);
+            hasher.finish()
+        })
     }
 }
 
@@ -57,7 +62,7 @@ impl Scene {
 
     /// Adds a section of bytes.
     pub(super) fn bytes(&mut self, name: String, bytes: Vec<u8>) {
-        self.sections.push(Section { name, bytes });
+        self.sections.push(Section { name, bytes, hash: OnceCell::new() });
     }
 
     /// Adds what another scene contains.
@@ -69,7 +74,7 @@ impl Scene {
     /// A hash of the sections and the other inputs: equal inputs have the same one, other inputs almost never.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
         let mut hasher = DefaultHasher::new();
-        self.sections.iter().for_each(|section| section.bytes.hash(&mut hasher));
+        self.sections.iter().for_each(|section| section.hash().hash(&mut hasher));
         (run, old).hash(&mut hasher);
         format!("{:016x}", hasher.finish())
     }
@@ -85,7 +90,7 @@ impl Scene {
         let mut hashes = Map::new();
         let mut kept = Vec::new();
         self.sections.retain(|section| {
-            let hash = section.hash();
+            let hash = format!("{:016x}", section.hash());
             let is_known = known.get(&section.name) == Some(&hash);
             if is_known {
                 kept.push(json!(section.name));
@@ -103,7 +108,7 @@ impl Scene {
     pub fn into_bytes(mut self) -> Vec<u8> {
         let mut places = Map::new();
         let mut length = 0;
-        for Section { name, bytes } in &self.sections {
+        for Section { name, bytes, .. } in &self.sections {
             places.insert(name.clone(), json!([length, bytes.len()]));
             length += bytes.len().next_multiple_of(8);
         }

@@ -28,6 +28,13 @@ struct Events {
     job: Option<KeptJob>,
 }
 
+impl Events {
+    /// Are they the events of a job whose file is in this state?
+    fn is_of(&self, job: &Opened, stamp: Option<Stamp>) -> bool {
+        self.content == job.content && self.stamp == stamp
+    }
+}
+
 /// A file that was changed so shortly before may change again without another time of the change.
 const SETTLED: Duration = Duration::from_secs(1);
 
@@ -115,9 +122,8 @@ impl Jobs {
     /// Keeps the events of the job that is shown, because each key of the form reads them several times.
     pub fn keep(&self, job: &Opened) {
         let stamp = job.stamp();
-        let is_kept = |kept: &Events| kept.content == job.content && kept.stamp == stamp;
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if job.is_sample() || kept.as_ref().is_some_and(is_kept) {
+        if job.is_sample() || kept.as_ref().is_some_and(|kept| kept.is_of(job, stamp)) {
             return;
         }
         *kept = None;
@@ -133,12 +139,16 @@ impl Jobs {
     /// # Errors
     /// A message: its file can't be read.
     pub fn open(&self, job: &Opened, sample: Option<&'static str>) -> Result<Job<'static>, String> {
-        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let same = kept.as_ref().filter(|kept| kept.content == job.content && kept.stamp == job.stamp());
-        match same.and_then(|kept| kept.job.as_ref()) {
-            Some(kept) => Ok(kept.job()),
+        match self.kept(job) {
+            Some(kept) => Ok(kept),
             None => self.read(job, sample),
         }
+    }
+
+    fn kept(&self, job: &Opened) -> Option<Job<'static>> {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = kept.as_ref().filter(|kept| kept.is_of(job, job.stamp()))?;
+        same.job.as_ref().map(KeptJob::job)
     }
 
     fn read(&self, job: &Opened, sample: Option<&'static str>) -> Result<Job<'static>, String> {

@@ -79,16 +79,21 @@ pub struct Branch {
 impl Routine {
     /// Does it print this variable, or use it in a condition?
     pub fn asks(&self, var: VarId, program: &Program) -> bool {
-        fn of(nodes: &[Node], var: VarId, program: &Program) -> bool {
+        self.vars.has(var) || self.tests(VarSet::of(&[var]), program)
+    }
+
+    /// Does it use any of these variables in a condition?
+    pub fn tests(&self, vars: VarSet, program: &Program) -> bool {
+        fn of(nodes: &[Node], vars: VarSet, program: &Program) -> bool {
             nodes.iter().any(|node| match node {
                 Node::If(branches) => branches.iter().any(|branch| {
-                    branch.condition.is_some_and(|row| program.formulas[row as usize].vars().has(var))
-                        || of(&branch.nodes, var, program)
+                    branch.condition.is_some_and(|row| program.formulas[row as usize].vars().meets(vars))
+                        || of(&branch.nodes, vars, program)
                 }),
                 _ => false,
             })
         }
-        self.vars.has(var) || self.flow.as_ref().is_some_and(|flow| of(&flow.nodes, var, program))
+        self.flow.as_ref().is_some_and(|flow| of(&flow.nodes, vars, program))
     }
 
     /// Computes the properties of all its operations together.

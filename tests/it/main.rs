@@ -79,6 +79,7 @@ mod transcripts;
 mod turning_cycles;
 mod turning_jobs;
 mod unknown_positions;
+mod usual_holes;
 mod usual_moves;
 mod verdicts;
 mod verify;

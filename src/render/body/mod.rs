@@ -1,6 +1,7 @@
 //! One run of a sequence: executes its operations word by word. State in this module lasts for one run only.
 
 mod formula;
+pub mod next_hole;
 mod text;
 
 use crate::control;

@@ -3,6 +3,7 @@
 use super::choose::{cannot_say, scaled};
 use super::generated::generated_hole;
 use super::open::{Drilling, leave_cycle};
+use super::plain::{NextHole, plain_hole, plain_words};
 use super::planned::{Heights, Planned, SAME, hole_variables};
 use super::sequence::sequence_hole;
 use crate::compile::Routine;
@@ -35,6 +36,9 @@ fn no_height<T>() -> Done<T> {
 /// Handles a hole of the open cycle. It is held back until the next event if the form uses `[lasthole]`.
 pub fn hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
+    if let Some(words) = plain_words(hole, cx, drill) {
+        return plain_hole(hole, &words, cx, drill);
+    }
     if !shape.program.printed.with(shape.program.asked).has(VarId::Lasthole) {
         return make_hole(hole, cx, drill);
     }
@@ -135,6 +139,10 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     }
     if let Some(cycle) = &mut drill.open {
         cycle.holes += 1;
+        cycle.depth = hole.depth;
+        if let NextHole::Position(_) = cycle.next {
+            cycle.next = NextHole::Unknown;
+        }
         // a manual cycle leaves the tool where it stopped
         cycle.left = (cycle.spec.kind != CycleKind::Manual).then_some(heights.return_plane);
     }

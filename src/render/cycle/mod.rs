@@ -4,6 +4,7 @@ mod choose;
 mod generated;
 pub mod hole;
 pub mod open;
+mod plain;
 mod planned;
 mod remarks;
 mod sequence;
@@ -20,6 +21,7 @@ use crate::toolpath::{CycleSpec, SpindleTurn};
 use choose::{choose_sequence, scaled};
 use hole::make_hole;
 use open::{ActiveCycle, Drilling, Setup, is_rigid, leave_cycle, turning};
+use plain::NextHole;
 use remarks::warn_of;
 
 /// Begins a cycle. It prints nothing before its first hole.
@@ -58,6 +60,8 @@ pub fn cycle_begin(spec: &CycleSpec, cx: &mut Cx<'_>, drill: &mut Drilling) -> D
         feed: cx.want.feed(),
         left: None,
         turned,
+        depth: None,
+        next: NextHole::Unknown,
     });
     Ok(())
 }

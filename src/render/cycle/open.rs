@@ -1,5 +1,6 @@
 //! The open cycle, from its begin to its end, and the exit of the control from it.
 
+use super::plain::NextHole;
 use crate::compile::Sources;
 use crate::cycle::Steps;
 use crate::diag::Code;
@@ -49,6 +50,10 @@ pub struct ActiveCycle {
     pub left: Option<f64>,
     /// Spindle direction to restore after a tap that changed it.
     pub turned: Option<f64>,
+    /// The depth that the job gives with the last hole.
+    pub depth: Option<f64>,
+    /// What the next hole prints if it is as deep.
+    pub next: NextHole,
 }
 
 /// The values of the job and of the form when a cycle was started.
@@ -81,6 +86,16 @@ pub struct Drilling {
     pub open: Option<ActiveCycle>,
     /// Steps of a hole that is printed as single moves.
     pub steps: Steps,
+}
+
+impl Drilling {
+    /// Records that something between two holes may change what the next one prints.
+    #[inline]
+    pub fn holes_change(&mut self) {
+        if let Some(cycle) = &mut self.open {
+            cycle.next = NextHole::Unknown;
+        }
+    }
 }
 
 /// Leaves the cycle: prints Cancel and updates the known axis positions after the last hole.

@@ -1,0 +1,96 @@
+//! The usual hole: a later one of a machine cycle, as deep as the hole before it, that prints only its position. Most holes of
+//! long jobs are of this kind. It is printed without planning the cycle again. The general path of [`super::hole`] prints the same
+//! block for it.
+
+use super::open::{ActiveCycle, Drilling};
+use crate::compile::{CycleStyle, Routine};
+use crate::lang::{VarId, VarSet};
+use crate::render::body::next_hole::PositionWords;
+use crate::render::cx::Cx;
+use crate::render::fault::Done;
+use crate::render::shape::{ROTARY_BITS, Shape};
+use crate::toolpath::Hole;
+
+/// The variables that differ between two usual holes.
+const CHANGES: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::Block]);
+
+/// What the next hole prints if it is as deep as the one before it.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum NextHole {
+    /// Not determined since the last hole of the general path.
+    #[default]
+    Unknown,
+    /// Only these words.
+    Position(PositionWords),
+    /// It needs the general path, as all holes after it until another event.
+    Other,
+}
+
+/// The words of this hole, if it is usual.
+#[inline]
+pub fn plain_words(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Option<PositionWords> {
+    let shape = cx.shape;
+    let cycle = drill.open.as_mut()?;
+    let as_deep = cycle.in_force
+        && cycle.holes > 1 // `[isfirsthole]` is 0 from the second hole
+        && hole.depth == cycle.depth
+        && hole.at.get(shape.depth).is_none_or(|at| Some(at * shape.scale) == cycle.point)
+        && (hole.at.given | cx.said.stand.position.given) & ROTARY_BITS == 0
+        && !cx.said.is_unsettled(cx.want);
+    if !as_deep {
+        return None;
+    }
+    if let NextHole::Unknown = cycle.next {
+        let routine = cycle.sequence.and_then(|id| shape.routine(id, cx.want, cx.said));
+        let words = routine
+            .filter(|routine| prints_no_more(routine, cycle, cx))
+            .and_then(|routine| PositionWords::of(routine, &mut cx.writer()));
+        cycle.next = words.map_or(NextHole::Other, NextHole::Position);
+    }
+    match cycle.next {
+        NextHole::Position(words) => Some(words),
+        _ => None,
+    }
+}
+
+/// Prints a usual hole.
+#[inline]
+pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
+    let shape = cx.shape;
+    let position = &mut cx.said.stand.position;
+    for axis in 0..2 {
+        if hole.at.given & 1 << axis != 0 {
+            position.values[axis] = hole.at.values[axis] * shape.scale;
+        }
+    }
+    let position = *position;
+    let at = [position.values[0] * shape.scales[0], position.values[1] * shape.scales[1]];
+    cx.want.set(VarId::H, at[0]);
+    cx.want.set(VarId::V, at[1]);
+    if let Some(cycle) = &mut drill.open {
+        cycle.holes += 1;
+        cycle.last = Some(position);
+    }
+    words.print(at, &mut cx.writer())
+}
+
+/// Does this sequence print nothing for a hole but the words of its lines, whatever its position is?
+#[cold]
+fn prints_no_more(routine: &Routine, cycle: &ActiveCycle, cx: &Cx<'_>) -> bool {
+    let Shape { program, .. } = *cx.shape;
+    let (shape, settings) = (cx.shape, &program.settings);
+    routine.style == CycleStyle::Machine
+        && routine.branches == cycle.branches
+        && !cycle.sequence.and_then(|id| program.routine(id)).is_some_and(|whole| whole.tests(CHANGES, program))
+        && !routine.first_only.vars.meets(CHANGES)
+        && shape.linear == 3
+        && shape.depth == 2
+        && settings.modality
+        && settings.limits.is_empty()
+        && !(settings.incremental || shape.measures || shape.sets_targets || shape.watches_moves)
+        && !program.printed.with(program.asked).has(VarId::Lasthole)
+        && !program.upon_vars.meets(routine.vars.with(VarSet::of(&[VarId::D])))
+        && cycle.spec.starts.is_none()
+        && cx.out.mark().is_none()
+        && !cx.said.is_elsewhere(shape)
+}

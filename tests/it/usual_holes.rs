@@ -1,0 +1,155 @@
+//! Later holes of a machine cycle that print only their position are printed in a short way of their own. It must give what the
+//! general way gives: an angle of zero in each point changes nothing but takes the general way, and both programs are compared.
+
+use std::fmt::Write;
+use std::fs;
+
+use postform::{Job, NoFiles, Options, Post, Source};
+use proptest::prelude::*;
+
+use crate::support::root;
+
+/// Sequences of a hole in other forms than the shipped ones: words in another order, conditions on the hole, words that depend on
+/// its position or number, values in comments, several lines.
+const DRILLS: [&str; 15] = [
+    "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]",
+    "G81 Y[v] R[vclear] X[h] Z[d] F[frate]",
+    "@if [h] > 20\n  G81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@else\n  G82 X[h] Y[v] Z[d] R[vclear] P1 F[frate]\n@end",
+    "@if [isfirsthole]\n  G81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@else\n  G81 Y[v] X[h] Z[d] R[vclear] F[frate]\n@end",
+    "@if [depth] > 3\n  G81 Y[v] X[h] Z[d] R[vclear] F[frate]\n@else\n  G81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate] (AT [h] [v])",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate + h]",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate] P[block]",
+    "G71 Z[rplane]\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate]\n(NEXT)",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate] Q[hdist]",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate] S[lasth]",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate] K[lasthole]",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nX[h] Y[v]",
+    "G81 X[h] Y[v] Z[d] R[vclear] F[frate] C[depth]",
+];
+
+/// Cycles of a job, without their points.
+const CYCLES: [&str; 8] = [
+    r#""kind":"drill","depth":5,"clear":2,"feed":200"#,
+    r#""kind":"drill","depth":5,"clear":2,"return":12,"feed":150"#,
+    r#""kind":"face","depth":3,"clear":1,"feed":90,"dwell":0.5"#,
+    r#""kind":"deep","depth":20,"clear":2,"step":3,"feed":80"#,
+    r#""kind":"chipbreak","depth":20,"clear":2,"step":3,"feed":80"#,
+    r#""kind":"tap","depth":6,"clear":3,"feed":900"#,
+    r#""kind":"ream","depth":4,"clear":2,"feed":70"#,
+    r#""kind":"bore","depth":4,"clear":2,"feed":70"#,
+];
+
+/// A point of a cycle: position, top, and sometimes a feed before it.
+#[derive(Clone, Debug)]
+struct Point {
+    at: [String; 2],
+    top: i8,
+    feed: bool,
+}
+
+fn point() -> impl Strategy<Value = Point> {
+    let value = prop_oneof![
+        3 => "-?[0-9]{1,2}\\.[0-9]{1,5}".prop_map(|text| number(&text)),
+        2 => (0..4).prop_map(|whole: i32| (whole * 10).to_string()),
+        1 => "[0-9]\\.[0-9]{3}5".prop_map(|text| number(&text)),
+    ];
+    let top = prop_oneof![8 => Just(0_i8), 1 => -4_i8..4];
+    let at = [
+        value.boxed(),
+        prop_oneof![3 => "-?[0-9]{1,2}".prop_map(|text| number(&text)), 1 => Just("7".to_owned())].boxed(),
+    ];
+    (at, top, prop::bool::weighted(0.03)).prop_map(|(at, top, feed)| Point { at, top, feed })
+}
+
+/// A number as JSON has it, without needless zeros before it.
+fn number(text: &str) -> String {
+    text.parse::<f64>().map(|value| value.to_string()).unwrap()
+}
+
+/// A job of these cycles. `fourth`: each point has an angle of zero.
+fn job(cycles: &[(usize, Vec<Point>)], fourth: bool) -> String {
+    let mut text = "{\"start\":{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{\"number\":1}]}}\n\
+        {\"operation\":{\"tool\":1,\"work\":54,\"spindle\":{\"speed\":900,\"direction\":\"cw\"},\"feed\":700}}\n"
+        .to_owned();
+    let angle = if fourth { ",0" } else { "" };
+    writeln!(text, "{{\"rapid\":[0,0,25{angle}]}}").unwrap();
+    for (kind, points) in cycles {
+        writeln!(text, "{{\"cycle\":{{{}}}}}", CYCLES[*kind]).unwrap();
+        for Point { at: [x, y], top, feed } in points {
+            if *feed {
+                text += "{\"feed\":333}\n";
+            }
+            writeln!(text, "{{\"point\":[{x},{y},{top}{angle}]}}").unwrap();
+        }
+        writeln!(text, "{{\"cycle_end\":true}}\n{{\"rapid\":[0,0,25{angle}]}}").unwrap();
+    }
+    text + "{\"end\":true}\n"
+}
+
+fn printed(form: &str, job: &str) -> Result<String, String> {
+    let post = Post::compile(Source::from_text("form.pf", form), &NoFiles).map_err(|error| error.to_string())?;
+    let mut options = Options::default();
+    options.proof = None;
+    let program = post.render(Job::json_lines(job), &options);
+    program.map(|program| program.text().to_owned()).map_err(|error| error.to_string())
+}
+
+/// The form with this text instead of its Drill sequence.
+fn with_drill(form: &str, lines: &str) -> String {
+    let from = form.find("\nDrill\n").unwrap() + "\nDrill\n".len();
+    let to = from + form[from..].find("\nEnd").unwrap();
+    format!("{}{lines}{}", &form[..from], &form[to..])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn holes_with_a_fourth_axis_that_rests_print_like_those_without(
+        cycles in prop::collection::vec((prop_oneof![2 => 0..2_usize, 1 => 0..CYCLES.len()], prop::collection::vec(point(), 1..20)), 1..4),
+        form in prop::sample::select(vec!["fanuc", "haas", "linuxcnc", "mach3", "centroid", "fadal"]),
+        drill in prop::sample::select(DRILLS.to_vec()),
+    ) {
+        let text = fs::read_to_string(root().join(format!("postforms/{form}.pf"))).unwrap();
+        let text = with_drill(&text, drill);
+        let plain = printed(&text, &job(&cycles, false));
+        let angled = printed(&text, &job(&cycles, true));
+        // without the angle, which the first move prints in a block of its own, the words that this block moves, and block numbers
+        let cuts = |text: String| -> Vec<String> {
+            let is_kept = |word: &&str| !word.starts_with(['N', 'A', 'P']) && *word != "G0";
+            let words = |line: &str| line.split(' ').filter(is_kept).collect::<Vec<_>>().join(" ");
+            text.lines().map(words).filter(|line| !line.is_empty()).collect()
+        };
+        prop_assert_eq!(plain.map(cuts).map_err(|_| "error"), angled.map(cuts).map_err(|_| "error"));
+    }
+}
+
+/// Holes that share a position, and one that differs only in digits that the form doesn't print, still drill: a block with both
+/// words.
+#[test]
+fn a_hole_at_the_same_position_prints_both_words() {
+    let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+    let points = ["10,20", "30,20", "30,20", "30.000001,20", "30,40"];
+    let points: Vec<Point> = points
+        .iter()
+        .map(|at| at.split_once(',').unwrap())
+        .map(|(x, y)| Point { at: [x.to_owned(), y.to_owned()], top: 0, feed: false })
+        .collect();
+    let program = printed(&form, &job(&[(0, points)], false)).unwrap();
+    let lines: Vec<&str> = program.lines().skip_while(|line| !line.contains("G81")).take(5).collect();
+    assert_eq!(lines, ["G99 G81 X10. Y20. Z-5. R2. F200.", "X30.", "X30. Y20.", "X30. Y20.", "Y40."]);
+}
+
+/// The sequences of the property above are printed, so that it compares programs and not errors.
+#[test]
+fn the_sequences_print() {
+    let form = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
+    let points: Vec<Point> =
+        ["10", "30", "30", "50"].map(|x| Point { at: [x.to_owned(), "20".to_owned()], top: 0, feed: false }).to_vec();
+    for drill in DRILLS {
+        let program = printed(&with_drill(&form, drill), &job(&[(0, points.clone())], false));
+        assert!(program.is_ok(), "{drill}: {program:?}");
+    }
+}

@@ -14,16 +14,16 @@ use postform::toolpath::Units;
 
 use super::super::files;
 
-/// Options for running a program.
+/// Options for simulating a program.
 #[derive(Clone, Debug, Args)]
 pub struct ControlArgs {
     /// The control: its name, or a file that describes it, such as `my-vf2.toml` [default: the form's Control, else fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub control: Option<&'static Control>,
-    /// Leave out blocks with a slash
+    /// Skip blocks with a slash (block delete)
     #[arg(long)]
     pub block_delete: bool,
-    /// Retract of G73, and distance to the last depth at which the rapid of G83 ends [default: that of the control]
+    /// Retract distance of G73; in G83, distance from the last depth at which the rapid ends [default: that of the control]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub back_off: Option<f64>,
     /// Meaning of a length without a decimal point on a Fanuc [default: it is an error]

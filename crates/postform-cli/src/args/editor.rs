@@ -5,7 +5,7 @@ use clap::Args;
 /// `postform lsp`.
 #[derive(Debug, Args)]
 pub struct LspArgs {
-    /// Use standard input and output, which is always the case
+    /// Has no effect: standard input and output are always used; editors may pass this option
     #[arg(long, hide = true)]
     pub stdio: bool,
 }

@@ -15,7 +15,7 @@ pub enum LimitsArg {
     #[default]
     /// 15 words per line, 150 lines per form
     Classic,
-    /// The same limits, but as warnings
+    /// The same limits; a form that exceeds them gets a warning, not an error
     Extended,
 }
 
@@ -32,11 +32,11 @@ impl LimitsArg {
 /// The output format of findings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// With the lines of the form
+    /// Text, with the lines of the form
     Pretty,
     /// One JSON document, version 1
     Json,
-    /// Annotations of GitHub's workflows
+    /// Annotations for GitHub workflows
     Github,
     /// A SARIF 2.1.0 log
     Sarif,
@@ -48,13 +48,13 @@ pub struct LintArgs {
     /// Forms, folders of forms, or - for standard input
     #[arg(required = true, value_name = "FORM")]
     pub forms: Vec<PathBuf>,
-    /// Apply all fixes that change no program
+    /// Apply all fixes that do not change the program
     #[arg(long)]
     pub fix: bool,
-    /// Show the effect of the other fixes on a program; with --fix, apply them
+    /// Show how the other fixes change the program of the job; with --fix, apply them too
     #[arg(long)]
     pub unsafe_fixes: bool,
-    /// The job for --unsafe-fixes [default: a sample for the form's machine]
+    /// The job for which --unsafe-fixes shows the change of the program [default: a sample job for the form's machine]
     #[arg(long, value_name = "JOB", requires = "unsafe_fixes")]
     pub job: Option<PathBuf>,
     /// Output format of the findings
@@ -66,7 +66,7 @@ pub struct LintArgs {
     /// The post to use from a form that contains several, by its Name
     #[arg(long, value_name = "NAME", conflicts_with = "fix")]
     pub post: Option<String>,
-    /// Report again whenever a form is changed
+    /// Repeat the report whenever a form is changed
     #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes"])]
     pub watch: bool,
 }
@@ -74,13 +74,13 @@ pub struct LintArgs {
 /// `postform fmt`.
 #[derive(Debug, Args)]
 pub struct FmtArgs {
-    /// Forms, folders of forms, or - to filter standard input
+    /// Forms, folders of forms, or - to format standard input and print the result
     #[arg(required = true, value_name = "FORM")]
     pub forms: Vec<PathBuf>,
     /// Write nothing; print the names of forms that would change
     #[arg(long)]
     pub check: bool,
-    /// Also format files without the extension of a form, and files with lines that make no sense
+    /// Also format files that are not named as forms, and files with invalid lines
     #[arg(long)]
     pub force: bool,
 }
@@ -124,7 +124,7 @@ pub struct NewArgs {
     /// The control or machine of the new form
     #[arg(long, value_name = "NAME", ignore_case = true, required_unless_present_any = ["control_file", "machine"])]
     pub control: Option<NewPost>,
-    /// Write a file that describes a control like this one, instead of a form
+    /// Write a template of a control file, based on this control, instead of a form
     #[arg(long, value_name = "NAME", value_parser = ControlParser, conflicts_with = "control")]
     pub control_file: Option<&'static Control>,
     /// Write a commented machine file for this control, instead of a form

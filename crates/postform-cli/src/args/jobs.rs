@@ -37,40 +37,40 @@ pub enum From {
 /// Options for reading a job.
 #[derive(Debug, Default, Args)]
 pub struct ReadArgs {
-    /// The job's format [default: by its extension]
+    /// Format of the job [default: given by the file extension]
     #[arg(long, value_name = "FORMAT")]
     pub from: Option<From>,
     /// The job to read from a FreeCAD document with several, by its name or label
     #[arg(long = "job", value_name = "NAME")]
     pub job_name: Option<String>,
-    /// The system that wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl, autodesk [default: by its first lines]
+    /// CAM system that wrote a CL file: gener, catia, creo, nx, solidworks, makino, ncl, autodesk [default: given by its first lines]
     #[arg(long, value_name = "SYSTEM", value_parser = Dialect::parse)]
     pub dialect: Option<Dialect>,
-    /// Units of a CL file, NCI file or program that contains none
+    /// Units for a CL file, NCI file or program that contains none
     #[arg(long, value_name = "UNITS")]
     pub assume_units: Option<UnitsArg>,
-    /// Tool number of a CL file or program without a tool change; for a CL file with several tool names: NAME=1,OTHER=2
+    /// Tool number for a CL file or program without a tool change; for a CL file with several tool names: NAME=1,OTHER=2
     #[arg(long, value_name = "NUMBER", value_parser = Assumed::parse)]
     pub assume_tool: Option<Assumed>,
-    /// Spindle speed of tools without one in a CL file: revolutions per minute, with ,CCLW for left-hand tools
+    /// Spindle speed, in revolutions per minute, of tools for which a CL file gives none; add ,CCLW for left-hand tools
     #[arg(long, value_name = "RPM", value_parser = AssumedSpeed::parse)]
     pub assume_speed: Option<AssumedSpeed>,
-    /// Feed of a CL file that contains none, in units of the file per minute
+    /// Feed for a CL file that contains none, in units of the file per minute
     #[arg(long, value_name = "FEED", value_parser = positive)]
     pub assume_feed: Option<f64>,
-    /// Position of the tool before a CL file or program that begins with a cut
+    /// Start position of the tool, for a CL file or program that begins with a cut
     #[arg(long, visible_alias = "start", value_name = "X,Y,Z", value_parser = parse_position, allow_hyphen_values = true)]
     pub assume_start: Option<[f64; 3]>,
-    /// Accept a CL file without the usual end statement of its system as complete
+    /// Treat a CL file as complete even if it lacks the usual end statement of its CAM system
     #[arg(long)]
     pub assume_end: bool,
-    /// The setup to read from a CL file with several tool directions: `check` lists them
+    /// Setup to read from a CL file with several tool directions; `check` lists the setups
     #[arg(long, value_name = "N", value_parser = setup)]
     pub setup: Option<usize>,
     /// The operations to read
     #[command(flatten)]
     pub select: SelectArgs,
-    /// The control of a job that is an NC program [default: fanuc]
+    /// Control for which a job that is an NC program was written [default: fanuc]
     #[arg(long, value_name = "CONTROL", value_parser = ControlParser)]
     pub job_control: Option<&'static Control>,
     /// Meaning of a length without a decimal point in a job that is an NC program [default: it is an error]
@@ -157,21 +157,21 @@ pub(super) fn tool(text: &str) -> Result<u32, String> {
     text.strip_prefix(['T', 't']).unwrap_or(text).parse().map_err(|_| "write a tool as 3 or T3".into())
 }
 
-/// The source of canned cycles.
+/// How canned cycles are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CyclesArg {
-    /// The form's sequences
+    /// By the sequences of the form
     Form,
-    /// Single moves
+    /// As single moves
     Emulated,
 }
 
-/// The depth of a countersink with a diameter and an angle.
+/// How the depth of a countersink is calculated from its diameter and angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SinkArg {
-    /// Half the diameter over the tangent of half the angle
+    /// Half the diameter, divided by the tangent of half the angle
     Geometry,
-    /// Half the diameter times that tangent, as in GENER's manual: correct at 90 degrees only
+    /// Half the diameter, times the tangent of half the angle, as in GENER's manual: correct at 90 degrees only
     Printed,
 }
 
@@ -212,10 +212,10 @@ pub struct RenderOptions {
     /// Date, or date and time, in the program [default: SOURCE_DATE_EPOCH, else now]
     #[arg(long, value_name = "DATE", value_parser = clock::parse)]
     pub date: Option<Clock>,
-    /// Source of canned cycles
+    /// How canned cycles are printed
     #[arg(long, value_name = "WHERE", default_value = "form")]
     pub cycles: CyclesArg,
-    /// Depth of countersinks
+    /// How the depth of a countersink is calculated from its diameter and angle
     #[arg(long, value_name = "FORMULA", default_value = "geometry")]
     pub csink_depth: SinkArg,
     /// Units of the program [default: those of the job]
@@ -230,7 +230,7 @@ pub struct RenderOptions {
     /// Show errors only
     #[arg(short, long)]
     pub quiet: bool,
-    /// Treat these as errors
+    /// Treat these findings as errors
     #[arg(long, value_name = "WHAT")]
     pub deny: Option<DenyArg>,
 }
@@ -269,8 +269,8 @@ impl RenderOptions {
 /// `postform render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input; with --out-dir or --join several, or folders
-    /// of jobs
+    /// The job: job.json, .jsonl, a CL file or an NC program, or - for standard input; with --out-dir or --join, several jobs or
+    /// folders of jobs
     #[arg(required = true, value_name = "JOB")]
     pub jobs: Vec<PathBuf>,
     /// The form of the machine [default: that in postform.toml]
@@ -291,8 +291,8 @@ pub struct RenderArgs {
     /// Print a separate program for each of these parts of a job
     #[arg(long, value_name = "PART", requires = "out_dir")]
     pub split: Option<SplitArg>,
-    /// Program names from {job}, {part}, {tool}, {operation}, {work}, {setup}, {number} [default: the form's; with --split
-    /// {job}-{part}]
+    /// Pattern for program names, with {job}, {part}, {tool}, {operation}, {work}, {setup}, {number} [default: the form's names;
+    /// with --split: {job}-{part}]
     #[arg(long, value_name = "PATTERN", requires = "out_dir")]
     pub name: Option<String>,
     /// Number of programs that are printed at the same time [default: one per core]
@@ -304,22 +304,22 @@ pub struct RenderArgs {
     /// Options for reading the job
     #[command(flatten)]
     pub read: ReadArgs,
-    /// Write the source map here: for each program line its form line and job item, as JSON Lines
+    /// Write the source map to this file: JSON Lines with the form line and the job item of each program line
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
-    /// Print to standard output while rendering, not verified, even if an error cuts the program short
+    /// Print to standard output while rendering; the program is not verified, and an error may leave it incomplete
     #[arg(long, conflicts_with = "deny")]
     pub stream: bool,
     /// Print the program without verifying it
     #[arg(long)]
     pub no_verify: bool,
-    /// Print the program only if it is proven; `not proven` is then an error
+    /// Print the program only if it is proven; the verdict `not proven` is then an error
     #[arg(long, alias = "verify", conflicts_with_all = ["no_verify", "stream"])]
     pub require_proof: bool,
     /// Print again whenever the form or the job changes
     #[arg(long)]
     pub watch: bool,
-    /// Options for running the program to prove it
+    /// Options for simulating the program for the proof
     #[command(flatten)]
     pub control: ControlArgs,
     /// The machine
@@ -336,7 +336,7 @@ pub enum SplitArg {
     Operation,
     /// A program for each work offset
     Work,
-    /// A program for each setup of a CL file with several tool directions
+    /// A program for each setup, in a CL file with several tool directions
     Setup,
 }
 

@@ -9,7 +9,7 @@ use super::{ControlArgs, UnitsArg, VerifyFormat};
 /// `--machine`, for commands that check programs.
 #[derive(Clone, Debug, Args)]
 pub struct MachineArg {
-    /// The file of the machine into which the program must fit [default: the form's MachineFile, else that in postform.toml]
+    /// Machine file: check that the program fits this machine [default: the form's MachineFile, else that in postform.toml]
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
 }
@@ -19,10 +19,10 @@ pub struct MachineArg {
 pub struct FitArgs {
     /// The NC program, or - for standard input
     pub program: PathBuf,
-    /// The machine
+    /// The machine file
     #[command(flatten)]
     pub machine: MachineArg,
-    /// Options for running the program
+    /// Options for simulating the program
     #[command(flatten)]
     pub control: ControlArgs,
     /// Units before the first G20 or G21
@@ -44,9 +44,9 @@ pub struct MachineArgs {
 /// Commands for machine files.
 #[derive(Debug, Subcommand)]
 pub enum MachineCommand {
-    /// List the values in the file, and the checks that missing values prevent
+    /// List the values in a machine file, and the checks that are left out because values are missing
     Check {
-        /// The file
+        /// The machine file
         file: PathBuf,
     },
 }

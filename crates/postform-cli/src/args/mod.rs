@@ -27,7 +27,7 @@ pub use restarts::RestartArgs;
 pub use sheets::{SheetArgs, SheetFormat};
 pub use tests::{TestArgs, TestFormat};
 
-/// The compiler for POSTFORM files: it prints NC programs from toolpaths, with a template of your machine's code.
+/// Prints NC programs from toolpaths, by a form (a POSTFORM file) that describes the NC code of your machine.
 #[derive(Debug, Parser)]
 #[command(name = "postform", version, max_term_width = 100)]
 pub struct Arguments {
@@ -44,25 +44,25 @@ pub struct Arguments {
 pub enum Command {
     /// Print the NC program of a job
     Render(RenderArgs),
-    /// Report every finding of every form
+    /// Check forms, and report all findings
     Lint(LintArgs),
     /// Read a job, report its errors, and print a summary
     Check(CheckArgs),
-    /// Prove that a program makes the motions of its job
+    /// Prove that a program makes the motions of its job, by simulation
     Verify(VerifyArgs),
     /// Print the jobs of a folder, and compare the programs with the expected ones
     Test(TestArgs),
     /// Show the differences between two NC programs
     Diff(DiffArgs),
-    /// Run an NC program and print the actions of the machine
+    /// Simulate an NC program, and print the actions of the machine
     Simulate(SimulateArgs),
-    /// Check whether a program fits into a machine, and print the allowed offsets and lengths
+    /// Check whether a program fits its machine, and print the allowed work offsets and tool lengths
     Fit(FitArgs),
-    /// Write a program that begins in the middle of another one, with the same modal state
+    /// Write a program that begins in the middle of another program, with the modal state of that point
     Restart(RestartArgs),
-    /// Write the setup sheet of a job: offsets, tools, operations, stops, pictures
+    /// Write the setup sheet of a job: work offsets, tools, operations, stops, pictures
     Sheet(SheetArgs),
-    /// Check the file of a machine
+    /// Check a machine file
     Machine(MachineArgs),
     /// Draw the backplot of a job's program, or of an existing program
     Plot(PlotArgs),
@@ -72,9 +72,9 @@ pub enum Command {
     Fmt(FmtArgs),
     /// Explain a code, command, variable, sequence, cycle or control
     Explain(ExplainArgs),
-    /// Write a commented form, or a control's file, to start from
+    /// Write a commented form, control file or machine file to start from
     New(NewArgs),
-    /// List the settings that a form offers to the shop, by their names for `--set`
+    /// List the properties of a form: the settings for `--set`
     Properties(PropertiesArgs),
     /// List the controls, with the known facts of each
     Controls,
@@ -82,7 +82,7 @@ pub enum Command {
     Completions(CompletionsArgs),
     /// Print the man page
     Man,
-    /// Serve an editor: findings, completion, hover and more, over standard input and output
+    /// Run the language server for editors, over standard input and output
     Lsp(LspArgs),
 }
 

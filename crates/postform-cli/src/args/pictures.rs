@@ -39,21 +39,21 @@ impl ViewArg {
 /// `postform plot`.
 #[derive(Debug, Args)]
 pub struct PlotArgs {
-    /// The job, printed with --form or the form in postform.toml; or an NC program
+    /// A job, printed with --form or with the form in postform.toml; or an NC program
     pub file: PathBuf,
-    /// Print the file, which is a job, with this form
+    /// Form that prints the program, if the file is a job
     #[arg(long, value_name = "FORM")]
     pub form: Option<PathBuf>,
     /// Output file of the picture, or - for standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
-    /// View [default: iso, for lathes lathe]
+    /// View [default: iso; for lathes: lathe]
     #[arg(long, value_name = "VIEW")]
     pub view: Option<ViewArg>,
     /// Width in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 960, value_parser = clap::value_parser!(u16).range(240..=8000))]
     pub width: u16,
-    /// Options for running the program
+    /// Options for simulating the program
     #[command(flatten)]
     pub control: ControlArgs,
     /// Options for rendering a job
@@ -70,22 +70,22 @@ pub struct PlotArgs {
 pub struct WatchArgs {
     /// The form
     pub form: PathBuf,
-    /// A job to print with it; several jobs become tabs [default: those in postform.toml, else a sample job]
+    /// A job to print with the form; may be given several times, for one tab per job [default: those in postform.toml, else a sample job]
     #[arg(long, value_name = "JOB")]
     pub job: Vec<PathBuf>,
-    /// A program of the job for comparison
+    /// An old program of the job, to compare with the new one
     #[arg(long, value_name = "PROGRAM")]
     pub against: Option<PathBuf>,
-    /// The machine into which programs must fit
+    /// Machine file: check that the programs fit this machine
     #[command(flatten)]
     pub machine: MachineArg,
-    /// Open no browser
+    /// Do not open the browser
     #[arg(long)]
     pub no_open: bool,
-    /// The port of this machine [default: a free one]
+    /// Port of the server on this computer [default: a free port]
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     pub port: u16,
-    /// Options for running programs
+    /// Options for simulating programs
     #[command(flatten)]
     pub control: ControlArgs,
     /// Options for rendering jobs

@@ -15,25 +15,25 @@ pub struct RestartArgs {
     /// Begin at the first change to this tool
     #[arg(long, value_name = "NUMBER", value_parser = super::jobs::tool)]
     pub tool: Option<u32>,
-    /// Begin at the block with this number, or at the last safe block before it
+    /// Begin at the block with this number, or at the last possible block before it
     #[arg(long, value_name = "N", value_parser = block)]
     pub at: Option<u64>,
-    /// Begin at this line of the program, or at the last safe line before it
+    /// Begin at this line of the program, or at the last possible line before it
     #[arg(long, value_name = "LINE", value_parser = clap::value_parser!(u64).range(1..))]
     pub line: Option<u64>,
     /// Begin at the first comment that contains this text
     #[arg(long, value_name = "NAME")]
     pub operation: Option<String>,
-    /// Begin at exactly this block, even inside a cut, down at feed [default: the last block before it with the tool clear]
+    /// Begin exactly at the block, even inside a contour; the tool then comes down at feed [default: begin before it, with the tool clear]
     #[arg(long)]
     pub exactly: bool,
-    /// A height above all obstacles, in the work offset and the program's units, in place of machine zero
+    /// Retract to this height instead of machine zero; in the work offset and the program's units, above all obstacles
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true)]
     pub clear_z: Option<f64>,
     /// Output file of the new program, or - for standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
-    /// Options for running the program
+    /// Options for simulating the program
     #[command(flatten)]
     pub control: ControlArgs,
     /// Units before the first G20 or G21

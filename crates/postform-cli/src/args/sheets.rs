@@ -9,7 +9,7 @@ use super::{ControlArgs, MachineArg, ReadArgs, RenderOptions};
 /// The output format of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SheetFormat {
-    /// A self-contained page, also for printing
+    /// A web page that needs no other files and can be printed
     Html,
     /// Markdown, without pictures
     Md,
@@ -28,13 +28,13 @@ pub struct SheetArgs {
     /// Output file of the sheet: .html, .md or .json, or - for standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
-    /// Output format [default: by the output's extension, else html]
+    /// Output format [default: given by the extension of the output, else html]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<SheetFormat>,
     /// The machine
     #[command(flatten)]
     pub machine: MachineArg,
-    /// Options for running the program to prove it
+    /// Options for simulating the program for the proof
     #[command(flatten)]
     pub control: ControlArgs,
     /// Options for rendering

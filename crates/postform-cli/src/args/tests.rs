@@ -8,16 +8,16 @@ use clap::{Args, ValueEnum};
 /// `postform test`.
 #[derive(Debug, Args)]
 pub struct TestArgs {
-    /// Folders with cases, searched with their subfolders, or jobs [default: tests, else the working folder]
+    /// Folders with cases, including their subfolders, or single jobs [default: tests, else the working folder]
     #[arg(value_name = "FOLDER")]
     pub paths: Vec<PathBuf>,
-    /// The form, or a folder of forms, in place of those under [test] in postform.toml; may be given several times
+    /// A form, or a folder of forms, instead of those under [test] in postform.toml; may be given several times
     #[arg(long = "form", value_name = "FORM")]
     pub forms: Vec<PathBuf>,
     /// Show the differences, then write the printed programs as the expected ones
     #[arg(long)]
     pub update: bool,
-    /// Write the standard cases for this form, with the programs that it prints, into this folder; check them once by hand
+    /// Write the standard cases for this form, and the programs that the form prints, into FOLDER; check these programs once by hand
     #[arg(long, value_name = "FORM", conflicts_with_all = ["update", "forms", "coverage"])]
     pub new: Option<PathBuf>,
     /// List the lines of the forms that no case prints

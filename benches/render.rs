@@ -1,4 +1,4 @@
-//! Rendering beside what it can't be faster than: reading the same JSON with serde, and printing with `write!`.
+//! Measures rendering, and two lower limits of its time: reading the same JSON with serde, and printing with `write!`.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::fmt::Write;
@@ -19,7 +19,7 @@ fn main() {
 const MOVES: usize = 100_000;
 
 fn form() -> Checked {
-    // what is measured is the printing of moves, not the second reading that the header asks for
+    // measures the printing of moves, without the second reading of the job that the header needs
     let text =
         include_str!("../postforms/linuxcnc.pf").replace("Property header yesno yes", "Property header yesno no");
     analyse(Source::from_text("linuxcnc.pf", text), Default::default(), &mut |_| Err("none".into()))
@@ -97,7 +97,7 @@ fn numbers(bencher: Bencher) {
 
 #[divan::bench]
 fn read_check_and_compile_a_form(bencher: Bencher) {
-    // a form of 300 lines: the 150 sequence lines that are allowed, the rest formats, commands and comments
+    // a form of 300 lines: the maximum of 150 sequence lines, and formats, commands and comments
     let mut text = String::from(include_str!("../postforms/fanuc.pf"));
     let body = "G1 X[h] Y[v] Z[d] F[frate]\n".repeat(60);
     _ = write!(text, "BeginRow\n{body}End\n");

@@ -1,4 +1,4 @@
-//! A job printed and proven in ten lines.
+//! Prints and proves a job in ten lines of code.
 
 use postform::{Error, Job, NoFiles, Options, Post, Source};
 

@@ -1,8 +1,8 @@
-//! Jobs of any size, and the floors that rendering them is compared with. Used by `benches/throughput` and
+//! Makes jobs of any size, and measures lower limits for the time of rendering them. Used by `benches/throughput` and
 //! `benches/compare`.
 //!
 //! `floor make moves|holes N` writes a JSON Lines job to standard output, `floor make cl N` the same moves as a CL file,
-//! `floor make nc N` and `nc-holes N` programs for LinuxCNC; `floor serde FILE` parses a job with serde and does nothing with it;
+//! `floor make nc N` and `nc-holes N` programs for LinuxCNC; `floor serde FILE` parses a job with serde and discards it;
 //! `floor naive FILE` prints its cuts as a simple post does.
 #![allow(clippy::unwrap_used)]
 
@@ -70,7 +70,7 @@ fn make_nc(holes: bool, count: u64, out: &mut impl Write) -> Result<()> {
     writeln!(out, "G80\nM2")
 }
 
-/// Numbers from 0 to a range, the same at every run.
+/// Random numbers from 0 to a range; they are the same in every run.
 fn numbers() -> impl FnMut(f64) -> f64 {
     let mut state = 1u64;
     move |range| {
@@ -113,8 +113,8 @@ fn serde(file: &str) -> Result<()> {
     Ok(())
 }
 
-/// A simple post with the tools of the standard library: numbers are parsed and printed by it, and words are left out if their
-/// number is the last one of their letter.
+/// A simple post. The standard library parses and prints the numbers. A word is left out if its letter already has this
+/// number.
 fn naive(file: &str) -> Result<()> {
     let mut out = BufWriter::with_capacity(64 * 1024, stdout().lock());
     let (mut last, mut text) = ([f64::NAN; 4], String::new());

@@ -1,4 +1,5 @@
-//! For a `build.rs`: forms that ship with a program are looked at when it is built. A finding fails the build.
+//! For a `build.rs`: lints the forms that ship with a program when the program is built. A finding makes the build
+//! fail.
 
 use std::path::Path;
 use std::process::ExitCode;

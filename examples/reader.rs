@@ -1,4 +1,4 @@
-//! A reader of one's own: points in a table become holes, events go straight to the form.
+//! A custom reader: it makes holes of the points in a table, and pushes them to the form as events.
 
 use postform::toolpath::{
     Axes, CycleKind, CycleSpec, Event, Hole, Place, ReadError, Sink, Spindle, SpindleTurn, Start, Tool, ToolChange,
@@ -25,7 +25,7 @@ fn holes(table: &str, sink: &mut dyn Sink) -> Result<(), ReadError> {
         tool: Some(Tool { number: 5.0, diameter: Some(6.0), ..Tool::default() }),
         spindle: Some(Spindle { speed: Some(2400.0), turn: Some(SpindleTurn::Cw), ..Spindle::default() }),
         work: Some(54.0),
-        ..ToolChange::default() // its first move is filled in from the events that follow
+        ..ToolChange::default() // the first move is filled in from the events that follow
     };
     sink.push(Event::ToolChange(&change), line(1))?;
     sink.push(

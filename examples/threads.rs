@@ -1,4 +1,4 @@
-//! One post, a thread for each job.
+//! Prints several jobs with one post, each job on its own thread.
 
 use std::thread;
 
@@ -14,7 +14,7 @@ const JOBS: [(&str, &str); 3] = [
 fn main() -> Result<(), Error> {
     let post = Post::compile(Source::from_text("fanuc.pf", FORM), &NoFiles)?;
     let threads = JOBS.map(|(name, job)| {
-        let post = post.clone(); // shares the form
+        let post = post.clone(); // the clone shares the form
         (name, thread::spawn(move || post.render(Job::json(job), &Options::default())))
     });
     for (name, thread) in threads {

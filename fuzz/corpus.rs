@@ -1,7 +1,7 @@
-//! `corpus COUNT SEED` prints the verdict of each of so many random programs, right ones and changed ones.
+//! `corpus COUNT SEED` prints the verdicts of COUNT random programs. Some are printed by a form, the others are changed in one place.
 //!
-//! `corpus COUNT SEED VERDICTS FOLDER` reads what it printed before, and writes the shortest of the first programs whose verdict is
-//! another now into a folder, with the verdict that it had: `mutants` makes the cases of `tests/data/proofs` so.
+//! `corpus COUNT SEED VERDICTS FOLDER` compares the verdicts with earlier output in the file VERDICTS. Of the first programs with a
+//! different verdict, it writes the shortest into FOLDER, with the earlier verdict. `mutants` makes the cases of `tests/data/proofs` with it.
 
 use std::fs;
 use std::path::Path;
@@ -12,12 +12,12 @@ use postform_fuzz::case::{Asked, End};
 use postform_fuzz::forms::forms;
 use postform_fuzz::mutate::{mutant, with_block};
 
-/// How many programs of one job.
+/// Number of programs for each job: the printed one and changed ones.
 const EACH: usize = 6;
-/// Of so many the shortest is taken.
+/// Number of programs with a different verdict from which the shortest is chosen.
 const FIRST: usize = 4;
 
-/// A program and its job, as a file.
+/// A program and its job, as the text of a file.
 struct Found {
     name: String,
     text: String,
@@ -69,7 +69,7 @@ fn main() -> ExitCode {
     end(&found, kept.get(1))
 }
 
-/// Writes the shortest; 1: there is none.
+/// Writes the shortest program. Exit status 1: none was found.
 fn end(found: &[Found], folder: Option<&String>) -> ExitCode {
     let (Some(shortest), Some(folder)) = (found.iter().min_by_key(|found| found.text.len()), folder) else {
         return ExitCode::from(u8::from(folder.is_some()));

@@ -1,10 +1,10 @@
-//! Random jobs through the forms that ship and through unusual ones: each program is compared with its job, by postform and
-//! by a judge that shares no code with it.
+//! Prints random jobs with the forms that ship and with unusual ones. Each program is compared with its job by postform, and by
+//! a judge that shares no code with it.
 //!
-//! `jobs COUNT SEED KIND FORM`, of which each may be missing; `FOUND=FOLDER` keeps what is found. What goes wrong is printed as the
-//! smallest such job, with its seed (`jobs 1 SEED` makes it again). It fails where a program is wrong though it was proven, where one
-//! is called different that the judge finds right, and where one is wrong for another reason than digits that lint or the renderer
-//! names.
+//! The arguments are `jobs COUNT SEED KIND FORM`; each may be missing. `FOUND=FOLDER` keeps each fault. A fault is printed with
+//! a job that was made as small as possible, and its seed (`jobs 1 SEED` makes it again). The exit status is failure if a wrong
+//! program was proven, if a program that the judge accepts was called different, or if a program is wrong for another reason
+//! than lost digits about which lint or the renderer warns.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -19,20 +19,20 @@ use postform_fuzz::shrink::shrunk;
 use postform_fuzz::tally::Tally;
 use postform_fuzz::text::ending;
 
-/// How many of a kind are made small and shown.
+/// Number of faults of a kind that are made small and shown.
 const SHOWN: u64 = 2;
-/// One program in so many goes through LinuxCNC's interpreter.
+/// One program in this number is also run by LinuxCNC's interpreter.
 const INTERPRETED: u64 = 16;
-/// One job in so many is also proven while it is printed, in parts of any size.
+/// One job in this number is also proven during printing, in parts of random size.
 const BESIDE: u64 = 8;
-/// One job in so many is also printed with a form that has one mistake.
+/// One job in this number is also printed with a form that contains one mistake.
 const WRONG_FORMS: u64 = 4;
-/// What a form's own lines say, and stands as it is typed: whether the spindle stops in Bore, how a wire is threaded, the codes of
-/// its coolant.
+/// Differences that depend on typed words of a form alone: whether the spindle stops in Bore, how a wire is threaded,
+/// the codes of its coolant.
 const FORMS_OWN: [&str; 3] = ["out with the spindle turning", "Stop is missing", "coolant"];
-/// Two of the last digits of an inch, in millimetres.
+/// Two units of the last digit of an inch, in millimetres.
 const DIGITS: f64 = 0.0052;
-/// How near places must be for `verify`, in millimetres.
+/// Tolerance of positions in `verify`, in millimetres.
 const PLACES: f64 = 0.002;
 
 fn main() -> ExitCode {
@@ -69,23 +69,24 @@ struct Hunt {
     folder: Option<PathBuf>,
 }
 
-/// What a difference is about, without its numbers.
+/// The subject of a difference, without its numbers.
 fn gist(why: &str) -> String {
     let text: String = why.chars().filter(|c| c.is_alphabetic() || *c == ' ').collect();
     text.split_whitespace().take(6).collect::<Vec<_>>().join(" ")
 }
 
-/// What a program that is called different is: `rounded` where the judge sees it too and lint or the renderer names the digits that are
-/// lost, `refused by the control` where it does not run the program, `swallowed by inches` where a metric job's shortest moves are
-/// lost in the digits of an inch, `defects` where the judge sees it too, else one of the `alarms`.
+/// Classifies a program with the verdict `different`. `rounded`: the judge finds the difference too, and lint or the
+/// renderer warns about the lost digits. `refused by the control`: the control does not run the program. `swallowed by
+/// inches`: the shortest moves of a metric job are lost in the digits of an inch. `defects`: the judge finds the
+/// difference too, and there is no such warning. All others are `alarms`.
 fn called(case: &Case, end: &End) -> &'static str {
     let End::Printed(program, Proof::Different(list), lost) = end else { return "alarms" };
-    // a program that is a job may do what the control of the form refuses
+    // if the job is a program, it may contain codes that the form's control refuses
     if case.kind == Kind::Program && list.iter().all(|(code, _)| code == "PV015") {
         return "refused by the control";
     }
     let feeds = list.iter().all(|(code, _)| code == "PV006");
-    // four digits of an inch are more than how near the places of a metric job must be
+    // the fourth digit of an inch is larger than the tolerance of a metric job
     if !feeds && case.inch && case.job["units"] == "mm" && case.is_within(program, DIGITS) {
         return "swallowed by inches";
     }
@@ -119,11 +120,11 @@ impl Hunt {
         }
     }
 
-    /// The proof in parts says what the proof of the whole says.
+    /// Checks that the proof in parts has the same verdict as the proof of the whole program.
     fn beside(&mut self, case: &Case, random: &mut Random) {
         let End::Printed(_, proof, _) = case.end() else { return };
         let parts = case.proof_beside(random);
-        // only a file can be gone back in: calls and loops
+        // a proof in parts can't go back in the program, as calls and loops require
         if matches!(parts, Proof::NotProven(_)) {
             return self.tally.count("beside", "not proven");
         }
@@ -136,7 +137,8 @@ impl Hunt {
         }
     }
 
-    /// A form with a mistake: what it prints may be refused or called different, but is not proven where the judge sees it.
+    /// Prints with a form that contains a mistake. The program may be refused or called different, but not proven if
+    /// the judge finds it wrong.
     fn wrong_form(&mut self, case: &Case) {
         let end = case.end();
         let End::Printed(program, proof, _) = &end else {
@@ -148,7 +150,7 @@ impl Hunt {
         };
         let name = proof.name();
         let verdict = name.split(' ').next().unwrap_or("").to_owned();
-        // codes of the machine's builder, for one
+        // for example, codes of the machine's builder
         if let Err((_, why)) = case.run(program) {
             return self.tally.count("wrong forms", format!("{verdict}, not run by the judge: {}", gist(&why)));
         }
@@ -171,7 +173,7 @@ impl Hunt {
         }
     }
 
-    /// Something is called different: a false alarm, or a wrong program.
+    /// Handles the verdict `different`: it is a false alarm, or the program is wrong.
     fn different(&mut self, case: &Case, end: &End, name: &str) {
         let group = called(case, end);
         match group {
@@ -182,7 +184,7 @@ impl Hunt {
         }
     }
 
-    /// What is in the job.
+    /// Counts the contents of the job.
     fn contents(&mut self, case: &Case) {
         let said = case.said();
         let list = |value: &serde_json::Value, key: &str| value[key].as_array().cloned().unwrap_or_default();
@@ -199,7 +201,7 @@ impl Hunt {
         }
     }
 
-    /// The judges' word.
+    /// Compares the program with its job by the judges.
     fn judge(&mut self, case: &Case, program: &str, name: &str) {
         let verdict = name.split(' ').next().unwrap_or("");
         let judged = case.judged(program);
@@ -209,7 +211,7 @@ impl Hunt {
             Some(Err(_)) => "wrong",
         };
         self.tally.count("judge", format!("{said}, compared {verdict}"));
-        // what is called different was shown
+        // a program with the verdict `different` was shown already
         if let (Some(Err(why)), true) = (judged, verdict != "different") {
             let gist = gist(&why);
             self.found(case, "wrong", &format!("judge, {verdict}: {gist}"), &mut |end, case| match end {
@@ -236,7 +238,7 @@ impl Hunt {
         }
     }
 
-    /// Something is wrong: the first of its kind are made small and shown.
+    /// Records a fault. The first ones of each kind are made small and shown.
     fn found(&mut self, case: &Case, group: &'static str, what: &str, still: &mut dyn FnMut(&End, &Case) -> bool) {
         let name = format!("{} {what}", case.form.name);
         self.tally.count(group, name.clone());

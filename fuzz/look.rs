@@ -1,4 +1,5 @@
-//! What is asked of every form, whatever it is: it is read, looked at, fixed and laid out, and its programs stay the same.
+//! The checks for every form, even a mutated one: it is read, linted, fixed and formatted, and its programs must stay
+//! the same.
 
 use postform::internals::compile::compile;
 use postform::internals::fmt::format;
@@ -10,7 +11,7 @@ use postform::internals::source::Source;
 
 const JOB: &str = include_str!("../samples/drill-machine/job.json");
 
-/// A form from bytes; it calls no other.
+/// Checks a form from bytes; it calls no other form.
 fn checked(bytes: &[u8]) -> Checked {
     analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
 }
@@ -19,7 +20,7 @@ fn found(form: &Checked) -> Found {
     lint(form, &Levels::default())
 }
 
-/// The program of a small job, or nothing.
+/// The program of a small job, if the form prints one.
 fn program(form: &Checked) -> Option<String> {
     if form.has_errors() {
         return None;
@@ -30,7 +31,7 @@ fn program(form: &Checked) -> Option<String> {
     String::from_utf8(std::mem::take(renderer.text())).ok()
 }
 
-/// Fixes made until there are none; `None`: there were none.
+/// Applies fixes until none is left; `None`: there were none.
 fn after_fixes(form: &Checked, unsafe_too: bool) -> Option<Checked> {
     let text = &form.files[0].text;
     let mut read = |changed: &Changed| checked(changed.get("form.pf").unwrap_or(text).as_bytes());
@@ -40,7 +41,7 @@ fn after_fixes(form: &Checked, unsafe_too: bool) -> Option<Checked> {
     (!fixed.made.is_empty()).then_some(fixed.checked)
 }
 
-/// Reads a form and looks at it; thoroughly: mends it and lays it out, too.
+/// Reads and lints a form. `thoroughly`: also fixes and formats it.
 pub fn look(bytes: &[u8], thoroughly: bool) {
     let form = checked(bytes);
     let text = &form.files[0].text;

@@ -1,9 +1,10 @@
-//! `mutants FILE [TEST ...]`: does a test fail for each small change of a source file?
+//! `mutants FILE [TEST ...]`: does a test fail for every small change of a source file?
 //!
-//! All changes are compiled at once into a copy of the repository, each behind a number, and the environment variable
-//! `POSTFORM_MUTANT` selects one: the tests named are built once and run once for each. A change that no test notices is printed
-//! with its line. `CASES=FOLDER` keeps a random program, with its job and its right verdict, for each of those. Changes: conditions
-//! that are always true or always false, `<` for `<=`, `+` for `-`, `/` for `*`, and statements left out.
+//! All changes are compiled at once into a copy of the repository, each under a number. The environment variable
+//! `POSTFORM_MUTANT` selects one, so the given tests are built once and run once for each change. A change that no test notices
+//! is printed with its line. With `CASES=FOLDER`, a random program whose verdict the change alters is kept for each of them, with
+//! its job and its correct verdict. The changes are: a condition is always true or always false, `<` replaces `<=`, `+` replaces
+//! `-`, `/` replaces `*`, and a statement is left out.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +18,7 @@ use syn::spanned::Spanned as _;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Attribute, BinOp, Expr, ImplItemFn, ItemConst, ItemFn, ItemMod, ItemStatic, Stmt, parse_quote};
 
-/// What selects a change while the tests run.
+/// The code that selects a change while the tests run.
 const SWITCH: &str = "
 pub fn on(mutant: u32) -> bool {
     static ACTIVE: std::sync::OnceLock<u32> = std::sync::OnceLock::new();
@@ -26,16 +27,16 @@ pub fn on(mutant: u32) -> bool {
 }
 ";
 
-/// How many random jobs are printed to find a program whose verdict a change alters.
+/// Number of random jobs that are printed to find a program whose verdict a change alters.
 const JOBS: &str = "40000";
 
-/// A test run may take so many times as long as without a change.
+/// A test run may take at most this many times as long as without a change.
 const PATIENCE: u32 = 6;
 
-/// Puts all changes into a file.
+/// Inserts all changes into a file.
 #[derive(Default)]
 struct Changes {
-    /// Line and what is changed there, by number.
+    /// The line and the description of each change, by its number.
     made: BTreeMap<u32, (usize, String)>,
 }
 
@@ -46,7 +47,7 @@ impl Changes {
         number
     }
 
-    /// A condition: always true, always false; and a comparison that is almost the same.
+    /// Changes a condition: always true, always false, and, for a comparison, the similar operator.
     fn condition(&mut self, expr: &mut Expr, almost: Option<Expr>, (line, text): (usize, String)) {
         let yes = self.next(line, format!("`{text}` is always true"));
         let no = self.next(line, format!("`{text}` is always false"));
@@ -60,7 +61,7 @@ impl Changes {
         *expr = parse_quote!((if crate::mutants::on(#yes) { true } else if crate::mutants::on(#no) { false } else { #rest }));
     }
 
-    /// The parts of a condition, each for itself.
+    /// Changes each part of a condition.
     fn conditions(&mut self, expr: &mut Expr) {
         match expr {
             Expr::Binary(binary) if matches!(binary.op, BinOp::And(_) | BinOp::Or(_)) => {
@@ -81,7 +82,7 @@ impl Changes {
     }
 }
 
-/// The comparison that differs from this one only where both sides are equal.
+/// The comparison that differs from this one only if both sides are equal.
 fn comparison(op: &BinOp) -> Option<Option<BinOp>> {
     Some(match op {
         BinOp::Lt(_) => Some(parse_quote!(<=)),
@@ -196,7 +197,7 @@ impl VisitMut for Changes {
     }
 }
 
-/// Copies the files of the repository as they are now, but for those that git ignores.
+/// Copies the files of the repository in their current state, except those that git ignores.
 fn copy(from: &Path, to: &Path) {
     let listed = Command::new("git")
         .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
@@ -206,7 +207,7 @@ fn copy(from: &Path, to: &Path) {
     for name in String::from_utf8(listed.stdout).expect("names in UTF-8").split('\0').filter(|name| !name.is_empty()) {
         let (old, new) = (from.join(name), to.join(name));
         let Ok(bytes) = fs::read(&old) else { continue };
-        // what is the same keeps its time, and is not compiled again
+        // an unchanged file keeps its time, so that it is not compiled again
         if fs::read(&new).ok().as_ref() != Some(&bytes) {
             fs::create_dir_all(new.parent().expect("a folder")).expect("a folder in target/");
             fs::write(&new, &bytes).expect("a file in target/");
@@ -215,11 +216,11 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Builds the tests; where their programs are.
+/// Builds the tests. Returns the paths of their programs.
 fn build(tree: &Path) -> Option<Vec<PathBuf>> {
     let mut cargo = Command::new("cargo");
     cargo.args(["test", "--no-run", "--quiet", "--message-format=json", "--lib", "--test", "it"]);
-    // changed conditions leave code unused
+    // changed conditions make some code unused
     cargo
         .env("RUSTFLAGS", "-A warnings")
         .env("CARGO_PROFILE_DEV_OPT_LEVEL", "1")
@@ -261,7 +262,8 @@ fn pass(programs: &[PathBuf], tree: &Path, tests: &[String], mutant: u32, limit:
     })
 }
 
-/// Looks for a random program whose verdict is another with each change, and keeps it in a folder; the changes for which there is none.
+/// For each change, looks for a random program whose verdict the change alters, and keeps the program in a folder.
+/// Returns the changes without such a program.
 fn cases(tree: &Path, folder: &Path, survivors: &[u32]) -> Vec<u32> {
     let corpus = |arguments: &[&str], mutant: u32| {
         let mut cargo = Command::new("cargo");

@@ -1,6 +1,6 @@
-//! Random mutations of the forms that ship, by the million: each is read and looked at, every eighth fixed and laid out.
+//! Random mutations of the forms that ship, by the million: each is read and linted, every eighth is also fixed and formatted.
 //!
-//! `mutations COUNT SEED`; a panic names the seed of its mutation, with which it is made again (`mutations 1 SEED`).
+//! `mutations COUNT SEED`; after a panic, the seed of the mutation is printed. `mutations 1 SEED` makes it again.
 
 use std::fs;
 use std::time::Instant;
@@ -11,7 +11,7 @@ mod look;
 use look::look;
 use postform_fuzz::random::Random;
 
-/// Pieces of forms that mean something in the wrong place.
+/// Pieces of forms that have a meaning in a wrong place.
 const PIECES: &[&str] = &[
     "End",
     "End Cancel",
@@ -76,7 +76,7 @@ fn mutated(forms: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
             3 if at < form.len() => form[at] = random.number() as u8,
             4 => _ = form.drain(at..(at + random.below(60)).min(form.len())),
             5 => {
-                // a part of another form
+                // inserts a part of another form
                 let other = &forms[random.below(forms.len())];
                 let from = random.below(other.len());
                 form.splice(at..at, other[from..(from + random.below(80)).min(other.len())].iter().copied());

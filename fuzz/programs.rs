@@ -1,8 +1,8 @@
-//! Right programs made wrong in one place: comparing them with their jobs must see it.
+//! Makes wrong programs by one change of correct ones. Their comparison with the job must find the change.
 //!
-//! `programs COUNT SEED KIND FORM`, of which each may be missing; with `insert` at the end blocks are inserted anywhere, holes
-//! included. `FOUND=FOLDER` keeps what is found. Those that are called identical or equivalent and do something else are listed by
-//! what they differ in.
+//! The arguments are `programs COUNT SEED KIND FORM`; each may be missing. With `insert` at the end, blocks are inserted at random
+//! positions, also in holes. `FOUND=FOLDER` keeps each fault. Programs that are called identical or equivalent, but do something
+//! else, are listed by the kind of difference.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -15,11 +15,11 @@ use postform_fuzz::judge::pair::{Class, difference, without_short};
 use postform_fuzz::mutate::{Mutant, mutant, with_block};
 use postform_fuzz::tally::Tally;
 
-/// How many are shown of each kind.
+/// Number of programs of each kind that are shown.
 const SHOWN: u64 = 3;
-/// How many changed programs are made of a right one.
+/// Number of changed programs for each correct one.
 const EACH: usize = 10;
-/// How near places must be, in millimetres.
+/// Tolerance of positions in millimetres.
 const NEAR: f64 = 0.004;
 
 fn main() {
@@ -75,7 +75,7 @@ impl Hunt {
         let judged = case.run(&mutant.text);
         let crests = case.crests();
         let differs = |acts: Vec<Act>| match difference(right, &acts, &crests, NEAR) {
-            // but for moves that no digits of a program tell
+            // except for moves that are too short for the digits of a program
             Some((class, why)) if !class.is_harmless() => {
                 let long = difference(&without_short(right), &without_short(&acts), &crests, NEAR);
                 Some(long.map_or((Class::Short, why), |long| long))

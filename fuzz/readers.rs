@@ -1,7 +1,7 @@
 //! Random mutations of jobs in all formats, by the million: FreeCAD documents, CL files of all dialects, NC programs, JSON.
-//! Each is read to its end or to its error.
+//! Each is read to its end or to an error.
 //!
-//! `readers COUNT SEED`; a panic names the seed of its mutation, with which it is made again (`readers 1 SEED`).
+//! `readers COUNT SEED`; after a panic, the seed of the mutation is printed. `readers 1 SEED` makes it again.
 
 use std::fs;
 use std::io::{Cursor, Read, Write};
@@ -12,7 +12,7 @@ use postform::toolpath::{Event, Flow, Place, Sink, Stop, Units};
 use postform::{Format, Job};
 use postform_fuzz::random::Random;
 
-/// Pieces that mean something in the wrong place, by format.
+/// Pieces that have a meaning in a wrong place, by format.
 const CL: &[&str] = &[
     "\n",
     "\r\n",
@@ -182,12 +182,12 @@ const JSON: &[&str] = &[
     "\"step\":1e-300,",
 ];
 
-/// Something to mutate.
+/// An input to mutate.
 enum Seed {
     Text(Format, Vec<u8>),
     /// Members of an archive.
     Archive(Vec<(String, Vec<u8>)>),
-    /// An archive as it stands.
+    /// The bytes of an archive, with its members still packed.
     Packed(Vec<u8>),
 }
 
@@ -201,7 +201,7 @@ fn mutate(bytes: &mut Vec<u8>, pieces: &[&str], random: &mut Random) {
             4 if at < bytes.len() => bytes[at] = random.number() as u8,
             5 => _ = bytes.drain(at..(at + random.below(60)).min(bytes.len())),
             6 => {
-                // a part of itself elsewhere
+                // copies a part of the input to another position
                 let from = random.below(bytes.len());
                 let part = bytes[from..(from + random.below(200)).min(bytes.len())].to_vec();
                 bytes.splice(at..at, part);
@@ -239,7 +239,7 @@ fn mutated(seeds: &[Seed], random: &mut Random) -> (Format, Vec<u8>) {
             let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
             for (i, (name, bytes)) in members.iter().enumerate() {
                 let mut bytes = bytes.clone();
-                // half of the time the list of objects, else one path
+                // half of the time the list of objects, otherwise one path
                 if i == chosen || i == 0 && random.once_in(2) {
                     mutate(&mut bytes, if i == 0 { XML } else { PATH }, random);
                 }
@@ -251,10 +251,10 @@ fn mutated(seeds: &[Seed], random: &mut Random) -> (Format, Vec<u8>) {
     }
 }
 
-/// Counts events; what a file asks for without end is stopped.
+/// Counts events, and stops reading an input that produces too many.
 struct Count(u64);
 
-/// Most events of one input: ten times those of the largest seed.
+/// Maximum number of events of one input: ten times those of the largest seed.
 const MOST: u64 = 200_000;
 
 impl Sink for Count {
@@ -264,7 +264,7 @@ impl Sink for Count {
     }
 }
 
-/// Reads a job; `true` where it was read to its end.
+/// Reads a job; `true`: it was read to its end.
 fn read(format: Format, bytes: &[u8], assume: bool) -> bool {
     let mut job = Job::bytes(format, bytes);
     if assume {
@@ -282,7 +282,7 @@ fn read(format: Format, bytes: &[u8], assume: bool) -> bool {
     }
 }
 
-/// What is mutated: the samples and test data of the repository.
+/// The inputs to mutate: samples and test data of the repository.
 fn seeds(root: &Path) -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut files: Vec<PathBuf> = Vec::new();
@@ -311,7 +311,7 @@ fn seeds(root: &Path) -> Vec<Seed> {
     seeds
 }
 
-/// The list of objects first, then the paths; geometry is not read.
+/// The members: the list of objects first, then the paths. Geometry is left out.
 fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).expect("an archive");
     let mut names: Vec<String> = zip.file_names().flatten().map(Into::into).collect();
@@ -325,7 +325,7 @@ fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     names.iter().map(|name| (name.clone(), read(name))).collect()
 }
 
-/// Most memory that this process ever had, in megabytes, where the system says it.
+/// The peak memory of this process in megabytes, if the system reports it.
 fn most_memory() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,8 +1,8 @@
-//! Random programs of lathes, run by postform and by another executor: they must move alike.
+//! Random programs for lathes, run by postform and by another executor: both must make the same motions.
 //!
-//! `turning COUNT SEED [CONTROL]`, with `change` at the end: each program is changed once, and comparing the motions of both
-//! must see it. It fails where a program that is not changed moves otherwise. A program of its own is run by `turning show FILE [CONTROL]`, two are
-//! compared by `turning compare OLD NEW [CONTROL]`.
+//! `turning COUNT SEED [CONTROL]`. With `change` at the end, each program is changed once, and the comparison of the motions must
+//! find the change. Without `change`, the exit status is failure if the motions differ. `turning show FILE [CONTROL]` runs one
+//! program; `turning compare OLD NEW [CONTROL]` compares two.
 
 #![allow(clippy::disallowed_methods, reason = "programs are files")]
 
@@ -18,9 +18,9 @@ use postform_fuzz::turning::executor::{Move, Stopped, run, run_noting};
 use postform_fuzz::turning::program::program;
 use postform_fuzz::turning::unroll::unrolled;
 
-/// How many are shown of each kind.
+/// Number of programs of each kind that are shown.
 const SHOWN: u64 = 2;
-/// How many changed programs are made of a right one.
+/// Number of changed programs for each correct one.
 const EACH: usize = 6;
 
 fn main() -> ExitCode {
@@ -47,12 +47,12 @@ fn main() -> ExitCode {
         }
     }
     hunt.tally.print();
-    // changed programs are judged by who reads their list
+    // with changed programs, the list must be judged by the reader
     let wrong = hunt.tally.total("wrong");
     if wrong > 0 && !changes { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Lengths are alike within this.
+/// The tolerance of lengths.
 fn within(inch: bool) -> f64 {
     if inch { 2e-6 } else { 2e-5 }
 }
@@ -81,14 +81,14 @@ fn show(file: &str, control: &str) {
     }
 }
 
-/// What comes of a program.
+/// The result for a program.
 #[derive(Clone, PartialEq)]
 enum Found {
     Equal,
     Differs(Class, String),
-    /// postform refuses what the executor runs.
+    /// postform refuses a program that the executor runs.
     Refused(String),
-    /// postform runs what the executor stops at.
+    /// postform runs a program that the executor refuses.
     Runs(String),
     BothRefuse(String),
     Unsure(String),
@@ -118,7 +118,7 @@ fn found(text: &str, control: &str, inch: bool) -> Found {
 fn bare(why: &str) -> String {
     let why = why.split(", in `").next().unwrap_or(why);
     let numbers: Vec<f64> = why.split(' ').filter_map(|word| word.trim_end_matches(',').parse().ok()).collect();
-    // digits of the computer's numbers decide
+    // the numbers are equal except for the rounding of floating-point numbers
     let exact = matches!(numbers[..], [a, b] if (a.abs() - b.abs()).abs() < 1e-9);
     let why = &if exact { format!("{why} (alike)") } else { why.to_owned() };
     let mut text: String = why.chars().map(|c| if c.is_ascii_digit() { '#' } else { c }).collect();
@@ -128,7 +128,7 @@ fn bare(why: &str) -> String {
     text.replace("#.#", "#").replace("-#", "#").chars().take(160).collect()
 }
 
-/// Leaves out lines as long as the same comes of it.
+/// Removes lines as long as the result stays the same.
 fn shrunk(text: &str, fails: &dyn Fn(&str) -> bool) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
     loop {
@@ -205,7 +205,7 @@ impl Hunt {
         }
     }
 
-    /// Cycles written as moves are no difference.
+    /// Checks that a program with its cycles written as moves is called the same.
     fn unrolled(&mut self, text: &str, seed: u64, control: &'static str, inch: bool, exact: bool) {
         let Ok(moves) = run(text, control == "haas-lathe", inch) else { return };
         if moves.iter().any(|one| one.speed.0.is_nan()) {
@@ -237,7 +237,7 @@ impl Hunt {
         }
     }
 
-    /// A changed program stops at an alarm: it is not the same.
+    /// A changed program that stops with an alarm must not be called the same.
     fn alarm(&mut self, text: &str, other: &str, of: (u64, &'static str, bool), what: &str) {
         let (seed, control, inch) = of;
         let said = catch_unwind(AssertUnwindSafe(|| compared(text, other, settings(control, inch))));
@@ -289,7 +289,7 @@ impl Hunt {
             let name = differs.as_ref().map_or("alike".to_owned(), |(class, _)| format!("{class:?}"));
             self.tally.count("changes", format!("{name}: {verdict}"));
             let quiet = verdict == "identical" || verdict == "equivalent";
-            // a cut of no length counts for postform
+            // postform counts cuts of zero length
             let points = |list: &[Move]| list.iter().filter(|one| is_point(one)).count();
             let wrong = match &differs {
                 None => verdict == "different" && points(&right) == points(&list),

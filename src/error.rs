@@ -12,7 +12,7 @@ pub enum ErrorKind {
     Form,
     /// The job is wrong, or requests something that the form can't print.
     Job,
-    /// The request makes no sense: a wrong option, or a second read of a job that can be read only once.
+    /// The request is invalid: it has a wrong option, or it reads a job a second time that can be read only once.
     Usage,
     /// The job can't be read; [`std::error::Error::source`] has the reason.
     Input,
@@ -26,9 +26,10 @@ pub enum ErrorKind {
     Fault,
 }
 
-/// The reason why an operation failed, with all findings until then: first the warnings, then the error.
+/// The reason why an operation failed, with all findings up to that point: first the warnings, then the error.
 ///
-/// It is displayed as one line; `{:#}` adds the line of the form. [`Error::findings`] has the locations, the help and the fixes.
+/// The error is displayed as one line; `{:#}` adds the line of the form. [`Error::findings`] has the locations, the
+/// help and the fixes.
 pub struct Error(Box<Inner>);
 
 struct Inner {
@@ -43,27 +44,27 @@ impl Error {
         Error(Box::new(Inner { kind, findings, message, source }))
     }
 
-    /// An error for a form with errors; the findings also include its warnings.
+    /// An error for a form with errors. `findings` also contains the form's warnings.
     pub(crate) fn form(findings: Findings) -> Error {
         Error::new(ErrorKind::Form, findings, String::new(), None)
     }
 
-    /// An error for a program that must not run; the findings are its differences or the parts that are not proven.
+    /// An error for a program that must not run. `findings` are its differences, or its parts that are not proven.
     pub(crate) fn proof(findings: Findings) -> Error {
         Error::new(ErrorKind::Proof, findings, String::new(), None)
     }
 
-    /// A request that makes no sense; the message names a valid one.
+    /// An error for an invalid request. The message names a valid one.
     pub(crate) fn usage(message: impl Into<String>) -> Error {
         Error::new(ErrorKind::Usage, Findings::default(), message.into(), None)
     }
 
-    /// The operating system reports an error.
+    /// An error that the operating system reports.
     pub(crate) fn of_io(kind: ErrorKind, error: io::Error) -> Error {
         Error::new(kind, Findings::default(), String::new(), Some(error))
     }
 
-    /// Adds earlier findings: warnings of the job, and the text of its form.
+    /// Puts warnings of the job before the findings, and adds the text of the form if it is missing.
     pub(crate) fn after(mut self, warnings: Vec<Diag>, files: &[crate::source::Source]) -> Error {
         self.0.findings.diags.splice(0..0, warnings);
         if self.0.findings.files.is_empty() {
@@ -72,7 +73,7 @@ impl Error {
         self
     }
 
-    /// The findings, mutable, so that their locations can be completed.
+    /// The findings, mutable, so that the caller can complete their locations.
     pub(crate) fn diags_mut(&mut self) -> &mut [Diag] {
         &mut self.0.findings.diags
     }
@@ -82,12 +83,12 @@ impl Error {
         self.0.kind
     }
 
-    /// Warnings, and the errors that stopped the work. Empty if input or output failed.
+    /// The warnings, and the errors that stopped the work. Empty if reading or writing failed.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }
 
-    /// The failure of the input or the output, if that is the cause.
+    /// The input or output error, if that is the cause.
     pub fn io(&self) -> Option<&io::Error> {
         self.0.source.as_ref()
     }
@@ -106,7 +107,7 @@ impl From<Box<Diag>> for Error {
     }
 }
 
-/// The job can't be read.
+/// An I/O error means that the job can't be read.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Error {
         Error::of_io(ErrorKind::Input, error)
@@ -114,8 +115,8 @@ impl From<io::Error> for Error {
 }
 
 impl fmt::Display for Error {
-    /// The first error and the number of further errors. `{:#}` adds the line of the form that is affected, with a mark under
-    /// the words.
+    /// Writes the first error and the number of further errors. `{:#}` adds the line of the form, with a mark under the
+    /// words of the error.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Inner { findings, message, source, .. } = &*self.0;
         let mut errors = findings.diags.iter().filter(|diag| diag.is_error());
@@ -138,7 +139,7 @@ impl fmt::Display for Error {
 }
 
 impl fmt::Debug for Error {
-    /// All findings, one per line: printed when `main` returns this error.
+    /// Writes all findings, one per line. Rust prints this text when `main` returns the error.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0.findings.is_empty() {
             true => write!(f, "{self}"),

@@ -256,7 +256,8 @@ impl Page<'_> {
 fn format_of(letter: &Spanned, spec: &Spanned) -> String {
     let digits = spec.text.trim();
     let packed = digits.len() >= 3 && digits.bytes().all(|b| b.is_ascii_digit());
-    // after a sequence `O 578` is a late format and `O578` is a word: with as many digits as a format has, the space stays
+    // after the first sequence, `O 578` is a misplaced format and `O578` is a word, so a space before a number of this
+    // length stays
     let glued = if packed { !spec.text.starts_with(' ') } else { digits.starts_with(['-', '+']) };
     let blank = if glued { "" } else { " " };
     format!("{}{blank}{digits}", letter.text)

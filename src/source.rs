@@ -11,7 +11,7 @@ const STEP: usize = 1024;
 /// One form file, decoded.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The name that messages use, as the user gave it.
+    /// The name of the file in messages, as the user gave it.
     pub name: String,
     /// The text after decoding; spans count its bytes.
     pub text: String,

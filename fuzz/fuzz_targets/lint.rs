@@ -1,4 +1,4 @@
-//! Forms mutated by coverage: `fuzz/run 1800` does it for half an hour (see CONTRIBUTING.md).
+//! Fuzzing of forms, guided by coverage. `fuzz/run 1800` runs it for half an hour (see CONTRIBUTING.md).
 #![no_main]
 
 #[path = "../look.rs"]

@@ -1,4 +1,4 @@
-//! What a seed makes: a job, its format, and a form to print it with.
+//! The test case of a seed: a job, its format, and a form that prints it.
 
 use std::rc::Rc;
 
@@ -16,20 +16,20 @@ use crate::prove::{Form, Proof, Said};
 use crate::random::Random;
 use crate::text::written;
 
-/// What the command line asks for: `COUNT SEED KIND FORM`, of which each may be missing.
+/// The arguments of the command line: `COUNT SEED KIND FORM`. Each of them may be missing.
 pub struct Asked {
-    /// How many.
+    /// Number of cases.
     pub count: u64,
     /// The first seed.
     pub first: u64,
     kinds: Vec<Kind>,
     forms: Vec<Rc<Form>>,
-    /// All forms: each may print a program that is another form's job.
+    /// All forms that can print a job which another form reads as a program.
     writers: Vec<Rc<Form>>,
 }
 
 impl Asked {
-    /// Of the command line.
+    /// Reads the arguments of the command line.
     pub fn of(args: impl Iterator<Item = String>, forms: Vec<Form>) -> Asked {
         let args: Vec<String> = args.collect();
         let number = |at: usize, default: u64| args.get(at).and_then(|arg| arg.parse().ok()).unwrap_or(default);
@@ -44,7 +44,7 @@ impl Asked {
         }
     }
 
-    /// The case of a seed, and the random numbers behind it; none where no form prints such a job.
+    /// The case of a seed, and its random numbers. `None` if no form prints such a job.
     pub fn case(&self, seed: u64) -> Option<(Case, Random)> {
         let mut random = Random::new(seed);
         let kind = random.pick(&self.kinds);
@@ -54,15 +54,15 @@ impl Asked {
         Some((case, random))
     }
 
-    /// The same for a form that was changed in one place; none where it is no form any more.
+    /// The same case with a form that was changed in one place. `None` if the changed text is no valid form.
     pub fn wrong(&self, seed: u64) -> Option<Case> {
         let (case, mut random) = self.case(seed)?;
         let text = changed(&case.form.text, &mut random)?;
         let form = Form::read(&case.form.name, &text).ok()?;
-        // what the judge knows of the machine is not what was changed
+        // the change must not affect the data that the judge has about the machine
         let is_same = (&form.control, form.renames, form.by_diameter)
             == (&case.form.control, case.form.renames, case.form.by_diameter);
-        // a form says itself which offset of the machine is its first
+        // the form alone defines which code selects the first work offset
         let offsets =
             |text: &str| text.lines().filter(|line| line.starts_with("Work")).map(str::to_owned).collect::<Vec<_>>();
         let is_same = is_same && offsets(&text) == offsets(&case.form.text);
@@ -81,7 +81,7 @@ impl Asked {
                 let text = written(&job, Format::Json);
                 let inch = other.inch.unwrap_or(job["units"] == "inch");
                 let (mut program, _) = other.render(Job::json(&text), inch).ok()?;
-                // also programs that no form prints
+                // sometimes a program that no form prints
                 if random.once_in(3) {
                     program = mutant(&program, random)?.text;
                 }
@@ -93,7 +93,7 @@ impl Asked {
             _ => random.pick(&[Format::Json, Format::JsonLines]),
         };
         let of_job = job["units"] == "inch";
-        // a form for both may print the other
+        // a form for both units sometimes prints the other unit
         let inch = form.inch.unwrap_or(of_job != random.once_in(4));
         Some(Case { seed, kind, form, writer, format, inch, job })
     }
@@ -102,35 +102,35 @@ impl Asked {
 /// A job that is printed with a form.
 #[derive(Clone)]
 pub struct Case {
-    /// Which makes it again.
+    /// The seed that produces this case again.
     pub seed: u64,
-    /// What the job is for.
+    /// The kind of the job.
     pub kind: Kind,
     /// The form.
     pub form: Rc<Form>,
-    /// Which form printed the program that is the job.
+    /// The form that printed the program, if the job is a program.
     pub writer: Option<Rc<Form>>,
-    /// How the job is written.
+    /// The format of the job.
     pub format: Format,
-    /// The program counts inches, whatever the job counts.
+    /// The program is in inches, whatever the units of the job are.
     pub inch: bool,
     /// The job, as a document.
     pub job: Value,
 }
 
-/// What became of a job.
+/// The result of printing a job.
 #[derive(Clone, Debug)]
 pub enum End {
-    /// The form does not print it.
+    /// The form can't print it.
     Refused(Said),
-    /// A panic.
+    /// Printing panicked.
     Panicked,
-    /// The program, what comparing says of it, and whether lint or the renderer says that its digits are too few.
+    /// The program, its verdict, and whether lint or the renderer warns that digits are lost.
     Printed(String, Proof, bool),
 }
 
 impl End {
-    /// In a few words: what must stay the same while a job is made smaller.
+    /// The result in a few words. It must stay the same while a job is made smaller.
     pub fn name(&self) -> String {
         match self {
             End::Refused((code, _)) => format!("refused {code}"),
@@ -141,17 +141,17 @@ impl End {
 }
 
 impl Case {
-    /// The same with another job.
+    /// The same case with another job.
     pub fn with(&self, job: &Value) -> Case {
         Case { job: job.clone(), ..self.clone() }
     }
 
-    /// The job's text, to be looked at.
+    /// The text of the job, for display.
     pub fn text(&self) -> String {
         written(&self.job, self.format)
     }
 
-    /// The job as it is read.
+    /// The bytes of the job, as they are read.
     fn bytes(&self) -> Vec<u8> {
         match self.format {
             Format::Freecad => document::archive(&self.job),
@@ -172,12 +172,12 @@ impl Case {
         self.job["units"] == "inch"
     }
 
-    /// What the text says, as a document.
+    /// The meaning of the job's text, as a document.
     pub fn said(&self) -> Value {
         if self.kind == Kind::Mill && self.format == Format::Cl { for_cl(&self.job) } else { self.job.clone() }
     }
 
-    /// Prints it and compares.
+    /// Prints the job and verifies the program.
     pub fn end(&self) -> End {
         let bytes = self.bytes();
         let run = || match self.form.render(self.reads(&bytes), self.inch) {
@@ -190,17 +190,17 @@ impl Case {
         std::panic::catch_unwind(std::panic::AssertUnwindSafe(run)).unwrap_or(End::Panicked)
     }
 
-    /// Compares another program with the job.
+    /// Verifies another program against the job.
     pub fn verify(&self, program: &str) -> Proof {
         self.form.verify(program, self.reads(&self.bytes()), self.inch, None)
     }
 
-    /// The verdict of another program in one line, with all that is counted.
+    /// The verdict on another program in one line, with its counts.
     pub fn verdict(&self, program: &str) -> String {
         self.form.verdict(program, self.reads(&self.bytes()), self.inch)
     }
 
-    /// The proof of the program while it is printed, in parts of any size.
+    /// The verdict on the program when it is proven during printing, in parts of random size.
     pub fn proof_beside(&self, random: &mut Random) -> Proof {
         let bytes = self.bytes();
         let run = || self.form.prove_beside(self.reads(&bytes), self.inch, random);
@@ -208,24 +208,25 @@ impl Case {
             .unwrap_or_else(|_| Proof::NotProven(("panic".into(), String::new())))
     }
 
-    /// Runs a program of the form by the judge's machine.
+    /// Runs a program of the form on the judge's machine.
     ///
     /// # Errors
-    /// The line, and why it stops there.
+    /// The line at which the machine stops, and the reason.
     pub fn run(&self, program: &str) -> Result<Vec<Act>, (usize, String)> {
         self.form.run(program, self.inch)
     }
 
-    /// What the judge says of a program; `None` where it does not read such jobs.
+    /// The judge's result for a program. `None` if the judge can't read such jobs.
     pub fn judged(&self, program: &str) -> Option<Result<(), String>> {
         self.judged_within(program, self.form.within)
     }
 
-    /// The same, with places within so many millimetres.
+    /// The judge's result for a program, with positions that may differ by this number of millimetres.
     pub fn judged_within(&self, program: &str, within: f64) -> Option<Result<(), String>> {
         let wants = self.wants()?;
         let against = match self.run(program) {
-            // the judge reads of these languages what the forms print for a job, and no text as it stands
+            // the judge reads only those words of these languages that the forms print for a job, and no text of the
+            // job
             Err(_) if crate::judge::languages::is_one(&self.form.control) => return None,
             Err((line, why)) => Some(format!("line {line}: {why}")),
             Ok(mut acts) if self.form.renames => {
@@ -245,12 +246,12 @@ impl Case {
         Some(against.map_or(Ok(()), Err))
     }
 
-    /// Is a program its job's, with places as near as the digits of its form are, but for feeds?
+    /// Does a program match its job within the resolution of the form's digits? Feeds are not compared.
     pub fn is_rounded(&self, program: &str) -> bool {
         self.is_within(program, self.form.within)
     }
 
-    /// The same with places within so many millimetres.
+    /// Does a program match its job, with positions that may differ by this number of millimetres?
     pub fn is_within(&self, program: &str, within: f64) -> bool {
         let unit = if self.is_inch() { 25.4 } else { 1.0 };
         match self.form.verify(program, self.reads(&self.bytes()), self.inch, Some(within / unit)) {
@@ -259,26 +260,27 @@ impl Case {
         }
     }
 
-    /// What LinuxCNC's interpreter makes of a program, against the job; `None` where it has no say.
+    /// Compares the result of LinuxCNC's interpreter for a program with the job. `None` if the interpreter is not used
+    /// for it.
     pub fn interpreted(&self, program: &str) -> Option<Result<(), String>> {
-        // it prints the path that compensation makes, and the pecks of its own cycles
+        // the interpreter outputs the compensated path, and the pecks of its own cycles
         let own = ["G41", "G42", "G73", "G83"].iter().any(|code| program.contains(code));
         if self.form.control != "linuxcnc" || own {
             return None;
         }
         let wants = self.wants()?;
-        // several hunts may run beside each other
+        // several hunts may run at the same time
         let folder = std::env::temp_dir().join(format!("postform-hunt-{}", std::process::id()));
         std::fs::create_dir_all(&folder).ok()?;
         let acts = interpreted(program, &folder);
         std::fs::remove_dir_all(&folder).ok()?;
         let acts = acts?;
-        // LinuxCNC's interpreter takes the end of a probe for the sheet
+        // the interpreter takes the end of a probe as the sheet's surface
         let acts = acts.map(|acts| if self.kind == Kind::Beam { beam::flat(acts) } else { acts });
         Some(acts.and_then(|acts| against::difference(&wants, &acts, self.form.within).map_or(Ok(()), Err)))
     }
 
-    /// Radii of the crests of the job's threads.
+    /// Crest radii of the job's threads.
     pub fn crests(&self) -> Vec<f64> {
         let crest = |wanted: &Wanted| if let Want::Thread { crest, .. } = wanted.want { Some(crest) } else { None };
         self.wants().iter().flatten().filter_map(crest).collect()
@@ -287,7 +289,7 @@ impl Case {
     fn wants(&self) -> Option<Vec<Wanted>> {
         let mut wants = self.wants_of_job()?;
         if self.form.control != "okuma" && crate::judge::languages::is_one(&self.form.control) {
-            // the tool has its own length
+            // each tool uses the length register of its own number
             wants.iter_mut().for_each(|wanted| wanted.length = wanted.tool);
         }
         Some(wants)
@@ -296,7 +298,7 @@ impl Case {
     fn wants_of_job(&self) -> Option<Vec<Wanted>> {
         match self.kind {
             Kind::Program | Kind::Document => {
-                // frames that a program moves are left out before its first move, and followed after it
+                // `done::wants` does not convert a frame that was moved before the first move
                 if ["G52", "G92"].iter().any(|code| self.text().contains(code)) {
                     return None;
                 }

@@ -1,4 +1,4 @@
-//! A job as an APT CL file.
+//! Writes a job as an APT CL file.
 
 use std::fmt::Write;
 
@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use crate::text::list;
 
-/// The job without what a CL file can't say, and with whole positions: what the CL text of [`written`] means.
+/// The job as the CL text of [`written`] describes it: without everything that a CL file can't express, and with whole
+/// positions.
 pub fn for_cl(job: &Value) -> Value {
     let mut job = job.clone();
     let operations = job["operations"].as_array_mut().map(std::mem::take).unwrap_or_default();
@@ -71,7 +72,7 @@ pub fn for_cl(job: &Value) -> Value {
             }
             items.push(item);
         }
-        // a CL file changes its tool for motions only
+        // in a CL file, a tool change needs a motion after it
         if items.iter().any(|item| item.get("rapid").is_some() || item.get("line").is_some()) {
             let path = json!(items);
             if let Some(head) = operation.as_object_mut() {
@@ -86,7 +87,7 @@ pub fn for_cl(job: &Value) -> Value {
     job
 }
 
-/// Fills a position with the place where the tool is.
+/// Fills the missing axes of a position from the current position of the tool.
 fn whole(to: &mut Value, at: &mut [Option<f64>; 3]) {
     for (axis, place) in at.iter_mut().enumerate() {
         if let Some(value) = to.get(axis).and_then(Value::as_f64) {
@@ -98,7 +99,7 @@ fn whole(to: &mut Value, at: &mut [Option<f64>; 3]) {
     }
 }
 
-/// A cycle as CYCLE can say it; false where it can't.
+/// Converts a cycle to one that CYCLE can express. Returns false if this is not possible.
 fn hold(cycle: &mut Value, at: &mut [Option<f64>; 3]) -> bool {
     if ["emulate", "step_from", "offset_y"].iter().any(|key| cycle.get(key).is_some()) {
         return false;
@@ -116,7 +117,7 @@ fn hold(cycle: &mut Value, at: &mut [Option<f64>; 3]) -> bool {
         if cycle.contains_key("step") {
             cycle.insert("step_from".into(), json!("point"));
         }
-        // CLEAR and RETURN are said each time; what CYCLE says of a tap is said at once
+        // CLEAR and RETURN are written in every cycle, and the options of a tap in its own statement
         if matches!(kind.as_str(), "tap" | "ltap") && !cycle.contains_key("rigid") {
             cycle.insert("rigid".into(), json!(true));
         }
@@ -181,7 +182,7 @@ pub fn cl(job: &Value) -> String {
                 _ = writeln!(text, "MOVARC/{},0,0,{up},{radius}\nGOTO/{}", three(&arc["center"]), three(&arc["to"]));
             } else if let Some(cycle) = item.get("cycle") {
                 cycle_words(&mut text, cycle, unit);
-                // else the motion after it would be a rapid
+                // otherwise the next motion would be a rapid
                 _ = writeln!(text, "FEDRAT/{feed},{unit}");
             } else if item.get("home").is_some() {
                 text += "GOHOME\n";

@@ -1,4 +1,4 @@
-//! The forms that jobs are printed with: those that ship, and unusual ones.
+//! The forms that print the jobs: the forms that ship, and unusual ones.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::random::Random;
 /// All forms, by name.
 ///
 /// # Panics
-/// A form can't be read: that is a fault of this list.
+/// A form can't be read; the list of forms is then wrong.
 pub fn forms() -> Vec<Form> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let mut paths: Vec<_> = ["postforms", "tests/data/forms"]
@@ -26,8 +26,8 @@ pub fn forms() -> Vec<Form> {
     paths.iter().map(read).collect()
 }
 
-/// A form with one mistake, as an author makes it: a line or a word lost, doubled or in the wrong place, another variable, digit
-/// or letter. `None` where the chosen mistake finds nothing.
+/// A form with one typical mistake: a line or word is missing, doubled or misplaced, or a variable, digit or letter is
+/// wrong. `None` if the form has nothing to which the chosen mistake applies.
 pub fn changed(text: &str, random: &mut Random) -> Option<String> {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let is_code = |line: &String| !line.trim().is_empty() && !line.trim_start().starts_with('#');
@@ -45,14 +45,14 @@ pub fn changed(text: &str, random: &mut Random) -> Option<String> {
             let kept = words.iter().enumerate().filter(|(number, _)| *number != drop).map(|(_, word)| *word);
             lines[at] = kept.collect::<Vec<_>>().join(" ");
         }
-        // another variable
+        // replaces a variable by another one
         4 => {
             let names = variables(text);
             let own = variables(&lines[at]);
             let from = own.get(random.below(own.len()))?;
             lines[at] = lines[at].replacen(from.as_str(), &names[random.below(names.len())], 1);
         }
-        // a digit
+        // changes a digit
         5 => {
             let digits: Vec<usize> =
                 lines[at].char_indices().filter(|(_, c)| c.is_ascii_digit()).map(|(place, _)| place).collect();
@@ -60,7 +60,7 @@ pub fn changed(text: &str, random: &mut Random) -> Option<String> {
             let digit = random.below(10).to_string();
             lines[at].replace_range(place..=place, &digit);
         }
-        // a letter of a word
+        // changes the letter of a word
         6 => {
             let letters: Vec<usize> =
                 lines[at].char_indices().filter(|(_, c)| c.is_ascii_uppercase()).map(|(place, _)| place).collect();
@@ -68,7 +68,7 @@ pub fn changed(text: &str, random: &mut Random) -> Option<String> {
             let letter = random.pick(&["X", "Y", "Z", "F", "S", "R", "Q", "P", "G", "M", "T", "H", "I", "J", "A"]);
             lines[at].replace_range(place..=place, letter);
         }
-        // a sign of a format or an expression
+        // changes a sign of a format or an expression
         _ => {
             let signs: Vec<usize> =
                 lines[at].char_indices().filter(|(_, c)| "*-+.<>".contains(*c)).map(|(place, _)| place).collect();
@@ -80,7 +80,7 @@ pub fn changed(text: &str, random: &mut Random) -> Option<String> {
     (other != text).then_some(other)
 }
 
-/// All `[names]` of a text.
+/// All names in brackets in a text, such as `[name]`.
 fn variables(text: &str) -> Vec<String> {
     let mut names: Vec<String> =
         text.split('[').skip(1).filter_map(|rest| rest.split_once(']')).map(|(name, _)| format!("[{name}]")).collect();

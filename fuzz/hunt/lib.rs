@@ -1,7 +1,7 @@
-//! Random jobs and wrong programs: what the hunt for faults shares.
+//! Random jobs and wrong programs: the code that the fuzzing programs share.
 //!
-//! `jobs` renders random jobs and compares each program with its job; `programs` changes right programs in one place and
-//! looks whether comparing sees it.
+//! `jobs` renders random jobs and compares each program with its job. `programs` changes correct programs in one place and
+//! checks that the comparison finds the change.
 
 pub mod case;
 pub mod cl;

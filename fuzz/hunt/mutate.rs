@@ -1,4 +1,4 @@
-//! Right programs made wrong in one place.
+//! Makes wrong programs from correct ones by one change.
 
 use crate::random::Random;
 
@@ -24,7 +24,7 @@ pub const KINDS: &[&str] = &[
     "move block",
 ];
 
-/// Blocks that do something of their own wherever they stand: at the top, between the cuts, in a hole.
+/// Blocks with an effect of their own at every position: before the first cut, between cuts, inside a hole.
 const INSERTED: &[&str] = &[
     "G91",
     "G90",
@@ -80,22 +80,22 @@ const INSERTED: &[&str] = &[
 
 /// A program with one change.
 pub struct Mutant {
-    /// The whole text.
+    /// The text of the program.
     pub text: String,
-    /// Which kind of change.
+    /// The kind of change.
     pub kind: &'static str,
-    /// What was changed, in words.
+    /// The change in words.
     pub what: String,
 }
 
-/// Where a word is in a line, and its letter.
+/// The location and letter of a word in a line.
 struct At {
     from: usize,
     to: usize,
     letter: u8,
 }
 
-/// Inserts a block into a program, anywhere.
+/// Inserts a block into a program at a random position.
 pub fn with_block(program: &str, random: &mut Random) -> Option<Mutant> {
     let block = random.pick(INSERTED);
     let mut lines: Vec<&str> = program.lines().collect();
@@ -109,11 +109,11 @@ pub fn with_block(program: &str, random: &mut Random) -> Option<Mutant> {
     })
 }
 
-/// Changes a program in one place; `None` where the chosen change finds none.
+/// Changes a program in one place; `None` if the chosen change can't be applied.
 pub fn mutant(program: &str, random: &mut Random) -> Option<Mutant> {
     let kind = random.pick(KINDS);
     let mut lines: Vec<String> = program.lines().map(str::to_owned).collect();
-    // the middle of the program, where blocks are
+    // in the middle of the program, where most blocks are
     let at = (0..20).map(|_| random.below(lines.len())).find(|&at| !words(&lines[at]).is_empty())?;
     let before = lines[at].clone();
     match kind {
@@ -154,7 +154,7 @@ pub fn mutant(program: &str, random: &mut Random) -> Option<Mutant> {
     Some(Mutant { text, kind, what: format!("line {}: {before} -> {after}", at + 1) })
 }
 
-/// The words of a line that are not in a comment; its number is none.
+/// The words of a line outside comments; a block number does not count.
 fn words(line: &str) -> Vec<At> {
     let bytes = line.as_bytes();
     let mut list = Vec::new();

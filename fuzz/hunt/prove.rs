@@ -1,4 +1,4 @@
-//! A form as the hunt uses it: it prints jobs and compares programs with them.
+//! A form for the hunt: it prints jobs and verifies programs.
 
 use std::collections::BTreeSet;
 
@@ -14,37 +14,37 @@ use crate::random::Random;
 
 /// A form that prints.
 pub struct Form {
-    /// Its file, without its ending.
+    /// The file name without its extension.
     pub name: String,
     /// The control that runs its programs.
     pub control: String,
-    /// What jobs it can print.
+    /// The kinds of jobs that it can print.
     pub kinds: Vec<Kind>,
-    /// What they may say.
+    /// The features of jobs that it supports.
     pub takes: Takes,
-    /// The units of its programs, inches or not, where it has its own; else they are those of the job.
+    /// The units of its programs, if the form fixes them: true for inches. Otherwise those of the job.
     pub inch: Option<bool>,
-    /// How near its digits come to a place, in millimetres, and what adding such places may add.
+    /// Tolerance of positions in millimetres: the resolution of its digits, with an allowance for sums of positions.
     pub within: f64,
-    /// The job's A is another letter of the program's.
+    /// The program has another letter for the job's A.
     pub renames: bool,
-    /// X of a lathe counts diameters.
+    /// X of a lathe is a diameter.
     pub by_diameter: bool,
-    /// `lint` says that its formats round away what a job may say.
+    /// `lint` warns that its formats round away digits of a job.
     pub cuts_digits: bool,
-    /// Its text.
+    /// The text of the form.
     pub text: String,
     post: Post,
 }
 
-/// A code, and what it says.
+/// The code and the message of an error.
 pub type Said = (String, String);
 
 impl Form {
-    /// Reads a form; it calls no other.
+    /// Reads a form that calls no other form.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// An error of the form.
     pub fn read(name: &str, text: &str) -> Result<Form, Error> {
         let post = Post::compile(Source::from_text(name, text), &NoFiles)?;
         let cuts_digits = post.findings().diags.iter().any(|diag| diag.code.name() == "PF306");
@@ -82,10 +82,10 @@ impl Form {
         })
     }
 
-    /// Runs a program of this form by the judge's own machine; `inch`: so it counts before it says.
+    /// Runs a program of this form on the judge's own machine. `inch`: the units are inches until the program sets them.
     ///
     /// # Errors
-    /// The line, and why it stops there.
+    /// The line at which the machine stops, and the reason.
     pub fn run(&self, program: &str, inch: bool) -> Result<Vec<Act>, (usize, String)> {
         match self.kinds.first() {
             Some(Kind::Lathe) => lathe::run(program, self.by_diameter, inch),
@@ -99,10 +99,10 @@ impl Form {
         }
     }
 
-    /// Prints a job, in inches or millimetres; true where it says that digits were lost.
+    /// Prints a job in inches or millimetres. Returns true if lint or the renderer warns that digits are lost.
     ///
     /// # Errors
-    /// The code and the message of what it refuses.
+    /// The code and the message of the error.
     pub fn render(&self, job: Job<'_>, inch: bool) -> Result<(String, bool), Said> {
         let mut options = options(inch);
         options.proof = None;
@@ -116,7 +116,7 @@ impl Form {
             .map_err(|error| said(&error))
     }
 
-    /// Compares a program with its job, with places this near in the job's units.
+    /// Verifies a program against its job. The tolerance is in the job's units.
     pub fn verify(&self, program: &str, job: Job<'_>, inch: bool, tolerance: Option<f64>) -> Proof {
         let mut proof = postform::Proof::default();
         proof.tolerance = tolerance;
@@ -124,7 +124,7 @@ impl Form {
         proof_of(self.post.verify_with(job, program, &options(inch), &proof))
     }
 
-    /// The verdict in one line, with all that is counted: as `tests/data/proofs` has it.
+    /// The verdict in one line with its counts, as the files of `tests/data/proofs` contain it.
     pub fn verdict(&self, program: &str, job: Job<'_>, inch: bool) -> String {
         let program = std::io::Cursor::new(program);
         match self
@@ -150,7 +150,7 @@ impl Form {
         }
     }
 
-    /// Prints a job and proves it meanwhile, as `render` of the command line does, but in parts of any size.
+    /// Prints a job and proves it during printing, as `render` of the command line does, but in parts of random size.
     pub fn prove_beside(&self, job: Job<'_>, inch: bool, random: &mut Random) -> Proof {
         let mut whole = Batch::default();
         let rendered = self.post.render_beside(job, &options(inch), &mut |_| Ok(()), &mut |batch| {
@@ -176,7 +176,7 @@ impl Form {
     }
 }
 
-/// A CL file has no number.
+/// Options for printing; they set the program number, because a CL file has none.
 fn options(inch: bool) -> Options {
     let mut options = Options::default();
     options.program = Some(MAIN);
@@ -210,26 +210,26 @@ fn said(error: &Error) -> Said {
     }
 }
 
-/// What comparing says.
+/// The result of verifying.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Proof {
-    /// The same motions.
+    /// Identical: the same motions.
     Identical,
-    /// The same cuts.
+    /// Equivalent: the same cuts.
     Equivalent,
-    /// What differs.
+    /// The differences.
     Different(Vec<Said>),
-    /// Why it can't be told.
+    /// The reason why nothing is proven.
     NotProven(Said),
 }
 
 impl Proof {
-    /// Identical or equivalent?
+    /// Is the verdict identical or equivalent?
     pub fn holds(&self) -> bool {
         matches!(self, Proof::Identical | Proof::Equivalent)
     }
 
-    /// In one word; what differs by its first code.
+    /// The verdict in one word; for a difference, with its first code.
     pub fn name(&self) -> String {
         match self {
             Proof::Identical => "identical".into(),

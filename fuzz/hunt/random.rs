@@ -1,6 +1,6 @@
-//! Random numbers that a seed makes again.
+//! Random numbers that a seed reproduces.
 
-/// A generator: every seed gives another sequence.
+/// A generator. Each seed gives a different sequence.
 pub struct Random(u64);
 
 impl Random {
@@ -18,22 +18,22 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// From 0 to below `n`; 0 where there is nothing to choose from.
+    /// A number from 0 to below `n`; 0 if `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         (self.number() % n.max(1) as u64) as usize
     }
 
-    /// True once in `n` times.
+    /// True once in `n` times on average.
     pub fn once_in(&mut self, n: usize) -> bool {
         self.below(n) == 0
     }
 
-    /// One of a list.
+    /// A random element of a list.
     pub fn pick<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
     }
 
-    /// From `low` to `high`.
+    /// A number from `low` to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.number() >> 11) as f64 / (1u64 << 53) as f64
     }

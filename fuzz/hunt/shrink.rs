@@ -1,8 +1,8 @@
-//! The smallest job that still goes wrong in the same way: parts of the document are left out as long as it does.
+//! Finds a small job with the same fault: parts of the document are removed as long as the fault stays.
 
 use serde_json::Value;
 
-/// Leaves out what is not needed; `fails` is asked at most a thousand times.
+/// Removes parts that are not needed for the fault. `fails` is called at most 1000 times.
 pub fn shrunk(job: &Value, fails: &mut dyn FnMut(&Value) -> bool) -> Value {
     let mut best = job.clone();
     let mut tries = 1000;
@@ -11,7 +11,7 @@ pub fn shrunk(job: &Value, fails: &mut dyn FnMut(&Value) -> bool) -> Value {
         for size in [16, 8, 4, 2, 1] {
             let mut paths = Vec::new();
             places(&best, &mut Vec::new(), &mut paths);
-            // from the end, so that places before stay what they are
+            // from the end, so that the paths of earlier parts stay valid
             for path in paths.into_iter().rev() {
                 let mut from = count(&best, &path);
                 while from > 0 && tries > 0 {
@@ -32,7 +32,7 @@ pub fn shrunk(job: &Value, fails: &mut dyn FnMut(&Value) -> bool) -> Value {
     }
 }
 
-/// All lists and objects.
+/// Paths of all lists and objects.
 fn places(value: &Value, path: &mut Vec<String>, out: &mut Vec<Vec<String>>) {
     let children: Vec<(String, &Value)> = match value {
         Value::Array(list) if list.iter().any(|item| !item.is_number() && !item.is_null()) || list.len() > 6 => {

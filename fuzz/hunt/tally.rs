@@ -1,28 +1,28 @@
-//! How often what was seen.
+//! Counts results by name.
 
 use std::collections::BTreeMap;
 
-/// Counts by name, in groups.
+/// Counts by group and name.
 #[derive(Default)]
 pub struct Tally(BTreeMap<&'static str, BTreeMap<String, u64>>);
 
 impl Tally {
-    /// One more.
+    /// Adds one.
     pub fn count(&mut self, group: &'static str, name: impl Into<String>) {
         *self.0.entry(group).or_default().entry(name.into()).or_default() += 1;
     }
 
-    /// How many so far.
+    /// The count of a name.
     pub fn get(&self, group: &'static str, name: &str) -> u64 {
         self.0.get(group).and_then(|names| names.get(name)).copied().unwrap_or(0)
     }
 
-    /// How many of a group.
+    /// The sum of a group.
     pub fn total(&self, group: &'static str) -> u64 {
         self.0.get(group).map_or(0, |names| names.values().sum())
     }
 
-    /// All groups, a line for each name.
+    /// Prints all groups, a line for each name.
     pub fn print(&self) {
         for (group, names) in &self.0 {
             println!("{group}:");

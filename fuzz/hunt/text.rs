@@ -1,4 +1,4 @@
-//! A job as the text that is read: a document, JSON Lines, a CL file, a program.
+//! Writes a job as text in its format: a document, JSON Lines, a CL file, a program.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::cl::cl;
 
-/// The ending of a job's file.
+/// The file name extension for jobs of this format.
 pub fn ending(format: Format) -> &'static str {
     match format {
         Format::Cl => "cl",
@@ -18,7 +18,7 @@ pub fn ending(format: Format) -> &'static str {
     }
 }
 
-/// The job in this format; in CL, what CL can't say is left out ([`crate::cl::for_cl`]).
+/// The job in this format. For a CL file, only what CL can express is written ([`crate::cl::for_cl`]).
 pub fn written(job: &Value, format: Format) -> String {
     let lines_of = |job: &Value| {
         list(job, "lines").iter().filter_map(Value::as_str).fold(String::new(), |text, line| text + line + "\n")
@@ -29,7 +29,7 @@ pub fn written(job: &Value, format: Format) -> String {
             format!("PARTNO/7\nUNITS/{units}\n{}FINI\n", lines_of(job))
         }
         Format::Nc => lines_of(job),
-        // what its paths hold, to be looked at
+        // the paths as lists of commands, for display
         Format::Freecad => list(job, "operations")
             .iter()
             .map(|operation| format!("{}:\n{}", operation["name"], lines_of(operation)))
@@ -63,7 +63,7 @@ fn lines(job: &Value) -> String {
     for operation in list(job, "operations") {
         put(&mut text, &json!({ "operation": without(operation, &["path"]) }));
         for item in list(operation, "path") {
-            // a cycle with three points is split
+            // sometimes a cycle with three points is split in two
             match item.get("cycle").filter(|cycle| list(cycle, "points").len() == 3) {
                 Some(cycle) => {
                     put(&mut text, &json!({ "cycle": without(cycle, &["points"]) }));

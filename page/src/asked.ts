@@ -1,14 +1,14 @@
-// What the form pane asks the host for: the canonical layout, and the explanation of a code.
+// Requests of the form pane to the host: the canonical layout, and the explanation of a code.
 
 import type { Editor } from "./editor.ts";
 import { element } from "./element.ts";
 import type { Ask, Host } from "./host.ts";
 
-/** Lays the form out as `postform fmt` does. */
+/** Formats the form as `postform fmt` does. */
 export async function layOut(editor: Editor, host: Host, ask: Ask): Promise<void> {
   const before = editor.text;
   const help = await host.help(ask, { file: editor.name, line: 0, column: 0, ask: "format" }).catch(() => null);
-  // what was typed in the meantime is not overwritten
+  // text that was typed in the meantime is not overwritten
   if (help?.text && editor.text === before) editor.layOut(help.text);
 }
 

@@ -1,4 +1,4 @@
-// The form pane: CodeMirror, with findings under the words, and highlighted lines that printed the selected block.
+// The form pane: CodeMirror with findings below the words. The lines that printed the selected block are highlighted.
 
 import { completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentLess, indentMore } from "@codemirror/commands";
@@ -97,9 +97,9 @@ export class Editor {
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
   onLeave: () => void = () => {};
-  /** The layout is to be made canonical. */
+  /** Called to format the form in the canonical layout. */
   onFormat: () => void = () => {};
-  /** The code of a finding was clicked. */
+  /** Called when the code of a finding is clicked. */
   onCode: (code: string) => void = () => {};
   /** Esc was pressed once: the page explains the second press. */
   onHint: () => void = () => {};
@@ -211,13 +211,13 @@ export class Editor {
     }
   }
 
-  /** Puts a text into the file, as if it were typed. */
+  /** Inserts text into the file as if it were typed. */
   type(text: string): void {
     this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, selection: { anchor: 0 }, scrollIntoView: true });
     this.view.focus();
   }
 
-  /** Another layout of the file that is shown: what begins and ends as before stays, and so does the cursor. */
+  /** Replaces the text by another layout of it. Equal text at the beginning and the end is kept, and so is the cursor. */
   layOut(text: string): void {
     const old = this.text;
     let from = 0;
@@ -244,7 +244,7 @@ export class Editor {
     this.onOpen();
   }
 
-  /** Another file is shown: findings and highlighted lines must be set again. */
+  /** Called when another file is shown: findings and highlighted lines must be set again. */
   onOpen: () => void = () => {};
 
   private offset(line: number, column: number): number {
@@ -285,7 +285,7 @@ export class Editor {
     this.view.dispatch({ changes: here.map(({ at, text }) => ({ from: this.offset(at[1], at[2]), to: this.offset(at[3], at[4]), insert: text })) });
   }
 
-  /** Highlights lines that printed the selected block, and lines of differences: file and line. */
+  /** Highlights the form lines that printed the selected block, and those with differences. Each is a file and a line. */
   light(lit: { file: number; line: number }[], bad: { file: number; line: number }[], scrolls: boolean): void {
     const first = lit[0];
     if (scrolls && first && first.file !== this.file) this.open(first.file);

@@ -1,4 +1,4 @@
-// Finding words in the program.
+// The search field of the program.
 
 import { element } from "./element.ts";
 
@@ -6,7 +6,7 @@ export class Find {
   readonly root = element("div", { class: "find", role: "search", hidden: "" });
   private readonly field = element("input", { type: "text", "aria-label": "Find in the program", placeholder: "find, as G83 or X1.5", spellcheck: "false" });
   private readonly told = element("span", { "aria-live": "polite" });
-  /** Goes to the next line with a text, or to the one before; 0: stays if the line has it. Returns whether a line has it. */
+  /** Goes to the next (1) or previous (-1) line that contains a text. 0: stays if the current line contains it. Returns whether a line was found. */
   onFind: (text: string, by: 1 | -1 | 0) => boolean = () => false;
   onClose: () => void = () => {};
 
@@ -25,7 +25,7 @@ export class Find {
       else return;
       event.preventDefault();
     };
-    // a longer text is found from where the shorter one was
+    // while a text is typed, the search starts at the current line
     this.field.oninput = () => this.go(0);
   }
 

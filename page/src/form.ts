@@ -1,4 +1,4 @@
-// The parts of the page that need a form and a job: the editor, the properties, the posts to begin with, the stock, the times of the machine.
+// The parts of the page for a form and a job: the editor, the properties, the posts for an empty form, the stock, the times of the machine.
 
 import "./form.css";
 import { explain, layOut } from "./asked.ts";

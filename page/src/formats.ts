@@ -1,8 +1,8 @@
-// Where the words of a block get their looks: the letter formats and the commands of the form.
+// Finds the lines of the form that determine the words of a block: letter formats and commands.
 
 import type { Place } from "./scene.ts";
 
-/** Commands that decide on words, by how the words begin. */
+/** Commands that determine words, by a pattern for the beginning of the word. */
 const COMMANDS: [word: RegExp, commands: string[]][] = [
   [/^N\d/, ["Sequence#s"]],
   [/^[IJKR][-+.\d]/, ["CtrCode", "CtrIncremental?", "ByQuadrants?"]],
@@ -22,7 +22,7 @@ const COMMANDS: [word: RegExp, commands: string[]][] = [
   [/^(G5[4-9]|E\d)/, ["Work", "MoreWork"]],
 ];
 
-/** A line of the form that decides on a word. */
+/** A line of the form that determines a word. */
 export interface Source {
   word: string;
   file: number;
@@ -30,7 +30,7 @@ export interface Source {
   text: string;
 }
 
-/** The lines that decide on the words of a block; `texts` are those of the files. */
+/** The form lines that determine the words of a block; `texts` are those of the form's files. */
 export function sourcesOf(block: string, formats: Record<string, Place>, texts: string[]): Source[] {
   const words = block.replace(/\([^)]*\)?|;.*/g, " ").match(/[A-Z][-+.\d]+/gi) ?? [];
   const found: Source[] = [];

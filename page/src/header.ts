@@ -4,7 +4,7 @@ import { element } from "./element.ts";
 import { base, jobName } from "./names.ts";
 import type { Finding, Head, Verdict } from "./scene.ts";
 
-/** In place of a verdict. */
+/** A text that is shown in place of a verdict. */
 export function without(text: string): Verdict {
   return { kind: "none", text, line: 0, help: "", allowed: [], findings: [] };
 }
@@ -19,7 +19,7 @@ export class Header {
   private readonly tabs = element("div", { class: "tabs", role: "tablist", "aria-label": "Jobs" });
   private names: string[] = [];
   onJob: (job: number) => void = () => {};
-  /** The names of the tabs, and the shown one. */
+  /** Called with the names of the tabs and the shown tab. */
   onTabs: (names: string[], job: number) => void = () => {};
 
   constructor() {
@@ -30,7 +30,7 @@ export class Header {
     return this.tabs.childElementCount;
   }
 
-  /** Names, counts and tabs. Returns whether there are other tabs than before. */
+  /** Shows names, counts and tabs. Returns whether the tabs changed. */
   show(head: Head, job: number): boolean {
     const form = head.form?.files[0];
     const names = [form && base(form), head.job.name && base(head.job.name)].filter(Boolean);
@@ -53,11 +53,11 @@ export class Header {
     return changed;
   }
 
-  /** How many findings there are, and the first of them. */
+  /** Shows the number of findings, and the first one. */
   private showLint({ form, notes: printed = [], picture }: Head): void {
     this.lint.hidden = !form;
     if (!form) return;
-    // of the form, and of printing the job with it
+    // findings of the form, and of printing the job with it
     const of = (severity: Finding["severity"], ofForm: number) => ofForm + printed.filter((found) => found.severity === severity).length;
     // and a block that the control refuses
     const refused = picture?.refused;
@@ -72,12 +72,12 @@ export class Header {
     this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
   }
 
-  /** Other jobs: their tabs come with the next scene. */
+  /** Forgets the tabs: those of the new jobs come with the next scene. */
   forgetJobs(): void {
     this.tabs.replaceChildren();
   }
 
-  /** The mark of a job that is shown or not. */
+  /** Sets the mark in the tab of a job. */
   mark(job: number, verdict: Verdict | undefined): void {
     const mark = this.tabs.children[job]?.querySelector("span");
     if (!mark) return;
@@ -87,7 +87,7 @@ export class Header {
     this.tabs.children[job].setAttribute("title", verdict?.text ?? "");
   }
 
-  /** The verdict of the job that is shown, or why it has no program. */
+  /** Shows the verdict of the current job, or why it has no program. */
   tell(job: number, verdict: Verdict | undefined, stopped?: Head["stopped"]): void {
     const class_ = { proven: "ok", unproven: "warn", different: "bad", none: "dim" }[verdict?.kind ?? "none"];
     this.verdict.className = `verdict ${stopped ? "bad" : class_}`;
@@ -96,13 +96,13 @@ export class Header {
     this.mark(job, stopped ? undefined : verdict);
   }
 
-  /** Errors of the form are named beside it, by the counts. */
+  /** The text of the verdict. The counts of findings already show the errors of the form. */
   private words(verdict: Verdict | undefined, stopped?: Head["stopped"]): string {
     if (!stopped) return verdict?.text ?? "";
     return stopped.by === "form" ? "no program: the form has errors" : `no program: ${stopped.findings[0]?.message ?? stopped.message}`;
   }
 
-  /** Whether the program fits its machine; null: it is unknown. */
+  /** Shows whether the program fits its machine; null: unknown. */
   showFit(fit: Head["fit"] | null): void {
     this.fit.hidden = !fit;
     this.fit.className = `fit ${fit?.kind ?? "dim"}`;

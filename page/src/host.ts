@@ -1,13 +1,13 @@
-// Who renders: the program that serves the page, or the page itself.
+// The host that renders programs: the server of the page, or the page itself.
 
 import { lengthOf, type Place, type Verdict } from "./scene.ts";
 
 export interface Ask {
-  /** Which job, from 0. */
+  /** The job, from 0. */
   job: number;
-  /** Texts of forms that are not saved, by their names. */
+  /** Unsaved texts of forms, by their names. */
   texts: Record<string, string>;
-  /** The program that is shown already: it need not be sent again. */
+  /** The identifier of the program that the page already shows: it need not be sent again. */
   shown?: string | null;
   /** The hashes of the sections that the page has. */
   has?: Record<string, string>;
@@ -15,7 +15,7 @@ export interface Ask {
   properties?: [string, string][];
 }
 
-/** A place in a form, and what is asked of it: line and column from 0. */
+/** A location in a form and the kind of request; line and column from 0. */
 export interface At {
   file: string;
   line: number;
@@ -37,28 +37,28 @@ export interface Added {
 }
 
 export interface Host {
-  /** A scene, and after that of a long program what took longer than its picture: the verdict, and what changed. */
+  /** Sends a scene. For a long program, later scenes contain the results that take longer than its picture: the verdict, and the changes. */
   scenes(ask: Ask): AsyncIterable<ArrayBuffer>;
-  /** What is known of a place in a form; null: nothing. */
+  /** The help for a location in a form; null: there is none. */
   help(ask: Ask, at: At): Promise<Help | null>;
-  /** The verdict of a job with the forms as they are saved. */
+  /** The verdict of a job with the saved forms. */
   verdict(job: number, properties: [string, string][]): Promise<Verdict>;
-  /** Writes a form. Null: it is written; else why not. */
+  /** Writes a form. Null: it was written; otherwise the reason why not. */
   save?(name: string, text: string, was: string): Promise<string | null>;
   /** Opens another job. */
   add?(name: string, bytes: Uint8Array): Promise<Added>;
   /** Closes a job of this name. */
   close?(job: number, name: string): Promise<void>;
-  /** What is typed is kept without being saved. */
+  /** Typed text is kept even if it is not saved. */
   readonly keeps?: boolean;
-  /** Something was changed elsewhere. */
+  /** Sets a function that is called when a file was changed elsewhere. */
   onChange?(changed: (connected: boolean) => void): void;
 }
 
-/** The form itself is not there any more. */
+/** The form's file no longer exists. */
 export class Gone extends Error {}
 
-/** `postform watch`. */
+/** The host of `postform watch`. */
 export class Server implements Host {
   private readonly base = location.pathname.replace(/[^/]*$/, "");
 
@@ -98,12 +98,12 @@ export class Server implements Host {
       events.addEventListener("changed", () => changed(true));
       events.onerror = () => changed(false);
       events.onopen = () => {
-        // what happened while the page was hidden, or postform was not there, is unknown
+        // there may have been changes while the page was hidden or postform was not running
         if (opened) changed(true);
         opened = true;
       };
     };
-    // a browser has six connections to a server for all its tabs: a tab that is not seen takes none
+    // a browser allows six connections to a server for all its tabs, so a hidden tab uses none
     document.addEventListener("visibilitychange", () => {
       if (document.hidden) {
         events?.close();
@@ -137,7 +137,7 @@ async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGen
     for (;;) {
       const length = lengthOf(bytes.subarray(0, filled));
       if (length !== null && filled >= length) {
-        // a buffer of just this scene is not copied
+        // a buffer that contains only this scene is not copied
         yield length === bytes.length ? bytes.buffer : bytes.slice(0, length).buffer;
         bytes = bytes.slice(length, filled);
         filled = bytes.length;
@@ -158,7 +158,7 @@ async function* split(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGen
       filled += value.length;
     }
   } finally {
-    // a page that is left has lost its connection already
+    // if the page was closed, the connection has already ended
     reader.cancel().catch(() => {});
   }
 }

@@ -1,4 +1,4 @@
-// Jobs that are opened in tabs and closed again.
+// Opens jobs in tabs, and closes them.
 
 import { element } from "./element.ts";
 import type { Host } from "./host.ts";
@@ -9,7 +9,7 @@ import { JOBS, openButton } from "./opening.ts";
 export class JobTabs {
   private readonly closing = element("button", { title: "Close this job" }, "×");
 
-  /** Adds buttons behind the tabs of a page. */
+  /** Adds buttons after the tabs of a page. */
   constructor(private readonly page: Page, private readonly host: Required<Pick<Host, "add" | "close">>) {
     const { header } = page;
     header.root.append(element("span", { class: "acts-of-jobs" }, openButton("+", "Open another job", JOBS, (files) => void this.open(files)), this.closing));
@@ -19,7 +19,7 @@ export class JobTabs {
     };
   }
 
-  /** Opens jobs in tabs of their own, and shows the last one. */
+  /** Opens jobs in separate tabs, and shows the last one. */
   async open(files: File[]): Promise<void> {
     const { page } = this;
     const close: [string, () => void] = ["close", () => page.say("")];

@@ -1,4 +1,4 @@
-// Key functions outside the form.
+// The keys of the page outside the form.
 
 import { VIEWS } from "./backplot/camera.ts";
 import { element } from "./element.ts";
@@ -32,14 +32,14 @@ export function keys(page: Page): void {
   close.onclick = () => help.close();
   document.body.append(help);
   page.keysButton.onclick = () => help.showModal();
-  // a clicked button loses the focus, so that space and letters stay keys of the page
+  // a clicked button loses the focus, so that space and letters still control the page
   document.addEventListener("click", (event) => {
     const button = (event.target as HTMLElement).closest("button");
     if (event.detail > 0 && button && button === document.activeElement && !button.closest("dialog, .cm-editor")) page.listing.focus();
   });
   document.addEventListener("keydown", (event) => {
     if (event.key === "s" && (event.ctrlKey || event.metaKey)) {
-      // the form saves by itself where it has the focus
+      // if the form has the focus, its own key function saves it
       if (!event.defaultPrevented) void page.save();
       return event.preventDefault();
     }

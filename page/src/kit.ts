@@ -1,4 +1,4 @@
-// What a form without text begins with: a post of the kit.
+// Offers posts of the kit for a form without text.
 
 import { element } from "./element.ts";
 
@@ -29,7 +29,7 @@ export class Kit {
     }));
   }
 
-  /** A post of the kit prints both units, or those of its machine. */
+  /** The text of a post for the selected units. */
   private inUnits(text: string): string {
     return this.units.value === "both" ? text : text.replace(/^Units both$/m, `Units ${this.units.value}`);
   }

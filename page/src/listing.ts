@@ -1,4 +1,4 @@
-// The program pane: only visible lines are elements, so that a million lines can be scrolled.
+// The program pane. Only visible lines are elements of the page, so that a million lines can be scrolled.
 
 import { download } from "./download.ts";
 import { element } from "./element.ts";
@@ -9,7 +9,7 @@ import { Rows } from "./rows.ts";
 import type { Hunks } from "./scene.ts";
 
 const ROW = 20;
-/** Browsers lay out no more pixels than this; scrolling of a longer program is scaled. */
+/** Maximum height of the list in pixels: browsers do not lay out more. Scrolling of a longer program is scaled. */
 const TALLEST = 8_000_000;
 
 export class Listing {
@@ -28,13 +28,13 @@ export class Listing {
   private line = 0;
   private lit = new Set<number>();
   private asked = 0;
-  /** The selected block was scrolled into view, and the user has not scrolled since. */
+  /** The selected block was scrolled into view, and the user has not scrolled since then. */
   private follows = false;
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
-  /** A line was found: it is to be chosen and shown. */
+  /** Called when a line was found, which must be selected and shown. */
   onFound: (line: number) => void = () => {};
-  /** The name under which the program is saved. */
+  /** The file name for saving the program. */
   fileName = "program.nc";
   readonly find = new Find();
 
@@ -50,7 +50,7 @@ export class Listing {
     this.find.onClose = () => this.focus();
     this.view.onscroll = () => this.redraw();
     new ResizeObserver(() => {
-      // the note about the selected block makes the list smaller: the block stays visible
+      // the note about the selected block makes the list smaller, but the block must stay visible
       if (this.follows) this.reveal(this.line);
       this.redraw();
     }).observe(this.view);
@@ -62,7 +62,7 @@ export class Listing {
     this.rows.onclick = (event) => {
       const line = lineOf(event);
       if (!line) return;
-      // the keys are those of the page from here on
+      // from here on, keys control the page
       this.view.focus({ preventScroll: true });
       this.onPick(line);
     };
@@ -159,7 +159,7 @@ export class Listing {
     if (this.line) this.view.setAttribute("aria-activedescendant", `block-${this.line}`);
   }
 
-  /** A block of the old program that is gone. */
+  /** A block that only the old program has. */
   private gone(line: number): HTMLElement {
     return element("div", { class: "ln gone", role: "option", "aria-disabled": "true", "aria-selected": "false", title: `line ${line} of the old program is gone` }, element("i", {}, "−"), element("s", {}, this.old?.text(line) ?? ""));
   }
@@ -181,7 +181,7 @@ export class Listing {
   }
 }
 
-/** Comments are dimmed. */
+/** Splits a block into its parts; comments are dimmed. */
 function words(text: string): (Node | string)[] {
   const parts = text.slice(0, 400).split(/(\([^)]*\)?)/);
   return parts.filter(Boolean).map((part) => (part.startsWith("(") ? element("span", { class: "rem" }, part) : part));

@@ -1,4 +1,4 @@
-// The page: three panes with one cursor.
+// The page: three panes that show the same selected block.
 
 import "./style.css";
 import { Backplot } from "./backplot/pane.ts";
@@ -22,10 +22,10 @@ import { Timeline } from "./timeline.ts";
 const PROVING = without("proving…");
 const CHECKING = without("checking…");
 
-/** What the server answers for a tab that is closed. */
+/** The server's answer for a tab that was closed. */
 const NO_JOB = "there is no such job";
 
-/** A rapid through stock. */
+/** The finding about a rapid through stock. */
 const CRASH = { text: "this rapid goes through stock that is not cut yet", help: "the stock is the box of the cuts, up to the top of the part: look whether the tool is high enough" };
 
 /** The message of an error from the server, in one line. */
@@ -36,7 +36,7 @@ export function plain(error: unknown): string {
 
 type From = "form" | "program" | "path" | "key" | "finding" | "time";
 
-/** Milliseconds between two blocks that are shown while the timeline plays. */
+/** Milliseconds between two blocks that the program pane shows while the timeline plays. */
 const PACE = 100;
 
 export class Page {
@@ -53,22 +53,22 @@ export class Page {
   private readonly banner = element("div", { class: "banner", role: "alert", hidden: "" });
 
   private head: Head | null = null;
-  /** The scene that brought the shown program. */
+  /** The scene with the program that is shown. */
   private shown: Scene | null = null;
   program: Program | null = null;
   private old: Program | null = null;
   private line = 1;
   private job = 0;
-  /** The texts on the disk, and the typed texts that are not saved. */
+  /** The texts on the disk, and the typed texts that are not saved yet. */
   private saved: Record<string, string> = {};
   private typed: Record<string, string> = {};
   /** The tools of the job, as far as they are known. */
   private sizes: ToolSize[] = [];
   /** Lines whose rapids go through the stock. */
   private crashes = new Set<number>();
-  /** Files that were changed on the disk and here; the user has not yet chosen which text to keep. */
+  /** Files that were changed both on the disk and here, until the user has chosen which text to keep. */
   private readonly conflicts = new Set<string>();
-  /** Shown in place of a verdict while the shown text has none: it is being checked, or the check failed. */
+  /** Replaces the verdict while the current text has none, because the check is running or has failed. */
   private unchecked: Verdict | null = null;
   private running = false;
   private again: { key: number } | null = null;
@@ -76,7 +76,7 @@ export class Page {
   /** The last keystrokes, with the milliseconds until the new picture and the new verdict were painted. */
   readonly painted: { key: number; picture: number; verdict: number }[] = [];
 
-  /** Without a host the page shows one scene; without an editor it has two panes. */
+  /** Without a host, the page shows one scene. Without a form side, it has two panes. */
   constructor(private readonly host: Host | null, private readonly form: FormSide | null) {
     this.editor = form?.editor ?? null;
     this.backplot = new Backplot(form?.solid ?? null);
@@ -141,7 +141,7 @@ export class Page {
     }
     this.host?.onChange?.((connected) => {
       if (connected) {
-        // the scene takes the message of a failure away; others stay
+        // the next scene removes the message of a failure; other messages stay
         void this.load();
       } else this.failed("postform has ended, or can't be reached");
     });
@@ -168,7 +168,7 @@ export class Page {
     }));
   }
 
-  /** Requests the scene again; if a request is running, once more after it. */
+  /** Requests a scene. If a request is running, another one follows after it. */
   async load(key = 0): Promise<void> {
     if (!this.host) return;
     this.pend(CHECKING);
@@ -182,16 +182,16 @@ export class Page {
       const before = this.shown;
       const asked = this.job;
       for await (const bytes of this.host.scenes({ job: this.job, texts: this.typed, properties: (this.form?.properties.set ?? []), shown: this.program && this.shown?.head.program, has: before?.head.hashes })) {
-        // another job was chosen in the meantime
+        // another job was selected in the meantime
         if (this.job !== asked) break;
         const scene = new Scene(bytes, before);
-        // a verdict of what was there before the last key is none of what is there now
+        // a verdict from before the last keystroke does not apply to the current text
         if (!this.again) this.unchecked = null;
         if (!shown) this.show(scene);
         else this.tellMore(scene);
         shown ??= scene.head;
         if (key) this.measure(key, !!(this.head?.verdict ?? this.head?.stopped));
-        // the text that was typed in the meantime comes first
+        // text that was typed in the meantime is checked first
         if (this.again) break;
       }
     } catch (error) {
@@ -207,7 +207,7 @@ export class Page {
     if (again) void this.load(again.key);
   }
 
-  /** No verdict is valid any more: neither of this job nor, if the form was changed, of the others. */
+  /** Marks verdicts as pending: that of this job and, if the form has unsaved text, those of the other jobs. */
   private pend(text: Verdict): void {
     this.unchecked = text;
     document.body.classList.add("pending");
@@ -219,7 +219,7 @@ export class Page {
     }
   }
 
-  /** The text can't be checked: shows the reason and the possible actions. */
+  /** Called if the text can't be checked: shows the reason and the possible actions. */
   private failed(why: string, gone = false): void {
     this.pend(without("not checked"));
     const again: [string, () => void] = ["try again", () => void this.load()];
@@ -232,10 +232,10 @@ export class Page {
   }
 
   private sayingFailed = false;
-  /** A text was typed. */
+  /** Called when text was typed. */
   onTyped: () => void = () => {};
 
-  /** Writes a deleted form with the text that is shown. */
+  /** Writes a deleted form again, with the text that is shown. */
   private async writeAgain(): Promise<void> {
     const name = this.head?.form?.files[0];
     if (!name) return;
@@ -247,7 +247,7 @@ export class Page {
     await this.load();
   }
 
-  /** Results for the shown program that take longer than its picture: the verdict, the changes. */
+  /** Handles later results for the shown program: the verdict and the changes, which take longer than its picture. */
   private tellMore(scene: Scene): void {
     const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = scene.head;
     Object.assign(this.head!, { verdict, fit, saved, against, toolSizes });
@@ -273,14 +273,14 @@ export class Page {
     this.head = head;
     const first = !this.program;
     this.takeTexts(head);
-    // the same program is not sent again
+    // an unchanged program is not sent again
     if (head.same) {
       const { picture, "old/picture": old, toolSizes } = this.shown?.head ?? {};
       Object.assign(head, { picture, "old/picture": old, toolSizes: head.toolSizes ?? toolSizes });
     } else if (head.picture) this.shown = scene;
     document.body.classList.toggle("stale", !!head.stopped);
     if (head.same) {
-      // as it was
+      // the program stays
     } else if (head.picture) {
       this.crashes = new Set();
       this.program = new Program(scene, "", this.program);
@@ -293,12 +293,12 @@ export class Page {
     this.mark();
     if (first && this.program) this.line = this.firstLine();
     this.line = Math.min(this.line, Math.max(1, this.program?.lines ?? 1));
-    // the form stays at its first line
+    // at first, the form stays at its first line
     this.choose(this.line, "form", first);
     if (first || tabsChanged) void this.otherVerdicts();
   }
 
-  /** The first difference; otherwise the first cut, preferably one that the form printed. */
+  /** The line to select first: the first difference, otherwise the first cut, preferably one that the form printed. */
   private firstLine(): number {
     const difference = this.head?.verdict?.findings[0]?.line || this.head?.picture?.refused?.line;
     if (difference) return difference;
@@ -355,7 +355,7 @@ export class Page {
     for (let job = 0; job < this.header.jobs; job++) {
       if (job === this.job || !this.host) continue;
       const verdict = await this.host.verdict(job, (this.form?.properties.set ?? [])).catch((error) => without(plain(error)));
-      // the tabs, the form or its properties are others now
+      // the tabs, the form or its properties have changed in the meantime
       if (run !== this.verdictRun) return;
       this.header.mark(job, verdict);
     }
@@ -442,7 +442,7 @@ export class Page {
     this.foot.textContent = (hovers ? "pointer at " : "") + whereOf(program, line);
   }
 
-  /** Buttons for the lines of the form that determine the words of a block; a click goes to the line. */
+  /** Buttons for the form lines that determine the words of a block; a click shows the line. */
   private decidedBy(line: number): HTMLElement[] {
     const head = this.head?.form;
     if (!this.editor || !head?.formats || !this.program) return [];
@@ -470,13 +470,13 @@ export class Page {
     return this.head?.form?.files.indexOf(this.editor?.name ?? "") ?? 0;
   }
 
-  // what keys do
+  // functions of the keys
 
   step(by: number): void {
     this.choose(this.line + by, "key");
   }
 
-  /** Selects the next block for which `same` is false. */
+  /** Selects the next block at which `same` is false. */
   seek(by: number, same: (a: number, b: number) => boolean): void {
     const last = this.program?.lines ?? 0;
     for (let line = this.line + by; line >= 1 && line <= last; line += by) {
@@ -524,7 +524,7 @@ export class Page {
     this.timeline.toggle();
   }
 
-  /** Begins again with other files of the host and with unsaved texts. */
+  /** Starts again with other files of the host and with unsaved texts. */
   async reopen(typed: Record<string, string>): Promise<void> {
     this.program = this.old = this.head = this.shown = null;
     [this.job, this.line, this.saved, this.typed] = [0, 1, {}, { ...typed }];

@@ -23,7 +23,7 @@ export function marksOf(head: Head, old: Program | null): Marks {
     for (let line = from; line < Math.max(to, from + 1); line++) marks.saved.add(line + 1);
   }
   for (const [oldFrom, oldTo, from, to] of head.against?.hunks ?? []) {
-    // block by block; the rest of the old program is shown after the last line
+    // block by block; the remaining old blocks are shown after the last line
     for (let line = from; line < Math.max(to, from + 1); line++) {
       const first = oldFrom + line - from;
       const last = line + 1 >= to ? oldTo : Math.min(first + 1, oldTo);
@@ -39,7 +39,7 @@ export function marksOf(head: Head, old: Program | null): Marks {
   return marks;
 }
 
-/** The stops for stepping through the marks: the first line of each run. */
+/** The lines at which stepping through the marks stops: the first line of each run. */
 export function stops(marks: Marks): number[] {
   const runs = [...marks.bad.keys(), ...starts(marks.against.keys()), ...starts(marks.saved)];
   return [...new Set(runs)].sort((a, b) => a - b);

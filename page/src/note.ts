@@ -6,7 +6,7 @@ import { itemPath, type Program } from "./program.ts";
 import { repeats } from "./repeats.ts";
 import type { Finding, Fit, Verdict } from "./scene.ts";
 
-/** Proposed form words for blocks that postform makes itself, by the text of the block. */
+/** Proposed form words for generated blocks, by the text of the block. */
 const OWN: [RegExp, string][] = [
   [/^[(;]/, "CommentLine, or [optext] in Operation"],
   [/^M0?0$/, "Stop"],

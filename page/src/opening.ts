@@ -1,24 +1,24 @@
-// Files that are opened: by a button, or dropped onto the page.
+// Opens files with a button, or files that are dropped onto the page.
 
 import { element } from "./element.ts";
 
-/** The ends of names of jobs. */
+/** The file name extensions of jobs. */
 export const JOBS = ".json,.jsonl,.cl,.apt,.cls,.nci,.FCStd,.nc,.ngc,.tap,.eia,.min,.mpf,.h,.gz";
 
-/** A button that asks for files. */
+/** A button that opens files. */
 export function openButton(text: string, title: string, accept: string, open: (files: File[]) => void): HTMLElement {
   const input = element("input", { type: "file", multiple: "", hidden: "", accept });
   const button = element("button", { title }, text);
   button.onclick = () => input.click();
   input.onchange = () => {
     open([...(input.files ?? [])]);
-    // the same file can be opened again
+    // so that the same file can be opened again
     input.value = "";
   };
   return element("span", {}, button, input);
 }
 
-/** Opens files that are dropped anywhere. */
+/** Opens files that are dropped anywhere on the page. */
 export function takeDrops(text: string, open: (files: File[]) => void): void {
   const drop = element("div", { class: "drop", hidden: "" }, text);
   document.body.append(drop);

@@ -1,10 +1,10 @@
-// Panes side by side, with handles between them: a pane is as wide as its handle is dragged, and hidden where that leaves no room.
+// Panes side by side, with handles between them. Dragging a handle sets the widths; a pane that becomes too narrow is hidden.
 
 import { element } from "./element.ts";
 
-/** Narrower panes are hidden, in pixels. */
+/** Minimum width of a pane in pixels; a narrower pane is hidden. */
 const LEAST = 90;
-/** Pixels a key moves a handle. */
+/** Pixels by which a key moves a handle. */
 const STEP = 24;
 /** Milliseconds between the two presses of a double click. */
 const DOUBLE = 400;
@@ -13,7 +13,7 @@ const KEPT = "postform-panes";
 /** Puts handles between the panes of a row. */
 export function withHandles(row: HTMLElement, panes: HTMLElement[]): void {
   const key = `${KEPT}-${panes.length}`;
-  /** Shares of the width, one for each pane; null: those of the style sheet. */
+  /** The share of the width for each pane; null: the widths of the style sheet. */
   let shares: number[] | null = kept(key, panes.length);
   const apply = () => {
     row.style.gridTemplateColumns = shares ? shares.map((share) => (share > 0 ? `minmax(0, ${share}fr)` : "0px")).join(" 5px ") : "";
@@ -27,7 +27,7 @@ export function withHandles(row: HTMLElement, panes: HTMLElement[]): void {
       if (made) localStorage.setItem(key, JSON.stringify(made));
       else localStorage.removeItem(key);
     } catch {
-      // a page that was opened as a file keeps nothing
+      // a page that was opened as a file can't store anything
     }
   };
   panes.forEach((pane, i) => {
@@ -43,7 +43,7 @@ export function withHandles(row: HTMLElement, panes: HTMLElement[]): void {
       [widths[i], widths[i + 1]] = [left, both - left];
       set(widths.map(Math.round));
     };
-    // a pointer that is held for a drag makes no double click in every browser
+    // in some browsers, a captured pointer gives no double click event
     let pressed = -Infinity;
     handle.onpointerdown = (event) => {
       event.preventDefault();

@@ -1,4 +1,4 @@
-// postform in a thread of its own: the page stays responsive while a long program is printed and proven.
+// Runs postform in a separate thread, so that the page stays responsive while a long program is printed and proven.
 
 import { run } from "./wasi.ts";
 

@@ -1,4 +1,4 @@
-// The playground: the same page, with postform in it as WebAssembly. Files stay in the browser.
+// The playground: the same page with postform as WebAssembly. Files stay in the browser.
 
 import { get, set } from "idb-keyval";
 import { download } from "./download.ts";
@@ -19,12 +19,12 @@ const EXAMPLES: Record<string, [form: string, job: string]> = {
   "wire EDM": ["wire-edm.pf", "wire.json"],
   "FreeCAD document": ["linuxcnc.pf", "bracket.FCStd"],
 };
-/** Where the browser keeps what was opened and typed. */
+/** The key under which the browser stores opened and typed texts. */
 const KEPT = "postform";
 const DOCS = "https://docs.rs/postform";
-/** Milliseconds after a key before typed text is kept. */
+/** Milliseconds after a keystroke before typed text is stored. */
 const PAUSE = 300;
-/** Longer links are cut off by some programs. */
+/** Maximum length of a link; some programs cut longer links off. */
 const LONG = 32_000;
 
 interface Kept {
@@ -71,14 +71,14 @@ class Playground {
     Object.assign(window, { page: this.page, host: this.host });
   }
 
-  /** The files of an example in place of all others. */
+  /** Replaces all files by those of an example. */
   private async example(name: string): Promise<void> {
     const files = await Promise.all(EXAMPLES[name].map(async (name) => ({ name, bytes: await load(name) })));
     this.host.clear();
     files.forEach((file) => this.host.take(file));
   }
 
-  /** What the page is, and what can be done. */
+  /** The introduction of the page: what it is, and what the user can do. */
   private front(): HTMLElement {
     const examples = element("select", { "aria-label": "Example" }, element("option", { value: "" }, "examples…"), ...Object.keys(EXAMPLES).map((name) => element("option", {}, name)));
     examples.onchange = async () => {
@@ -112,7 +112,7 @@ class Playground {
     const job = this.host.jobs[this.page.shownJob];
     if (job.bytes.includes(0)) return void this.say("the job is no text: it can't be put into a link");
     const forms = [this.host.form, ...this.host.others].map((file) => ({ name: file.name, text: this.page.texts[file.name] ?? decoder.decode(file.bytes) }));
-    // the form comes last, as the file that was opened last is the form
+    // the form is last, because the last opened form is shown
     const link = await linkOf({ files: [...forms.slice(1), forms[0], { name: job.name, text: decoder.decode(job.bytes) }] });
     await navigator.clipboard.writeText(link).catch(() => prompt("The link:", link));
     this.say(link.length > LONG ? `copied; the link has ${Math.round(link.length / 1000)} KB, and some programs cut it off` : "the link is copied");

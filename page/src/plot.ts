@@ -1,4 +1,4 @@
-// A page of `postform plot`: one file, with its scene in it.
+// A page of `postform plot`: one file that contains its scene.
 
 import { Page } from "./main.ts";
 import { Scene } from "./scene.ts";

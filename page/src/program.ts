@@ -25,7 +25,7 @@ export interface Item {
 
 export class Program {
   readonly path: Path | null;
-  /** Byte offset of each line, and the end. */
+  /** Byte offset of each line, and of the end. */
   private readonly starts: Uint32Array;
   private readonly bytes: Uint8Array;
   private readonly lineForm: Int32Array;
@@ -39,7 +39,7 @@ export class Program {
   private readonly stands: Uint32Array;
   private readonly decoder = new TextDecoder();
 
-  /** `before`: the program shown until now; if it is the same, its computed data is used again. */
+  /** `before`: the program that was shown until now. If it is the same program, its computed data is used again. */
   constructor(private readonly scene: Scene, of = "", before: Program | null = null) {
     this.lineForm = of ? new Int32Array() : scene.array("lineForm", Int32Array);
     this.lineItem = of ? new Uint32Array() : scene.array("lineItem", Uint32Array);
@@ -87,9 +87,9 @@ export class Program {
     return this.decoder.decode(this.bytes);
   }
 
-  /** The next line that contains a text, in any case of letters, after a line or before it, round the end; 0: none does. */
+  /** The next line after (1) or before (-1) a line that contains a text, in upper or lower case, continuing at the other end. 0: there is none. */
   find(text: string, from: number, by: 1 | -1): number {
-    // a letter a byte: positions in the text are bytes
+    // one character per byte, so that positions in the text are bytes
     this.upper ??= new TextDecoder("latin1").decode(this.bytes).toUpperCase();
     const wanted = new TextDecoder("latin1").decode(new TextEncoder().encode(text)).toUpperCase();
     if (!wanted) return 0;
@@ -142,7 +142,7 @@ export class Program {
     return { operation: operation & 0x7fffffff, subprogram: operation >= 0x80000000, item, point, jobLine };
   }
 
-  /** Do two lines come from one item of the job? */
+  /** Are two lines from one item of the job? */
   sameItem(a: number, b: number): boolean {
     const [i, j] = [(a - 1) * 4, (b - 1) * 4];
     return this.lineItem[i] === this.lineItem[j] && this.lineItem[i + 1] === this.lineItem[j + 1];
@@ -176,7 +176,7 @@ export class Program {
   position(line: number): (Held | null)[] {
     const path = this.path;
     if (!path) return [null, null, null];
-    // if rotary axes move, the points are positions on the part
+    // for rotary moves, the points are positions on the part
     const { ends } = path;
     const value = (move: number, axis: number) => ends.length ? ends[move * 3 + axis] : path.points[path.first[move + 1] * 3 + axis];
     const middle = ends.length ? [0, 0, 0] : path.head.middle;
@@ -223,7 +223,7 @@ function lineStarts(bytes: Uint8Array): Uint32Array {
   return starts;
 }
 
-/** The changes, separated by register. */
+/** The changes of the modal state, separated by register. */
 function changesOf(scene: Scene, of: string) {
   const line = scene.array(`${of}changeLine`, Uint32Array);
   const register = scene.array(`${of}changeRegister`, Uint8Array);
@@ -241,7 +241,7 @@ function changesOf(scene: Scene, of: string) {
   return all.map(inOrder);
 }
 
-/** Sorts changes by line, because subprograms and loops go back. If a line is run more than once, the last run is used. */
+/** Sorts changes by line, because subprograms and loops go back in the program. If a line runs more than once, its last run is used. */
 function inOrder(changes: { line: Uint32Array; value: Float64Array }) {
   const { line, value } = changes;
   if (line.every((at, i) => i === 0 || line[i - 1] <= at)) return changes;

@@ -1,4 +1,4 @@
-// The properties of a form: yes or no, a choice, a number, a text. What is set here is shown at once, and is not written into the form.
+// The properties of a form: yes or no, a choice, a number, a text. A changed value is shown at once, but is not written into the form.
 
 import { element } from "./element.ts";
 
@@ -14,7 +14,7 @@ export class Properties {
   readonly button = element("button", { class: "toggle", "aria-expanded": "false", title: "The properties of the form: what `--set` sets", hidden: "" });
   readonly root = element("div", { class: "properties", role: "group", "aria-label": "Properties of the form", hidden: "" });
   private shown = "";
-  /** Values other than the defaults, by the names of their properties. */
+  /** Values that differ from the defaults, by property name. */
   private values = new Map<string, string>();
   onChange: () => void = () => {};
 
@@ -25,7 +25,7 @@ export class Properties {
     };
   }
 
-  /** The names and values that are set. */
+  /** Names and values that differ from the defaults. */
   get set(): [string, string][] {
     return [...this.values];
   }

@@ -10,7 +10,7 @@ export interface Repeat {
   why: string;
 }
 
-/** The words of the form line that are missing in the block, with the value in force. */
+/** The words of the form line that are missing in the block, with their active values. */
 export function repeats(formLine: string, block: string, program: Program, line: number): Repeat[] {
   const printed = new Set([...block.replace(/\([^)]*\)?/g, "").matchAll(/[A-Z]/g)].map((found) => found[0]));
   const gone: Repeat[] = [];
@@ -30,8 +30,8 @@ export function repeats(formLine: string, block: string, program: Program, line:
   return gone;
 }
 
-/** A literal code must be equal. A code from a variable may be any code; it is only missing if the block contains none of its
- * letter. */
+/** A literal code must be equal. A code from a variable may be any code, so it is missing only if the block contains no code of
+ * its letter. */
 function hasCode(block: string, word: string, variable: string): boolean {
   if (variable.startsWith("[")) return block.includes(word[0]);
   return new RegExp(`${word[0]}0*${variable.replace(".", "\\.")}(?![0-9.])`).test(block);

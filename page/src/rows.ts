@@ -1,17 +1,17 @@
-// The rows of the program pane: the lines of the program, and between them the blocks of an old program that are gone.
+// The rows of the program pane: the lines of the program, and between them the blocks that only the old program has.
 
 import type { Hunks } from "./scene.ts";
 
-/** More rows of an old program are left out. */
+/** Maximum number of rows of the old program; further ones are left out. */
 const MOST = 10_000;
 
-/** Blocks of the old program that are gone, after a line of the new one. */
+/** Blocks of the old program that the new one lacks, and the line of the new one after which they are shown. */
 interface Gone {
   after: number;
-  /** First line of the old program, from 1, and how many there are. */
+  /** The first of these lines in the old program, from 1, and their number. */
   old: number;
   count: number;
-  /** The row of the first of them, from 0. */
+  /** The row of the first block, from 0. */
   row: number;
 }
 
@@ -40,7 +40,7 @@ export class Rows {
     return line - 1 + before;
   }
 
-  /** The line at a row, or the line of the old program that is gone. */
+  /** The line at a row, or the line of the old program. */
   at(row: number): { line: number } | { old: number } {
     let before = 0;
     for (const gone of this.gone) {

@@ -35,11 +35,11 @@ export interface Verdict {
   findings: Difference[];
 }
 
-/** The fit of the program in its machine. */
+/** Whether the program fits its machine. */
 export interface Fit {
   kind: "ok" | "warn" | "bad";
   text: string;
-  /** Its time, the allowed values of unknown offsets or lengths, and everything that is not checked. */
+  /** The time, the allowed ranges of unknown offsets and lengths, and everything that is not checked. */
   more: string[];
   findings: (Difference & { severity: "error" | "warning" })[];
 }
@@ -53,7 +53,7 @@ interface Said {
 
 export interface PictureHead {
   units: "mm" | "inch";
-  /** Letters of the axes of a position: XYZ, or XY of a wire. */
+  /** Letters of the axes of a position: XYZ, or XY for a wire. */
   letters: string;
   tools: number[];
   middle: number[];
@@ -71,7 +71,7 @@ export interface Hunks {
   name?: string;
   stopped?: boolean;
   blocks: number;
-  /** First and last line of the old program, and of the new one, from 0. */
+  /** For each hunk: first and last line in the old program, then in the new one, from 0. */
   hunks: [number, number, number, number][];
 }
 
@@ -90,10 +90,10 @@ export interface Head {
     warnings: number;
     notes: number;
     suppressed: number;
-    /** The lines of the letter formats, by their letters. */
+    /** The form lines of the letter formats, by letter. */
     formats: Record<string, Place>;
     properties: Property[];
-    /** The posts that a form without text may begin with. */
+    /** The posts that are offered for a form without text. */
     kit: KitPost[] | null;
   };
   texts?: string[];
@@ -102,9 +102,9 @@ export interface Head {
   notes?: Finding[];
   /** The identifier of the program. */
   program?: string;
-  /** The program is the one that is already shown. */
+  /** The program is the one that the page already shows. */
   same?: boolean;
-  /** Tools of the job, in millimetres. */
+  /** Tools of the job, with diameters in millimetres. */
   toolSizes?: ToolSize[];
   verdict?: Verdict;
   fit?: Fit;
@@ -113,7 +113,7 @@ export interface Head {
   against?: Hunks;
   saved?: Hunks;
   sections: Record<string, [number, number]>;
-  /** The hashes of all sections, and the names of those that were not sent, because the page has them. */
+  /** The hashes of all sections, and the names of those that were not sent because the page has them. */
   hashes?: Record<string, string>;
   kept?: string[];
 }
@@ -127,11 +127,11 @@ export class Path {
   readonly moveTool: Uint8Array;
   /** Seconds from the beginning of the program to the end of each move, with an assumed rapid rate and no accelerations. */
   readonly ownTime: Float32Array;
-  /** The seconds that are shown: those of the machine file, if there is one. */
+  /** The times that are shown: those of the machine file, if there is one. */
   moveTime: Float32Array;
-  /** The times are those of the machine file: with accelerations, tool changes and the machine's own rapid rates. */
+  /** The times come from the machine file: they include accelerations, tool changes and the machine's rapid rates. */
   isTimed = false;
-  /** For a program with rotary moves: X Y Z of the end of each move. Empty: the points are the positions. */
+  /** For a program with rotary moves: X Y Z at the end of each move. Empty: the points are the positions. */
   readonly ends: Float64Array;
   readonly holes: Float32Array;
   readonly holeLine: Uint32Array;
@@ -154,7 +154,7 @@ export class Path {
     return this.moveLine.length;
   }
 
-  /** Whether both paths have the same pieces, of the same kinds and tools. */
+  /** Do both paths have the same pieces, with the same kinds and tools? */
   drawsLike(other: Path): boolean {
     return (
       alike(this.first, other.first) &&
@@ -164,7 +164,7 @@ export class Path {
     );
   }
 
-  /** Whether both paths make the same picture, in the same place. */
+  /** Do both paths give the same picture at the same position? */
   looksLike(other: Path): boolean {
     if (this === other) return true;
     const of = ({ units, letters, tools, middle, extents, view }: PictureHead) => JSON.stringify([units, letters, tools, middle, extents, view]);
@@ -201,7 +201,7 @@ const LINE_BITS = 20;
 /** Number of bytes before the head of a scene. */
 const PREFIX = 16;
 
-/** The length in bytes of a scene with this beginning; null: too few bytes to decide. */
+/** The length in bytes of a scene that begins with these bytes; null: more bytes are needed to decide. */
 export function lengthOf(bytes: Uint8Array): number | null {
   if (bytes.length < PREFIX) return null;
   const view = new DataView(bytes.buffer, bytes.byteOffset);
@@ -212,10 +212,10 @@ export function lengthOf(bytes: Uint8Array): number | null {
 /** A complete scene. */
 export class Scene {
   readonly head: Head;
-  /** The sections. Those of an earlier scene have a buffer of their own, so that the rest of that scene can be freed. */
+  /** The sections. Those of an earlier scene have their own buffers, so that the rest of that scene can be freed. */
   private readonly found = new Map<string, Uint8Array>();
 
-  /** `before`: the scene whose sections are not sent again. */
+  /** `before`: the scene whose sections were not sent again. */
   constructor(buffer: ArrayBuffer, before: Scene | null = null) {
     if (lengthOf(new Uint8Array(buffer)) !== buffer.byteLength) throw new Error("the scene is cut off");
     const length = new DataView(buffer).getUint32(4, true);
@@ -242,7 +242,7 @@ export class Scene {
     return this.array(name, Uint8Array);
   }
 
-  /** Do two scenes have the same program with the same motions? The origins of its lines are not compared. Equal sections then share their bytes. */
+  /** Do two scenes have the same program with the same motions? The origins of the lines are not compared. Equal sections then share their bytes. */
   hasProgramOf(other: Scene, of: string): boolean {
     return PROGRAM.every((name) => {
       const [own, known] = [this, other].map((scene) => scene.found.get(of + name));
@@ -277,7 +277,7 @@ export function formLine(packed: number): { file: number; line: number } | null 
 function alike(a: Uint8Array | Uint32Array | Float32Array, b: typeof a): boolean {
   if (a.length !== b.length) return false;
   if (a.buffer === b.buffer && a.byteOffset === b.byteOffset) return true;
-  // an unknown position is not a number
+  // an unknown position is NaN
   for (let i = 0; i < a.length; i++) if (a[i] !== b[i] && (a[i] === a[i] || b[i] === b[i])) return false;
   return true;
 }

@@ -1,6 +1,6 @@
 // The playground's files in a link: packed into its fragment, which browsers do not send to any server.
 
-/** A link that was made by others: no more than this is unpacked. */
+/** Maximum size in bytes when a link is unpacked, because anyone may have made the link. */
 const MOST = 20 << 20;
 const HEAD = "#files=";
 
@@ -15,7 +15,7 @@ export async function linkOf(shared: Shared): Promise<string> {
   return location.href.split("#")[0] + HEAD + btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** The files of the link that the page was opened with; null: it has none. */
+/** The files of the link with which the page was opened; null: the link contains none. */
 export async function filesOfLink(fragment: string): Promise<Shared | null> {
   if (!fragment.startsWith(HEAD)) return null;
   const binary = atob(fragment.slice(HEAD.length).replaceAll("-", "+").replaceAll("_", "/"));

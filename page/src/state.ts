@@ -77,7 +77,7 @@ function place(program: Program, line: number): Word[] {
   return program.position(line).map((held, axis) => {
     const letter = "XYZ"[axis];
     if (!held) return { text: `${letter}?`, line };
-    // points are numbers of 24 bits, which is exact enough for a drawing
+    // points have 24 bits of precision, which is enough for a drawing
     return { text: letter + number(Math.round(held.value * 1e4) / 1e4), line: held.line };
   });
 }

@@ -1,25 +1,25 @@
-// The timeline: plays a program in the time that the machine needs, with a mark at each tool change.
+// The timeline: plays a program in the machine's time, with a mark at each tool change.
 
 import type { Vector } from "./backplot/camera.ts";
 import { element } from "./element.ts";
 import type { Program } from "./program.ts";
 import type { Path } from "./scene.ts";
 
-/** Seconds in which a whole program is played. */
+/** Duration in seconds for playing a whole program. */
 const WHOLE = 30;
-/** Seconds of the program for each second; 0: the whole program in WHOLE seconds. */
+/** Seconds of the program per second; 0: the whole program in WHOLE seconds. */
 const SPEEDS: [name: string, times: number][] = [[`all in ${WHOLE} s`, 0], ["1 ×", 1], ["10 ×", 10], ["100 ×", 100]];
-/** More tool changes have no marks. */
+/** Maximum number of tool change marks; if there are more, none is shown. */
 const MOST_MARKS = 200;
-/** Steps of the slider. */
+/** Number of steps of the slider. */
 const STEPS = 10_000;
 
-/** Where the tool is at a time. */
+/** The tool's position at a time. */
 export interface Cursor {
-  /** The move that is being made, and its line. */
+  /** The current move, and its line. */
   move: number;
   line: number;
-  /** The last point of the path that it has reached. */
+  /** The last point of the path that the tool has reached. */
   point: number;
   at: Vector;
 }
@@ -37,9 +37,9 @@ export class Timeline {
   /** Seconds from the beginning. */
   private time = 0;
   private frame = 0;
-  /** The tool is at a time, while it plays or the slider is moved. */
+  /** Called with the tool's position while it plays or the slider moves. */
   onTime: (cursor: Cursor) => void = () => {};
-  /** The whole path is shown again. */
+  /** Called when the whole path is shown again. */
   onEnd: () => void = () => {};
 
   constructor() {
@@ -72,7 +72,7 @@ export class Timeline {
       return;
     }
     this.pause();
-    // other times of the same moves: the tool stays at its move
+    // if only the times of the moves changed, the tool stays at its move
     const whole = this.times?.at(-1) ?? 0;
     const share = program?.path === this.path && whole > 0 ? this.time / whole : 0;
     this.program = program;
@@ -88,7 +88,7 @@ export class Timeline {
     this.tell();
   }
 
-  /** The tools and the times at which they come in. */
+  /** The tools, and the times of their tool changes. */
   private changes(): [number, number][] {
     const path = this.path;
     if (!path) return [];
@@ -121,13 +121,13 @@ export class Timeline {
     this.button.textContent = "▶";
   }
 
-  /** Stops, and shows the whole path again. */
+  /** Stops playing, and shows the whole path again. */
   end(): void {
     this.pause();
     this.onEnd();
   }
 
-  /** A block was chosen: its end is where playing begins. */
+  /** Called when a block was selected: playing starts at its end. */
   chose(line: number): void {
     this.pause();
     const move = this.path?.moves ? this.program!.moveOf(this.program!.pointAfter(line)) : -1;
@@ -148,7 +148,7 @@ export class Timeline {
     this.slider.setAttribute("aria-valuetext", this.clock.textContent);
   }
 
-  /** Where the tool is now. */
+  /** The current position of the tool. */
   private cursor(): Cursor | null {
     const path = this.path;
     if (!path?.moves) return null;

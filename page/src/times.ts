@@ -1,10 +1,10 @@
-// The times of a machine file.
+// Times from a machine file.
 
 import type { Path, Scene } from "./scene.ts";
 
 /**
- * Gives a path the times of the machine file, if the scene has them: the lines of blocks in the order in which they ran, and the seconds to the
- * end of each. The moves of a block share its time as in the program's own times.
+ * Sets the times of a path to those of the machine file, if the scene contains them: the lines of blocks in the order in which they ran, and the
+ * seconds to the end of each. The moves of a block share its time in the same proportions as in the program's own times.
  */
 export function takeTimes(path: Path, scene: Scene): void {
   if (!scene.has("timedLine")) return;
@@ -23,7 +23,7 @@ export function takeTimes(path: Path, scene: Scene): void {
     let end = begin;
     if (isTimed[line]) {
       while (block < lines.length && lines[block] !== line) begin = ends[block++];
-      // a block that is repeated has all times up to the next block that moves
+      // a block that repeats has the times of all its runs up to the next block that moves
       const next = last + 1 < moves ? moveLine[last + 1] : 0;
       for (let at = block; at < lines.length && lines[at] !== next; at++) {
         if (lines[at] === line) [end, block] = [ends[at], at + 1];

@@ -1,4 +1,4 @@
-// The small part of WASI that a program with standard input and output needs.
+// The small part of WASI that a program needs for standard input and output.
 
 class Exit extends Error {
   constructor(readonly code: number) {

@@ -1,4 +1,4 @@
-// postform as WebAssembly, with the files that are open.
+// postform as WebAssembly, with the open files.
 
 import type { Added, Ask, At, Help, Host } from "./host.ts";
 import { type Verdict, Scene } from "./scene.ts";
@@ -8,12 +8,12 @@ export interface File_ {
   bytes: Uint8Array;
 }
 
-/** Is it an NC program, by its name? */
+/** Is the file an NC program, by its name? */
 export function isProgram(name: string): boolean {
   return /\.(nc|ngc|tap|eia|min|mpf|h)$/i.test(name);
 }
 
-/** A request goes to a thread of its own, and a scene comes back. */
+/** A host that sends each request to a separate thread. */
 export class Wasm implements Host {
   form: File_ = { name: "", bytes: new Uint8Array() };
   others: File_[] = [];
@@ -24,7 +24,7 @@ export class Wasm implements Host {
   private readonly worker = new Worker("worker.js");
   private readonly waiting = new Map<number, { done: (bytes: ArrayBuffer) => void; failed: (error: Error) => void }>();
   private asked = 0;
-  /** What the saved forms print for a job. */
+  /** The program of the saved forms for a job. */
   private before: { job: number; set: string; text: Uint8Array } | null = null;
 
   constructor(module: WebAssembly.Module, private readonly saved: (name: string, bytes: Uint8Array) => void) {
@@ -55,7 +55,7 @@ export class Wasm implements Host {
       this.before = { job: ask.job, set, text: new Scene(bytes).bytes("text") };
       return yield bytes;
     }
-    // the program of the saved form was printed before it was typed in
+    // the program of the saved form is needed for comparison
     if (this.before?.job !== ask.job || this.before.set !== set) {
       this.before = { job: ask.job, set, text: new Scene(await this.scene(ask.job, {}, null, null, ask.properties)).bytes("text") };
     }
@@ -91,7 +91,7 @@ export class Wasm implements Host {
     return head.verdict ?? { kind: "none", text: head.stopped?.message ?? "", line: 0, help: "", allowed: [], findings: [] };
   }
 
-  /** Saving is a download. */
+  /** Saves a form as a download. */
   async save(name: string, text: string): Promise<string | null> {
     const file = [this.form, ...this.others].find((file) => file.name === name);
     if (!file) return "there is no such file";
@@ -115,7 +115,7 @@ export class Wasm implements Host {
     this.before = null;
   }
 
-  /** Takes all files away. */
+  /** Removes all files. */
   clear(): void {
     this.form = { name: "", bytes: new Uint8Array() };
     this.others = [];
@@ -123,7 +123,7 @@ export class Wasm implements Host {
     this.against = this.before = null;
   }
 
-  /** Takes a file, by its name: a form, an old program, or a job. */
+  /** Adds a file by its name: a form, an old program, or a job. */
   take(file: File_): void {
     this.before = null;
     if (/\.pf$/i.test(file.name)) {

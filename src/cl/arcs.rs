@@ -1,4 +1,4 @@
-//! Arcs: CIRCLE and MOVARC before a GOTO.
+//! Arcs: the statements CIRCLE and MOVARC, whose end is the next GOTO.
 
 use super::dialect::{Dialect, Sense};
 use super::fault::{Done, fault};
@@ -11,13 +11,13 @@ use crate::toolpath::{Arc, Direction, Event, Plane, Units};
 
 /// Maximum number of turns of one helix.
 const MOST_TIMES: f64 = 1_000.0;
-/// Maximum difference in degrees between ANGLE and the angle between the points of an arc.
+/// Maximum difference in degrees between ANGLE and the angle that the points of the arc give.
 const ANGLE_OFF: f64 = 0.5;
 
-/// Cosine of 8 degrees: up to this angle, an arc counts as tangent to the motion before it.
+/// Cosine of 8 degrees. An arc counts as tangent to the motion before it if the angle between them is at most 8 degrees.
 const TANGENT: f64 = 0.99;
 
-/// Reads CIRCLE/x,y,z[,i,j,k][,r,..]: centre and axis. The next GOTO is the end of the arc.
+/// Reads CIRCLE/x,y,z[,i,j,k][,r,..]: the centre and the axis. The next GOTO is the end of the arc.
 pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>) -> Done {
     let State { job, motion, arcs, cycle, .. } = state;
     if job.notes.dialect() == Dialect::Ncl {
@@ -70,7 +70,7 @@ fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
     }
 }
 
-/// Handles the GOTO after a CIRCLE.
+/// Handles the GOTO after a CIRCLE: the arc ends there.
 pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut State<'_>) -> Done {
     if rapid {
         return fault(Code::PL004, "a rapid along an arc", "remove RAPID or CIRCLE");
@@ -134,8 +134,9 @@ pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut S
     job.push(Event::Arc { arc: &event, feed })
 }
 
-/// Number of full turns before the last arrival at the end. In NX, TIMES counts every arrival at the end, including the last;
-/// only with this reading do its ramps have the right angle. ANGLE must agree with the angle between the points.
+/// Number of full turns before the arc last reaches its end. In NX, TIMES counts each time the arc reaches its end, including
+/// the last time. With any other meaning, ramps of NX would have a wrong angle. ANGLE must agree with the angle between the
+/// points.
 fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> Done<u32> {
     let (Some(angle), Some(from)) = (arc.angle, from) else { return Ok(arc.times.unwrap_or(1) - 1) };
     let (first, second) = ((arc.axis + 1) % 3, (arc.axis + 2) % 3);
@@ -148,13 +149,13 @@ fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> D
         return fault(Code::PR005, message, "check the motions before and after it");
     }
     let least = way.rem_euclid(360.0);
-    // an arc that ends at its start is a full turn
+    // an arc whose end is its start is a full turn
     let least = if (ANGLE_OFF..=360.0 - ANGLE_OFF).contains(&least) { least } else { 360.0 };
     Ok(((angle - least) / 360.0).round().max(0.0) as u32)
 }
 
-/// Finds the direction of circles if the caller did not set it. An arc starts along the tangent of the motion before it; all arcs
-/// must agree, also with the direction that is known for the system.
+/// Finds the direction of circles if the caller did not name the CAM system. An arc begins tangent to the motion before it, which
+/// shows its direction. All arcs must agree with each other and with the known direction of the system.
 fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], dialect: Dialect, arcs: &mut Arcs) -> Done<Sense> {
     let mut unit = [0.0; 3];
     unit[arc.axis] = if arc.up { 1.0 } else { -1.0 };

@@ -1,4 +1,4 @@
-//! CYCLE statements as written: types, options and their numbers.
+//! CYCLE statements as they are written: types, options and their numbers.
 
 use super::cycle_words::{OPTIONS, Opt, TYPES};
 use super::dialect::Dialect;
@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::lang::did_you_mean;
 use crate::toolpath::CycleKind;
 
-/// Depths, steps and their feed.
+/// Depths and steps that have one feed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Group {
     pub depths: Vec<f64>,
@@ -18,13 +18,13 @@ pub(super) struct Group {
     pub feed: Option<(String, f64)>,
 }
 
-/// The content of a CYCLE statement before conversion to a cycle. CYCLE/ON repeats it.
+/// The content of a CYCLE statement before it is converted to a cycle. CYCLE/ON uses it again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Coded {
     pub kind: Option<CycleKind>,
     pub mode: Option<CycleKind>,
     pub groups: Vec<Group>,
-    /// Options and their numbers, except DEPTH, STEP and feeds.
+    /// The options and their numbers. DEPTH, STEP and feeds are not in this list.
     pub options: Vec<(Opt, Vec<f64>)>,
 }
 
@@ -42,7 +42,7 @@ impl Coded {
     }
 }
 
-/// Reads the type and the word that modifies it: DRILL,DEEP, TAP,BRKCHP, BORE,BACK.
+/// Reads the type of a cycle and the word that modifies it, as in DRILL,DEEP or TAP,BRKCHP or BORE,BACK.
 pub(super) fn cycle_type(words: &[Word]) -> Done<(Coded, &[Word])> {
     let name = words.first().and_then(Word::name).unwrap_or("");
     let Some((_, mut kind)) = TYPES.iter().find(|(word, _)| *word == name).copied() else {
@@ -68,7 +68,7 @@ pub(super) fn cycle_type(words: &[Word]) -> Done<(Coded, &[Word])> {
     Ok((Coded { kind: Some(kind), mode, ..Coded::default() }, rest))
 }
 
-/// Reads the options of a CYCLE statement. For CYCLE/ON, which may give only some of them, `whole` is false.
+/// Reads the options of a CYCLE statement. `whole` is false for CYCLE/ON, which may have only some of the options.
 pub(super) fn read_options(
     notes: &mut Notes<'_>,
     before: &Coded,
@@ -106,7 +106,7 @@ pub(super) fn read_options(
         }
         let numbers: Vec<f64> = words[start..at].iter().filter_map(Word::number).collect();
         if let (Opt::Dwell, true, Some(next)) = (row.option, numbers.is_empty(), words.get(at)) {
-            // CATIA writes DWELL,DWELL,2 and DWELL,REV,2 and DWELL,,
+            // CATIA writes DWELL,DWELL,2 or DWELL,REV,2 or DWELL,, instead of DWELL,2
             if next.is("DWELL") || next.is("REV") || *next == Word::Null {
                 continue;
             }
@@ -144,7 +144,7 @@ pub(super) fn read_options(
     Ok(coded)
 }
 
-/// Reads the format of 1978. Each system has its own order of numbers, so it is accepted only for files known to be from CATIA.
+/// Reads the format of 1978: numbers without words. Their order differs between systems, so only files of CATIA are accepted.
 fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, in_force: Option<Feed>) -> Done<Coded> {
     if notes.dialect() != Dialect::Catia {
         let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
@@ -153,7 +153,7 @@ fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, i
     let unit = |name: &str, value| Some((name.to_owned(), value));
     let (clear, feed) = match words {
         [_, Word::Number(clear), Word::Number(feed), Word::Name(name)] => (*clear, unit(name, *feed)),
-        // without a feed, the active feed applies
+        // the statement has no feed, so the active feed applies
         [_, Word::Number(clear)] => match in_force {
             Some(Feed::Minute(feed)) => (*clear, unit("PERMIN", feed)),
             Some(Feed::Revolution(feed)) => (*clear, unit("PERREV", feed)),
@@ -169,7 +169,7 @@ fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, i
     Ok(coded)
 }
 
-/// Combines the last CYCLE statement with the options of CYCLE/ON, which override it.
+/// Combines the last CYCLE statement with the options of CYCLE/ON. The options of CYCLE/ON have priority.
 pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     for (option, numbers) in said.options {
         last.options.retain(|(found, _)| *found != option);
@@ -179,7 +179,7 @@ pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     let steps: Vec<f64> = said.groups.iter().flat_map(|group| group.steps.iter().copied()).collect();
     let feed = said.groups.iter().rev().find_map(|group| group.feed.clone());
     if said.groups.len() > 1 || (last.groups.len() > 1 && !depths.is_empty()) {
-        // a new list of depths or steps; groups without a feed take that of the old first group
+        // the depths or steps are replaced; new groups without a feed get the feed of the first old group
         let old = last.groups.first().and_then(|group| group.feed.clone());
         last.groups = said.groups;
         for group in &mut last.groups {
@@ -209,7 +209,7 @@ pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     last
 }
 
-/// The group for the next word. A group that has a feed is complete, so another one begins.
+/// The group to which the next word belongs. A group with a feed is complete, so the word then begins another group.
 fn group_for(groups: &mut Vec<Group>, taken: impl Fn(&Group) -> bool) -> &mut Group {
     let new = groups.last().is_none_or(|group| taken(group) || (group.feed.is_some() && !group.depths.is_empty()));
     if new {

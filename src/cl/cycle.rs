@@ -1,4 +1,4 @@
-//! CYCLE statements: they select the cycle for the following points.
+//! CYCLE statements, which select the cycle for the following points.
 
 use super::coded::{Coded, cycle_type, over, read_options};
 use super::cycle_dialects::{Heights, autodesk, in_gener_words, returns_to_start};
@@ -13,7 +13,7 @@ use crate::cycle::check;
 use crate::diag::Code;
 use crate::toolpath::CycleKind;
 
-/// CYCLE/type, ON, OFF, NOMORE, AUTO, RETURN.
+/// Handles CYCLE/type and CYCLE/ON, OFF, NOMORE, AUTO and RETURN.
 pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
     let Some(first) = words.first().and_then(Word::name) else {
         return fault(Code::PC001, "CYCLE without a type", "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2");
@@ -64,7 +64,7 @@ fn auto(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
         [word] if word.is("ON") || word.is("OFF") => {
             let emulate = word.is("OFF");
             if emulate != cycle.emulate {
-                job.close_holes()?; // applies to the following points
+                job.close_holes()?; // the new return plane applies to the following points
             }
             cycle.emulate = emulate;
             if let Some(spec) = &mut cycle.active {
@@ -90,12 +90,12 @@ fn return_mode(words: &[Word], cycle: &mut Cycle) -> Done {
     Ok(())
 }
 
-/// Begins a cycle from an earlier statement and these words.
+/// Begins a cycle from the words of this statement and those of an earlier one.
 fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     job.close_holes()?;
     cycle.active = None;
-    motion.rapid = false; // a RAPID before a cycle is dropped
+    motion.rapid = false; // a RAPID before a cycle has no effect
     motion.rapid_after_cycle = false;
     feeds.cut_off = None;
     if motion.cutcom.on || motion.cutcom.asked.is_some() {
@@ -111,7 +111,7 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     check(&spec)?;
     let above = |numbers: &[f64]| numbers.first().map_or(CodedReturn::Clearance, |above| CodedReturn::Above(*above));
     let own = coded.numbers(Opt::Return).map(above);
-    // a manual cycle does not return: the tool stays where it stopped
+    // a manual cycle has no return plane: the tool stays where it stopped
     cycle.returns = if spec.kind == CycleKind::Manual { None } else { cycle.return_mode.over(own) };
     cycle.heights = None;
     cycle.plane = None;
@@ -120,7 +120,7 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     Ok(())
 }
 
-/// Converts the feeds per revolution of an active cycle after a change of the spindle.
+/// After a change of the spindle speed, converts the feeds per revolution of the active cycle again.
 pub(super) fn follow_spindle(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     if cycle.active.is_some()
         && let Some(coded) = cycle.last.clone()
@@ -131,7 +131,7 @@ pub(super) fn follow_spindle(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// Ends the cycle: the following points are motions.
+/// Ends the cycle. The following points are motions.
 pub(super) fn end(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     cycle.active = None;
     cycle.heights = None;

@@ -1,4 +1,4 @@
-//! Conversion of CYCLE statements from other systems to GENER's words.
+//! Converts CYCLE statements of other CAM systems to the words of GENER.
 
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
@@ -9,10 +9,10 @@ fn name(text: &str) -> Word {
     Word::Name(text.into())
 }
 
-/// Converts a statement to GENER's words.
+/// Converts a CYCLE statement to the words of GENER.
 ///
 /// # Errors
-/// GENER has no words for it.
+/// GENER has no words for the statement.
 pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>> {
     let mut out: Vec<Word> = Vec::with_capacity(words.len() + 2);
     let mut flips = false;
@@ -22,20 +22,20 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
         let at_type = out.is_empty();
         let other = match (dialect, word.name().unwrap_or("")) {
             (Dialect::Ncl, "FEDTO") if out.first().is_some_and(|word| word.is("CSINK")) => {
-                // diameter and angle
+                // CSINK of another system gives the diameter and the angle without words
                 out.push(name("DIAMET"));
                 out.extend(words.next().cloned());
                 name("TLANGL")
             }
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "FEDTO") => {
-                flips = dialect == Dialect::Nx; // NX: signed along the axis; others: positive downward
+                flips = dialect == Dialect::Nx; // the depth of NX has a sign; other depths are positive down
                 name("DEPTH")
             }
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RAPTO") => name("CLEAR"),
-            // return to the tool's position before the cycle: see `returns_to_start`
+            // AUTO: return to the tool's position before the cycle, see `returns_to_start`
             (Dialect::Nx, "RTRCTO") if words.next_if(|word| word.is("AUTO")).is_some() => continue,
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RTRCTO") => name("RETURN"),
-            // RETURN,0: no return plane
+            // RETURN,0 means that there is no return plane
             (Dialect::Catia, "RETURN") if words.next_if(|word| word.number() == Some(0.0)).is_some() => continue,
             (Dialect::Nx, "BORE") if at_type => {
                 out.extend(nx_bore(words.next_if(|word| word.name().is_some_and(|name| NX_BORES.contains(&name))))?);
@@ -52,7 +52,7 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
                 out.extend(first_peck.take());
                 continue;
             }
-            // in PostWorks DEEP breaks chips, THRU is GENER's DEEP, and BORE feeds out
+            // in PostWorks, DEEP breaks chips, THRU is the DEEP of GENER, and BORE leaves the hole at feed
             (Dialect::Ncl, "DEEP") if at_type => name("BRKCHP"),
             (Dialect::Ncl, "THRU") if at_type => name("DEEP"),
             (Dialect::Ncl, "BORE") if at_type => name("REAM"),
@@ -73,11 +73,11 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
     Ok(out)
 }
 
-/// Words that modify the BORE of NX.
+/// Words that modify BORE in files of NX.
 const NX_BORES: [&str; 4] = ["DRAG", "NODRAG", "BACK", "MANUAL"];
 
-/// Converts BORE of NX, which feeds out. With DRAG the spindle stops and the tool comes out by rapid; with NODRAG it first moves
-/// off the wall.
+/// Converts BORE of NX. Without a second word, the tool leaves the hole at feed. With DRAG the spindle stops and the tool leaves
+/// at rapid; with NODRAG the tool also moves off the wall first.
 fn nx_bore(kind: Option<&Word>) -> Done<Vec<Word>> {
     Ok(match kind.and_then(Word::name) {
         None => vec![name("REAM")],
@@ -91,24 +91,24 @@ fn nx_bore(kind: Option<&Word>) -> Done<Vec<Word>> {
     })
 }
 
-/// Does a cycle of NX return to the tool's position before the cycle?
+/// Whether the cycle returns to the position that the tool had before the cycle (only in files of NX).
 pub(super) fn returns_to_start(words: &[Word], dialect: Dialect) -> bool {
     dialect == Dialect::Nx && words.windows(2).any(|pair| pair[0].is("RTRCTO") && pair[1].is("AUTO"))
 }
 
-/// Heights in a cycle of Autodesk, relative to the file's zero. Its points are the bottoms of holes.
+/// The heights in a cycle of Autodesk, in the file's coordinates. The points of such a cycle are the bottoms of the holes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heights {
     /// Distance from the top of a hole to its bottom.
     pub depth: f64,
-    /// Height between holes.
+    /// Height of the moves between holes.
     pub clearance: f64,
-    /// Height at which rapids end and feeds begin.
+    /// Height where the rapid into a hole ends and its feed begins.
     pub retract: f64,
 }
 
-/// Converts CYCLE/type,depth[,INCR,step],unit,feed,clearance[,RAPTO,down][,DWELL,seconds] of Autodesk's ISO 4343 post to GENER's
-/// words, without a clearance.
+/// Converts CYCLE/type,depth[,INCR,step],unit,feed,clearance[,RAPTO,down][,DWELL,seconds] of Autodesk's ISO 4343 post to the
+/// words of GENER. The result has no clearance, because the clearance follows from the heights.
 pub(super) fn autodesk(words: &[Word]) -> Done<(Vec<Word>, Heights)> {
     let (Some(kind), Some(Word::Number(depth))) = (words.first().and_then(Word::name), words.get(1)) else {
         let help = "Autodesk writes CYCLE/DRILL, depth, MMPM, feed, clearance";

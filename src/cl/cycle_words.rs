@@ -1,8 +1,8 @@
-//! The words of a CYCLE statement: types, options, and their combinations.
+//! The words of a CYCLE statement: types, options, and which of them may be combined.
 
 use crate::toolpath::CycleKind;
 
-/// Types; some are modified by a second word.
+/// The types of cycles. Some of them may be modified by a second word.
 pub(super) const TYPES: &[(&str, CycleKind)] = &[
     ("DRILL", CycleKind::Drill),
     ("FACE", CycleKind::Face),
@@ -14,7 +14,7 @@ pub(super) const TYPES: &[(&str, CycleKind)] = &[
     ("THRU", CycleKind::Thru),
     ("CSINK", CycleKind::Csink),
     ("MANUAL", CycleKind::Manual),
-    // AZpost's counterbore
+    // the counterbore of AZpost
     ("CBORE", CycleKind::Face),
 ];
 
@@ -48,14 +48,14 @@ pub(super) enum Opt {
     Side,
 }
 
-/// A row of the option table: word, number of values, and whether they may be negative.
+/// A row of the option table: the word, the number of its values, and whether they may be negative.
 pub(super) struct OptionRow {
     pub word: &'static str,
     pub option: Opt,
     pub least: usize,
     pub most: usize,
     pub signed: bool,
-    /// The types that accept it; empty: all but MANUAL.
+    /// The types that accept the option. Empty: all types except MANUAL.
     pub types: &'static [CycleKind],
 }
 

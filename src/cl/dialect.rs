@@ -1,9 +1,9 @@
-//! The systems that write CL files, and the differences between their files.
+//! The CAM systems that write CL files, and the differences between their files.
 
 use super::lines::text_statement;
 use crate::lang::did_you_mean;
 
-/// The system that wrote a file.
+/// The CAM system that wrote a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Dialect {
@@ -17,31 +17,31 @@ pub enum Dialect {
     Autodesk,
 }
 
-/// Direction of a CIRCLE with a positive axis.
+/// Direction of a CIRCLE whose axis is positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sense {
-    /// Clockwise, seen from the axis' end: the left-hand rule.
+    /// Clockwise, seen from the end of the axis (left-hand rule).
     LeftHand,
     /// Counter-clockwise.
     RightHand,
 }
 
-/// One row of the table.
+/// One row of the table of systems.
 struct Row {
     dialect: Dialect,
     name: &'static str,
     title: &'static str,
-    /// Marks in its files, in capitals and without spaces.
+    /// Texts that occur only in files of this system, in capitals and without spaces.
     marks: &'static [&'static str],
     sense: Option<Sense>,
     /// The last statement of its files.
     last: Option<&'static str>,
 }
 
-/// Start of the program's name in files of Autodesk.
+/// How the statement with the program's name begins in files of Autodesk.
 const QUOTED_NAME: &str = "PARTNO/'";
 
-/// Marks and senses, taken from real files (cl.md sections 2.2 and 2.5).
+/// The systems, with marks and directions taken from real files (docs/cl.md).
 #[rustfmt::skip]
 const ROWS: [Row; 8] = [
     Row { dialect: Dialect::Gener, name: "gener", title: "ICAM GENER", marks: &[], sense: None, last: Some("FINI") },
@@ -59,7 +59,7 @@ impl Dialect {
         &ROWS[self as usize]
     }
 
-    /// The name for `--dialect`.
+    /// The name of the system for `--dialect`.
     pub fn name(self) -> &'static str {
         self.row().name
     }
@@ -69,15 +69,15 @@ impl Dialect {
         self.row().title
     }
 
-    /// All names.
+    /// The names of all systems for `--dialect`.
     pub fn names() -> impl Iterator<Item = &'static str> {
         ROWS.iter().map(|row| row.name)
     }
 
-    /// Finds a dialect by its name.
+    /// Finds a system by its name.
     ///
     /// # Errors
-    /// The name is unknown. The error lists names that were probably meant.
+    /// The name is unknown. The error lists the names that are most similar.
     pub fn parse(name: &str) -> Result<Dialect, String> {
         match ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(name)) {
             Some(row) => Ok(row.dialect),
@@ -94,12 +94,12 @@ impl Dialect {
         self.row().last
     }
 
-    /// Recognises the dialect from the first lines of a file; returns it with the line number and the mark. Text after the first
-    /// motion is not searched, because the programmer wrote it.
+    /// Recognises the system from the first lines of a file. Returns it with the line number and the mark. Text statements after
+    /// the first motion are ignored, because their text comes from the programmer.
     pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
         let (mut moves, mut has_mode) = (false, false);
         for (line, number) in lines.zip(1..) {
-            // only Autodesk's post begins with a mode and quotes its text
+            // only Autodesk's post begins with MODE and puts the program's name in quotes
             if has_mode && line.starts_with(QUOTED_NAME.as_bytes()) {
                 return Some((Dialect::Autodesk, number, QUOTED_NAME));
             }
@@ -115,7 +115,7 @@ impl Dialect {
         None
     }
 
-    /// Recognises the dialect of a line; returns it with the mark.
+    /// Recognises the system from one line. Returns it with the mark.
     fn of_line(line: &[u8]) -> Option<(Dialect, &'static str)> {
         let plain: Vec<u8> =
             line.iter().filter(|b| !b.is_ascii_whitespace()).take(200).map(u8::to_ascii_uppercase).collect();

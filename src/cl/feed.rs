@@ -1,4 +1,4 @@
-//! Feeds: FEDRAT, feeds within motions, and dwells.
+//! Feeds: FEDRAT, feeds in motion statements, and dwells.
 
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
@@ -13,7 +13,7 @@ use crate::toolpath::{Event, Units};
 /// Millimetres in an inch.
 const MM: f64 = 25.4;
 
-/// The feed for a unit word and a number, in the file's units. `None`: the unit word is unknown.
+/// The feed that a unit word and a number give, in the file's units. `None`: the unit word is unknown.
 pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed>> {
     match unit {
         "PERMIN" | "UPM" => return Ok(Some(Feed::Minute(value))),
@@ -26,14 +26,14 @@ pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed
         "MMPM" => Feed::Minute(value * inches / MM),
         "IPR" => Feed::Revolution(value * inches),
         "MMPR" => Feed::Revolution(value * inches / MM),
-        // PostWorks: a value below 1 is the lead
+        // in PostWorks, a value below 1 is the lead of the thread
         "TPI" if job.notes.dialect() == Dialect::Ncl && value < 1.0 => Feed::Revolution(value),
         "TPI" => Feed::Revolution(inches / value),
         _ => return Ok(None),
     }))
 }
 
-/// Converts a feed to the unit of the job: per minute, on lathes per revolution. A conversion needs a spindle with a fixed speed.
+/// Converts a feed to the unit of the job: per minute, or per revolution on lathes. Some conversions need a fixed spindle speed.
 pub(super) fn counted(job: &Job<'_>, feed: Feed) -> Done<f64> {
     match (feed, job.spindle.rpm()) {
         (Feed::Revolution(value), _) if job.turns_part() => Ok(value),
@@ -51,7 +51,7 @@ pub(super) fn counted(job: &Job<'_>, feed: Feed) -> Done<f64> {
     }
 }
 
-/// Reads FEDRAT: a number and its unit, in any order.
+/// Reads FEDRAT: a number and its unit, in either order.
 pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.heights.is_some() {
         return Ok(()); // Autodesk repeats the feed of a cycle at each of its points
@@ -81,7 +81,7 @@ pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
     Ok(())
 }
 
-/// Sets a feed given within a motion.
+/// Sets a feed that is part of a motion statement.
 pub(super) fn feed_on_goto(value: f64, feeds: &mut Feeds) -> Done {
     if value <= 0.0 {
         return fault(Code::PL001, "a feed that is not above zero", "give a feed above zero");
@@ -94,7 +94,7 @@ pub(super) fn feed_on_goto(value: f64, feeds: &mut Feeds) -> Done {
     Ok(())
 }
 
-/// The feed of the next motion; `None` if the sink already has it.
+/// The feed for the next motion. `None`: the sink already has this feed.
 #[inline]
 pub(super) fn feed_to_say(feeds: &Feeds, job: &mut Job<'_>) -> Done<Option<f64>> {
     if let Some(line) = feeds.cut_off {
@@ -111,11 +111,11 @@ pub(super) fn feed_to_say(feeds: &Feeds, job: &mut Job<'_>) -> Done<Option<f64>>
     Ok(job.feed_to_say(feed))
 }
 
-/// Pushes the tool's position before a cut that is the first motion.
+/// If the first motion is a cut, pushes a rapid to the tool's position before it.
 #[inline]
 pub(super) fn approach(motion: &Motion, feeds: &Feeds, job: &mut Job<'_>) -> Done {
     if !job.is_unmoved() || feeds.feed.is_none() {
-        return Ok(()); // a missing feed is reported first
+        return Ok(()); // the missing feed is reported first
     }
     match motion.position {
         Some(from) => {
@@ -126,7 +126,7 @@ pub(super) fn approach(motion: &Motion, feeds: &Feeds, job: &mut Job<'_>) -> Don
     }
 }
 
-/// Reads DELAY/seconds, or revolutions with REV.
+/// Reads DELAY/seconds, or DELAY with revolutions (REV).
 pub(super) fn delay(words: &[Word], job: &mut Job<'_>) -> Done {
     let seconds = match (numbers(words).as_deref(), words) {
         (Some([seconds]), _) => *seconds,

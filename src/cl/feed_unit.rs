@@ -1,6 +1,6 @@
-//! Units of feeds.
+//! Feeds with their unit.
 
-/// A feed as given in the file.
+/// A feed as the file gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Feed {
     /// Per minute, in the file's units.

@@ -1,4 +1,4 @@
-//! The points of a cycle.
+//! The points of a cycle, each of which is a hole.
 
 use super::cycle_dialects::Heights;
 use super::fault::{Done, fault};
@@ -7,10 +7,10 @@ use super::state::{Arcs, CodedReturn, Cycle, Motion, State};
 use crate::diag::Code;
 use crate::toolpath::{CycleSpec, Event, Hole};
 
-/// Tolerance for rounded heights.
+/// Tolerance for rounded heights, in the file's units.
 const BELOW_TOP: f64 = 1e-4;
 
-/// Handles a point of the active cycle.
+/// Handles a point while a cycle is active.
 pub(super) fn point(at: [f64; 3], state: &mut State<'_>) -> Done {
     let Some(mut spec) = state.cycle.active.take() else { return Ok(()) };
     let State { job, motion, arcs, cycle, .. } = state;
@@ -33,12 +33,12 @@ fn hole(
     };
     if !job.holes_are_open() {
         job.turns()?;
-        // sinks measure the plane from their first point, and use the clearance if that is higher
+        // sinks measure the return plane from the first point; if the clearance is higher, they use the clearance
         spec.return_height = return_plane(at, spec, motion, cycle)?.map(|plane| plane - at[2]);
         job.open_holes(spec)?;
     }
     job.push(Event::Hole(Hole { at: job.axes(at)?, depth: None }))?;
-    // the position after the hole is known only if the clearance is known
+    // the tool's position after the hole is known only if the clearance is known
     motion.position = spec.clear.map(|clear| {
         let plane = cycle.plane.flatten().unwrap_or(f64::MIN);
         [at[0], at[1], plane.max(at[2] + clear)]
@@ -47,7 +47,7 @@ fn hole(
     Ok(())
 }
 
-/// The top of a hole whose bottom is given. Sets the clearance above it from the cycle's heights.
+/// The top of a hole whose bottom is given. Calculates the clearance above it from the heights of the cycle.
 fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'_>) -> Done<[f64; 3]> {
     let top = bottom[2] + heights.depth;
     let clear = heights.retract - top;
@@ -63,7 +63,7 @@ fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'
     Ok([bottom[0], bottom[1], top])
 }
 
-/// The height to which the tool returns. It is set at the first point and applies to the whole cycle.
+/// The height to which the tool returns after each hole. It is determined at the first point and applies to the whole cycle.
 fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cycle) -> Done<Option<f64>> {
     if let Some(plane) = cycle.plane {
         return Ok(plane);

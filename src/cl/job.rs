@@ -1,4 +1,4 @@
-//! The job of a CL file: collects what belongs to a tool change until that is complete, and pushes the events.
+//! The job of a CL file. Collects all data of a tool change until the tool change is complete, and pushes the events.
 
 use super::fault::{Done, fault};
 use super::missing::{no_speed, no_tool, no_units};
@@ -13,21 +13,21 @@ use crate::toolpath::{
     Units,
 };
 
-/// Tolerance for rounding: distance of a turning tool from the plane of z and x.
+/// Tolerance for the distance of a turning tool from the plane of z and x, which allows for rounding.
 const OFF_PLANE: f64 = 1e-4;
-/// Maximum number of items between a tool change and its spindle.
+/// Maximum number of items between a tool change and the spindle statement after it.
 const MOST_WAITING: usize = 4096;
 
-/// An item that waits until the tool change is complete.
+/// An item that waits until the tool change before it is complete.
 pub(super) enum Waiting {
     Rapid(Axes),
     Comment(String),
-    /// A block that is printed unchanged.
+    /// Text that is printed unchanged as a block.
     Text(String),
     Stop,
 }
 
-/// The job so far.
+/// The job as far as it was read.
 pub(super) struct Job<'s> {
     hold: Hold<'s>,
     pub notes: Notes<'s>,
@@ -35,24 +35,24 @@ pub(super) struct Job<'s> {
     pub spindle: Turning,
     /// The job's name.
     pub name: Option<String>,
-    /// Origin of the positions: the first MSYS, and its line.
+    /// The origin of the positions: the words of the first MSYS or MCS, and its line.
     pub setup: Option<(Vec<Word>, u64)>,
     units: Option<Units>,
-    /// Units for a file that does not define them.
+    /// The units to assume if the file does not define them.
     assumed_units: Option<Units>,
     machine: Machine,
     started: bool,
     operations: u32,
-    /// A tool change that is not complete yet.
+    /// A tool change whose data are not complete yet.
     change: Option<(ToolChange, Place)>,
     waiting: Vec<(Waiting, Place)>,
-    /// The feed that was last pushed to the sink.
+    /// The feed that the sink has.
     feed: Option<f64>,
-    /// The sink is in a cycle.
+    /// Whether a cycle is open in the sink.
     in_cycle: bool,
-    /// The following items belong to a setup that is not selected, so that no events are pushed.
+    /// Whether the following items belong to a setup that is not selected. No events are pushed for them.
     pub aside: bool,
-    /// The last loaded tool.
+    /// The tool that was loaded last.
     in_use: Option<Tool>,
 }
 
@@ -80,13 +80,13 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Has the job begun, so that plain motions need no further checks?
+    /// Whether the job has begun. Plain motions then need no further checks.
     #[inline]
     pub fn has_started(&self) -> bool {
         self.started
     }
 
-    /// Handles UNITS of the file.
+    /// Handles a UNITS statement.
     pub fn set_units(&mut self, units: Units) -> Done {
         if self.units.is_some_and(|before| before != units) {
             return fault(Code::PL004, "the units change inside the file", "let the CAM system write one unit");
@@ -95,7 +95,7 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// The file's units; an error if they are unknown, because values in explicit units can't be converted then.
+    /// The file's units. Fails if they are unknown, because values with an explicit unit can't be converted then.
     pub fn units(&self) -> Done<Units> {
         match self.units.or(self.assumed_units) {
             Some(units) => Ok(units),
@@ -103,18 +103,18 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Are the units given or assumed?
+    /// Whether the units are given in the file or assumed.
     pub fn knows_units(&self) -> bool {
         self.units.or(self.assumed_units).is_some()
     }
 
-    /// The option that sets the tool for the next motion, if no tool is loaded.
+    /// The option that gives the number of the tool, if a motion follows and no tool is loaded.
     pub fn missing_tool(&self) -> Option<String> {
         let is_loaded = self.change.as_ref().map_or(self.operations > 0, |(change, _)| change.tool.is_some());
         if is_loaded { None } else { self.tools.number(self.operations == 0).err() }
     }
 
-    /// Marks the file as one for a lathe, because it has turning tools.
+    /// Sets that the file is for a lathe, because it has turning tools.
     pub fn turning(&mut self) -> Done {
         if self.machine == Machine::Lathe {
             return Ok(());
@@ -128,13 +128,13 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// Is the machine a lathe, whose spindle turns the part?
+    /// Whether the machine is a lathe. Its spindle turns the part.
     #[inline]
     pub fn turns_part(&self) -> bool {
         self.machine == Machine::Lathe
     }
 
-    /// Converts a position for events: on a lathe z, and x as a radius.
+    /// Converts a position for events. On a lathe, the position is z, and a radius as x.
     #[inline]
     pub fn axes(&self, to: [f64; 3]) -> Done<Axes> {
         if !self.turns_part() {
@@ -147,7 +147,7 @@ impl<'s> Job<'s> {
         Ok(Axes::new(&[to[2], to[0]]))
     }
 
-    /// Queues an item until the tool change before it is complete.
+    /// Keeps an item until the tool change before it is complete. Without a waiting tool change, pushes it.
     pub fn wait(&mut self, waiting: Waiting) -> Done {
         if self.aside {
             return Ok(());
@@ -174,13 +174,13 @@ impl<'s> Job<'s> {
         self.hold.push(event, place)
     }
 
-    /// Pushes an event that is no hole, after closing the sink's cycle.
+    /// Closes the cycle in the sink and pushes an event that is not a hole.
     pub fn between(&mut self, event: Event<'_>) -> Done {
         self.close_holes()?;
         self.push(event)
     }
 
-    /// Pushes an event, after all waiting items.
+    /// Pushes an event. Items that wait are pushed first.
     #[inline]
     pub fn push(&mut self, event: Event<'_>) -> Done {
         if self.aside {
@@ -199,17 +199,17 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// Is a cycle open in the sink?
+    /// Whether a cycle is open in the sink.
     pub fn holes_are_open(&self) -> bool {
         self.in_cycle
     }
 
-    /// Closes the cycle in the sink. It may be opened again after a motion that is none of its points.
+    /// Closes the cycle in the sink. It may be opened again after a motion that is not a point of the cycle.
     pub fn close_holes(&mut self) -> Done {
         if std::mem::take(&mut self.in_cycle) { self.push(Event::CycleEnd) } else { Ok(()) }
     }
 
-    /// Begins the job and the operation, once all their data is known.
+    /// Begins the job and the operation, now that all their data must be known.
     #[cold]
     fn release(&mut self) -> Done {
         if !self.started {
@@ -261,7 +261,7 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// A new operation, with the current coolant only.
+    /// A new operation with this tool and the current coolant.
     fn operation(&self, tool: Option<Tool>) -> ToolChange {
         ToolChange {
             name: None,
@@ -278,8 +278,8 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Begins the change to another tool and completes the previous change. A change to a tool that was only named is replaced. A
-    /// waiting change to the same tool continues.
+    /// Completes the previous tool change and begins the change to another tool. If the previous tool was only named and not
+    /// loaded, its change is replaced. If a change to the same tool is waiting, this change continues.
     pub fn begin_change(&mut self, tool: Option<Tool>) -> Done {
         if let (Some((change, _)), Some(tool)) = (&mut self.change, &tool)
             && let Some(before) = change.tool.as_mut().filter(|before| before.number == tool.number)
@@ -298,7 +298,7 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// Begins the selected setup, with the current tool unless another one is being loaded.
+    /// Begins the selected setup. Unless another tool is being loaded, the setup uses the current tool.
     pub fn begin_setup(&mut self) {
         self.aside = false;
         if self.change.is_none()
@@ -308,7 +308,7 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Drops rapids before the first tool: they lead to the tool change position, which only the machine defines.
+    /// Removes rapids before the first tool. They lead to the tool change position, which only the machine defines.
     fn leave_out_rapids(&mut self) {
         let is_rapid = |waiting: &(Waiting, Place)| matches!(waiting.0, Waiting::Rapid(_));
         let count = self.waiting.iter().filter(|waiting| is_rapid(waiting)).count();
@@ -323,23 +323,23 @@ impl<'s> Job<'s> {
         self.waiting.retain(|waiting| !is_rapid(waiting));
     }
 
-    /// Has no motion of the job been pushed so far?
+    /// Whether the job has no motion so far.
     pub fn is_unmoved(&self) -> bool {
         self.operations == 0 && !self.waiting.iter().any(|(waiting, _)| matches!(waiting, Waiting::Rapid(_)))
     }
 
-    /// Is a tool change incomplete?
+    /// Whether a tool change is waiting to be completed.
     #[inline]
     pub fn changes(&self) -> bool {
         self.change.is_some()
     }
 
-    /// Has a tool been loaded, or anything moved?
+    /// Whether a tool was loaded or a motion was pushed.
     pub fn has_operation(&self) -> bool {
         self.operations > 0 || self.change.is_some()
     }
 
-    /// Handles COOLNT: as part of a waiting tool change, otherwise as an event.
+    /// Handles COOLNT. If a tool change is waiting, the coolant becomes part of it; otherwise it is an event.
     pub fn coolant(&mut self, coolant: Coolant) -> Done {
         self.tools.coolant = Some(coolant);
         match &mut self.change {
@@ -350,11 +350,11 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// The feed for the next motion; `None` if the sink already has it.
+    /// The feed for the next motion. `None`: the sink already has this feed.
     #[inline]
     pub fn feed_to_say(&mut self, feed: f64) -> Option<f64> {
         if self.change.is_some() {
-            return Some(feed); // the new operation does not keep the feed
+            return Some(feed); // the sink forgets the feed at a new operation
         }
         if self.feed == Some(feed) {
             return None;
@@ -363,7 +363,7 @@ impl<'s> Job<'s> {
         Some(feed)
     }
 
-    /// Checks that the spindle has a known speed for cutting.
+    /// Checks that the spindle speed for a cut is known.
     #[inline]
     pub fn turns(&self) -> Done {
         if self.spindle.is_known() { Ok(()) } else { no_speed(self) }
@@ -375,7 +375,7 @@ impl<'s> Job<'s> {
             return fault(Code::PJ009, "the file has no motion", "check that this is a CL file");
         }
         if std::mem::take(&mut self.aside) {
-            self.change = None; // it belongs to a setup that is not selected
+            self.change = None; // the tool change belongs to a setup that is not selected
             self.waiting.clear();
         }
         self.push(Event::Finish)

@@ -1,11 +1,11 @@
-//! Lines of a CL file, and how they are joined to statements.
+//! Reads the lines of a CL file, of which statements consist.
 
 use std::io::{ErrorKind, Read, Result};
 
-/// Maximum length of a line or statement in bytes. A longer one means that the file is no CL file.
+/// Maximum length of a line or statement in bytes. A file with a longer one is not a CL file.
 pub(super) const LONGEST: usize = 1 << 20;
 
-/// Lines of a stream. Only the current line is kept.
+/// The lines of an input. Only the buffered part of the input is in memory.
 pub(super) struct Lines<R> {
     input: R,
     buffer: Vec<u8>,
@@ -19,7 +19,7 @@ impl<R: Read> Lines<R> {
         Lines { input, buffer: vec![0; 256 * 1024], from: 0, to: 0, at_end: false }
     }
 
-    /// The first lines, without consuming them: at most `most`, and no more than the buffer holds.
+    /// The first lines, which are not consumed: at most `most`, and only those that fit into the buffer.
     pub(super) fn ahead(&mut self, most: usize) -> Result<impl Iterator<Item = &[u8]>> {
         while !self.at_end
             && self.to < self.buffer.len()
@@ -41,7 +41,7 @@ impl<R: Read> Lines<R> {
         Ok(())
     }
 
-    /// The next line without its line end; `None` at the end. A line that is too long is cut; its length shows the caller that.
+    /// The next line without its line end; `None` at the end of the input. A line that is too long is cut just above the maximum length.
     pub(super) fn next(&mut self) -> Result<Option<&[u8]>> {
         loop {
             if let Some(length) = memchr::memchr(b'\n', &self.buffer[self.from..self.to]) {
@@ -64,10 +64,10 @@ impl<R: Read> Lines<R> {
     }
 }
 
-/// Words that begin a text statement, with or without a slash. The text extends to the end of the line.
+/// Words that begin a text statement, with or without a slash. Their text extends to the end of the line.
 const TEXT: [&str; 7] = ["PARTNO", "PPRINT", "TPRINT", "DISPLY", "INSERT", "REMARK", "LETTER"];
 
-/// The text word at the start of a line, and the text after it.
+/// The text word at the beginning of a line, and the text after it.
 pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {
     let word =
         TEXT.into_iter().find(|w| line.len() >= w.len() && line[..w.len()].eq_ignore_ascii_case(w.as_bytes()))?;
@@ -77,7 +77,7 @@ pub(super) fn text_statement(line: &[u8]) -> Option<(&'static str, &[u8])> {
     Some((word, quoted.unwrap_or(text).trim_ascii()))
 }
 
-/// The line without its comment (`$$`), and whether it continues on the next line (`$`). Text after the `$` is ignored.
+/// The line without its comment (after `$$`), and whether it continues on the next line (`$`). Text after the `$` is ignored.
 pub(super) fn without_comment(line: &[u8]) -> (&[u8], bool) {
     let mut quoted = false;
     for (i, &byte) in line.iter().enumerate() {

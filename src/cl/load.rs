@@ -1,4 +1,4 @@
-//! Tool changes: LOADTL and similar words, and tools that NX only names.
+//! Tool changes: LOADTL and similar words, and tools that NX names without loading them.
 
 use super::cycle;
 use super::dialect::Dialect;
@@ -8,12 +8,12 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::toolpath::{Spindle, Tool};
 
-/// Handles LOADTL/n, LOAD/TOOL,n, TOOLNO/n: a tool change. It is complete at the next feed motion or spindle statement.
+/// Handles LOADTL/n, LOAD/TOOL,n and TOOLNO/n: a tool change. It is complete at the next feed motion or spindle statement.
 pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let dialect = state.job.notes.dialect();
     if name == "TOOLNO" && dialect == Dialect::Catia {
         if !words.iter().any(|word| word.is("TURN")) {
-            // TOOLNO describes the tool that LOADTL loads
+            // in CATIA, TOOLNO only describes the tool that LOADTL loads
             if let Some(Word::Number(diameter)) = words.get(1) {
                 state.job.tools.diameter = Some(*diameter);
             }
@@ -31,16 +31,16 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let tools = &mut state.job.tools;
     tools.greatest = tools.greatest.max(number);
     let register = match (dialect, &words[1..]) {
-        // pocket, length, offset
+        // the words are pocket, length and offset register
         (Dialect::Autodesk, [_, _, Word::Number(register)]) => Some(*register),
-        // the other words describe the tool
+        // the other words only describe the tool
         (Dialect::Catia, _) if name == "TOOLNO" => None,
         (_, words) => length_register(name, words)?,
     };
     another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
 }
 
-/// Handles TOOL PATH/name,TOOL,tool. If the tool differs from the current one, it must be loaded or have an assumed number.
+/// Handles TOOL PATH/name,TOOL,tool. If it names another tool than the current one, this tool must be loaded or have an assumed number.
 pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     let (operation, tool) = match words {
         [operation, word, tool, ..] if word.is("TOOL") => (operation.to_string(), tool.to_string()),
@@ -54,15 +54,15 @@ pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     another_tool(None, state)
 }
 
-/// Begins the change to another tool. It is complete at the next feed motion or spindle statement. `None`: so far the tool is
-/// only named.
+/// Begins the change to another tool. The change is complete at the next feed motion or spindle statement. `None`: the tool
+/// is named and not loaded so far.
 fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     feeds.cut_off = cycle.is_active().then_some(job.notes.place.line).or(feeds.cut_off);
     cycle::end(cycle, job)?;
     let number = tool.as_ref().map(|tool| tool.number);
     job.begin_change(tool)?;
-    motion.rapid_after_cycle = false; // it belonged to the previous tool
+    motion.rapid_after_cycle = false; // the rapid would have belonged to the previous tool
     let is_in = number.is_some() && std::mem::replace(&mut job.tools.loaded, number) == number;
     if !job.spindle.is_new && !is_in {
         job.spindle.now = Spindle::default();
@@ -71,7 +71,7 @@ fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     Ok(())
 }
 
-/// Reads the words after a tool's number; returns the length register.
+/// Reads the words after a tool's number. Returns the number of the length register.
 fn length_register(name: &str, words: &[Word]) -> Done<Option<f64>> {
     let mut register = None;
     let mut words = words.iter().peekable();

@@ -1,4 +1,4 @@
-//! Switching statements: units, spindle, coolant, cutter compensation.
+//! Statements that switch something: units, spindle, coolant, cutter compensation.
 
 use super::cycle::follow_spindle;
 use super::dialect::Dialect;
@@ -12,7 +12,7 @@ use crate::toolpath::{Coolant, Event, Side, Spindle, SpindleTurn, Units};
 /// Metres in a foot.
 const METRES_A_FOOT: f64 = 0.3048;
 
-/// Handles UNITS/MM or INCHES.
+/// Handles UNITS/MM and UNITS/INCHES.
 pub(super) fn units(words: &[Word], job: &mut Job<'_>) -> Done {
     match words {
         [Word::Name(name)] if name == "MM" => job.set_units(Units::Mm),
@@ -21,7 +21,7 @@ pub(super) fn units(words: &[Word], job: &mut Job<'_>) -> Done {
     }
 }
 
-/// Handles SPINDL. Feeds per revolution are adapted to the new speed.
+/// Handles SPINDL. After a change of the speed, feeds per revolution are converted again.
 pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
         && matches!(word.as_str(), "ON" | "OFF")
@@ -37,14 +37,14 @@ pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Do
     job.spindle.say(said);
     follow_spindle(cycle, job)?;
     if job.changes() || !job.has_operation() {
-        return Ok(()); // it becomes part of the tool change
+        return Ok(()); // the spindle becomes part of the tool change
     }
-    // on mills, a form starts in revolutions per minute
+    // on mills, programs begin in revolutions per minute
     let css = job.spindle.now.css.filter(|css| *css || job.turns_part());
     job.between(Event::Spindle(Spindle { css, ..said }))
 }
 
-/// Reads speed, speed unit and direction, in any order.
+/// Reads the speed, its unit and the direction, in any order.
 fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
     let mut said = Spindle::default();
     let mut surface = 1.0;
@@ -56,7 +56,7 @@ fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
                 "RPM" => said.css = Some(false),
                 "SFM" | "SMM" => {
                     said.css = Some(true);
-                    // surface speeds are converted to the file's system of units
+                    // a surface speed is converted to feet or metres, as the file's units require
                     let metric = job.units()? == Units::Mm;
                     surface = match (name.as_str(), metric) {
                         ("SFM", true) => METRES_A_FOOT,
@@ -82,7 +82,7 @@ fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
     }
     said.speed = said.speed.map(|speed| speed * surface);
     if said.speed.is_some() && said.turn.is_none() && job.spindle.now.turn.is_none() {
-        said.turn = Some(SpindleTurn::Cw); // the default of APT
+        said.turn = Some(SpindleTurn::Cw); // APT's default direction
     }
     Ok(said)
 }
@@ -110,12 +110,12 @@ pub(super) fn coolnt(words: &[Word], job: &mut Job<'_>) -> Done {
     job.coolant(coolant)
 }
 
-/// Handles CUTCOM/LEFT, RIGHT, OFF. It takes effect with the next motion.
+/// Handles CUTCOM/LEFT, RIGHT and OFF. Compensation changes with the next motion.
 pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &mut Job<'_>) -> Done {
     if let (Dialect::Autodesk, [Word::Name(word)]) = (job.notes.dialect(), words)
         && word == "ON"
     {
-        return Ok(()); // the side follows in a later statement
+        return Ok(()); // a later statement gives the side
     }
     let side = |name: &str| match name {
         "LEFT" => Some(Some(Side::Left)),
@@ -143,7 +143,7 @@ pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &m
     if cycle.is_active() && asked.is_some() {
         return fault(Code::PC041, "CUTCOM inside a cycle", "end the cycle first");
     }
-    // OFF without active compensation has no effect
+    // OFF has no effect if compensation is off
     cutcom.asked = Some(asked).filter(|_| asked.is_some() || cutcom.on);
     cutcom.on = asked.is_some();
     Ok(())

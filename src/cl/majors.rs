@@ -1,4 +1,4 @@
-//! Major words, and the handling of each.
+//! The major words of statements, and how each is handled.
 
 use super::arcs::circle;
 use super::dialect::{Dialect, Sense};
@@ -16,7 +16,7 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::toolpath::{Event, StopKind};
 
-/// Kind of a major word.
+/// The kind of a major word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Major {
     None,
@@ -57,16 +57,16 @@ pub(super) enum Major {
     Offset,
     Machin,
     Turret,
-    /// Known, without effect on motions.
+    /// Known words that have no effect on motions.
     Ignored,
     Nurbs,
     Thread,
-    /// Known to move or shift the part; not supported.
+    /// Known words that move or shift the part. They are not supported, so they are errors.
     Refused,
     Unknown,
 }
 
-/// Table of major words. TLRGT and similar words are refused because they cut beside a line instead of on it.
+/// The table of major words. TLRGT and similar words are refused, because the tool then cuts beside a line and not on it.
 #[rustfmt::skip]
 const MAJORS: &[(&str, Major)] = &[
     ("GOTO", Major::Goto), ("GODLTA", Major::Godlta), ("FROM", Major::From), ("RAPID", Major::Rapid),
@@ -95,7 +95,7 @@ const MAJORS: &[(&str, Major)] = &[
     ("THREAD", Major::Thread), ("TURRET", Major::Turret), ("MIRROR", Major::Refused), ("ROTHED", Major::Refused), ("SCALE", Major::Refused), ("MATRIX", Major::Refused), ("REFSYS", Major::Refused),
 ];
 
-/// Words that must not be lost inside an unknown statement.
+/// Words that must not be lost in an unknown statement.
 const MOTIONS: [&str; 5] = ["GOTO", "GODLTA", "CYCLE", "CIRCLE", "LOADTL"];
 
 /// The kind of a major word.
@@ -107,7 +107,7 @@ pub(super) fn major(name: &str) -> Major {
     }
 }
 
-/// Executes a statement.
+/// Executes one statement.
 pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     if state.job.aside && is_aside(major, state) {
         return Ok(());
@@ -198,14 +198,14 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
     }
 }
 
-/// Does the word affect only its own setup, so that it is skipped if that setup is not selected?
+/// Whether the word affects only its own setup. Such a word is skipped if its setup is not selected.
 fn is_aside(major: Major, state: &State<'_>) -> bool {
     match major {
         Major::Circle | Major::Movarc | Major::Indirv | Major::Tlon | Major::Cutcom | Major::Nurbs | Major::Thread => {
             true
         }
         Major::Stop | Major::Opstop | Major::Delay | Major::Auxfun | Major::Prefun => true,
-        // if setups are only listed, these are skipped too
+        // these are skipped too if the setups are only listed
         Major::Cycle | Major::Refused | Major::Offset | Major::Msys | Major::Mcs => {
             state.setups.as_ref().is_some_and(Setups::are_listed)
         }
@@ -213,7 +213,7 @@ fn is_aside(major: Major, state: &State<'_>) -> bool {
     }
 }
 
-/// Handles an unknown major word: it is only reported, but it must not hide a motion after it.
+/// Handles an unknown major word. It is reported and ignored, unless a motion follows in the same statement.
 fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     if let Some(hidden) = words.iter().filter_map(Word::name).find(|name| MOTIONS.contains(name)) {
         let message = format!("the unknown word `{name}` is in front of {hidden}");
@@ -223,7 +223,7 @@ fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// Handles AUXFUN and PREFUN, which give a code by its number.
+/// Handles AUXFUN and PREFUN, which give the number of an M or G code.
 fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     match words {
         [Word::Number(code)] if *code >= 0.0 && code.fract() == 0.0 => {
@@ -233,7 +233,7 @@ fn code(letter: char, name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     }
 }
 
-/// Handles MODE and SET: MODE/TURN selects a lathe, and incremental positions are refused.
+/// Handles MODE and SET. MODE/TURN selects a lathe. Incremental positions are refused.
 fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     if name == "MODE" && words.first().is_some_and(|word| word.is("TURN")) {
         if job.notes.dialect() == Dialect::Autodesk {
@@ -253,7 +253,7 @@ fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// Handles CUTTER and TLDATA. The first number is the diameter; turning tools of a lathe have none.
+/// Handles CUTTER and TLDATA. The first number is the tool's diameter. Turning tools have none.
 fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
     if words.first().and_then(Word::name).is_some_and(|name| matches!(name, "TURN" | "GROOVE" | "THREAD")) {
         job.tools.diameter = None;

@@ -1,5 +1,5 @@
-//! Errors for data that a program needs and the file lacks. Each error names the option that provides it, and the options for
-//! other missing data.
+//! The errors for data that the program needs but the file does not have. Each error names the option that gives this data,
+//! and the options for other missing data.
 
 use super::fault::{Done, fault};
 use super::job::Job;
@@ -14,14 +14,14 @@ pub(super) enum Missing {
     Start,
 }
 
-/// Error: no units. `at` describes where they are needed.
+/// The error for missing units. `at` describes where they are needed.
 #[cold]
 pub(super) fn no_units<T>(job: &Job<'_>, at: &str) -> Done<T> {
     let help = "put UNITS/MM or UNITS/INCHES before it, or give the units with `--assume-units mm` (or inch)";
     fault(Code::PL005, at, help.to_owned() + &others(job, Missing::Units))
 }
 
-/// Error: no tool is loaded. `option` sets its number.
+/// The error if no tool is loaded. `option` sets the number of the tool.
 #[cold]
 pub(super) fn no_tool<T>(job: &Job<'_>, option: &str) -> Done<T> {
     let (message, help) = match &job.tools.name {
@@ -37,7 +37,7 @@ pub(super) fn no_tool<T>(job: &Job<'_>, option: &str) -> Done<T> {
     fault(Code::PJ006, message, help + &others(job, Missing::Tool))
 }
 
-/// Error: a cut without a spindle speed.
+/// The error for a cut without a spindle speed.
 #[cold]
 pub(super) fn no_speed<T>(job: &Job<'_>) -> Done<T> {
     let help = "put SPINDL/3000,RPM,CLW before it, or give the speed with `--assume-speed 3000` (or 3000,CCLW)";
@@ -45,7 +45,7 @@ pub(super) fn no_speed<T>(job: &Job<'_>) -> Done<T> {
     fault(Code::PL009, message, help.to_owned() + &others(job, Missing::Speed))
 }
 
-/// Error: the first motion is a cut.
+/// The error if the first motion is a cut and the tool's position before it is unknown.
 #[cold]
 pub(super) fn no_start<T>(job: &Job<'_>) -> Done<T> {
     let help = "put RAPID and GOTO before it, or FROM, or give the position with `--assume-start X,Y,Z`";
@@ -53,7 +53,7 @@ pub(super) fn no_start<T>(job: &Job<'_>) -> Done<T> {
     fault(Code::PL009, message, help.to_owned() + &others(job, Missing::Start))
 }
 
-/// Options for the other data that the file lacks so far.
+/// The options for other data that the file does not have so far.
 fn others(job: &Job<'_>, told: Missing) -> String {
     let mut options = Vec::new();
     if told != Missing::Units && !job.knows_units() {

@@ -1,4 +1,4 @@
-//! APT CL files: converts the cutter location file of a CAM system to toolpath events (cl.md).
+//! APT CL files: converts the cutter location file of a CAM system to toolpath events (docs/cl.md).
 
 mod arcs;
 mod coded;

@@ -1,4 +1,4 @@
-//! Motions: GOTO, GODLTA, FROM, RAPID, tool axis, shifts.
+//! Motion statements: GOTO, GODLTA, FROM, RAPID, tool axis, shifts.
 
 use super::arcs::arc_to;
 use super::fault::{Done, fault};
@@ -45,7 +45,7 @@ pub(super) fn goto_words(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Moves to a position, in the current state.
+/// Moves to a position as a rapid, a feed move, an arc or a hole, depending on the current state.
 #[inline]
 fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     let place = state.job.notes.place.line;
@@ -83,18 +83,18 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
         approach(motion, feeds, job)?;
     }
     let axes = job.axes(to)?;
-    // needed for arcs if the caller did not set their direction
+    // needed for arcs if the caller did not name the CAM system
     if job.notes.said_sense().is_none() {
         arcs.heading = motion.position.and_then(|from| Heading::between(from, to)).or(arcs.heading);
     }
     let across = motion.position.is_none_or(|from| from[..2] != to[..2]);
     motion.position = Some(to);
-    // controls start and end compensation on a move in the plane; a move along the depth alone leaves it for the next move
+    // controls start and end compensation in a move across; a move along the depth only waits for the next move across
     if motion.cutcom.asked.is_some() && across {
         return compensate(axes, rapid, motion, feeds, job);
     }
     if rapid {
-        // the spindle of a tool may come after its first rapids
+        // the spindle statement of a tool may come after the tool's first rapids
         if !job.has_operation() || job.changes() && job.spindle.now.speed.is_none() {
             return job.wait(Waiting::Rapid(axes));
         }
@@ -104,8 +104,8 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     job.push(Event::Line { to: axes, feed })
 }
 
-/// Handles GOHOME/x,y,z: a rapid to that point, up before across and across before down. Without a point: a move to the machine's
-/// home position.
+/// Handles GOHOME. With a point: a rapid to this point, first up, then across, then down. Without a point: a move to the
+/// machine's home position.
 pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
     if words.is_empty() {
         state.motion.position = None;
@@ -119,7 +119,7 @@ pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
         set_axis([*i, *j, *k], state)?;
     }
     let to = state.motion.shift.of([*x, *y, *z]);
-    // away from the part: up on mills, outward on lathes
+    // the direction away from the part: up on mills, outward on lathes
     let away = if state.job.turns_part() { 0 } else { 2 };
     if let Some(from) = state.motion.position.filter(|from| from[away] != to[away]) {
         let mut corner = if to[away] > from[away] { from } else { to };
@@ -158,7 +158,7 @@ pub(super) fn godlta(words: &[Word], state: &mut State<'_>) -> Done {
     go([from[0] + delta[0], from[1] + delta[1], from[2] + delta[2]], state)
 }
 
-/// Handles FROM: sets the tool's initial position without a motion.
+/// Handles FROM, which sets the tool's first position without a motion.
 pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.is_active() {
         state.job.notes.warn(Code::PC058, "FROM inside a cycle", "take it out, or end the cycle before");
@@ -177,7 +177,7 @@ pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Handles RAPID. It applies to one motion, which may be in the same statement.
+/// Handles RAPID. It applies to one motion, which may be part of the same statement.
 pub(super) fn rapid(words: &[Word], state: &mut State<'_>) -> Done {
     state.motion.rapid = true;
     match words {
@@ -187,7 +187,7 @@ pub(super) fn rapid(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Pushes a tool axis that differs from the current one, so that a machine that can't tilt refuses it.
+/// Pushes a tool axis if it differs from the current one. A machine that can't tilt refuses this event.
 #[inline]
 fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
     let State { job, motion, setups, .. } = state;
@@ -210,7 +210,7 @@ fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Handles a new tool axis in a file with several setups: the following motions are read in their own frame, or skipped.
+/// Handles a new tool axis in a file with several setups. The following motions are read in the frame of their setup, or skipped.
 fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
     job.close_holes()?;
     if !setups.turn(motion.axis.0) {
@@ -230,7 +230,7 @@ fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) ->
     Ok(())
 }
 
-/// Handles TLAXIS, which sets the tool axis. In files for three axes it changes nothing.
+/// Handles TLAXIS, which sets the tool axis. In files for three axes it has no effect.
 pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
     match numbers(words).as_deref() {
         Some([i, j, k]) => set_axis([*i, *j, *k], state),
@@ -238,7 +238,7 @@ pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Handles TRANS, which is added to all positions, and ORIGIN, which is subtracted.
+/// Handles TRANS, whose values are added to all positions, and ORIGIN, whose values are subtracted.
 pub(super) fn trans(words: &[Word], shift: &mut Shift, origin: bool) -> Done {
     match numbers(words).as_deref() {
         Some([x, y, z]) => {

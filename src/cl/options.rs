@@ -1,4 +1,4 @@
-//! Options for data that a CL file lacks.
+//! Options that give data which a CL file does not contain.
 
 use super::dialect::Dialect;
 use crate::toolpath::{Spindle, SpindleTurn, Units};
@@ -6,25 +6,25 @@ use crate::toolpath::{Spindle, SpindleTurn, Units};
 /// Options for reading a CL file.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The system that wrote the file; default: recognised from its first lines.
+    /// The CAM system that wrote the file. Default: recognised from the first lines of the file.
     pub dialect: Option<Dialect>,
-    /// Units, for a file that does not define them.
+    /// The units to assume for a file that does not define them.
     pub units: Option<Units>,
-    /// Tool number, for a file that loads no tool; or a number for each named tool.
+    /// The tool number for a file that loads no tool, or a number for each tool that the file names.
     pub tool: Option<Assumed>,
-    /// Spindle, for tools without one in the file.
+    /// The spindle for tools that have none in the file.
     pub speed: Option<AssumedSpeed>,
-    /// Feed until the first feed in the file, per minute in the file's units.
+    /// The feed until the first feed in the file, per minute in the file's units.
     pub feed: Option<f64>,
-    /// Tool position before the first motion, for a file that begins with a cut.
+    /// The tool's position before the first motion, for a file that begins with a cut.
     pub start: Option<[f64; 3]>,
-    /// The file counts as complete even if it lacks the last statement that its system writes.
+    /// Whether the file counts as complete without the last statement that its system normally writes.
     pub end: bool,
-    /// Number of the setup to read, from 1; it is read in its own frame. Default: the file is read as one setup.
+    /// Number of the setup to read, from 1. Positions are then in the frame of this setup. Default: the file is read as one setup.
     pub setup: Option<usize>,
 }
 
-/// Largest spindle speed.
+/// Largest allowed spindle speed.
 const FASTEST: f64 = 1e6;
 
 /// Spindle for a file that defines none.
@@ -32,7 +32,7 @@ const FASTEST: f64 = 1e6;
 pub struct AssumedSpeed {
     /// Revolutions a minute.
     pub rpm: f64,
-    /// Counter-clockwise.
+    /// Whether the spindle turns counter-clockwise.
     pub ccw: bool,
 }
 
@@ -73,7 +73,7 @@ pub fn parse_position(text: &str) -> Result<[f64; 3], String> {
     }
 }
 
-/// Largest tool number.
+/// Largest allowed tool number.
 const LARGEST: u32 = 99_999_999;
 
 /// Numbers for tools that the file does not load.
@@ -92,7 +92,7 @@ impl Assumed {
     /// The text is invalid. The error describes the format.
     pub fn parse(text: &str) -> Result<Assumed, String> {
         let number = |text: &str| text.trim().parse::<u32>().ok().filter(|n| *n <= LARGEST).map(f64::from);
-        // statements contain no spaces and no lower-case letters
+        // like the words of statements: without spaces and in capital letters
         let name = |text: &str| text.split_whitespace().collect::<String>().to_ascii_uppercase();
         let pair = |text: &str| text.split_once('=').and_then(|(tool, n)| Some((name(tool), number(n)?)));
         let named = || text.split(',').map(pair).collect::<Option<Vec<_>>>().map(Assumed::Named);
@@ -100,12 +100,12 @@ impl Assumed {
         read.ok_or_else(|| format!("write a number up to {LARGEST}, or NAME=1,OTHER=2"))
     }
 
-    /// The number, if there is one for the only tool.
+    /// The number if it is for the only tool; `None` if tools have their own numbers.
     pub fn one(&self) -> Option<f64> {
         if let Assumed::One(number) = self { Some(*number) } else { None }
     }
 
-    /// The number of the tool of this name, if tools have their own numbers.
+    /// The number of the tool with this name; `None` if there is one number for the only tool.
     pub(super) fn of(&self, tool: &str) -> Option<f64> {
         match self {
             Assumed::One(_) => None,

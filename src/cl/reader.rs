@@ -1,4 +1,4 @@
-//! Reads a CL file: joins lines to statements, and executes them in order.
+//! Reads a CL file: joins lines to statements and executes the statements in order.
 
 use std::io::Read;
 
@@ -18,37 +18,37 @@ use super::words::{Word, plain_goto, words};
 use crate::diag::Code;
 use crate::toolpath::{Event, Flow, Place, ReadError, Sink, Stop};
 
-/// Number of lines in which the writing system is searched.
+/// Number of lines that are searched for the CAM system.
 const HEAD: usize = 50;
 
-/// State of reading a file.
+/// The state of reading a file.
 struct Reader<'s> {
     state: State<'s>,
-    /// The current statement so far.
+    /// The text of the current statement so far.
     joined: Vec<u8>,
-    /// The next line continues the statement.
+    /// Whether the statement continues on the next line.
     continues: bool,
-    /// The last major word, for lines of bare numbers.
+    /// The last major word. Lines that contain only numbers continue its statement.
     major: Major,
-    /// FINI or END was read.
+    /// Whether FINI or END was read.
     ended: bool,
     insert: Insert,
-    /// The file counts as complete, whatever its last statement.
+    /// Whether the file counts as complete, whatever its last statement is.
     whole: bool,
 }
 
 /// Reads a CL file and pushes its events. Memory use does not grow with the file.
 ///
 /// # Errors
-/// An error in the file, or an event that the sink refused, with its location. Warnings before it are in the report.
+/// The file has an error, or the sink refused an event. The error has its location. Warnings before it are in the report.
 pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &mut dyn Sink) -> Result<(), ReadError> {
     read(input, options, options.setup.map(|setup| Setups::new(Some(setup))), report, sink).map(drop)
 }
 
-/// Lists the setups of a file: sequences of motions with one tool axis. Other statements are not checked.
+/// Lists the setups of a file. A setup is a sequence of motions with one tool axis. Other statements are not checked.
 ///
 /// # Errors
-/// The input fails, or a line is no statement.
+/// The input can't be read, or a line is not a statement.
 pub fn setups(input: impl Read, options: &Options) -> Result<Vec<Setup>, ReadError> {
     struct Nothing;
     impl Sink for Nothing {
@@ -60,7 +60,7 @@ pub fn setups(input: impl Read, options: &Options) -> Result<Vec<Setup>, ReadErr
     Ok(found.map_or_else(Vec::new, |setups| setups.found().to_vec()))
 }
 
-/// Reads a file, or one of its setups.
+/// Reads a whole file, or one of its setups.
 fn read(
     input: impl Read,
     options: &Options,
@@ -105,7 +105,7 @@ fn read(
 }
 
 impl Reader<'_> {
-    /// Reads a line of the file: a statement, a part of one, or a comment.
+    /// Reads a line of the file: a statement, a part of a statement, or a comment.
     #[inline]
     fn line(&mut self, line: &[u8]) -> Done {
         if !self.continues
@@ -132,12 +132,12 @@ impl Reader<'_> {
             return fault(Code::PL001, "the lines end only with carriage returns", help);
         }
         if self.ended && line == b"\x1a" {
-            return Ok(()); // end-of-file mark of DOS
+            return Ok(()); // the end-of-file character of DOS
         }
         let mut line = line;
         if !self.continues {
             if let Some(data) = line.strip_prefix(b"$$->") {
-                // Creo stores data in comments; `$DATA` can't be the start of a real statement
+                // Creo stores data in comments; the name `$DATA` can't occur in a real statement
                 self.joined.extend_from_slice(b"$DATA/");
                 line = data;
             } else if line.starts_with(b"$$*") {
@@ -169,7 +169,7 @@ impl Reader<'_> {
             Ok(list) => list,
             Err(number) => return fault(Code::PL001, format!("`{number}` is not a number"), "fix the number"),
         };
-        // PTED numbers its records: `N27 , GOTO/..`
+        // PTED writes a number before each record, as `N27 , GOTO/..`
         let is_number = |w: &Word| w.name().and_then(|n| n.strip_prefix('N')).is_some_and(|n| n.parse::<u64>().is_ok());
         if list.len() > 1 && is_number(&list[0]) {
             list.remove(0);
@@ -177,7 +177,7 @@ impl Reader<'_> {
         let Some(first) = list.first() else { return Ok(()) };
         if self.ended {
             if first.is("FINI") {
-                return Ok(()); // after END
+                return Ok(()); // lines after END are ignored
             }
             return fault(
                 Code::PL001,
@@ -186,7 +186,7 @@ impl Reader<'_> {
             );
         }
         let Some(name) = first.name().map(str::to_owned) else {
-            // UG writes several points after one GOTO; some records continue without `$`
+            // UG writes several points after one GOTO, and some of its records continue without `$`
             return match self.major {
                 Major::Goto => goto_words(&list, &mut self.state),
                 Major::Cutter | Major::Data => Ok(()),
@@ -201,7 +201,7 @@ impl Reader<'_> {
         self.major = major(&name);
         self.ended = self.major == Major::Fini;
         if self.major == Major::Cutter {
-            self.insert = None; // the text before it described the tool
+            self.insert = None; // the INSERT before this statement described the tool
         } else {
             lone_insert(&mut self.insert, &mut self.state.job.notes);
         }
@@ -234,7 +234,7 @@ impl Reader<'_> {
     }
 }
 
-/// A major word without its record number: `N29 GOTO`, `100 GOTO`.
+/// A major word without the record number before it, as in `N29 GOTO` or `100 GOTO`.
 fn unnumbered(name: &str) -> &str {
     let rest =
         name.strip_prefix('N').unwrap_or(name).trim_start_matches(|c: char| c.is_ascii_digit()).trim_start_matches(')');

@@ -1,36 +1,36 @@
-//! Results of reading a file, besides its events: its dialect, warnings and facts.
+//! The results of reading a file except its events: its CAM system, warnings and facts.
 
 use super::dialect::{Dialect, Sense};
 use crate::diag::{Code, Diag, Location};
 use crate::remarks::Remarks;
 use crate::toolpath::Place;
 
-/// Results of reading, besides the events.
+/// The results of reading a CL file, except its events.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The system that wrote the file.
     pub dialect: Option<Dialect>,
-    /// Reason for this choice.
+    /// Why this system was chosen.
     pub why: String,
-    /// Warnings; each appears once.
+    /// The warnings. Each appears only once.
     pub warnings: Vec<Diag>,
-    /// Facts in the file: coordinate systems, names of tool paths.
+    /// Facts that the file contains, such as coordinate systems and names of tool paths.
     pub facts: Vec<String>,
-    /// Major words that were not handled, with their first line and count.
+    /// Major words that are unknown, each with the line of its first occurrence and the number of occurrences.
     unknown: Vec<(String, u64, u64)>,
 }
 
-/// Maximum number of facts, of warnings and of unknown words.
+/// Maximum number of facts, and also of warnings and of unknown words.
 const MOST_FACTS: usize = 100;
 
 impl Report {
-    /// Adds the results of another reader.
+    /// Adds the facts and warnings of another reader.
     pub(crate) fn add(&mut self, remarks: Remarks) {
         self.facts.extend(remarks.facts);
         self.warnings.extend(remarks.warnings);
     }
 
-    /// Adds the warnings and facts of a job among joined jobs, which is counted from 1.
+    /// Adds the facts and warnings of one job among joined jobs. `part`: the number of this job, from 1.
     pub(crate) fn add_part(&mut self, other: Report, part: u16) {
         self.facts.extend(other.facts);
         self.warnings.extend(other.warnings.into_iter().map(|mut warning| {
@@ -44,12 +44,12 @@ impl Report {
 pub(super) struct Notes<'r> {
     pub report: &'r mut Report,
     pub place: Place,
-    /// The caller named the dialect.
+    /// Whether the caller named the CAM system.
     pub said: bool,
 }
 
 impl<'r> Notes<'r> {
-    /// Creates the notes. `said`: the dialect, if the caller named it.
+    /// Begins the notes for a file. `said`: the CAM system, if the caller named it.
     pub fn new(report: &'r mut Report, said: Option<Dialect>) -> Self {
         report.dialect = said;
         if said.is_some() {
@@ -58,13 +58,13 @@ impl<'r> Notes<'r> {
         Notes { report, place: Place::default(), said: said.is_some() }
     }
 
-    /// The dialect: as named or recognised, else GENER.
+    /// The CAM system: named by the caller or recognised, otherwise GENER.
     pub fn dialect(&self) -> Dialect {
         self.report.dialect.unwrap_or(Dialect::Gener)
     }
 
-    /// Direction of circles in files of the system that the caller named. GENER's circles are left-handed, but a file counts as
-    /// GENER's in this respect only if the caller named GENER.
+    /// The direction of circles if the caller named the CAM system, otherwise `None`. Circles of GENER are left-handed. This
+    /// applies only if the caller named GENER, and not to a file whose system is unknown.
     #[inline]
     pub fn said_sense(&self) -> Option<Sense> {
         match self.report.dialect.filter(|_| self.said)? {
@@ -73,7 +73,7 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Recognises the dialect from the first lines, unless the caller named it.
+    /// Recognises the CAM system from the first lines, unless the caller named it.
     pub fn look_at<'l>(&mut self, lines: impl Iterator<Item = &'l [u8]>) {
         if !self.said
             && let Some((dialect, line, mark)) = Dialect::of_head(lines)
@@ -83,12 +83,12 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Adds a warning, once.
+    /// Adds a warning. An equal warning is not added again.
     pub fn warn(&mut self, code: Code, message: impl Into<String>, help: &str) {
         self.warn_at(self.place, code, message, help);
     }
 
-    /// Adds a warning at an earlier location, once.
+    /// Adds a warning at an earlier location. An equal warning is not added again.
     pub fn warn_at(&mut self, place: Place, code: Code, message: impl Into<String>, help: &str) {
         let message = message.into();
         let warnings = &mut self.report.warnings;
@@ -97,14 +97,14 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Adds a fact, once.
+    /// Adds a fact. An equal fact is not added again.
     pub fn fact(&mut self, fact: String) {
         if self.report.facts.len() < MOST_FACTS && !self.report.facts.contains(&fact) {
             self.report.facts.push(fact);
         }
     }
 
-    /// Counts a major word that was not handled.
+    /// Counts an unknown major word.
     pub fn unknown(&mut self, name: &str) {
         let unknown = &mut self.report.unknown;
         match unknown.iter().position(|(known, _, _)| known == name) {
@@ -114,7 +114,7 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Warns of each unknown major word once, with its count.
+    /// Adds a warning for each unknown major word, with the number of its occurrences.
     pub fn tell_unknown(&mut self) {
         for (name, line, count) in std::mem::take(&mut self.report.unknown) {
             let times = if count == 1 { String::new() } else { format!(", {count} times") };

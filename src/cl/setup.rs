@@ -1,5 +1,5 @@
-//! Setups of a file with several tool axes. An operator turns the part between them, so each setup is a job of its own. The z
-//! axis of its frame is its tool axis.
+//! Setups of a file with several tool axes. The operator turns the part between setups, so each setup is a separate job. The
+//! z axis of its frame is its tool axis.
 
 use std::fmt;
 
@@ -10,23 +10,23 @@ use crate::diag::Code;
 
 /// Tolerance for the components of unit vectors.
 const SAME: f64 = 1e-6;
-/// Tolerance between a tool axis and the z axis of its coordinate system.
+/// Tolerance between the components of a tool axis and those of the z axis of its coordinate system.
 const LIKE: f64 = 1e-3;
-/// Maximum number of setups: a file for five axes would have one for each motion.
+/// Maximum number of setups. A file for five-axis motion would have one for each motion.
 const MOST: usize = 1000;
-/// Maximum number of setups in a message.
+/// Maximum number of setups that a message lists.
 const MOST_SAID: usize = 8;
 
-/// A sequence of motions in a file with one tool axis.
+/// A sequence of motions with one tool axis.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Setup {
-    /// The tool axis in the file's coordinates, a unit vector: the setup's z.
+    /// The tool axis in the file's coordinates, as a unit vector. It is the z axis of the setup.
     pub axis: [f64; 3],
-    /// The setup's x axis: that of the file's CSYS with this z axis, else horizontal and to the right when looking along the
-    /// tool.
+    /// The x axis of the setup. If the file has a CSYS with the same z axis, it is the x axis of that CSYS. Otherwise it is
+    /// horizontal and points to the right for a view along the tool.
     pub x: [f64; 3],
-    /// Lines of the first and last motion.
+    /// The lines of the first and the last motion.
     pub lines: (u64, u64),
     /// Number of motions.
     pub motions: u64,
@@ -41,18 +41,18 @@ impl fmt::Display for Setup {
     }
 }
 
-/// A frame: its three directions in the file's coordinates.
+/// A frame, as its x, y and z axes in the file's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame([[f64; 3]; 3]);
 
 impl Frame {
-    /// Converts a vector of the file to this frame.
+    /// Converts a vector in the file's coordinates to this frame.
     pub fn of(&self, vector: [f64; 3]) -> [f64; 3] {
         self.0.map(|direction| direction.iter().zip(vector).map(|(a, b)| a * b).sum())
     }
 }
 
-/// Does the z of a coordinate system lie along a tool axis?
+/// Whether the z axis of a coordinate system is parallel to a tool axis and has the same direction.
 pub(super) fn lies_along(z: [f64; 3], axis: [f64; 3]) -> bool {
     z.iter().zip(axis).all(|(a, b)| (a - b).abs() < LIKE)
 }
@@ -60,12 +60,12 @@ pub(super) fn lies_along(z: [f64; 3], axis: [f64; 3]) -> bool {
 /// The setups so far, and the number of the selected one.
 #[derive(Debug)]
 pub(super) struct Setups {
-    /// Selected setup, from 1; `None` if setups are only listed.
+    /// The selected setup, from 1; `None` if setups are only listed.
     chosen: Option<usize>,
     found: Vec<Setup>,
-    /// x and z of the current CSYS.
+    /// The x and z axes of the current CSYS.
     csys: Option<[[f64; 3]; 2]>,
-    /// The current setup follows another one and has no motion yet.
+    /// Whether the current setup follows another one and has no motion so far.
     pub is_fresh: bool,
 }
 
@@ -76,7 +76,7 @@ impl Setups {
         setups
     }
 
-    /// Handles a new tool axis. A setup without a motion is dropped. Returns whether another setup begins.
+    /// Handles a new tool axis. A setup without motions is removed. Returns whether another setup begins.
     pub fn turn(&mut self, axis: [f64; 3]) -> bool {
         if self.found.last().is_some_and(|last| last.motions == 0) {
             self.found.pop();
@@ -85,14 +85,14 @@ impl Setups {
         let is_last = |last: &Setup| last.axis.iter().zip(axis).all(|(a, b)| (a - b).abs() < SAME);
         let begins = !self.found.last().is_some_and(is_last) && self.found.len() < MOST;
         if begins {
-            // not for the first setup: a file may begin with a cut
+            // the first setup is not fresh, because a file may begin with a cut
             self.is_fresh = !self.found.is_empty();
             self.found.push(Setup { axis, x: self.x_of(axis), lines: (0, 0), motions: 0 });
         }
         begins
     }
 
-    /// Handles CSYS: the x and z axes of a coordinate system.
+    /// Handles CSYS, which gives the x and z axes of a coordinate system.
     pub fn csys(&mut self, x: [f64; 3], z: [f64; 3]) {
         self.csys = Some([x, z]);
         if let Some(Setup { axis, .. }) = self.found.last().filter(|last| last.motions == 0) {
@@ -101,12 +101,13 @@ impl Setups {
         }
     }
 
-    /// The x axis of a setup. If z of the CSYS is the tool axis, it is x of the CSYS; else it is horizontal, as Fanuc defines it for G68.3.
+    /// The x axis of a setup. If the CSYS has the tool axis as its z, it is the x of the CSYS. Otherwise it is horizontal, as Fanuc defines
+    /// it for G68.3.
     fn x_of(&self, axis: [f64; 3]) -> [f64; 3] {
         if let Some([x, z]) = self.csys
             && lies_along(z, axis)
         {
-            // made perpendicular to the tool axis of the motions
+            // make it perpendicular to the tool axis of the motions
             return unit(cross(cross(axis, x), axis)).unwrap_or(x);
         }
         unit(cross([0.0, 0.0, 1.0], axis)).unwrap_or([1.0, 0.0, 0.0])
@@ -121,12 +122,12 @@ impl Setups {
         }
     }
 
-    /// Is the current setup the selected one?
+    /// Whether the current setup is the selected one.
     pub fn is_chosen(&self) -> bool {
         self.chosen == Some(self.found.len())
     }
 
-    /// Are the setups only listed?
+    /// Whether the setups are only listed.
     pub fn are_listed(&self) -> bool {
         self.chosen.is_none()
     }
@@ -190,9 +191,9 @@ mod tests {
         let frame = setups.frame().unwrap();
         let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(near(frame.of([0.6, 0.0, 0.8]), [0.0, 0.0, 1.0]));
-        // horizontal: the setup's x axis is the part's y axis
+        // x is horizontal: the setup's x axis is the y axis of the part
         assert!(near(frame.of([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]));
-        // the CSYS of the CAM system overrides it
+        // the CSYS of the CAM system has priority
         setups.csys([0.8, 0.0, -0.6], [0.6, 0.0, 0.8]);
         assert!(near(setups.frame().unwrap().of([0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]));
     }

@@ -1,4 +1,4 @@
-//! Setups: the origin of positions in a file, and the tool axis.
+//! The origin of a file's positions, its coordinate systems and the tool axis.
 
 use super::fault::{Done, fault};
 use super::job::Job;
@@ -7,12 +7,12 @@ use super::state::Motion;
 use super::words::{Word, numbers};
 use crate::diag::Code;
 
-/// Handles MSYS of NX: the origin of positions.
+/// Handles MSYS of NX, which gives the origin of positions.
 pub(super) fn msys(words: &[Word], job: &mut Job<'_>) -> Done {
     one_origin("MSYS", words, job)
 }
 
-/// Handles MCS of CAMplete's post: three rows of a rotation, then the origin of positions.
+/// Handles MCS of CAMplete's post: the three rows of a rotation, and then the origin of positions.
 pub(super) fn mcs(words: &[Word], job: &mut Job<'_>) -> Done {
     let upright =
         |v: &[f64]| lies_along([v[0], v[1], v[2]], [1.0, 0.0, 0.0]) && lies_along([v[6], v[7], v[8]], [0.0, 0.0, 1.0]);
@@ -23,7 +23,7 @@ pub(super) fn mcs(words: &[Word], job: &mut Job<'_>) -> Done {
     one_origin("MCS", words, job)
 }
 
-/// Checks that the file has only one origin, because one work offset can't represent two.
+/// Checks that the file has only one origin. One work offset can't represent two.
 fn one_origin(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     match &job.setup {
         None => job.setup = Some((words.to_vec(), job.notes.place.line)),
@@ -38,7 +38,7 @@ fn one_origin(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// Handles CSYS of SolidWorks CAM: three rows of a rotation, each followed by a distance.
+/// Handles CSYS of SolidWorks CAM: the three rows of a rotation, each followed by a distance.
 pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setups>, job: &mut Job<'_>) {
     if let (Some(rows), 12) = (numbers(words), words.len()) {
         let z = [rows[2], rows[6], rows[10]];
@@ -48,7 +48,7 @@ pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setu
         }
     }
     if setups.is_some() {
-        return; // each setup has a frame of its own
+        return; // each setup has its own frame
     }
     match &job.setup {
         None => job.setup = Some((words.to_vec(), job.notes.place.line)),
@@ -62,7 +62,7 @@ pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setu
     }
 }
 
-/// Checks the first motion in a coordinate system: the tool axis must be its z axis.
+/// Checks the first motion in a coordinate system. Its tool axis must be the z axis of the coordinate system.
 #[cold]
 pub(super) fn must_agree((z, line): ([f64; 3], u64), axis: [f64; 3]) -> Done {
     if lies_along(z, axis) {

@@ -1,4 +1,4 @@
-//! Converts a CYCLE statement to a cycle: clearances, dwells, depths, steps and feeds in the file's units.
+//! Converts a CYCLE statement to a cycle with clearances, dwells, depths, steps and feeds in the file's units.
 
 use super::coded::Coded;
 use super::cycle_words::Opt;
@@ -10,7 +10,7 @@ use crate::cycle::stepped_pecks;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec, Orient, Peck, SpindleTurn};
 
-/// The cycle of a statement. Feeds are per minute, in the file's units.
+/// The cycle that a statement describes. Feeds are per minute, in the file's units.
 pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<CycleSpec> {
     let kind = coded.kind.unwrap_or(CycleKind::Drill);
     if coded.has(Opt::Float) && coded.has(Opt::Rigid) {
@@ -61,7 +61,7 @@ pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<
     Ok(spec)
 }
 
-/// Reads CLEAR. It is kept for later cycles, but its second number is not.
+/// Reads CLEAR. Its first number also applies to later cycles. The result is its second number, which applies to this cycle only.
 fn clearances(cycle: &mut Cycle, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done<Option<f64>> {
     let clear = coded.numbers(Opt::Clear);
     cycle.clear = clear.map(|numbers| numbers[0]).or(cycle.clear);

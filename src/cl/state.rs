@@ -1,4 +1,4 @@
-//! State of reading a file, in parts for the statements that use them.
+//! The state of reading a file. It is divided into parts, so each statement uses only the parts that it needs.
 
 use super::coded::Coded;
 use super::cycle_dialects::Heights;
@@ -8,37 +8,37 @@ use super::job::Job;
 use super::setup::{Frame, Setups};
 use crate::toolpath::{CycleSpec, LastDwell, Side};
 
-/// The whole state. Functions take only the parts that they use, or the whole if a motion may need all of it.
+/// The whole state. Most functions use only some of its parts. Functions that may make a motion use all of it.
 pub(super) struct State<'s> {
     pub job: Job<'s>,
     pub motion: Motion,
     pub arcs: Arcs,
     pub feeds: Feeds,
     pub cycle: Cycle,
-    /// The setups, if one of several is read or all are listed.
+    /// The setups, if one of several is selected or all are listed.
     pub setups: Option<Setups>,
 }
 
-/// The tool's position, and the mode of the next motion.
+/// The tool's position and the mode of the next motion.
 #[derive(Default)]
 pub(super) struct Motion {
     pub shift: Shift,
-    /// Position of the tool; after a hole, the position above it.
+    /// Position of the tool. After a hole, this is the position above the hole.
     pub position: Option<[f64; 3]>,
-    /// Last programmed point, the start for GODLTA.
+    /// The last programmed point, from which GODLTA counts.
     pub point: Option<[f64; 3]>,
     /// The tool axis.
     pub axis: Axis,
-    /// The next motion is a rapid.
+    /// Whether the next motion is a rapid.
     pub rapid: bool,
-    /// The first motion after the end of a cycle is a rapid, unless a feed comes first.
+    /// Whether the first motion after the end of a cycle is a rapid. A feed before this motion makes it a cut.
     pub rapid_after_cycle: bool,
     pub cutcom: Cutcom,
-    /// A coordinate system of the file that has no motion yet: its z axis, and its line.
+    /// The last coordinate system of the file if no motion followed so far: its z axis and its line.
     pub frame: Option<([f64; 3], u64)>,
 }
 
-/// The tool axis, a unit vector. At the start of a file the tool is vertical.
+/// The tool axis as a unit vector. At the start of a file it is vertical.
 pub(super) struct Axis(pub [f64; 3]);
 
 impl Default for Axis {
@@ -47,7 +47,7 @@ impl Default for Axis {
     }
 }
 
-/// Offset of all positions: TRANS minus ORIGIN.
+/// Shift of all positions: TRANS is added and ORIGIN is subtracted.
 #[derive(Default)]
 pub(super) struct Shift {
     pub trans: [f64; 3],
@@ -57,7 +57,7 @@ pub(super) struct Shift {
 }
 
 impl Shift {
-    /// Converts a position of the file to one of the job.
+    /// Converts a position of the file to a position of the job.
     #[inline]
     pub fn of(&self, point: [f64; 3]) -> [f64; 3] {
         let mut to = point;
@@ -67,7 +67,7 @@ impl Shift {
         self.turned(to)
     }
 
-    /// Converts a direction of the file to one of the job.
+    /// Converts a direction of the file to a direction of the job.
     #[inline]
     pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
         match &self.frame {
@@ -80,31 +80,31 @@ impl Shift {
 /// Cutter compensation.
 #[derive(Default)]
 pub(super) struct Cutcom {
-    /// The side that the next motion turns on; `None` inside: the next motion turns compensation off.
+    /// The change that the next motion makes: `Some(Some(side))` turns compensation on, `Some(None)` turns it off.
     pub asked: Option<Option<Side>>,
-    /// Compensation is on, or will be with the next motion.
+    /// Whether compensation is on, or will be on after the next motion.
     pub on: bool,
 }
 
-/// Pending arcs, and the direction of circles.
+/// The next arc, and the direction of circles.
 #[derive(Default)]
 pub(super) struct Arcs {
-    /// The circle along which the next GOTO cuts.
+    /// The circle on which the next GOTO moves.
     pub pending: Option<PendingArc>,
-    /// Direction from INDIRV in which the next TLON starts.
+    /// The direction from INDIRV in which the next TLON begins.
     pub direction: Option<[f64; 3]>,
     /// Direction of the tool at the end of the last motion.
     pub heading: Option<Heading>,
-    /// Direction of circles, as found from their tangents.
+    /// The direction of circles, as found from tangents.
     pub sense: Option<Sense>,
 }
 
-/// A direction in space, of length 1.
+/// A direction in space, as a unit vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Heading(pub [f64; 3]);
 
 impl Heading {
-    /// The direction from one point to another.
+    /// The direction from one point to another; `None` if the points are equal.
     pub fn between(from: [f64; 3], to: [f64; 3]) -> Option<Heading> {
         let way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let length = way.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -112,32 +112,32 @@ impl Heading {
     }
 }
 
-/// A circle along which the next GOTO cuts.
+/// A circle on which the next GOTO moves.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PendingArc {
     pub centre: [f64; 3],
-    /// Index of its axis (x, y or z), and whether the axis points in the positive direction.
+    /// Index of the circle's axis (x, y or z). `up`: whether the axis points in the positive direction.
     pub axis: usize,
     pub up: bool,
     /// The radius, if given.
     pub radius: Option<f64>,
     /// The direction, if the statement defines it.
     pub sense: Option<Sense>,
-    /// TIMES,n: the arc ends at the n-th arrival at the end point.
+    /// TIMES,n: the arc ends when it reaches the end point for the n-th time.
     pub times: Option<u32>,
-    /// ANGLE,a: degrees from start to end.
+    /// ANGLE,a: the angle from start to end, in degrees.
     pub angle: Option<f64>,
 }
 
-/// The active feed.
+/// The active feed, and whether a tool change ended a cycle.
 #[derive(Default)]
 pub(super) struct Feeds {
     pub feed: Option<Feed>,
-    /// Line of a tool change that ended a cycle; cleared when a feed or a cycle follows.
+    /// Line of a tool change that ended a cycle. Cleared when a feed or a cycle follows.
     pub cut_off: Option<u64>,
 }
 
-/// CYCLE/RETURN: it sets the return plane of the following cycles.
+/// The setting of CYCLE/RETURN, which determines the return plane of the following cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum ReturnMode {
     #[default]
@@ -148,8 +148,8 @@ pub(super) enum ReturnMode {
 }
 
 impl ReturnMode {
-    /// The return of a cycle. CYCLE/RETURN overrides `coded`, the return in the cycle's own statement. `None`: the tool returns
-    /// to each hole's clearance.
+    /// The return plane of a cycle. CYCLE/RETURN has priority over `coded`, the return in the cycle's own statement. `None`:
+    /// the tool returns to the clearance of each hole.
     pub fn over(self, coded: Option<CodedReturn>) -> Option<CodedReturn> {
         match self {
             ReturnMode::AsCoded => coded,
@@ -160,7 +160,7 @@ impl ReturnMode {
     }
 }
 
-/// Return plane of a cycle.
+/// A return plane of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CodedReturn {
     /// The clearance of the first point.
@@ -169,7 +169,7 @@ pub(super) enum CodedReturn {
     Above(f64),
     /// The tool's height before the cycle.
     Start,
-    /// This height in the file's coordinates.
+    /// A height in the file's coordinates.
     Height(f64),
 }
 
@@ -182,16 +182,16 @@ pub(super) struct Cycle {
     pub dwell: LastDwell,
     pub emulate: bool,
     pub return_mode: ReturnMode,
-    /// Return plane of the active cycle, set by its statement; `None`: each hole's own clearance.
+    /// Return plane of the active cycle, as its statement gives it; `None`: the clearance of each hole.
     pub returns: Option<CodedReturn>,
-    /// Heights of the cycle, for a system that gives them instead of a clearance.
+    /// The heights of the cycle, for a CAM system that gives heights instead of a clearance.
     pub heights: Option<Heights>,
-    /// Return plane as a height of the file, known from the first point on.
+    /// Return plane as a height in the file's coordinates. It is known after the first point.
     pub plane: Option<Option<f64>>,
 }
 
 impl Cycle {
-    /// Is a cycle active, so that points are holes?
+    /// Whether a cycle is active. Points are then holes.
     #[inline]
     pub fn is_active(&self) -> bool {
         self.active.is_some()

@@ -1,4 +1,4 @@
-//! Text statements: the part's name, comments, and text for the program.
+//! Text statements: the name of the part, comments, and text for the program.
 
 use super::dialect::Dialect;
 use super::fault::Done;
@@ -7,21 +7,21 @@ use super::report::Notes;
 use crate::diag::Code;
 use crate::toolpath::Place;
 
-/// Output of a text statement.
+/// What a text statement prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Said<'t> {
     Nothing,
     Comment(&'t str),
-    /// A block that is printed unchanged.
+    /// Text that is printed unchanged as a block.
     Block(&'t str),
     /// A stop, with a message for the operator.
     Stop(&'t str),
 }
 
-/// The output of a text statement in files of this system.
+/// What a text statement prints in files of this CAM system.
 fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     match (dialect, word) {
-        // Makino's PPRINT holds data for its own post processor
+        // PPRINT of Makino contains data for Makino's own post processor
         (Dialect::Makino, "PPRINT") => Said::Nothing,
         (Dialect::SolidWorksCam, "INSERT") => stop(text).map_or(Said::Comment(text), Said::Stop),
         (_, "INSERT") if !text.starts_with('[') => Said::Block(text),
@@ -29,19 +29,19 @@ fn said<'t>(dialect: Dialect, word: &str, text: &'t str) -> Said<'t> {
     }
 }
 
-/// The text after STOP.
+/// The text after the word STOP; `None` if the text does not begin with STOP.
 fn stop(text: &str) -> Option<&str> {
     let (word, message) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     word.eq_ignore_ascii_case("STOP").then(|| message.trim())
 }
 
-/// Holders, stock and stops are known. Any other INSERT of SolidWorks CAM describes the tool only if CUTTER follows.
+/// Whether an INSERT of SolidWorks CAM may be meant for the machine. `false` for holders, stock and stops, which postform knows.
 fn may_be_lost(text: &str) -> bool {
     let stock = text.get(..10).is_some_and(|head| head.eq_ignore_ascii_case("STOCK SIZE"));
     !stock && !text.starts_with('[') && stop(text).is_none()
 }
 
-/// An INSERT that may describe the following tool, and its location.
+/// An INSERT that may describe the tool of the next statement, and its location.
 pub(super) type Insert = Option<(String, Place)>;
 
 /// Handles a text statement.
@@ -57,7 +57,7 @@ pub(super) fn text(word: &str, text: String, insert: &mut Insert, job: &mut Job<
             }
             if word == "PPRINT" && job.name.is_none() && !job.has_operation() && job.notes.dialect() != Dialect::Makino
             {
-                job.name = Some(text.clone()); // in a file without PARTNO this is the name of the part
+                job.name = Some(text.clone()); // without PARTNO, the first PPRINT is the name of the part
             }
             if word == "INSERT" && may_be_lost(&text) {
                 *insert = Some((text.clone(), job.notes.place));
@@ -82,7 +82,7 @@ fn say(said: Said<'_>, job: &mut Job<'_>) -> Done {
     }
 }
 
-/// Warns of an INSERT that no tool follows, because it may have been meant for the machine.
+/// Warns of an INSERT after which no tool follows. It may be meant for the machine.
 pub(super) fn lone_insert(insert: &mut Insert, notes: &mut Notes<'_>) {
     let Some((text, place)) = insert.take().filter(|_| notes.dialect() == Dialect::SolidWorksCam) else { return };
     let help = "if the machine must do something here, write INSERT/STOP, AUXFUN/code or PREFUN/code";

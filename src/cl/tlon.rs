@@ -1,4 +1,4 @@
-//! CATIA's arcs: INDIRV, then TLON,GOFWD.
+//! Arcs of CATIA: INDIRV and then TLON,GOFWD.
 
 use super::arcs::arc_event;
 use super::fault::{Done, fault};
@@ -7,7 +7,7 @@ use super::vector::cross;
 use super::words::{Word, numbers};
 use crate::diag::Code;
 
-/// Handles INDIRV: the direction in which the next TLON starts.
+/// Handles INDIRV, the direction in which the next TLON begins.
 pub(super) fn indirv(words: &[Word], arcs: &mut Arcs, shift: &Shift) -> Done {
     match numbers(words).as_deref() {
         Some([i, j, k]) => {
@@ -18,7 +18,7 @@ pub(super) fn indirv(words: &[Word], arcs: &mut Arcs, shift: &Shift) -> Done {
     }
 }
 
-/// Handles TLON,GOFWD/(CIRCLE/x,y,z,r),ON,[n,INTOF,](LINE/x,y,z,x,y,z): an arc to the line's second point.
+/// Handles TLON,GOFWD/(CIRCLE/x,y,z,r),ON,[n,INTOF,](LINE/x,y,z,x,y,z): an arc to the second point of the line.
 pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
     let number = |at: usize| words.get(at).and_then(Word::number);
     let circle = words.iter().position(|word| word.is("CIRCLE"));

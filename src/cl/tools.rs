@@ -1,12 +1,12 @@
-//! Tools and spindle as defined in the file so far, for the next tool change.
+//! The tools and the spindle as the file has defined them so far, for the next tool change.
 
 use super::options::{Assumed, AssumedSpeed};
 use crate::toolpath::{Coolant, Spindle, SpindleTurn};
 
-/// Tools of a file.
+/// The tools of a file.
 #[derive(Default)]
 pub(super) struct Tools {
-    /// Numbers for tools that the file does not load.
+    /// Numbers to assume for tools that the file does not load.
     assumed: Option<Assumed>,
     /// Diameter from the last CUTTER or TLDATA.
     pub diameter: Option<f64>,
@@ -14,28 +14,28 @@ pub(super) struct Tools {
     pub name: Option<String>,
     /// Name of the next operation, from TOOL PATH.
     pub operation: Option<String>,
-    /// Text of TPRINT about the next tool.
+    /// Text of TPRINT, which describes the next tool.
     pub said: Option<String>,
-    /// Tools that were named but not loaded.
+    /// The names of tools that were named but not loaded.
     not_loaded: Vec<String>,
     /// Number of the last loaded tool.
     pub loaded: Option<f64>,
-    /// Greatest number of a loaded tool.
+    /// Greatest number of all loaded tools.
     pub greatest: f64,
-    /// Coolant. It is kept from tool to tool.
+    /// The current coolant. It stays active after a tool change.
     pub coolant: Option<Coolant>,
 }
 
 impl Tools {
-    /// The state before any tool.
+    /// The state before the first tool.
     pub fn new(assumed: Option<Assumed>) -> Self {
         Tools { assumed, ..Tools::default() }
     }
 
-    /// The number of a tool that is not loaded. `first`: it is the first tool.
+    /// The number of a tool that the file does not load. `first`: whether it is the first tool.
     ///
     /// # Errors
-    /// The number is unknown. The error is the option that sets it.
+    /// The number is unknown. The error is the option that gives it.
     pub fn number(&self, first: bool) -> Result<f64, String> {
         let assumed = self.assumed.as_ref();
         let one = assumed.and_then(Assumed::one).filter(|_| first);
@@ -58,33 +58,33 @@ impl Tools {
         Err(format!("--assume-tool {}", all.collect::<Vec<_>>().join(",")))
     }
 
-    /// Records that the current tool was not loaded but has a number.
+    /// Records that the current tool was only named, and that its number is known.
     pub fn goes_by_its_name(&mut self) {
         let new = self.name.iter().filter(|name| !self.not_loaded.contains(name)).cloned().collect::<Vec<_>>();
         self.not_loaded.extend(new);
     }
 }
 
-/// The spindle as defined in the file.
+/// The spindle as the file has defined it so far.
 #[derive(Default)]
 pub(super) struct Turning {
-    /// Current values.
+    /// The current values from the file.
     pub now: Spindle,
-    /// Direction of the last rotation.
+    /// The direction in which the spindle turned last.
     last: Option<SpindleTurn>,
-    /// The spindle was set after the last motion, possibly for the next tool.
+    /// Whether the spindle was set after the last motion. The setting may be for the next tool.
     pub is_new: bool,
-    /// Values for a tool without a spindle in the file.
+    /// The values for a tool whose spindle the file does not define.
     assumed: Option<Spindle>,
 }
 
 impl Turning {
-    /// The state before any SPINDL.
+    /// The state before the first SPINDL.
     pub fn new(assumed: Option<AssumedSpeed>) -> Self {
         Turning { assumed: assumed.map(AssumedSpeed::spindle), ..Turning::default() }
     }
 
-    /// The active values: from the file, else assumed.
+    /// The active values: those from the file, otherwise the assumed ones.
     pub fn in_force(&self) -> Spindle {
         match self.assumed {
             Some(assumed) if self.says_no_speed() => {
@@ -94,24 +94,24 @@ impl Turning {
         }
     }
 
-    /// Is the speed unknown, and the spindle not switched off?
+    /// Whether the file gives no speed although the spindle is not switched off.
     #[inline]
     pub fn says_no_speed(&self) -> bool {
         self.now.speed.is_none() && self.now.turn != Some(SpindleTurn::Off)
     }
 
-    /// Is the speed known or assumed, or the spindle switched off on purpose?
+    /// Whether the speed is given or assumed, or the spindle is switched off.
     #[inline]
     pub fn is_known(&self) -> bool {
         !self.says_no_speed() || self.assumed.is_some()
     }
 
-    /// The direction for SPINDL/ON.
+    /// The direction for SPINDL/ON: the last one, or clockwise.
     pub fn direction(&self) -> SpindleTurn {
         self.last.unwrap_or(SpindleTurn::Cw)
     }
 
-    /// Applies a SPINDL statement. Values that it does not give are kept.
+    /// Applies a SPINDL statement. Values that the statement does not give stay unchanged.
     pub fn say(&mut self, said: Spindle) {
         self.now = Spindle {
             speed: said.speed.or(self.now.speed),

@@ -1,11 +1,11 @@
-//! Products of vectors of the part, x y z.
+//! Products of vectors with x, y and z.
 
-/// The vector product.
+/// The vector product (cross product).
 pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The scalar product.
+/// The scalar product (dot product).
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -7,7 +7,7 @@ use crate::number::short_decimal;
 /// One word.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Word {
-    /// A number; always finite.
+    /// A number. It is always finite.
     Number(f64),
     /// A name in capitals, or quoted text.
     Name(String),
@@ -39,13 +39,13 @@ impl fmt::Display for Word {
     }
 }
 
-/// The numbers, if all words are numbers.
+/// The numbers, if all words are numbers; otherwise `None`.
 pub(super) fn numbers(words: &[Word]) -> Option<Vec<f64>> {
     words.iter().map(Word::number).collect()
 }
 
-/// Splits a statement into words at slashes, commas and parentheses. Spaces are ignored outside quotes. `Err`: a number that is
-/// not finite.
+/// Splits a statement into words at slashes, commas and parentheses. Spaces outside quotes are ignored. `Err`: the text of a
+/// number that is not finite.
 pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
     let (mut list, mut word, mut quoted, mut after_comma) = (Vec::new(), String::new(), false, false);
     for &byte in text.iter().chain(b"\n") {
@@ -76,7 +76,7 @@ fn one(word: &str) -> Result<Word, String> {
     }
 }
 
-/// The numbers of a plain `GOTO/x,y,z[,i,j,k]`, the most frequent statement. Other statements are left to [`words`].
+/// The numbers of a plain `GOTO/x,y,z[,i,j,k]`, which is the most frequent statement. `None`: use [`words`] for the statement.
 #[inline]
 pub(super) fn plain_goto(line: &[u8]) -> Option<([f64; 7], usize)> {
     let rest = line.trim_ascii_start().strip_prefix(b"GOTO")?;
@@ -102,7 +102,7 @@ fn blanks(mut text: &[u8]) -> &[u8] {
     text
 }
 
-/// Parses a decimal number of at most 15 digits. Its digits and its power of ten are exact doubles, so that one division gives
+/// Parses a decimal number of at most 15 digits. The digits and the power of ten are exact as doubles, so one division gives
 /// the nearest double.
 #[inline]
 fn number(text: &[u8]) -> Option<(f64, &[u8])> {
@@ -167,7 +167,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// The fast parser gives the same result as the general one.
+        /// The fast parser and the general parser give the same result.
         #[test]
         fn both_ways_read_the_same(text in "[+-]?[0-9]{1,9}(\\.[0-9]{0,6})?|[+-]?\\.[0-9]{1,12}") {
             let line = format!("GOTO/{text}");

@@ -1,4 +1,4 @@
-//! Values in a form that are known only at the end of a job, if some of its properties are known before the job.
+//! Finds the values that a form uses and that are known only at the end of a job. Properties with known values may exclude some of them.
 
 use std::ops::Range;
 
@@ -7,20 +7,20 @@ use super::routine::{Branch, Node, Routine};
 use crate::lang::{AHEAD, Coolant, TOOLS_AHEAD, TextId, VarId, VarSet};
 use crate::sema::{PropertyKind, PropertyValue, Target, Values};
 
-/// Values of properties that nothing changes any more, by row.
+/// Properties whose values do not change any more, by row.
 pub type Fixed = [(u16, PropertyValue)];
 
-/// Values in a form that are known only at the end of the job.
+/// Which values of a form are known only at the end of the job.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Asks {
-    /// Lists, extents or sums.
+    /// Whether the form uses lists, extents or sums.
     pub all: bool,
-    /// The tools that come next.
+    /// Whether the form uses tools that come later.
     pub tools: bool,
 }
 
 impl Program {
-    /// The values in the form that are known only at the end of the job, if the properties have these fixed values.
+    /// Which values of the form are known only at the end of the job, if the properties have these fixed values.
     pub fn asks_ahead(&self, fixed: &Fixed) -> Asks {
         let lists = self.ops.iter().any(|op| matches!(op, Op::List { .. }));
         let asks = |vars: VarSet, lists: bool| Asks { all: lists || vars.meets(AHEAD), tools: vars.meets(TOOLS_AHEAD) };
@@ -36,17 +36,17 @@ impl Program {
     }
 }
 
-/// The known properties.
+/// The properties whose values are known.
 struct Known<'k> {
     program: &'k Program,
     fixed: &'k Fixed,
 }
 
 impl Known<'_> {
-    /// The value of a property; `None` if it is unknown, or if the form sets it.
+    /// The value of a property; `None` if the value is unknown or the form changes it.
     fn get(&self, row: u16) -> Option<&PropertyValue> {
         let set = self.program.sets.iter().any(|(target, _)| *target == Target::Property(row));
-        // a length is in the units of the program, which depend on the job
+        // a length is in the units of the program, which depend on the job, so it is unknown
         let length = self.program.settings.properties[usize::from(row)].kind == PropertyKind::Length;
         let fixed = self.fixed.iter().rev().find(|(own, _)| *own == row && !set && !length);
         fixed.map(|(_, value)| value)
@@ -75,7 +75,7 @@ impl Values for Known<'_> {
     }
 }
 
-/// Collects the values used by all branches that may be taken.
+/// Collects the values that the form uses in branches that may be taken.
 struct Walk<'w> {
     program: &'w Program,
     known: Known<'w>,
@@ -91,7 +91,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Collects from a part of a sequence: its nodes, and the operations around their branches.
+    /// Collects from a part of a sequence: from its nodes, and from the operations outside of their branches.
     fn part(&mut self, ops: &Range<usize>, nodes: &[Node]) {
         let mut at = ops.start;
         for node in nodes {

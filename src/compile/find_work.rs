@@ -1,4 +1,4 @@
-//! Finds the words with which a form selects its work offset.
+//! Finds the words with which a form prints its work offset.
 
 use std::ops::Range;
 
@@ -8,16 +8,16 @@ use crate::control::{Code, Group, Meaning};
 use crate::lang::{SequenceId, VarId, VarSet};
 use crate::nc::{Kind, tokens};
 
-/// A word that may select the offset.
+/// A word that may select the work offset.
 struct Found {
     op: usize,
     word: WorkWord,
-    /// 0: a code, or the parameter of a code that selects offsets. 1: a word of its own. 2: a value after a text. Only the words
-    /// with the lowest rank in a form are used.
+    /// 0: a code, or a parameter of a code that selects offsets. 1: a word without a code. 2: a value after a text. Only the
+    /// words with the lowest rank in the form are used.
     rank: u8,
 }
 
-/// Finds the work offset words of a form. Those in the tool changes come first.
+/// Finds the words for work offsets in a form. The words in tool changes come first.
 pub(super) fn find_work(program: &Program) -> WorkWords {
     let is_line = |at: usize| program.ops.get(at).is_none_or(|op| matches!(op, Op::Line { .. }));
     let mut found = Vec::new();
@@ -59,7 +59,7 @@ pub(super) fn find_work(program: &Program) -> WorkWords {
     words
 }
 
-/// The rows of `MoreWork`.
+/// The work offsets that `MoreWork` defines.
 fn more_words(program: &Program) -> Vec<(f64, WorkWord, f64)> {
     let first = program.settings.work;
     let more = program.settings.more_work.iter().map(|more| {
@@ -74,7 +74,7 @@ const BY_CODE: u8 = 0;
 const OF_ITS_OWN: u8 = 1;
 const BEHIND_TEXT: u8 = 2;
 
-/// Finds the words of one block, unless they are arguments.
+/// Finds such words in one block. Words that are arguments of another code are ignored.
 fn in_block(block: Range<usize>, program: &Program, found: &mut Vec<Found>) {
     let control = program.settings.codes();
     let own = VarSet::of(&[VarId::Work]);

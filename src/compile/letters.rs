@@ -1,37 +1,37 @@
-//! Properties of each letter in a form: its format, printed letter, sign and modality.
+//! How a form prints each letter: its format, the printed letter, its sign, and whether it may be left out.
 
 use crate::number::{LetterFormat, Printing};
 use crate::sema::{Form, Settings};
 
-/// Kind of a letter, as needed for modality.
+/// The kind of a letter. It determines when the letter's word may be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LetterKind {
     /// The position of an axis.
     Axis,
-    /// G codes: each modal group has a register.
+    /// G codes. Each modal group is remembered separately.
     GCode,
-    /// M codes: each modal group has a register.
+    /// M codes. Each modal group is remembered separately.
     MCode,
     /// Any other value.
     Other,
 }
 
-/// One letter of a form.
+/// How one letter is printed.
 #[derive(Clone, Copy, Debug)]
 pub struct Letter {
     /// The format of numbers after this letter.
     pub format: LetterFormat,
     /// The same format, prepared for printing.
     pub printing: Printing,
-    /// The format is from the form; otherwise it is a built-in one.
+    /// Whether the form defines the format. Otherwise it is a built-in format.
     pub has_format: bool,
-    /// The letter that is printed (`Rename`).
+    /// The letter in the program, after `Rename`.
     pub printed: u8,
-    /// Only the value is printed (`Dummy`).
+    /// Whether only the value is printed, without the letter (`Dummy`).
     pub dummy: bool,
-    /// The sign is reversed (`RevSigns`).
+    /// Whether the sign is reversed (`RevSigns`).
     pub reversed: bool,
-    /// Motion blocks may leave it out if its value did not change (`ModalLetters`).
+    /// Whether motion blocks may leave out the word if its value did not change (`ModalLetters`).
     pub modal: bool,
     /// Kind of the letter.
     pub kind: LetterKind,
@@ -43,7 +43,7 @@ pub struct LetterTable {
     rows: [Letter; 128],
     /// The format of a value without a letter.
     pub bare: LetterFormat,
-    /// Packed words by letter: the digits that `[tparams]` prints if it has no value.
+    /// Packed words by their letters, with the digits that `[tparams]` prints if it has no value.
     pub packed: Vec<(u8, String)>,
 }
 
@@ -55,7 +55,7 @@ impl std::ops::Index<u8> for LetterTable {
     }
 }
 
-/// Built-in formats: letters, inch, metric (language.md section 2).
+/// The built-in formats (docs/language.md, "Letter formats"): letters, the format in inches, the format in millimetres.
 const BUILT_IN: &[(&[u8], &str, &str)] = &[
     (b"XYZUVWIJKRQABC", "->4.>4", "->5.>3"),
     (b"F", ">6.>4", ">6.>4"),
@@ -67,15 +67,15 @@ const BUILT_IN: &[(&[u8], &str, &str)] = &[
     (b"HDOLN:", ">6", ">6"),
 ];
 
-/// Format of all other letters, and of values without a letter.
+/// The format of all other letters, and of values without a letter.
 const ANY: (&str, &str) = ("->6~>4", "->6~>4");
 
-/// Format of values after a text, for languages whose cycles consist of such words. Levels and pitches are added and multiplied
-/// there.
+/// The format of values after a text, for languages in whose cycles values have no letters. In such cycles, heights and pitches
+/// are added and multiplied, so more decimals are needed.
 const FINE: &str = "->6~>6";
 
 impl LetterTable {
-    /// The table of a form, with built-in formats for inches or millimetres.
+    /// The letters of a form. Letters without a format get a built-in format for inches or millimetres.
     pub fn new(form: &Form, metric: bool) -> LetterTable {
         let settings = &form.settings;
         let bare = LetterFormat::built_in(match settings.control().prints_codes() {

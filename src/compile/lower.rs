@@ -1,4 +1,4 @@
-//! Lowering: converts lines of words to operations.
+//! Converts the lines of a form to operations.
 
 use super::find_work::find_work;
 use super::letters::LetterTable;
@@ -14,7 +14,7 @@ use crate::lang::{SequenceId, TextSet, VarId, VarSet};
 use crate::sema::{Form, Formula, Line, NamePart, Sequence, Step, WordKind, line_counts};
 use crate::span::Span;
 
-/// Compiles a form that was checked without errors.
+/// Compiles a form that was checked and has no errors.
 pub fn compile(form: &Form) -> Program {
     let mut program = Program {
         settings: form.settings.clone(),
@@ -79,7 +79,8 @@ fn speaks_g(program: &Program) -> bool {
     generated || program.literals.iter().any(motion)
 }
 
-/// Do sequences for parts of the path type M3 or M4 and also M5, or does a sequence of moves print the speed?
+/// Whether the form switches its torch or laser itself: its sequences for parts of the path print M3 or M4 and also M5, or a sequence for
+/// moves prints the speed.
 fn switches_spindle(program: &Program) -> bool {
     use SequenceId as S;
     const PARTS: [SequenceId; 14] = [
@@ -129,7 +130,7 @@ fn lower_sequence(program: &mut Program, sequence: &Sequence) -> Routine {
     routine
 }
 
-/// Lowers the lines of a body. The first `count` lines print at the first hole only.
+/// Converts the lines of a body to operations. The first `count` lines are printed at the first hole only.
 fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: Option<usize>, span: Span) -> Routine {
     let start = program.ops.len();
     let flow = match steps {
@@ -145,7 +146,7 @@ fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: O
     routine
 }
 
-/// A routine without results of the analysis.
+/// A routine before its operations are analysed.
 fn routine(ops: Range<usize>, flow: Option<Arc<Flow>>, count: Option<usize>, span: Span) -> Routine {
     Routine {
         repeat: ops.start,
@@ -182,7 +183,7 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
                 program.ops.push(Op::List { index });
                 program.spans.push(*span);
                 let start = program.ops.len();
-                // reserves the row: lists inside this one get later rows
+                // reserve the row now, because lists inside this one get later rows
                 program.lists.push(List { each: *each, routine: routine(start..start, None, None, *span) });
                 let inner = lower_steps(program, lines, steps, branches);
                 let ops = start..program.ops.len();
@@ -209,14 +210,14 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
     nodes
 }
 
-/// Adds a formula that is evaluated, and returns its row.
+/// Adds a formula that is evaluated. Returns its row.
 fn asked(program: &mut Program, formula: &Formula) -> u32 {
     program.texts_printed = program.texts_printed.with(formula.texts());
     program.asked = program.asked.with(formula.vars());
     push(&mut program.formulas, formula.clone())
 }
 
-/// Adds a formula that is printed, and returns its row.
+/// Adds a formula whose value is printed. Returns its row.
 fn formula(program: &mut Program, formula: &Formula) -> u32 {
     program.printed = program.printed.with(formula.vars());
     asked(program, formula)
@@ -260,13 +261,13 @@ fn lower_line(program: &mut Program, line: &Line) {
     }
 }
 
-/// Adds a row to a table and returns its index.
+/// Adds a row to a table. Returns its index.
 fn push<T>(table: &mut Vec<T>, item: T) -> u32 {
     table.push(item);
     (table.len() - 1) as u32
 }
 
-/// Is the word either no G or M code, or one of G0 to G3?
+/// Whether the word is one of G0 to G3, or no G or M code at all.
 fn is_motion_or_no_code(word: &WordKind) -> bool {
     match word {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),

@@ -1,4 +1,4 @@
-//! Compiles a checked form to a flat program: an array of small operations that runs for each event.
+//! Compiles a checked form to a list of small operations, parts of which run for each event.
 
 mod ahead;
 mod find_work;

@@ -14,186 +14,186 @@ use crate::span::Span;
 /// Number of bytes of a form's hash that are printed.
 const HASH_BYTES: usize = 6;
 
-/// One operation. It is small, because a long job executes hundreds of millions of them.
+/// One operation. It is small, because hundreds of millions of operations may run for a long job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Op {
-    /// Start of a line. `droppable`: the line has no codes except G0 to G3, so that a cycle may leave out its unchanged words.
+    /// Start of a line. `droppable`: the only codes in the line are G0 to G3, so a cycle may leave out its unchanged words.
     Line {
-        /// See the variant.
+        /// Explained at the variant.
         droppable: bool,
     },
-    /// A letter and a variable's value.
+    /// A letter and the value of a variable.
     Var {
         /// The letter as the form writes it.
         letter: u8,
         /// The variable.
         var: VarId,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// A variable's value alone.
+    /// The value of a variable without a letter.
     Value {
         /// The variable.
         var: VarId,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// A variable's value inside a comment of the program, which the control ignores.
+    /// The value of a variable inside a comment of the program. The control ignores it.
     Remark {
         /// The variable.
         var: VarId,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// A letter and a number as typed.
+    /// A letter and a number, printed as written in the form.
     Literal {
         /// Row in [`Program::literals`].
         index: u32,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// Text as typed.
+    /// Text, printed as written in the form.
     Text {
         /// Row in [`Program::texts`].
         index: u32,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
     /// Text in backquotes, which is never changed.
     Quote {
         /// Row in [`Program::texts`].
         index: u32,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
     /// A letter and a calculated value.
     Formula {
         /// The letter as the form writes it.
         letter: u8,
-        /// Its row in [`Program::formulas`].
+        /// Row in [`Program::formulas`].
         index: u32,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// A calculated value alone.
+    /// A calculated value without a letter.
     ValueFormula {
-        /// Its row in [`Program::formulas`].
+        /// Row in [`Program::formulas`].
         index: u32,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
     /// A calculated value inside a comment of the program.
     RemarkFormula {
-        /// Its row in [`Program::formulas`].
+        /// Row in [`Program::formulas`].
         index: u32,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// `@set`: a variable or property gets a value.
+    /// Sets a variable or a property (`@set`).
     Set {
-        /// Its row in [`Program::sets`].
+        /// Row in [`Program::sets`].
         index: u32,
     },
-    /// A property that is a text.
+    /// A property with a text value.
     PropertyText {
-        /// Its row in the settings.
+        /// Row of the property in the settings.
         row: u16,
-        /// In a comment, where more characters are allowed than in words.
+        /// Whether it is in a comment, where more characters are allowed than in words.
         in_comment: bool,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// A list follows: a row of [`Program::lists`].
+    /// Start of a list, which is a row of [`Program::lists`].
     List {
-        /// The row.
+        /// Row of the list.
         index: u32,
     },
     /// A text of the job.
     TextVar {
-        /// Which.
+        /// Which text, and its width.
         var: TextVar,
-        /// In a comment, where more characters are allowed than in words.
+        /// Whether it is in a comment, where more characters are allowed than in words.
         in_comment: bool,
-        /// No space before it.
+        /// Whether there is no space before it.
         glued: bool,
     },
-    /// Start of a comment with texts of the job. The comment is left out if all of them are empty.
+    /// Start of a comment with texts of the job. If all these texts are empty, the comment is not printed.
     Comment {
-        /// Number of its operations.
+        /// Number of operations in the comment.
         words: u32,
     },
 }
 
-/// A literal word.
+/// A word with a letter and a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Literal {
     /// The letter.
     pub letter: u8,
-    /// The whole word as typed.
+    /// The whole word as written in the form.
     pub text: String,
     /// The number after the letter.
     pub value: f64,
-    /// The printed code, if the word is one.
+    /// The code, if the word is a G or M code.
     pub code: Option<Code>,
 }
 
-/// Lines that print once for each tool, operation or work offset.
+/// Lines that print once for each tool, operation or work offset (`@for`).
 #[derive(Clone, Debug)]
 pub struct List {
     /// Kind of the items.
     pub each: Each,
-    /// Output for one item.
+    /// The operations for one item.
     pub routine: Routine,
 }
 
-/// Printing style of a canned cycle (render.md section 3).
+/// How a canned cycle prints its holes (docs/rendering.md, "Canned cycles").
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CycleStyle {
-    /// One line, `End Cancel`: later holes print only the changes.
+    /// One line, and `End Cancel`: the first hole prints the line, later holes only what changes.
     Machine,
-    /// One line, plain `End`: the whole line at every hole.
+    /// One line, and `End` alone: every hole prints the whole line.
     WholeLine,
-    /// Several lines, no count: all lines at every hole.
+    /// Several lines without a count: every hole prints all lines.
     Emulated,
-    /// The first lines once, the others at every hole.
+    /// Several lines with a count: the first lines print once, the others at every hole.
     Advanced,
-    /// `None`: moves are generated.
+    /// `None`: postform generates the moves.
     Generated,
 }
 
-/// A sequence printed when a variable changes.
+/// A sequence that is printed when a variable changes, or whenever it is used.
 #[derive(Clone, Debug)]
 pub struct Upon {
-    /// The variable.
+    /// The variable that triggers the sequence.
     pub var: VarId,
-    /// At every use.
+    /// Whether the sequence is printed at every use of the variable.
     pub every: bool,
-    /// The operations of the Upon sequence.
+    /// The operations of the sequence.
     pub routine: Routine,
 }
 
-/// A compiled form. It is immutable; many renderers may share it.
+/// A compiled form. It is immutable, so many renderers may share it.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// Settings from the commands.
     pub settings: Settings,
     /// All operations.
     pub ops: Vec<Op>,
-    /// Location of each operation in the form; used only for errors and the source map.
+    /// Location of each operation in the form. Only errors and the source map use it.
     pub spans: Vec<Span>,
-    /// Literal words.
+    /// The words with a letter and a number.
     pub literals: Vec<Literal>,
     /// Texts.
     pub texts: Vec<String>,
     /// Formulas of values and conditions.
     pub formulas: Vec<Formula>,
-    /// The `@set` directives: the variable or property, and the row of its value in `formulas`.
+    /// The `@set` directives: the variable or property to set, and the row of its value in `formulas`.
     pub sets: Vec<(Target, u32)>,
     /// The lists of `@for`.
     pub lists: Vec<List>,
-    /// The texts of the job that the form uses anywhere.
+    /// The texts of the job that the form prints or uses.
     pub texts_printed: TextSet,
-    /// Name of the form: from `Name`, else from its file.
+    /// Name of the form: from the command `Name`, otherwise from the form's file.
     pub name: String,
     /// Hash of the form, if the form prints it.
     pub hash: String,
@@ -201,37 +201,37 @@ pub struct Program {
     pub(super) routines: Vec<Option<Routine>>,
     /// The Upon sequences in the order of the form.
     pub upons: Vec<Upon>,
-    /// The variables that some Upon watches.
+    /// The variables that trigger some Upon sequence.
     pub upon_vars: VarSet,
-    /// The variables that the form prints anywhere.
+    /// The variables that some sequence prints.
     pub printed: VarSet,
-    /// The variables in conditions and calculations.
+    /// The variables that conditions and calculations use.
     pub asked: VarSet,
-    /// The form uses G codes for motions: its sequences type G0 to G3, or blocks of moves are generated.
+    /// Whether the form uses G codes for motions: its sequences print G0 to G3, or postform generates blocks of moves.
     pub speaks_g: bool,
-    /// The form's own sequences switch the spindle along the path (torch, laser), so that no spindle codes are generated.
+    /// Whether the form's own sequences switch a torch or laser along the path. postform then generates no spindle codes.
     pub switches_spindle: bool,
-    /// The form's work offset words, and the operations that print them.
+    /// The words with which the form prints its work offset, and the operations that print it.
     pub work: WorkWords,
-    /// Letters of the form, for programs in inches and in millimetres.
+    /// The letters of the form, for programs in inches and for programs in millimetres.
     pub letters: [LetterTable; 2],
-    /// Comments of the Custom cycles; each names the kind of cycle.
+    /// The comments of the Custom cycles. Each names the kind of cycle.
     pub custom: [Option<String>; 3],
 }
 
 impl Program {
-    /// A sequence, if the form has it.
+    /// The routine of a sequence, if the form has the sequence.
     #[inline]
     pub fn routine(&self, id: SequenceId) -> Option<&Routine> {
         self.routines[id as usize].as_ref()
     }
 
-    /// The variables that the form prints, evaluates or watches.
+    /// The variables that the form prints or evaluates, or that trigger an Upon sequence.
     pub fn used(&self) -> VarSet {
         self.printed.with(self.asked).with(self.upon_vars)
     }
 
-    /// Sets the name and the hash from the files of the form: the form itself first, then those that it calls.
+    /// Sets the name and the hash of the form from its files: the main file first, then those that it calls.
     #[must_use]
     pub fn identified(mut self, files: &[Source]) -> Program {
         self.name.clone_from(&self.settings.name);

@@ -1,4 +1,4 @@
-//! The operations of a sequence, and its branches.
+//! Routines: the operations of a sequence, and its branches.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,74 +10,74 @@ use crate::lang::{TextSet, VarId, VarSet};
 use crate::sema::Target;
 use crate::span::Span;
 
-/// A sequence's operations.
+/// The operations of a sequence.
 #[derive(Clone, Debug)]
 pub struct Routine {
     /// Range in [`Program::ops`].
     pub ops: Range<usize>,
-    /// Parts of `ops` that belong to branches that were not taken, in order.
+    /// The parts of `ops` that belong to branches that were not taken, in their order.
     pub left_out: Option<Arc<[Range<usize>]>>,
-    /// The branches that were taken, one bit each. 0 before the selection: all branches together.
+    /// The branches that were taken, one bit for each. It is 0 if no branches were selected; then `ops` contains all branches.
     pub branches: u128,
     /// The branches of the sequence; `None` if it has no directives.
     pub flow: Option<Arc<Flow>>,
-    /// Number of lines that a cycle prints at its first hole only, if it has a count.
+    /// Number of lines that are printed at the first hole only, if the sequence is a cycle with a count.
     pub count: Option<usize>,
-    /// Start of the lines that an advanced cycle repeats; otherwise the start of the sequence.
+    /// Start of the lines that a cycle with a count repeats. Otherwise the start of the sequence.
     pub repeat: usize,
-    /// The variables it prints outside comments.
+    /// The variables that the routine prints outside comments.
     pub vars: VarSet,
-    /// The texts of the job that it prints.
+    /// The texts of the job that the routine prints.
     pub texts: TextSet,
-    /// Variables and properties in the words that a cycle prints at its first hole only.
+    /// For the words that a cycle prints at its first hole only: the variables and properties on which these words depend.
     pub first_only: Sources,
-    /// `End Cancel`.
+    /// Whether the sequence ends with `End Cancel`.
     pub cancel: bool,
-    /// At the end of the lines the control is in a cycle, a macro or another motion of its own.
+    /// Whether the control still moves by itself after the last line, as in a cycle or a macro.
     pub stays: bool,
-    /// Printing style as a cycle.
+    /// How the sequence prints holes, if it is a canned cycle.
     pub style: CycleStyle,
-    /// The routine prints `[retplane]`, `[rplane]` or G98, so that the tool returns to the return plane.
+    /// Whether the routine prints `[retplane]`, `[rplane]` or G98. The tool then returns to the return plane.
     pub returns: bool,
-    /// The name line.
+    /// Location of the name line.
     pub span: Span,
 }
 
 /// The branches of a sequence.
 #[derive(Clone, Debug)]
 pub struct Flow {
-    /// Its parts in order.
+    /// The parts of the sequence in their order.
     pub nodes: Vec<Node>,
 }
 
-/// A part of a sequence.
+/// A part of a sequence that contains a directive.
 #[derive(Clone, Debug)]
 pub enum Node {
-    /// A variable gets a value; later conditions may use it.
+    /// Sets a variable or property. Later conditions may use its value.
     Set(Target, u32),
-    /// Branches: the first one whose condition is true is taken.
+    /// Branches. The first one whose condition is true is taken.
     If(Vec<Branch>),
-    /// A list: its row in [`Program::lists`], and its operations, which have their own routine.
+    /// A list: its row in [`Program::lists`], and the range of its operations, which have a routine of their own.
     List(u32, Range<usize>),
 }
 
 /// A branch.
 #[derive(Clone, Debug)]
 pub struct Branch {
-    /// Number of its bit.
+    /// Number of the bit of this branch.
     pub number: u32,
-    /// Row of its condition in [`Program::formulas`]; `None`: `@else`.
+    /// Row of its condition in [`Program::formulas`]. `None` for `@else`.
     pub condition: Option<u32>,
-    /// Range of its operations.
+    /// Range of the branch's operations.
     pub ops: Range<usize>,
-    /// Its parts.
+    /// The parts of the branch.
     pub nodes: Vec<Node>,
-    /// The directive.
+    /// Location of the directive.
     pub span: Span,
 }
 
 impl Routine {
-    /// Does it print this variable, or use it in a condition?
+    /// Whether the routine prints this variable or uses it in a condition.
     pub fn asks(&self, var: VarId, program: &Program) -> bool {
         self.vars.has(var) || self.tests(VarSet::of(&[var]), program)
     }
@@ -96,7 +96,7 @@ impl Routine {
         self.flow.as_ref().is_some_and(|flow| of(&flow.nodes, vars, program))
     }
 
-    /// Computes the properties of all its operations together.
+    /// Determines the properties of the routine from all its operations.
     pub(super) fn look_at(&mut self, program: &Program) {
         let (mut vars, mut texts) = (VarSet::default(), TextSet::default());
         let (mut lines, mut returns, mut stays) = (0, false, false);
@@ -118,7 +118,7 @@ impl Routine {
                 let literal = &program.literals[index as usize];
                 returns |= literal.letter == b'G' && literal.value == program.settings.return_plane[1];
             }
-            // the last code decides: one that moves by itself, or one that ends this
+            // the last code decides this: a code that moves by itself, or a code that ends such a motion
             if let Some(code) = typed_code(op, program) {
                 let moves = control.moves_by_itself(code);
                 if moves || control.meaning(code).is_some_and(Meaning::ends_cycle) {
@@ -138,7 +138,7 @@ impl Routine {
         self.first_only = of_first_hole(steps, self.count.is_some());
     }
 
-    /// The routine with only these branches.
+    /// The routine with these branches only.
     pub fn way(&self, branches: u128, program: &Program) -> Routine {
         let mut left_out = Vec::new();
         if let Some(flow) = &self.flow {
@@ -149,13 +149,13 @@ impl Routine {
         way
     }
 
-    /// Its operations.
+    /// The operations of the routine that are not left out.
     #[inline]
     pub fn steps(&self) -> Steps<'_> {
         self.steps_in(self.ops.clone())
     }
 
-    /// Its operations inside this range.
+    /// The operations in this range that are not left out.
     #[inline]
     pub fn steps_in(&self, part: Range<usize>) -> Steps<'_> {
         let left_out = self.left_out.as_deref().unwrap_or_default();
@@ -196,7 +196,7 @@ impl DoubleEndedIterator for Steps<'_> {
     }
 }
 
-/// Collects the operations of branches that are not taken.
+/// Collects the ranges of branches that are not taken.
 fn leave_out(nodes: &[Node], branches: u128, left_out: &mut Vec<Range<usize>>) {
     for node in nodes {
         let all = match node {
@@ -226,7 +226,7 @@ fn vars_of(op: Op, program: &Program) -> VarSet {
     }
 }
 
-/// The typed G or M code of an operation, also after the slash of block delete.
+/// The G or M code of an operation if it is a number in the form. A slash for block delete may precede the code.
 fn typed_code(op: Op, program: &Program) -> Option<Code> {
     match op {
         Op::Literal { index, .. } => {
@@ -242,7 +242,7 @@ fn typed_code(op: Op, program: &Program) -> Option<Code> {
     }
 }
 
-/// The step of an operation that prints or sets a value; `None` for other operations.
+/// Converts an operation that prints or sets a value. `None` for other operations.
 fn step(op: Op, program: &Program) -> Option<Step<'_>> {
     let printed = |letter: u8| program.letters[0][letter].printed;
     let formula = |index: u32| &program.formulas[index as usize];

@@ -1,19 +1,19 @@
-//! The variables and properties that the values of a sequence depend on, also through `@set`.
+//! The variables and properties on which the values in a sequence depend, directly or through `@set`.
 
 use crate::lang::{VarId, VarSet};
 use crate::sema::{Formula, Target};
 
-/// Variables and properties that a value depends on.
+/// The variables and properties on which a value depends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sources {
-    /// Variables.
+    /// The variables.
     pub vars: VarSet,
-    /// Properties of the form, one bit for each row: a form has at most 64.
+    /// The properties of the form, with one bit for each row. A form has at most 64 properties.
     properties: u64,
 }
 
 impl Sources {
-    /// The union of both.
+    /// The sources of both.
     #[must_use]
     fn with(self, other: Sources) -> Sources {
         Sources { vars: self.vars.with(other.vars), properties: self.properties | other.properties }
@@ -28,24 +28,24 @@ impl Sources {
         }
     }
 
-    /// Is the value constant?
+    /// Whether the value is constant.
     #[inline]
     pub fn is_empty(self) -> bool {
         self == Sources::default()
     }
 
-    /// The properties.
+    /// The rows of the properties.
     pub fn properties(self) -> impl Iterator<Item = u16> {
         (0..64).filter(move |row| self.properties & 1 << row != 0)
     }
 }
 
-/// Targets of `@set` in a sequence so far, with the sources of their values.
+/// What the sequence has set by `@set` so far, with the sources of the values.
 #[derive(Default)]
 struct Carried(Vec<(Target, Sources)>);
 
 impl Carried {
-    /// The sources of a variable or property: if it was set, those of the assigned value.
+    /// The sources of a variable or property. If it was set before, these are the sources of the value.
     fn of(&self, target: Target) -> Sources {
         let set = self.0.iter().rfind(|(own, _)| *own == target);
         set.map_or_else(|| Sources::of(target), |(_, sources)| *sources)
@@ -70,19 +70,20 @@ impl Carried {
     }
 }
 
-/// A step of a sequence: a printed value with its printed letter ([`BARE`] for none), or an assignment.
+/// A step of a sequence: a printed value with its letter ([`BARE`] if it has none), or an assignment.
 pub(super) enum Step<'p> {
     Sets(Target, &'p Formula),
     Var(u8, VarId),
     Formula(u8, &'p Formula),
 }
 
-/// Placeholder letter of a value without a letter.
+/// The letter of a step for values without a letter.
 pub(super) const BARE: u8 = b' ';
 
-/// The sources of words that a cycle prints at its first hole only. In a cycle with a count these are the words of the counted
-/// lines; in a cycle of one line, the values without a letter. A word that the other lines print too does not count. `steps`: the
-/// steps of the cycle's sequence, each with whether its line prints at every hole; `counted`: the cycle has a count.
+/// The sources of the words that a cycle prints at its first hole only. In a cycle with a count, these are the words of the
+/// counted lines. In a cycle of one line, they are the values without a letter. Words that other lines print too are not
+/// included. `steps`: the steps of the cycle, each with whether its line is printed at every hole. `counted`: whether the cycle
+/// has a count.
 pub(super) fn of_first_hole<'p>(steps: impl Iterator<Item = (Step<'p>, bool)>, counted: bool) -> Sources {
     let mut carried = Carried::default();
     let (mut first, mut again) = (Vec::new(), Vec::new());

@@ -1,49 +1,49 @@
-//! Printing of a work offset: by G codes, by words of the form's own (possibly calculated), or after a text.
+//! How a form prints a work offset: by G codes, by other words (whose values may be calculated), or after a text.
 
 use crate::control::{Code, Control, Group, WorkOffset};
 use crate::lang::{VarId, additional_work};
 use crate::sema::{Formula, Values};
 
-/// A format for the work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, or `[work]` after a text.
+/// One way to print a work offset: `G[work]`, `G154 P[work]`, `G15 H[work]`, `E[work]`, or `[work]` after a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkWord {
-    /// The G code before it in its block.
+    /// The G code before the word in its block.
     pub code: Option<Code>,
-    /// The letter of the word. `None`: the value follows a text and has no letter.
+    /// The letter of the word. `None`: the value follows a text without a letter.
     pub letter: Option<u8>,
-    /// The value is the number of a G code.
+    /// Whether the value is the number of a G code.
     pub is_code: bool,
-    /// Calculation of the value, as `[work-53]`; `None`: the job's value is printed.
+    /// How the value is calculated, as in `[work-53]`. `None`: the value of the job is printed.
     pub(super) calculated: Option<Formula>,
 }
 
-/// All formats of a form for the work offset, and the operations that print it. Arguments of macros, subprograms and G10 are not
-/// included.
+/// All ways in which a form prints a work offset, and the operations that print it. Arguments of macros, subprograms and G10 are
+/// not included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkWords {
-    /// The formats; those of the tool changes come first. Empty: G codes, or no work offset at all.
+    /// The ways. Those in tool changes come first. If empty, the form prints offsets by G codes only, or no offsets.
     pub ways: Vec<WorkWord>,
-    /// The operations that print the work offset, in order.
+    /// The indices of the operations that print the work offset, in ascending order.
     pub(super) says: Vec<usize>,
-    /// Words of `G[work]` for further fixtures: the first value of `[work]`, the words, and the number of the last one.
+    /// The words from `MoreWork`. Each has the first `[work]` to which it applies, the word, and the number in the word for this offset.
     pub(super) more: Vec<(f64, WorkWord, f64)>,
-    /// G54 to G59 select offsets besides the form's own words. False if such a word follows another code: on an Okuma with G15,
-    /// G56 is a length.
+    /// Whether G54 to G59 also select offsets if the form has other words. False if such a word follows a code: on an Okuma
+    /// with G15, G56 is a length.
     pub shares_its_codes: bool,
 }
 
 impl WorkWords {
-    /// Does this operation print the work offset?
+    /// Whether this operation prints the work offset.
     pub fn says(&self, op: usize) -> bool {
         self.says.binary_search(&op).is_ok()
     }
 
-    /// Is the work offset printed only by G codes, so that each such code is an offset?
+    /// Whether the work offset is printed by G codes only. Each of these codes then selects an offset.
     pub fn by_code(&self) -> bool {
         self.ways.is_empty() || self.ways.iter().any(|way| way.is_code)
     }
 
-    /// The first format that is possible on the control for this offset, and the value of its word.
+    /// The first way that the control supports for this offset, and the value of its word.
     pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
         if let Some((word, value)) = values.number(VarId::Work).and_then(|work| self.more(work)) {
             return word.has(value, control).then_some((word, value));
@@ -57,13 +57,13 @@ impl WorkWords {
         })
     }
 
-    /// The words of `MoreWork` for this value of `[work]`, and the number of the last one.
+    /// The word from `MoreWork` for this value of `[work]`, and the number in the word.
     pub fn more(&self, work: f64) -> Option<(&WorkWord, f64)> {
         let (first, word, number) = self.more.iter().rfind(|(first, ..)| *first <= work && work.fract() == 0.0)?;
         Some((word, number + (work - first)))
     }
 
-    /// The identifier of the printed offset in a program: its code, its number, or the name of an additional offset.
+    /// The identifier of the work offset that is printed: its code, its number, or the identifier of an additional offset.
     pub fn name(&self, values: &dyn Values, control: &Control) -> Option<f64> {
         let (way, value) = self.way(values, control)?;
         Some(match way.is_code {
@@ -74,7 +74,7 @@ impl WorkWords {
     }
 }
 
-/// The identifier of the offset that a G code selects. A control may have several codes for one offset.
+/// The identifier of the offset that a G code selects. On some controls several codes select the same offset.
 fn code_of_work(value: f64, control: &Control) -> Option<f64> {
     match control.row(Code::of(b'G', value)?)?.runs.work? {
         WorkOffset::Usual(tenths) => Some(f64::from(tenths) / 10.0),
@@ -84,23 +84,23 @@ fn code_of_work(value: f64, control: &Control) -> Option<f64> {
 }
 
 impl WorkWord {
-    /// Is the word a parameter of a code that selects additional offsets?
+    /// Whether the word is a parameter of a code that selects work offsets.
     fn is_parameter(&self, control: &Control) -> bool {
         !self.is_code && self.code.is_some_and(|code| control.group(code) == Some(Group::Work))
     }
 
-    /// Is the word a parameter of a code that selects offsets besides those with codes of their own?
+    /// Whether the word is a parameter of a code that selects only those offsets that have no code of their own.
     fn is_additional(&self, control: &Control) -> bool {
         let row = self.code.and_then(|code| control.row(code));
         self.is_parameter(control) && !matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
     }
 
-    /// Does the control have this offset, as far as is known?
+    /// Whether the control has this offset, as far as this is known.
     fn has(&self, value: f64, control: &Control) -> bool {
         match self.is_code {
             true => Code::of(b'G', value).is_some_and(|code| control.group(code) == Some(Group::Work)),
             false if self.is_parameter(control) => value >= 1.0 && value.fract() == 0.0,
-            // E19 on a control with E1 to E18
+            // for example, E19 on a control that has E1 to E18
             false => {
                 let traits = control.traits();
                 let most = traits.most_work.filter(|_| self.code.is_none() && self.letter == traits.work_letter);

@@ -2,35 +2,35 @@
 
 use serde::Deserialize;
 
-/// How far the numbers of an arc may deviate from one circle.
+/// The allowed deviations of the numbers of an arc from one circle.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tolerance {
-    /// Distance from the circle of the start up to which the end is always accepted, a length.
+    /// If the end is at most this distance from the circle through the start, the arc is accepted. A length.
     pub least: f64,
     /// Allowed distance of the end from the circle, as a fraction of the radius.
     pub part: f64,
-    /// Distance of the end from the circle above which the arc is always refused, a length.
+    /// If the end is farther from the circle than this distance, the arc is refused. A length.
     pub most: f64,
-    /// Amount by which half the distance of the ends may be greater than R, a length.
+    /// Half the distance between start and end may exceed R by this amount, a length.
     pub chord: f64,
 }
 
 impl Tolerance {
-    /// Whether all values are valid lengths.
+    /// Whether all values are finite and not negative, and `least` is at most `most`.
     pub fn is_possible(&self) -> bool {
         let Tolerance { least, part, most, chord } = *self;
         [least, part, most, chord].iter().all(|length| length.is_finite() && *length >= 0.0) && least <= most
     }
 
-    /// Whether an arc with these radii at its start and end is refused.
+    /// Whether an arc is refused that has these radii at its start and at its end.
     pub fn refuses(&self, start: f64, end: f64) -> bool {
         let off = (start - end).abs();
         off > self.most || (off > self.least && off > self.part * start)
     }
 }
 
-/// Tolerances by the units of the program.
+/// The tolerances of a control for programs in millimetres and in inches.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Arcs {
     /// In millimetres.
@@ -40,7 +40,7 @@ pub struct Arcs {
 }
 
 impl Arcs {
-    /// The tolerance of a program in these units.
+    /// The tolerance for a program in inches or in millimetres.
     pub fn tolerance(&self, inch: bool) -> Tolerance {
         let Tolerance { least, part, most, chord } = self.mm;
         match self.inch {

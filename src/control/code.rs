@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A code. Codes are compared in whole tenths, so `G59.1` is never rounded to `G59`.
+/// A code. The number is stored in whole tenths, so `G59.1` is never rounded to `G59`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code {
     /// `G` or `M`; a command of a form may have another letter.
@@ -13,18 +13,18 @@ pub struct Code {
 }
 
 impl Code {
-    /// The G code of a whole number below 6554.
+    /// The G code with this whole number, which must be below 6554.
     pub const fn g(number: u16) -> Code {
         Code { letter: b'G', tenths: number * 10 }
     }
 
-    /// The M code of a whole number below 6554.
+    /// The M code with this whole number, which must be below 6554.
     pub const fn m(number: u16) -> Code {
         Code { letter: b'M', tenths: number * 10 }
     }
 
-    /// The code of a word's letter and value; `None`: the letter is not G or M, the value is negative, or it has more
-    /// than one decimal.
+    /// The code for a word's letter and value. `None`: the letter is not G or M, the value is negative, or the value
+    /// has more than one decimal.
     pub fn of(letter: u8, value: f64) -> Option<Code> {
         let letter = letter.to_ascii_uppercase();
         let tenths = value * 10.0;
@@ -33,7 +33,7 @@ impl Code {
         (is_code && (0.0..=f64::from(u16::MAX)).contains(&whole)).then_some(Code { letter, tenths: whole as u16 })
     }
 
-    /// Whether this is the G code of this number.
+    /// Whether the code is the G code with this number.
     pub fn is_g(self, number: f64) -> bool {
         self.letter == b'G' && self.value() == number
     }
@@ -68,7 +68,7 @@ pub struct NoCode;
 impl FromStr for Code {
     type Err = NoCode;
 
-    /// Reads `G0`, `G59.1`, `M3`.
+    /// Reads a code such as `G0`, `G59.1` or `M3`.
     fn from_str(text: &str) -> Result<Code, NoCode> {
         let letter = *text.as_bytes().first().ok_or(NoCode)?;
         let number = text.get(1..).ok_or(NoCode)?;

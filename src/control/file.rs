@@ -1,4 +1,4 @@
-//! Reads control files, in TOML, into the description of a control. An error in a file has its line and column.
+//! Reads control files, written in TOML. An error in a file is reported with its line and column.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,7 +16,7 @@ use super::traits::{Rules, Traits};
 use super::words::Words;
 use super::{Control, Row, Rows};
 
-/// The longest chain of `like`.
+/// The maximum length of a chain of control files in which each file names the next one with `like`.
 const LONGEST_CHAIN: usize = 8;
 
 /// An error in the file of a control or a machine.
@@ -26,11 +26,11 @@ pub struct Wrong {
     pub file: String,
     /// Line and column, from 1.
     pub at: (usize, usize),
-    /// Byte where the wrong part begins.
+    /// Position of the wrong part in the text, in bytes.
     pub start: usize,
     /// The problem, in one sentence.
     pub message: String,
-    /// The correction; empty if the message contains it.
+    /// A proposed correction; empty if the message contains it.
     pub help: String,
 }
 
@@ -54,10 +54,10 @@ impl fmt::Display for Wrong {
 
 impl std::error::Error for Wrong {}
 
-/// Finds the control that a file is `like`. The number is its depth in the chain.
+/// Finds the control that a file names with `like`. The number is the depth of that control in the chain.
 type Find = dyn Fn(&str, usize) -> Option<Result<Control, Wrong>>;
 
-/// Reads the text of a file. `find` returns the control that it is `like`.
+/// Reads the text of a control file. `find` returns the control that the file names with `like`.
 pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<Control, Wrong> {
     let reader = Reader { name, text };
     let file: File = toml::from_str(text).map_err(|error| {
@@ -94,26 +94,26 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     };
     control.chain.insert(0, file.name.get_ref().clone());
     control.title = file.title.clone().unwrap_or(control.title);
-    // not inherited, because the file's own rows may fill these gaps
+    // `unknown` is not inherited: the rows of this file may supply the missing facts
     control.unknown = file.unknown.clone().unwrap_or_default();
     reader.traits(&file, &mut control.traits)?;
     reader.rows(&file.codes, &mut control.rows)?;
     if !control.is_run() {
-        // codes of another language must not be read as words of this control
+        // the rows of another language must not be inherited: their codes would be read as words of this control
         control.rows = Rows::default();
     }
     control.rows.finish();
     Ok(control)
 }
 
-/// The text that is being read, for the locations of errors.
+/// The text that is being read. Its name and text are needed for the locations of errors.
 struct Reader<'t> {
     name: &'t str,
     text: &'t str,
 }
 
 impl Reader<'_> {
-    /// Reads the traits in the file. Others stay as in the control that it is like.
+    /// Reads the traits in the file. All other traits keep their inherited values.
     fn traits(&self, file: &File, traits: &mut Traits) -> Result<(), Wrong> {
         fn take<T: Copy>(to: &mut T, said: Option<T>) {
             *to = said.unwrap_or(*to);
@@ -173,7 +173,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the words of a tap's pitch.
+    /// Reads the words for the pitch of a tap.
     fn pitch(&self, said: &Spanned<toml::Value>) -> Result<Vec<Pitch>, Wrong> {
         let wrong = || {
             let help = "write pitch = \"Q\", or pitch = { I = \"mm\", J = \"per-inch\" }";
@@ -261,7 +261,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads the values of a row that only the simulator uses.
+    /// Reads those values of a row that only the simulator uses.
     fn runs(&self, row: &RowText, meaning: Meaning, makes: &[Hole]) -> Result<Runs, Wrong> {
         let of_another = |key: &str, at: usize, of: &str| {
             self.wrong(
@@ -342,7 +342,8 @@ impl Reader<'_> {
     }
 }
 
-/// The motions of a cycle that makes only this kind of hole; `None`: the file must define them, for example for bores.
+/// The motions of a cycle, if the kind of its holes allows only one kind of motions. `None`: the file must define the
+/// motions, for example for bores.
 fn only_motions(makes: &[Hole]) -> Option<Motions> {
     match makes {
         [Hole::Drill] => Some(Motions::Drill),

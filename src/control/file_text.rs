@@ -18,7 +18,7 @@ pub(super) struct File {
     pub(super) rules: Option<Rules>,
     pub(super) machine: Option<Turns>,
     pub(super) complete: Option<bool>,
-    /// Sentences for the page of the control.
+    /// Facts that are not public, in sentences for the page of the control.
     pub(super) unknown: Option<Vec<String>>,
     #[serde(default)]
     pub(super) numbers: Numbers,
@@ -66,21 +66,21 @@ pub(super) struct Blocks {
     pub(super) one_m: Option<bool>,
 }
 
-/// `[numbers]`.
+/// `[numbers]`: the meaning of a length without a decimal point.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Numbers {
     pub(super) length_without_point: Option<WithoutPoint>,
 }
 
-/// `[start]`: modes that one program leaves on for the next.
+/// `[start]`: whether modes that a program leaves active are still active in the next program.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Start {
     pub(super) modes: Option<Kept>,
 }
 
-/// `[dwell]`: the units of its words.
+/// `[dwell]`: the units of the words of a dwell.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Dwell {
@@ -88,24 +88,24 @@ pub(super) struct Dwell {
     pub(super) p: Option<DwellUnit>,
 }
 
-/// `[stops]`: functions that M0 and M1 leave on.
+/// `[stops]`: whether the spindle keeps turning at M0 and M1.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Stops {
     pub(super) spindle: Option<Kept>,
 }
 
-/// `[arcs]`.
+/// `[arcs]`: centres and tolerances of arcs.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ArcsText {
     pub(super) centres: Option<Centres>,
-    /// In millimetres, and in inches if other lengths are in force for inches.
+    /// Tolerance in millimetres, and tolerance in inches if it is not the same length.
     pub(super) mm: Option<Spanned<Tolerance>>,
     pub(super) inch: Option<Spanned<Tolerance>>,
 }
 
-/// What the control does with a block that is too long.
+/// The reaction of the control to a block that is too long.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Longer {
@@ -113,7 +113,7 @@ pub(super) enum Longer {
     Cut,
 }
 
-/// `[words]`: the letters of all words, and words that need no code.
+/// `[words]`: the letters of all words, and the words that need no code.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WordsOf {
@@ -123,7 +123,7 @@ pub(super) struct WordsOf {
     pub(super) most_work: Option<u16>,
 }
 
-/// `[laser]`: for machines with a laser.
+/// `[laser]`: settings for machines with a laser.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LaserText {
@@ -135,7 +135,7 @@ pub(super) struct LaserText {
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum InRapids {
-    /// Off, independent of M3 and S.
+    /// The laser is off, even if M3 and S would turn it on.
     Off,
 }
 
@@ -162,25 +162,25 @@ pub(super) struct CoolantText {
     pub(super) mist: Option<bool>,
 }
 
-/// `[tool]`: tool length and second T.
+/// `[tool]`: the tool length offset, and a second T word in a block.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Tool {
     pub(super) length: Option<ToolLength>,
     pub(super) without_length: Option<Height>,
-    /// The meaning of a second T in the block of a tool change.
+    /// The meaning of a second T word in the block of a tool change.
     pub(super) second: Option<SecondTool>,
 }
 
-/// The meaning of a second T in the block of a tool change.
+/// The meaning of a second T word in the block of a tool change.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SecondTool {
-    /// The next tool after the one of the change.
+    /// The second T word names the next tool, after the one that is changed to.
     Next,
 }
 
-/// The meaning of a height while no tool length is in force.
+/// The meaning of a Z position while no tool length offset is active.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Height {
@@ -195,7 +195,7 @@ pub(super) struct RowText {
     pub(super) is: Spanned<String>,
     pub(super) words: Option<Spanned<String>>,
     pub(super) makes: Option<Spanned<String>>,
-    /// The pitch words: `"Q"`, or `{ I = "mm", J = "per-inch" }`.
+    /// The words for the pitch of a tap: `"Q"`, or `{ I = "mm", J = "per-inch" }`.
     pub(super) pitch: Option<Spanned<toml::Value>>,
     pub(super) text: Option<String>,
     pub(super) not_run: Option<String>,

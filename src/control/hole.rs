@@ -1,8 +1,8 @@
-//! Holes that canned cycles make.
+//! The kinds of holes that canned cycles make.
 
 macro_rules! holes {
     ($($name:ident $text:literal $about:literal;)*) => {
-        /// A hole that a canned cycle of a control makes. Control files select it by `makes`.
+        /// A kind of hole that a canned cycle makes. Control files select it with the key `makes`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Hole { $(#[doc = $about] $name),* }
 

@@ -3,7 +3,7 @@
 use super::code::Code;
 use super::{Row, Rows};
 
-/// The meaning of a code that the control lacks although the control that it is like has it.
+/// The meaning of a code that the control does not have, although the control named by `like` has it.
 pub(super) const ABSENT: &str = "absent";
 
 /// A key of `[codes]`.
@@ -37,7 +37,7 @@ impl Key {
 }
 
 impl Rows {
-    /// Removes the rows of these codes that come from the control that the file is like.
+    /// Removes the inherited rows of these codes.
     pub(super) fn remove(&mut self, key: Key) {
         let out = |row: &Row, number: bool| match key {
             Key::One(code) => !number && row.code == code,

@@ -1,6 +1,6 @@
 //! The meanings of codes: the vocabulary of control files, and the effect of each meaning on modes and axis words.
 
-/// The role of the axis words beside a code.
+/// The role of the axis words in the block of a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisWords {
     /// The target of the tool.
@@ -9,27 +9,27 @@ pub enum AxisWords {
     Waypoint,
     /// Data of the code itself.
     Data,
-    /// Not used by the code: they belong to the motion in force.
+    /// Axis words are not used by the code: they belong to the motion in force.
     Free,
 }
 
 /// The effect of a code on the frame of axis words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
-    /// Axis words of its block are in another frame, and the axes move to them: reference points, machine coordinates.
-    /// Without axis words, all axes move.
+    /// Axis words in the block of the code are in another frame, and the axes move to them: reference points, machine
+    /// coordinates. Without axis words, all axes move.
     Block,
-    /// Axis words after it are increments, until a code for positions.
+    /// Axis words after the code are increments, until a code for absolute positions.
     Increments,
-    /// Axis words after it in the same body may be in another frame.
+    /// Axis words after the code, up to the end of the sequence, may be in another frame.
     Shifts,
-    /// From here on, positions of the axes are in another frame.
+    /// After the code, positions of the axes are in another frame.
     Moves,
-    /// From here on, positions of the depth axis are in another frame.
+    /// After the code, positions of the depth axis are in another frame.
     MovesDepth,
 }
 
-/// Groups of codes. Codes of one group exclude each other in a block. Of a modal group, only one code is in force.
+/// Groups of codes. A block may contain only one code of a modal group, and only one code of the group is in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Group {
@@ -65,11 +65,11 @@ pub enum Group {
     Coolant,
     /// M0 M1 M2 M30.
     Stop,
-    /// Canned cycles and G80 on controls that read blocks as a Fanuc does. A block may also have a motion code.
+    /// Canned cycles and G80, on controls that read blocks as Fanuc does. Such a block may also contain a motion code.
     Cycle,
     /// Codes that take effect in their block only. This is not a modal group.
     Once,
-    /// Codes that change nothing that is compared. This is not a modal group.
+    /// Codes without an effect on anything that is compared. This is not a modal group.
     Other,
 }
 
@@ -78,7 +78,7 @@ pub const GROUPS: usize = Group::Other as usize + 1;
 
 macro_rules! meanings {
     ($($name:ident $text:literal $group:expr, $axes:ident, $about:literal;)*) => {
-        /// The meaning of a code. Control files select it by `is`.
+        /// The meaning of a code. Control files select it with the key `is`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Meaning { $(#[doc = $about] $name),* }
 
@@ -96,12 +96,12 @@ macro_rules! meanings {
                 match self { $(Meaning::$name => $about),* }
             }
 
-            /// The modal group of its codes; `None`: they take effect once, or switch nothing.
+            /// The modal group of a code with this meaning; `None`: the code takes effect once, or has no modal effect.
             pub const fn group(self) -> Option<Group> {
                 match self { $(Meaning::$name => $group),* }
             }
 
-            /// The role of the axis words in its block.
+            /// The role of the axis words in a block with a code of this meaning.
             pub const fn axes(self) -> AxisWords {
                 match self { $(Meaning::$name => AxisWords::$axes),* }
             }
@@ -208,7 +208,7 @@ meanings! {
 }
 
 impl Meaning {
-    /// The effect of a code of this meaning on the frame of axis words; `None`: no effect.
+    /// The effect on the frame of axis words of a code with this meaning; `None`: no effect.
     pub const fn frame(self) -> Option<Frame> {
         use Meaning as M;
         match self {
@@ -233,7 +233,7 @@ impl Meaning {
         matches!(self, Meaning::Cycle | Meaning::ThreadCycle | Meaning::ThreadPass)
     }
 
-    /// Whether the code turns on a tool length offset by its register.
+    /// Whether the code turns on the tool length offset of a register.
     pub const fn turns_length_on(self) -> bool {
         matches!(self, Meaning::LengthOn | Meaning::LengthMinus | Meaning::LengthAdd)
     }
@@ -243,12 +243,12 @@ impl Meaning {
         matches!(self, Meaning::Macro | Meaning::MacroOn | Meaning::Call)
     }
 
-    /// Whether the control makes moves of its own after the code: a cycle, or a thread with a feed from its pitch.
+    /// Whether the control makes its own moves after the code: a cycle, or a thread whose feed follows from the pitch.
     pub const fn moves_by_itself(self) -> bool {
         self.is_cycle() || matches!(self, Meaning::Thread | Meaning::RigidTap | Meaning::TapMode)
     }
 
-    /// Whether the code ends such moves of the control.
+    /// Whether the code ends the moves that `moves_by_itself` describes.
     pub const fn ends_cycle(self) -> bool {
         use Meaning as M;
         matches!(self, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::CycleEnd | M::MacroOff)
@@ -275,7 +275,7 @@ impl Meaning {
         self.group() == Some(Group::Spindle) || matches!(self, Meaning::SpindleCwCoolant | Meaning::SpindleCcwCoolant)
     }
 
-    /// Whether the code stops the program, or may stop it.
+    /// Whether the code stops the program, always or on a condition.
     pub const fn is_stop(self) -> bool {
         matches!(self, Meaning::StopProgram | Meaning::StopOptional | Meaning::Pallet)
     }

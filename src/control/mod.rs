@@ -1,7 +1,7 @@
-//! Descriptions of controls, from the files of `controls/` or a shop's own file.
+//! Descriptions of controls. They come from the files in `controls/` or from a shop's own file.
 //!
 //! A file lists the codes of the control and their meanings, by the names of [`Meaning`]. The effect of each meaning is
-//! defined in the program. Everything that a file leaves out is as in the control that it is `like`.
+//! defined in postform's source code. Values that a file leaves out are inherited from the control that it names with `like`.
 
 mod arcs;
 mod code;
@@ -26,14 +26,14 @@ pub use runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
 pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 pub use words::Words;
 
-/// A control.
+/// The description of a control.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Name of the control, then the names of the controls that it is like.
+    /// Name of the control, followed by the names of the controls that it inherits from.
     chain: Vec<String>,
     /// Title of the control.
     title: String,
-    /// Facts about the control that are not public, in sentences.
+    /// Facts about the control that are not public, one sentence each.
     unknown: Vec<String>,
     traits: Traits,
     rows: Rows,
@@ -46,19 +46,19 @@ pub struct Row {
     pub code: Code,
     /// Meaning of the code.
     pub meaning: Meaning,
-    /// The words of the code, besides axes, F, S and T.
+    /// The letters of the words of the code, besides axes, F, S and T.
     pub words: Words,
-    /// The holes that the code makes; empty: it is not a canned cycle.
+    /// The kinds of holes that the code makes; empty if the code is not a canned cycle.
     pub makes: Vec<Hole>,
     /// The words for the pitch of a tap; empty: the pitch comes from the feed.
     pub pitch: Vec<Pitch>,
-    /// A further description.
+    /// A further description of the code.
     pub text: String,
-    /// The reason why the code is not run although its meaning is known.
+    /// If postform does not run the code although its meaning is known: the reason.
     pub not_run: Option<String>,
-    /// The words and values that give the code this meaning; empty: any values.
+    /// The words and values with which the code has this meaning; empty: the code has it with any values.
     pub only: Vec<(u8, f64)>,
-    /// Whether the control stops the spindle before it runs the code, as for coolant through the spindle of a Haas.
+    /// Whether the control stops the spindle before it runs the code. A Haas does so for through-spindle coolant.
     pub stops_spindle: bool,
     /// Values that only the simulator uses.
     pub runs: Runs,
@@ -69,7 +69,7 @@ pub struct Row {
 struct Rows {
     /// Rows of single codes, in the order of the codes.
     one: Vec<Row>,
-    /// Index in `one` for each G code, by its tenths. It is past the end for codes without a row.
+    /// For each G code, by its number in tenths: the index of its row in `one`. Codes without a row have an index past the end.
     index: Vec<u16>,
     /// Rows for all codes with the same whole number.
     numbers: Vec<Row>,
@@ -85,7 +85,7 @@ impl Rows {
         }
     }
 
-    /// Builds the index after the last row.
+    /// Builds `index`. To be called after the last row is added.
     fn finish(&mut self) {
         let highest =
             self.one.iter().rfind(|row| row.code.letter == b'G').map_or(0, |row| usize::from(row.code.tenths) + 1);
@@ -121,11 +121,11 @@ fn replace(rows: &mut Vec<Row>, row: Row, key: impl Fn(&Row) -> (u8, u16)) {
 
 macro_rules! shipped {
     ($($name:literal)*) => {
-        /// The control files of postform.
+        /// The control files that come with postform: name and text.
         const FILES: [(&str, &str); [$($name),*].len()] =
             [$(($name, include_str!(concat!("../../controls/", $name, ".toml")))),*];
 
-        /// The controls of these files. Each is read at its first use. A test reads all of them.
+        /// The controls of these files. Each file is read at the first use of its control. A test reads all of them.
         static CONTROLS: [LazyLock<Control>; FILES.len()] = [$(LazyLock::new(|| {
             let text = include_str!(concat!("../../controls/", $name, ".toml"));
             Control::read($name, text).unwrap_or_else(|_| Control::empty())
@@ -135,7 +135,7 @@ macro_rules! shipped {
 
 shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "centroid" "mitsubishi" "siemens" "siemens-iso" "heidenhain" "okuma" "linuxcnc" "emc2" "grbl" "grblhal" "fluidnc" "pathpilot" "mach3" }
 
-/// Whether the name of a control is a file that describes it.
+/// Whether the name of a control is the name of a control file.
 pub fn is_file(name: &str) -> bool {
     name.len() > 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..].eq_ignore_ascii_case(".toml")
 }
@@ -155,7 +155,7 @@ fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> String {
 }
 
 impl Control {
-    /// The control with this name, among those that come with postform.
+    /// The control with this name, if it comes with postform.
     pub fn named(name: &str) -> Option<&'static Control> {
         let at = FILES.iter().position(|(known, _)| *known == name)?;
         Some(&CONTROLS[at])
@@ -166,8 +166,8 @@ impl Control {
         &CONTROLS[0]
     }
 
-    /// The control for forms without `Control`: a Fanuc mill that also has the common codes of other controls. Programs
-    /// are not run by it.
+    /// The control for forms without a `Control` command: a Fanuc mill with additional common codes of other controls.
+    /// It is not used for running programs.
     pub fn of_no_name() -> &'static Control {
         static UNION: LazyLock<Control> = LazyLock::new(|| {
             let text = include_str!("../../controls/of-no-name.toml");
@@ -176,7 +176,7 @@ impl Control {
         &UNION
     }
 
-    /// Reads the text of a control file. `name` is its name in messages.
+    /// Reads the text of a control file. `name` is used in messages.
     ///
     /// # Errors
     /// The file has an error, with its line and column.
@@ -184,8 +184,8 @@ impl Control {
         file::read(name, text, &like, 0)
     }
 
-    /// Reads a shop's own control and keeps it until the process ends. Forms and programs name it like the controls that
-    /// come with postform. The same text is read only once.
+    /// Reads a shop's own control and keeps it until the process ends. Forms and programs use its name like those of
+    /// the controls that come with postform. The same text is read only once.
     ///
     /// # Errors
     /// The file has an error, with its line and column.
@@ -210,7 +210,7 @@ impl Control {
         }
     }
 
-    /// The lathe control of the same maker, if a file describes one. Forms for lathes give the name of the mill.
+    /// The lathe control of the same maker, if there is a file for it. Forms for lathes name the mill control.
     pub fn of_lathe(&'static self) -> &'static Control {
         let lathe = |name: &String| Control::named(&format!("{name}-lathe"));
         if self.is_lathe() { self } else { self.chain.iter().find_map(lathe).unwrap_or(self) }
@@ -222,8 +222,8 @@ impl Control {
         self.traits.turns == Turns::Part
     }
 
-    /// The wire EDM control of the same maker, if a file describes one. Forms for such machines give the name of the
-    /// mill.
+    /// The wire EDM control of the same maker, if there is a file for it. Forms for wire EDM machines name the mill
+    /// control.
     pub fn of_wire(&'static self) -> &'static Control {
         let wire = |name: &String| Control::named(&format!("{name}-wire"));
         if self.is_wire() { self } else { self.chain.iter().find_map(wire).unwrap_or(self) }
@@ -241,17 +241,17 @@ impl Control {
         if self.is_wire() { b"XYUVAB" } else { b"XYZABC" }
     }
 
-    /// Name of the control, as in forms and options.
+    /// Name of the control, as used in forms and options.
     pub fn name(&self) -> &str {
         self.chain.first().map_or("", String::as_str)
     }
 
-    /// The names of the controls that it is like, the nearest first.
+    /// The names of the controls that it inherits from, the nearest first.
     pub fn like(&self) -> impl Iterator<Item = &str> {
         self.chain.iter().skip(1).map(String::as_str)
     }
 
-    /// Name of the control in messages.
+    /// Name of the control for use in messages.
     pub fn shown(&self) -> &str {
         if std::ptr::eq(self, Control::of_no_name()) { "most controls" } else { self.name() }
     }
@@ -261,36 +261,36 @@ impl Control {
         &self.title
     }
 
-    /// Facts about the control that are not public, in sentences. A program that depends on them is refused.
+    /// Facts about the control that are not public, one sentence each. A program that depends on them is refused.
     pub fn unknown(&self) -> &[String] {
         &self.unknown
     }
 
-    /// Whether this is the named control, or is like it.
+    /// Whether the control has this name or inherits from the control with this name.
     pub fn is_like(&self, name: &str) -> bool {
         self.chain.iter().any(|other| other == name)
     }
 
-    /// Properties of the control besides its codes.
+    /// Properties of the control other than its codes.
     #[doc(hidden)]
     pub fn traits(&self) -> &Traits {
         &self.traits
     }
 
-    /// The rules by which its programs are run.
+    /// The rules by which programs of the control are run.
     #[inline]
     #[doc(hidden)]
     pub fn rules(&self) -> Rules {
         self.traits.rules
     }
 
-    /// How far the numbers of an arc may deviate from one circle, in programs in inches or in millimetres.
+    /// The allowed deviations of the numbers of an arc from one circle, for programs in inches or in millimetres.
     #[doc(hidden)]
     pub fn arc_tolerance(&self, inch: bool) -> Tolerance {
         self.traits.arcs.tolerance(inch)
     }
 
-    /// Whether the control reads words of this letter, as far as is public.
+    /// Whether the control reads words of this letter. True for all letters if the list of its letters is not public.
     pub fn reads(&self, letter: u8) -> bool {
         self.traits.letters == Words::NONE || self.traits.letters.has(letter)
     }
@@ -311,31 +311,31 @@ impl Control {
         row.meaning != Meaning::Mist || !self.traits.no_mist
     }
 
-    /// Whether the control runs programs as NIST's interpreter does. LinuxCNC, its predecessors and Grbl come from that
+    /// Whether the control runs programs like NIST's interpreter. LinuxCNC, its predecessors and Grbl are based on that
     /// interpreter.
     pub fn is_linuxcnc(&self) -> bool {
         self.traits.rules.is_nist()
     }
 
-    /// Whether programs of the control are run. Not if its file has `rules = "none"`.
+    /// Whether postform runs programs of the control. It does not if the control's file has `rules = "none"`.
     pub fn is_run(&self) -> bool {
         self.traits.rules != Rules::None
     }
 
-    /// Whether its programs consist of words of a letter and a number, including G codes. Forms in another language print
-    /// their text without checks of codes.
+    /// Whether programs of the control consist of words (a letter and a number) with G codes. The codes of forms for
+    /// other languages are not checked.
     pub fn prints_codes(&self) -> bool {
         !matches!(self.traits.rules, Rules::None | Rules::Klartext | Rules::Siemens)
     }
 
-    /// The code of the work offset in force before a program selects one; `None`: there is none, or it is unknown.
+    /// The code of the work offset that is active before a program selects one; `None`: the control has none, or it is unknown.
     pub fn first_work(&self) -> Option<f64> {
         let codes = matches!(self.traits.rules, Rules::Fanuc | Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl);
         (codes && self.traits.work_letter.is_none()).then_some(54.0)
     }
 
-    /// The control's row for a code: the row of the code, else the row of its whole number, else the row of its letter.
-    /// `None`: the code is unknown.
+    /// The control's row for a code. The row of this code comes first, then the row of its whole number, then the row
+    /// of its letter. `None`: the code is unknown.
     #[doc(hidden)]
     pub fn row(&self, code: Code) -> Option<&Row> {
         let rows = &self.rows;
@@ -363,7 +363,8 @@ impl Control {
         self.meaning(code)?.group()
     }
 
-    /// Whether a code calls a macro or subprogram. Unknown codes from G100 on may be calls of the machine builder.
+    /// Whether a code calls a macro or subprogram. Unknown codes from G100 on count as calls: they may be macros of the
+    /// machine builder.
     #[doc(hidden)]
     pub fn calls(&self, code: Code) -> bool {
         match self.meaning(code).filter(|&meaning| meaning != Meaning::Unsaid) {
@@ -372,14 +373,14 @@ impl Control {
         }
     }
 
-    /// Whether the control makes moves of its own after a G code: in a cycle, in a thread with a feed from its pitch, or
-    /// in a call.
+    /// Whether the control makes its own moves after a G code: in a cycle, in a thread whose feed follows from the
+    /// pitch, or in a call.
     #[doc(hidden)]
     pub fn moves_by_itself(&self, code: Code) -> bool {
         code.letter == b'G' && (self.meaning(code).is_some_and(Meaning::moves_by_itself) || self.calls(code))
     }
 
-    /// Whether the control is known to refuse a code.
+    /// Whether the control refuses a code. False if not all codes of the control are known.
     #[doc(hidden)]
     pub fn refuses(&self, code: Code) -> bool {
         self.traits.complete && self.row(code).is_none()
@@ -392,8 +393,8 @@ impl Control {
     }
 }
 
-/// Reads the control that a file is like. It is read again each time, because files are short and a chain is read only
-/// once.
+/// Reads the control that a file names with `like`. Its file is read each time: control files are short, and each chain
+/// is read only once.
 fn like(name: &str, depth: usize) -> Option<Result<Control, Wrong>> {
     let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
     Some(file::read(name, text, &like, depth))

@@ -1,9 +1,9 @@
-//! Values of a code that the simulator needs besides its meaning: motions of a cycle, work offset, reference point.
+//! Values that the simulator needs to run a code, besides its meaning: motions of a cycle, work offset, reference point.
 
 macro_rules! motions {
     ($($name:ident $text:literal $about:literal;)*) => {
-        /// The motions of a canned cycle. Control files select them by `motions`. They may be left out if `makes` allows
-        /// only one kind.
+        /// The motions of a canned cycle. Control files select them with the key `motions`. The key may be left out if
+        /// `makes` contains a kind of hole that is made by only one kind of motions.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Motions { $(#[doc = $about] $name),* }
 
@@ -43,7 +43,7 @@ impl Motions {
         Motions::ALL.iter().copied().find(|motions| motions.name() == name)
     }
 
-    /// Whether the tool moves aside at the bottom. The distance is Q, or I and J; K is then not a number of repeats.
+    /// Whether the tool moves sideways at the bottom. The distance is in Q, or in I and J; K is then not a number of repeats.
     pub const fn shifts(self) -> bool {
         matches!(self, Motions::ShiftOut | Motions::Back)
     }
@@ -62,13 +62,13 @@ impl Motions {
 /// The work offset that a code selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkOffset {
-    /// One of G54 to G59.3, as ten times its usual number: 540, 593.
+    /// One of the offsets G54 to G59.3. The number is that of its usual code in tenths: 540, 593.
     Usual(u16),
-    /// An additional offset, from 1: G54.1 P1.
+    /// One of the additional offsets, numbered from 1: G54.1 P1.
     Additional(u16),
-    /// An additional offset. Its number is in the word with this letter.
+    /// One of the additional offsets. The number is in the word with this letter.
     Word(u8),
-    /// An offset by its number in the word with this letter. Numbers begin at 1, and the control has no other offsets.
+    /// One of the offsets of a control that has only numbered offsets, from 1. The number is in the word with this letter.
     Counted(u8),
 }
 
@@ -76,11 +76,11 @@ pub enum WorkOffset {
 const USUAL: [u16; 9] = [540, 550, 560, 570, 580, 590, 591, 592, 593];
 
 impl WorkOffset {
-    /// The highest additional offset.
+    /// The highest number of an additional offset.
     pub const MOST: u16 = 99;
 
-    /// Reads `G54`, `G59.1`, `G54.1 P7`, or the letter of a word: `P`, or `number H` if offsets are numbered from 1.
-    /// `None`: the text is not an offset.
+    /// Reads `G54`, `G59.1`, `G54.1 P7`, or the letter of a word: `P`, or `number H` if all offsets are numbered from
+    /// 1. `None`: the text does not name an offset.
     pub fn parse(text: &str) -> Option<WorkOffset> {
         if let [letter @ b'A'..=b'Z'] = text.as_bytes() {
             return Some(WorkOffset::Word(*letter));
@@ -96,7 +96,7 @@ impl WorkOffset {
         (code.letter == b'G' && USUAL.contains(&code.tenths)).then_some(WorkOffset::Usual(code.tenths))
     }
 
-    /// The offset that is `count` offsets later; `None`: there is no such offset.
+    /// The work offset that is `count` offsets after this one; `None`: there is no such offset.
     pub fn after(self, count: u16) -> Option<WorkOffset> {
         match self {
             WorkOffset::Usual(code) => {
@@ -111,22 +111,22 @@ impl WorkOffset {
         }
     }
 
-    /// Its index among the usual offsets, from 1. `None`: it is an additional offset.
+    /// The number of the offset among G54 to G59.3, from 1. `None`: it is an additional offset.
     pub fn usual(self) -> Option<usize> {
         let WorkOffset::Usual(code) = self else { return None };
         USUAL.iter().position(|usual| *usual == code).map(|at| at + 1)
     }
 }
 
-/// The unit of a tap's pitch word.
+/// The unit of the word for the pitch of a tap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PitchUnit {
-    /// The distance per turn in the program's units; F is then the revolutions per minute.
+    /// The distance per revolution in the program's units; F is then the spindle speed in revolutions per minute.
     Turn,
-    /// The distance per turn in millimetres, only in programs in millimetres; S is the speed.
+    /// The distance per revolution in millimetres, only in programs in millimetres; S is the spindle speed.
     Mm,
-    /// Threads per inch, only in programs in inches; S is the speed.
+    /// Threads per inch, only in programs in inches; S is the spindle speed.
     PerInch,
 }
 
@@ -139,30 +139,30 @@ pub struct Pitch {
     pub unit: PitchUnit,
 }
 
-/// Values of a row that only the simulator uses.
+/// Those values of a row that only the simulator uses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
     /// The motions of a canned cycle.
     pub motions: Option<Motions>,
     /// The work offset that the code selects.
     pub work: Option<WorkOffset>,
-    /// The reference point of the code: 1 as G28, 2 as G30.
+    /// The number of the reference point: 1 for G28, 2 for G30.
     pub point: Option<u8>,
-    /// The word of a tap with the speed of the spindle on the way out; L is then not a number of repeats.
+    /// The word of a tapping cycle for the spindle speed on the way out; L is then not a number of repeats.
     pub speed_out: Option<u8>,
-    /// The tool that the code brings in, for drills of a bank.
+    /// The tool that the code makes active, for a machine with a drill bank.
     pub tool: Option<u16>,
-    /// Whether compensation names no register: D is a diameter, or the tool has its own.
+    /// Whether cutter compensation uses no register: D is a diameter, or the diameter belongs to the tool.
     pub by_diameter: bool,
 }
 
 impl super::Row {
-    /// Whether a canned cycle dwells at the bottom. It does if it has a P word.
+    /// Whether a canned cycle dwells at the bottom: true if the cycle has a P word.
     pub fn dwells(&self) -> bool {
         self.words.has(b'P')
     }
 
-    /// The value that is missing in the file for running the code; `None`: nothing is missing.
+    /// The value that the file must contain before the code can be run, but does not; `None`: nothing is missing.
     pub fn lacks(&self) -> Option<&'static str> {
         use super::Meaning as M;
         let runs = &self.runs;

@@ -1,22 +1,22 @@
-//! Properties of a control besides its codes. A property that no file defines is unknown, and nothing depends on it.
+//! Properties of a control other than its codes. If no file defines a property, it is unknown, and postform does not rely on it.
 
 use serde::Deserialize;
 
 use super::arcs::Arcs;
 use super::words::Words;
 
-/// The rules by which programs are run: everything that no table contains, such as the order of effects in a block.
+/// The rules by which programs are run: all behaviour that no table contains, such as the order of effects in a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rules {
-    /// The usual reading of Fanuc and Haas mills.
+    /// Fanuc and Haas mills.
     #[default]
     Fanuc,
-    /// LinuxCNC 2.9, as observed on its interpreter.
+    /// LinuxCNC 2.9, as observed by running its interpreter.
     Linuxcnc,
-    /// EMC, with cycles as described in its manual of about 2005; otherwise as LinuxCNC.
+    /// EMC2: cycles as its manual of about 2005 describes them, everything else like LinuxCNC.
     Emc2,
-    /// Grbl 1.1, as observed on its own parser.
+    /// Grbl 1.1, as observed by running its parser.
     Grbl,
     /// Siemens 840D and 828D mills in their own language.
     Siemens,
@@ -24,32 +24,33 @@ pub enum Rules {
     Klartext,
     /// Okuma OSP mills.
     Osp,
-    /// Programs are not run: the language does not use G codes, as Klartext. Forms print it, but no program is run or
+    /// Programs are not run, because postform does not read the language. Forms can print it, but programs are not
     /// proven.
     None,
 }
 
 impl Rules {
-    /// Whether programs are run as by NIST's interpreter. LinuxCNC, its predecessors and Grbl come from that interpreter.
+    /// Whether programs are run like NIST's interpreter runs them. LinuxCNC, its predecessors and Grbl are based on
+    /// that interpreter.
     pub fn is_nist(self) -> bool {
         matches!(self, Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl)
     }
 }
 
-/// The unit of a length without a point.
+/// The unit of a length without a decimal point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WithoutPoint {
     /// Not public.
     #[default]
     Unknown,
-    /// Inches or millimetres.
+    /// Inches or millimetres, whichever is active.
     Units,
-    /// The smallest unit of the control: 0.0001 inch, 0.001 mm.
+    /// The least input increment of the control: 0.0001 inch, or 0.001 mm.
     LeastIncrement,
 }
 
-/// The unit of P in a dwell.
+/// The unit of P in the block of a dwell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DwellUnit {
@@ -60,7 +61,7 @@ pub enum DwellUnit {
     Ms,
     /// Seconds.
     S,
-    /// Seconds with a point, milliseconds without one.
+    /// Seconds if the number has a decimal point, otherwise milliseconds.
     ByPoint,
 }
 
@@ -71,13 +72,13 @@ pub enum ToolLength {
     #[default]
     #[serde(rename = "G43 H")]
     CodeAndRegister,
-    /// By the code alone, for the tool in the spindle. A register may be given.
+    /// By the code alone, for the tool in the spindle. The block may also contain a register.
     #[serde(rename = "G43")]
     Code,
-    /// By the register alone. A code may be given.
+    /// By the register alone. The block may also contain a code.
     #[serde(rename = "H")]
     Register,
-    /// By calling the tool or one of its edges. Length and radius belong to the tool, and no register is named.
+    /// By calling the tool or one of its cutting edges. Length and radius belong to the tool; the program names no register.
     #[serde(rename = "tool")]
     Tool,
     /// The control has no length registers.
@@ -85,7 +86,7 @@ pub enum ToolLength {
     None,
 }
 
-/// The origin of I, J and K of an arc.
+/// The point from which I, J and K of an arc are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Centres {
@@ -94,11 +95,11 @@ pub enum Centres {
     Unknown,
     /// The start of the arc.
     Incremental,
-    /// The origin of the coordinates.
+    /// The program zero.
     Absolute,
 }
 
-/// Whether a state is kept or reset.
+/// Whether a state is kept or reset, for example at the start of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kept {
@@ -113,72 +114,72 @@ pub enum Kept {
     No,
 }
 
-/// What the spindle turns.
+/// Whether the spindle turns the tool, the workpiece, or nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 pub enum Turns {
     /// The tool, as on a mill.
     #[default]
     #[serde(rename = "mill")]
     Tool,
-    /// The part, as on a lathe: X is a diameter, U and W are increments, and T changes the tool at once.
+    /// The workpiece, as on a lathe: X is a diameter, U and W are increments, and T changes the tool at once.
     #[serde(rename = "lathe")]
     Part,
-    /// Nothing, as on a wire EDM machine: X Y are at the lower guide of the wire and U V at the upper one.
+    /// Nothing, as on a wire EDM machine: X Y is the position of the lower guide of the wire, U V that of the upper guide.
     #[serde(rename = "wire")]
     Nothing,
 }
 
-/// Properties of a control besides its codes.
+/// Properties of a control other than its codes.
 #[derive(Clone, Debug, Default)]
 pub struct Traits {
-    /// The rules by which its programs are run.
+    /// The rules by which programs of the control are run.
     pub rules: Rules,
-    /// Whether a block may have only one M code.
+    /// Whether a block may contain only one M code.
     pub one_m: bool,
     /// The longest block that the control reads, in characters; `None`: not public.
     pub longest_line: Option<usize>,
-    /// Whether the control stops at a longer block. For other controls, a sender cuts longer blocks.
+    /// Whether the control stops at a block that is too long. On other controls, the program that sends the blocks cuts it.
     pub stops_at_longer: bool,
-    /// Whether a comment may run to the end of its line without a closing bracket.
+    /// Whether a comment may end at the end of its line, without a closing bracket.
     pub open_comments: bool,
     /// Whether the control reads words in lower case.
     pub small_letters: bool,
-    /// The unit of a length without a point.
+    /// The unit of a length without a decimal point.
     pub without_point: WithoutPoint,
-    /// The unit of P in a dwell.
+    /// The unit of P in the block of a dwell.
     pub dwell: DwellUnit,
-    /// The origin of I, J and K.
+    /// The point from which I, J and K of an arc are measured.
     pub centres: Centres,
-    /// Whether modes that one program leaves on, such as G91, are kept at the start of the next one.
+    /// Whether modes that a program leaves active, such as G91, are still active at the start of the next program.
     pub modes_at_start: Kept,
     /// Whether the spindle keeps turning at M0 and M1.
     pub spindle_at_stop: Kept,
     /// How a tool length offset is turned on.
     pub tool_length: ToolLength,
-    /// Whether a height is a machine position while no tool length is in force.
+    /// Whether a Z position is a machine position while no tool length offset is active.
     pub height_is_machine: bool,
-    /// The words that need no code in their block.
+    /// The letters of the words that need no code in their block.
     pub everywhere: Words,
-    /// The letter of a word that selects a work offset, beside its codes.
+    /// The letter of a word that selects a work offset, in addition to the codes that do.
     pub work_letter: Option<u8>,
     /// The highest number of the `work_letter` word.
     pub most_work: Option<u16>,
     /// The letters of all words that the control reads; empty: not public.
     pub letters: Words,
-    /// Whether spaces and comments are left out of the length of a block.
+    /// Whether spaces and comments don't count in the length of a block.
     pub bare_line: bool,
-    /// Whether the control has no mist coolant.
+    /// Whether the control lacks mist coolant.
     pub no_mist: bool,
-    /// How far the numbers of an arc may deviate from one circle.
+    /// The allowed deviations of the numbers of an arc from one circle.
     pub arcs: Arcs,
-    /// What the spindle turns.
+    /// Whether the spindle turns the tool, the workpiece, or nothing.
     pub turns: Turns,
-    /// Whether a laser is off in rapids, independent of M3 and S.
+    /// Whether the laser is off in rapids, even if M3 and S would turn it on.
     pub beam_off_in_rapids: bool,
-    /// Whether G28 and G30 without axis words send all axes home.
+    /// Whether G28 and G30 without axis words move all axes to the reference point.
     pub all_go_home: bool,
-    /// Whether a second T in the block of a tool change names the next tool: `T3 T7 M6`.
+    /// Whether a second T in the block of a tool change names the next tool, as in `T3 T7 M6`.
     pub next_beside_change: bool,
-    /// Whether all codes of the control are known, so that it refuses all others.
+    /// Whether all codes of the control are known; it then refuses every other code.
     pub complete: bool,
 }

@@ -64,7 +64,7 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
     countersink(spec)
 }
 
-/// Checks that the options are allowed for the kind of cycle (cycles.md section 1.5).
+/// Checks that the options are allowed for the kind of cycle.
 fn options(spec: &CycleSpec) -> Result<(), Problem> {
     // a tap may have steps, because a sequence can print them
     let pecks: &[CycleKind] = &[Deep, Chipbreak, Tap, LTap];

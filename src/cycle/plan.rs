@@ -1,4 +1,4 @@
-//! The planes and the feed of a cycle, and the steps of a plan (cycles.md section 1.5).
+//! The planes and the feed of a cycle, and the steps of a plan (docs/cycles.md).
 
 use super::problem::Problem;
 use crate::diag::Code;
@@ -22,7 +22,7 @@ pub struct Defaults {
     pub sink_clear: Option<f64>,
     /// The depth of countersinks follows the formula printed in GENER's manual, tan(l / 2) k / 2.
     pub sink_as_printed: bool,
-    /// Taps that only a control can make are planned too: for comparison, not for printing.
+    /// Taps that only a control can make are planned too. These plans are for comparison, not for printing.
     pub rigid: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The motion of the tool at one point of a cycle (cycles.md section 1.5).
+//! The motions of the tool at one point of a cycle (docs/cycles.md).
 
 use super::bore::{back_bore, bore};
 use super::pecks::{Peck, peck};

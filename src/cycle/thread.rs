@@ -3,7 +3,7 @@
 use super::problem::Problem;
 use crate::diag::Code;
 
-/// Maximum number of passes of one thread: more is a misplaced decimal point.
+/// Maximum number of passes of one thread. More passes are the result of a misplaced decimal point.
 const MOST_PASSES: usize = 1000;
 
 /// A remainder smaller than this share of the first pass gets no pass of its own.
@@ -71,7 +71,7 @@ mod tests {
         }
     }
 
-    /// A depth and a first pass with few digits, which make seven passes.
+    /// A depth and a first pass with few digits, which give seven passes.
     #[test]
     fn what_the_digits_leave_is_no_pass() {
         assert_eq!(thread_passes(0.07937254, Some(0.03), None, 0.0).unwrap().len(), 7);

@@ -1,15 +1,15 @@
-//! The table of all codes. A code never changes its meaning; the name of a removed code is never used again.
+//! The table of all codes. A code never changes its meaning, and the code of a removed row is never used again.
 
 use super::Severity::{self, Error, Note, Warning};
 
-/// One row: the name and the text of a finding.
+/// A row of the table: a code, its severity and its title.
 #[derive(Debug)]
 pub struct CodeRow {
     /// The code of the row.
     pub code: Code,
     /// The code as printed, `PF101`.
     pub name: &'static str,
-    /// Severity of the finding, before the limits and a shop's levels change it.
+    /// Severity of the finding, before relaxed limits or a shop's levels change it.
     pub severity: Severity,
     /// The finding in a few words.
     pub title: &'static str,
@@ -17,8 +17,8 @@ pub struct CodeRow {
 
 macro_rules! codes {
     ($($name:ident $severity:ident $title:literal)*) => {
-        /// A code of a finding: `PF` form, `PJ` job, `PL` CL file, `PD` FreeCAD document, `PC` canned cycle, `PR` rendering, `PN` NC program, `PV` verify,
-        /// `PM` the machine, `PX` postform itself.
+        /// A code of a finding: `PF` form, `PJ` job, `PI` NCI file, `PL` CL file, `PD` FreeCAD document, `PC` canned
+        /// cycle, `PR` rendering, `PN` NC program, `PV` verify, `PM` machine, `PX` postform itself.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u16)]
         pub enum Code { $(#[doc = $title] $name),* }
@@ -211,7 +211,7 @@ codes! {
     PL007 Error "the file is cut short"
     PL008 Warning "something that is printed as something else"
     PL009 Error "a value that is missing in the file and in the options"
-    // PC: canned cycles; the first word is the name of the problem everywhere (docs/cycles.md)
+    // PC: canned cycles; each title begins with the name of the problem, which docs/cycles.md also uses
     PC001 Error "cycle.type.unknown: no such cycle"
     PC002 Error "cycle.depth.missing: the cycle has no depth"
     PC003 Error "cycle.depth.above_clear: the bottom is above the clearance plane"
@@ -397,12 +397,12 @@ impl Code {
         self.row().name
     }
 
-    /// The name of a cycle's problem, `cycle.depth.missing`; empty for other codes.
+    /// The name of a canned cycle's problem, such as `cycle.depth.missing`; empty for codes that don't begin with `PC`.
     pub fn key(self) -> &'static str {
         self.row().title.split_once(": ").map_or("", |(key, _)| key)
     }
 
-    /// The code as a message begins: `PF101`, `PC002 (cycle.depth.missing)`.
+    /// The code at the beginning of a message: `PF101`, `PC002 (cycle.depth.missing)`.
     pub fn title(self) -> String {
         if self.key().is_empty() { self.name().to_owned() } else { format!("{} ({})", self.name(), self.key()) }
     }

@@ -6,19 +6,19 @@ use super::{Diag, Severity};
 use crate::source::Source;
 use crate::terminal::escaped;
 
-/// Findings with the form's text: enough to display them or to write a report.
+/// Findings with the form's text: all data for displaying them or writing a report.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// Findings in the order of the files and of the locations in them.
     pub diags: Vec<Diag>,
-    /// The form and the forms that it calls; the spans of labels and fixes refer to them. Empty if no form is involved.
+    /// The form and the forms that it calls. The spans of labels and fixes refer to these files. Empty if no form is involved.
     pub files: Vec<Source>,
-    /// Number of further findings that comments of the form allow.
+    /// Number of further findings that comments in the form suppress.
     pub suppressed: usize,
 }
 
 impl Findings {
-    /// Are there no findings?
+    /// Whether there are no findings.
     pub fn is_empty(&self) -> bool {
         self.diags.is_empty()
     }
@@ -30,7 +30,7 @@ impl Findings {
 }
 
 impl fmt::Display for Findings {
-    /// One line per finding: `form.pf:13:6: warning PF426: .. (print G43 before it)`.
+    /// Writes one line per finding: `form.pf:13:6: warning PF426: .. (print G43 before it)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lines: Vec<String> = self.diags.iter().map(|diag| diag.line(&self.files)).collect();
         f.write_str(&lines.join("\n"))
@@ -38,7 +38,7 @@ impl fmt::Display for Findings {
 }
 
 impl Diag {
-    /// The finding in one line, without a line end: location, severity, code, message and help. `files` are those of its form.
+    /// The finding in one line, without a line end: location, severity, code, message and help. `files` are the files of the form.
     pub fn line(&self, files: &[Source]) -> String {
         let in_form = self.labels.first().and_then(|label| {
             let source = files.get(label.span.file as usize)?;
@@ -52,8 +52,8 @@ impl Diag {
         format!("{place}{} {}: {}{help}", self.severity.name(), self.code.name(), self.message)
     }
 
-    /// The form line of the finding, with a mark under the words: two lines, without a final line end. `None`: the finding is
-    /// about no form. `files` are those of the form.
+    /// The form line of the finding, and a line with a mark under the words of the finding, without a final line end.
+    /// `None`: the finding is not in a form. `files` are the files of the form.
     pub(crate) fn marked(&self, files: &[Source]) -> Option<String> {
         let span = self.labels.first()?.span;
         let source = files.get(span.file as usize)?;

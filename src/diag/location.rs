@@ -1,4 +1,4 @@
-//! Locations in jobs and programs, as data; they become text only for display.
+//! Locations in jobs and programs. They are stored as data and converted to text only for display.
 
 use std::fmt;
 
@@ -14,9 +14,9 @@ pub struct Location {
     pub column: Option<u32>,
     /// Step of the job, as a path in the document: `operations[0].path[3].cycle.points[2]`.
     pub step: Option<String>,
-    /// The job among joined jobs, from 1; 0: the job is not joined.
+    /// The number of the job among joined jobs, from 1; 0 if the job is not joined.
     pub part: u16,
-    /// Line of the program that was printed from the job, from 1, if the finding is about it.
+    /// If the finding is about the program that was printed from the job: the line of this program, from 1.
     pub program_line: Option<u64>,
 }
 
@@ -37,14 +37,14 @@ impl Location {
         self
     }
 
-    /// Are all parts unknown?
+    /// Whether all parts are unknown.
     pub fn is_empty(&self) -> bool {
         *self == Location::default()
     }
 }
 
 impl fmt::Display for Location {
-    /// `job.json:12:9, operations[0].path[3]`; without the line of the program.
+    /// Writes `job.json:12:9, operations[0].path[3]`, without the line of the program.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut between = "";
         if let Some(file) = &self.file {

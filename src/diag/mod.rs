@@ -1,4 +1,4 @@
-//! Findings as data: created anywhere, displayed by the command line.
+//! Findings as data. Any part of postform may create them; the command line displays them.
 
 mod codes;
 mod findings;
@@ -16,9 +16,9 @@ use crate::terminal::{escaped, steers};
 /// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Useful information; does not change the exit status.
+    /// Useful information. It does not change the exit status.
     Note,
-    /// The program is printed, but check it.
+    /// The program is printed, but must be checked.
     Warning,
     /// An error: nothing is printed.
     Error,
@@ -35,12 +35,12 @@ impl Severity {
     }
 }
 
-/// A location in form text and a text about it.
+/// A location in the form's text, and a text about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The location in the form's text.
     pub span: Span,
-    /// A few words under the location.
+    /// A few words that are printed under the location.
     pub text: String,
 }
 
@@ -49,7 +49,7 @@ pub struct Label {
 pub struct Fix {
     /// What the change does, in the imperative.
     pub title: String,
-    /// Safe: the NC output of every job stays the same, byte for byte.
+    /// Whether the change is safe: the NC output of every job stays the same, byte for byte.
     pub safe: bool,
     /// Pieces of text and their replacements; they do not overlap.
     pub edits: Vec<(Span, String)>,
@@ -58,11 +58,11 @@ pub struct Fix {
 /// One finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diag {
-    /// Row in the table of codes.
+    /// The code of the finding: a row in the table of codes.
     pub code: Code,
-    /// The severity from the table, unless relaxed limits or a shop's levels change it.
+    /// The severity from the table, or another one because of relaxed limits or a shop's levels.
     pub severity: Severity,
-    /// The error in one sentence.
+    /// The problem in one sentence.
     pub message: String,
     /// The locations in the form, the main one first.
     pub labels: Vec<Label>,
@@ -75,7 +75,7 @@ pub struct Diag {
 }
 
 impl Diag {
-    /// A finding with the severity of its code and no location yet.
+    /// A finding with the severity from the table, and no location yet.
     ///
     /// Messages may contain text from files: control characters are escaped, and long text is cut in the middle.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
@@ -114,15 +114,15 @@ impl Diag {
         self
     }
 
-    /// Is the finding an error?
+    /// Whether the finding is an error.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 }
 
-/// Longest message or help, in characters.
+/// Maximum number of characters of a message or a help text.
 const LONGEST: usize = 400;
-/// Maximum number of characters of a word in messages; a number may have 309 digits.
+/// Maximum number of characters of a word in a message. A number, for example, may have 309 digits.
 const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {
@@ -134,7 +134,7 @@ fn shown(text: String) -> String {
     cut(&words.join(" "), LONGEST, " … ")
 }
 
-/// A text whose middle is cut out if it is longer than `most` characters.
+/// If the text is longer than `most` characters, replaces its middle by `mark`.
 fn cut(text: &str, most: usize, mark: &str) -> String {
     let count = text.chars().count();
     if count <= most {

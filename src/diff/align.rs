@@ -1,4 +1,4 @@
-//! Blocks of two programs side by side.
+//! Compares two programs: finds the removed, added, changed and moved lines.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -15,9 +15,9 @@ use super::words::{letters, likeness, within, words};
 /// Settings of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// Ignored differences.
+    /// The kinds of differences that are ignored.
     pub ignore: Ignore,
-    /// Numbers of a changed block with at most this difference are equal.
+    /// If the numbers of a changed block differ by at most this value, they are equal.
     pub tolerance: f64,
 }
 
@@ -36,7 +36,7 @@ pub enum Edit {
     Added(usize),
     /// A line of the old program became a line of the new one.
     Changed(usize, usize),
-    /// A line moved: its number in the old program, and in the new one.
+    /// A line moved: its number in the old program, and its number in the new one.
     Moved(usize, usize),
 }
 
@@ -47,7 +47,7 @@ pub struct Hunk {
     pub old: Range<usize>,
     /// Lines of the new program.
     pub new: Range<usize>,
-    /// Removed and changed lines in the order of the old program; added lines at their position.
+    /// Removed and changed lines in the order of the old program. Each added line is at its position between them.
     pub edits: Vec<Edit>,
 }
 
@@ -59,7 +59,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Are the programs the same?
+    /// Whether the programs are equal.
     pub fn is_same(&self) -> bool {
         self.hunks.is_empty()
     }
@@ -70,11 +70,11 @@ impl Comparison {
     }
 }
 
-/// The compared lines of a part of a program, with their keys.
+/// The compared lines of a part of a program, with a key for each line.
 struct Lines {
     keys: Vec<u64>,
     numbers: Vec<u32>,
-    /// End of the part.
+    /// Number of the line after the part.
     end: usize,
 }
 
@@ -95,8 +95,8 @@ impl Lines {
         self.numbers[at] as usize
     }
 
-    /// The lines of the program from the first to the last compared line of a range. An empty range is before the next compared
-    /// line, or at the end of the part.
+    /// The lines of the program from the first to the last compared line of a range. An empty range gives an empty
+    /// result before the next compared line, or at the end of the part.
     fn covered(&self, range: &Range<usize>) -> Range<usize> {
         if range.is_empty() {
             let at = self.numbers.get(range.start).map_or(self.end, |&number| number as usize);
@@ -106,8 +106,8 @@ impl Lines {
     }
 }
 
-/// Compares two programs. The result is the same on every machine, because the search for the shortest one is limited by steps,
-/// not by time. If two large programs have little in common, the result may be longer than the shortest.
+/// Compares two programs. The search for the shortest list of differences is limited in steps, not in time; so the result
+/// is the same on every machine. If two large programs have little in common, the list may be longer than necessary.
 pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     let mut comparison = Comparison::default();
     for [from, to] in gaps(old, new) {
@@ -127,10 +127,11 @@ pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     comparison
 }
 
-/// Maximum number of lines of a hunk that are compared pairwise.
+/// In a hunk with a different number of removed and added lines: maximum number of added lines that are compared with a
+/// removed line.
 const MOST: usize = 64;
 
-/// Pairs removed lines with the added lines that replaced them.
+/// Pairs each removed line with the added line that replaced it.
 fn pair(
     old: &Program,
     new: &Program,
@@ -149,7 +150,7 @@ fn pair(
         let line = before.number(at);
         letters(old.line(line), ignore, &mut old_letters);
         let old_words = (options.tolerance > 0.0).then(|| words(old.line(line), ignore));
-        // line by line if the numbers are equal; else the next similar line
+        // with as many added as removed lines, the line at the same position; otherwise the next similar line
         let reach = if even { 1 } else { MOST };
         let found = (next..to.end.min(next + reach)).find_map(|candidate| {
             let number = after.number(candidate);

@@ -1,26 +1,27 @@
-//! Finds the parts that differ between lines that are equal, byte for byte. Most compared programs differ in few blocks, and
-//! only these parts need a key for each line and a search.
+//! Finds the parts in which two programs differ, by comparing lines byte for byte. Most compared programs differ in few
+//! blocks, and only these parts need a key for each line and a search.
 
 use std::ops::Range;
 
 use super::program::Program;
 
-/// Lines of the old and the new program that must be compared; the lines between two such parts are equal.
+/// A range of lines of the old program and one of the new program that must be compared. The lines outside of these
+/// ranges are equal.
 pub(super) type Gap = [Range<usize>; 2];
 
-/// Number of lines after a difference, on either side, in which equal lines are searched.
+/// Equal lines are searched within this number of lines after a difference, in both programs.
 const WINDOW: usize = 64;
 
-/// Number of consecutive lines that must be equal. In programs with repeated blocks, fewer lines may be equal by chance, and
-/// the result would be longer than necessary.
+/// Number of consecutive lines that must be equal. Programs with repeated blocks may have fewer equal lines by chance;
+/// the list of differences would then be longer than necessary.
 const RUN: usize = 32;
 
-/// Programs with fewer lines are searched as a whole: with repeated blocks, the first equal lines may not belong to the
-/// shortest result.
+/// Programs with fewer lines are searched as a whole: in programs with repeated blocks, the first equal lines may not
+/// belong to the shortest list of differences.
 const SMALL: usize = 20_000;
 
-/// Finds the parts. If the programs are small, or no equal lines are near, the last part is the whole rest, without the equal
-/// lines at the end.
+/// Finds the parts that differ. If the programs are small, or no equal lines follow within `WINDOW`, the last part is
+/// the whole rest without the equal lines at the end.
 pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     let same = |a: usize, b: usize| old.line(a) == new.line(b);
     let most = old.len().min(new.len());
@@ -45,11 +46,11 @@ pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     }
 }
 
-/// The nearest lines at which two parts are equal again.
+/// The nearest position in each of the two parts from which the lines are equal again.
 fn meet([a, b]: Gap, same: impl Fn(usize, usize) -> bool) -> Option<(usize, usize)> {
     let is_run = |x: usize, y: usize| x + RUN <= a.end && y + RUN <= b.end && (0..RUN).all(|at| same(x + at, y + at));
     (1..=WINDOW).find_map(|far| {
-        // changed lines first, then added or removed lines, then both
+        // search order: lines were changed, lines were added or removed, both
         let ways = (0..far).flat_map(|near| [(near, far), (far, near)]);
         let mut found = std::iter::once((far, far)).chain(ways).map(|(old, new)| (a.start + old, b.start + new));
         found.find(|&(x, y)| is_run(x, y))

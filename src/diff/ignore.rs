@@ -1,4 +1,4 @@
-//! Ignored differences.
+//! The settings for ignored differences.
 
 /// The kinds of differences that are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -11,7 +11,7 @@ pub struct Ignore {
     pub spaces: bool,
     /// Upper and lower case of words.
     pub case: bool,
-    /// Leading and trailing zeros, plus signs, a minus before zero.
+    /// Leading and trailing zeros, plus signs, and the minus sign of zero.
     pub format: bool,
     /// The order of words in a block.
     pub order: bool,
@@ -21,7 +21,7 @@ impl Ignore {
     /// The names of all kinds.
     pub const NAMES: [&'static str; 6] = ["numbers", "comments", "spaces", "case", "format", "order"];
 
-    /// Differences that do not matter to a machine: block numbers, spaces, case and the format of numbers.
+    /// Differences that have no effect on a machine: block numbers, spaces, case and the format of numbers.
     pub const USUAL: Ignore =
         Ignore { numbers: true, comments: false, spaces: true, case: true, format: true, order: false };
 

@@ -1,4 +1,4 @@
-//! A line as a number: equal numbers mean equal lines.
+//! Computes a key for each line: lines with equal keys are equal.
 
 use std::hash::{BuildHasher, Hash, Hasher};
 
@@ -12,9 +12,9 @@ pub(super) fn hasher() -> FoldHasher<'static> {
     FixedState::with_seed(0).build_hasher()
 }
 
-/// The key of a line; `None` if everything in it is ignored.
+/// The key of a line; `None` if all of the line is ignored.
 ///
-/// The chance that two different lines have the same key is 1 in 2^64; a program has fewer lines than that.
+/// Two different lines have the same key with a chance of 1 in 2^64. A program has far fewer lines.
 pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
     let mut whole = hasher();
     let mut sum = 0u64;
@@ -46,11 +46,11 @@ pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
         let one = one.finish();
         if ignore.order { sum = sum.wrapping_add(one) } else { one.hash(&mut whole) }
     }
-    // a line with only an ignored comment is ignored even if spaces are compared; an empty line stays
+    // a line with nothing but an ignored comment is ignored, even if spaces are compared; an empty line is not
     (counts || has_blanks && !leaves_out).then(|| if ignore.order { sum } else { whole.finish() })
 }
 
-/// Is a token compared?
+/// Whether a token is compared.
 pub(super) fn is_seen(token: &Token, ignore: &Ignore) -> bool {
     match token.kind {
         Kind::Blank | Kind::LineEnd => !ignore.spaces,
@@ -64,7 +64,7 @@ fn is_blank(token: &Token) -> bool {
     matches!(token.kind, Kind::Blank | Kind::LineEnd)
 }
 
-/// A token of an expression after a letter.
+/// Whether a token may be part of the expression after a letter.
 fn is_value(token: &Token) -> bool {
     matches!(token.kind, Kind::Symbol(_) | Kind::Number(_) | Kind::Name | Kind::Quoted | Kind::Blank)
 }

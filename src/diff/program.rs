@@ -4,11 +4,11 @@
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     bytes: Vec<u8>,
-    /// Start of each line, and the end of the last one.
+    /// Start of each line in bytes, then the end of the last line.
     starts: Vec<u32>,
 }
 
-/// The size in bytes of a program that is too large for 32 bits.
+/// The error for a program whose positions don't fit into 32 bits. The number is its size in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooLarge(pub usize);
 
@@ -16,7 +16,7 @@ impl Program {
     /// Finds the lines of a program.
     ///
     /// # Errors
-    /// It is larger than four gigabytes.
+    /// The program is larger than four gigabytes.
     pub fn new(bytes: Vec<u8>) -> Result<Program, TooLarge> {
         if u32::try_from(bytes.len()).is_err() {
             return Err(TooLarge(bytes.len()));
@@ -39,12 +39,12 @@ impl Program {
         self.starts.len() - 1
     }
 
-    /// Is the program empty?
+    /// Whether the program is empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A line with its line end, counted from 0.
+    /// A line with its line end. Lines are counted from 0.
     pub fn line(&self, number: usize) -> &[u8] {
         &self.bytes[self.starts[number] as usize..self.starts[number + 1] as usize]
     }

@@ -1,4 +1,4 @@
-//! The changes, counted by kind.
+//! Counts the changes by kind.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -10,7 +10,7 @@ use super::words::{Word, words};
 /// The numbers of changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Blocks changed, removed, added, moved.
+    /// Numbers of changed, removed, added and moved blocks.
     pub changed: usize,
     #[allow(missing_docs)]
     pub removed: usize,
@@ -18,16 +18,16 @@ pub struct Summary {
     pub added: usize,
     #[allow(missing_docs)]
     pub moved: usize,
-    /// Number of changed blocks in which the number of a letter changed, by letter.
+    /// For each letter, the number of changed blocks in which the number after the letter changed.
     pub letters: BTreeMap<char, usize>,
-    /// Codes and words that were added to changed blocks, and those that were removed from them.
+    /// Codes and words that were added to changed blocks (`more`) or removed from them (`less`), each with its count.
     pub more: BTreeMap<String, usize>,
     #[allow(missing_docs)]
     pub less: BTreeMap<String, usize>,
 }
 
 impl Summary {
-    /// Counts a comparison.
+    /// Counts the changes of a comparison.
     pub fn of(comparison: &Comparison, old: &Program, new: &Program, ignore: &Ignore) -> Summary {
         let mut summary = Summary::default();
         let mut moved = 0;
@@ -42,7 +42,7 @@ impl Summary {
                 }
             }
         }
-        summary.moved = moved / 2; // each move is reported at both ends
+        summary.moved = moved / 2; // the list contains each moved line twice
         summary
     }
 
@@ -79,7 +79,7 @@ impl Summary {
         if was.clone().count() == is.clone().count()
             && was.zip(is).all(|(was, is)| old_text[was.span.clone()] == new_text[is.span.clone()])
         {
-            return; // as in most blocks
+            return; // most blocks have the same codes and words
         }
         let (before, after) = (codes(old, old_text), codes(new, new_text));
         let [in_before, in_after] = [&before, &after].map(|list| list.iter().collect::<HashSet<_>>());
@@ -92,7 +92,7 @@ impl Summary {
     }
 }
 
-/// The first word of each letter: its position from 1; 0: there is none.
+/// The position of the first word of each letter, from 1; 0 if no word has this letter.
 fn firsts(list: &[Word]) -> [usize; 256] {
     let mut firsts = [0; 256];
     list.iter().enumerate().rev().for_each(|(at, word)| firsts[usize::from(word.letter)] = at + 1);

@@ -18,18 +18,18 @@ pub(super) struct Word {
     pub letter: u8,
     /// The number after the letter, if any.
     pub value: Option<f64>,
-    /// A hash of the compared parts: two different words have the same hash with a chance of 1 in 2^64.
+    /// A hash of the compared parts. Two different words have the same hash with a chance of 1 in 2^64.
     key: u64,
 }
 
 impl Word {
-    /// Is another word equal in the compared parts?
+    /// Whether the compared parts of both words are equal.
     pub fn is(&self, other: &Word) -> bool {
         self.key == other.key
     }
 }
 
-/// The tokens of the compared words of a block. `true`: the token continues the word before it.
+/// The tokens of the compared words of a block. `true`: the token belongs to the same word as the token before it.
 fn pieces(line: &[u8], ignore: &Ignore) -> impl Iterator<Item = (Token, bool)> {
     let mut open = false;
     let seen =
@@ -50,7 +50,7 @@ fn letter_and_value(kind: Kind) -> (u8, Option<f64>) {
     }
 }
 
-/// The letters of the compared words of a block.
+/// Writes the letters of the compared words of a block to `list`.
 pub(super) fn letters(line: &[u8], ignore: &Ignore, list: &mut Vec<u8>) {
     list.clear();
     list.extend(
@@ -85,7 +85,7 @@ fn key_of(part: &impl Hash) -> u64 {
     hasher.finish()
 }
 
-/// Are two blocks equal if numbers may differ by `tolerance`?
+/// Whether two blocks are equal if their numbers may differ by `tolerance`.
 pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
     old.len() == new.len()
         && old.iter().zip(new).all(|(a, b)| match (a.value, b.value) {
@@ -94,7 +94,7 @@ pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
         })
 }
 
-/// The share of common words, relative to the longer block, from the letters of both.
+/// The number of common letters, divided by the number of letters of the longer block.
 pub(super) fn likeness(old: &[u8], new: &[u8]) -> f64 {
     let mut has = [false; 256];
     new.iter().for_each(|letter| has[usize::from(*letter)] = true);

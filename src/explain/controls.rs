@@ -1,4 +1,4 @@
-//! Known and unknown facts of a control: for `explain`, for docs/controls, and as a file to start from.
+//! What is known about a control: as text for `explain`, as pages in docs/controls, and as a file to start from.
 
 use indexmap::IndexMap;
 
@@ -6,10 +6,10 @@ use crate::control::{
     Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, WorkOffset, names,
 };
 
-/// The text for a fact without a public source.
+/// The text for a fact that no public source states.
 const UNKNOWN: &str = "not known";
 
-/// The traits of a control by name, with the known facts.
+/// The traits of a control, each with its name and what is known about it.
 fn facts(control: &Control) -> Vec<(&'static str, String)> {
     let traits = control.traits();
     let kept = |kept: Kept| match kept {
@@ -84,7 +84,7 @@ fn letters(words: Words) -> String {
     (b'A'..=b'Z').filter(|letter| words.bits() & 1 << (letter - b'A') != 0).map(char::from).collect()
 }
 
-/// The meaning of a code, in words.
+/// The meaning of a code in words.
 fn about(row: &Row) -> String {
     let mut text = row.meaning.about().to_owned();
     if !row.makes.is_empty() {
@@ -113,12 +113,12 @@ fn about(row: &Row) -> String {
     }
 }
 
-/// The function of a code on a control, in words. `None`: it is unknown on this control.
+/// The function of a code on a control, in words. `None`: the function is unknown on this control.
 pub fn code(control: &Control, code: Code) -> Option<String> {
     control.row(code).map(about)
 }
 
-/// The functions of a code on the controls that have it, with their names. `None`: no control has it.
+/// The functions of a code, each with the names of the controls that have it. `None`: no control has the code.
 pub fn on_each(code: Code) -> Option<String> {
     let mut functions: IndexMap<String, Vec<&str>> = IndexMap::new();
     for control in names().filter_map(Control::named).filter(|control| !control.refuses(code)) {
@@ -147,7 +147,7 @@ pub fn text(control: &Control) -> String {
     text
 }
 
-/// docs/controls/NAME.md.
+/// The text of docs/controls/NAME.md.
 pub fn page(control: &Control) -> String {
     let mut text = format!(
         "# {}\n\n<!-- made from controls/{}.toml: `just overwrite` -->\n\nForms name it by `Control {1}`, commands by `--control {1}`.\n",
@@ -164,7 +164,7 @@ pub fn page(control: &Control) -> String {
     text
 }
 
-/// docs/controls/README.md, also the list of `postform controls`.
+/// The text of docs/controls/README.md, which lists all controls.
 pub fn index() -> String {
     let mut text = String::from(
         "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md \
@@ -189,14 +189,14 @@ pub fn list() -> String {
     text
 }
 
-/// The number of codes and of cycles of a control that can be run.
+/// The number of codes and of cycles of a control that postform can run.
 fn counts(control: &Control) -> (usize, usize) {
     let has = |row: &&Row| row.not_run.is_none() && !control.refuses(row.code);
     let cycles = control.rows().filter(has).filter(|row| row.meaning.is_cycle()).count();
     (control.rows().filter(has).count(), cycles)
 }
 
-/// A commented file to start from, for a machine with a similar control.
+/// A commented control file to start from, for a control similar to this one.
 pub fn file(control: &Control) -> String {
     format!(
         "# A control of your own. Put it beside the form and write `Control my-control.toml` in the form; simulate and verify take

@@ -1,10 +1,10 @@
-//! Examples from the shipped forms: `explain` shows only lines that render.
+//! Examples for `explain`. They are lines of forms that are known to work: shipped forms and samples.
 
 use crate::lang::{SequenceId, VarId};
 use crate::source::Source;
 use crate::syntax::parse;
 
-/// The posts, beginning with the most common.
+/// The shipped forms, the most common first.
 const POSTS: &[(&str, &str)] = &[
     ("postforms/fanuc.pf", include_str!("../../postforms/fanuc.pf")),
     ("postforms/haas-4axis.pf", include_str!("../../postforms/haas-4axis.pf")),
@@ -24,7 +24,7 @@ macro_rules! samples {
     };
 }
 
-// one for each sequence that no post contains, from the table of sequences
+// one sample for each sequence that no shipped form contains, as in the table of sequences
 samples! {
     "back-machine" "begin-row" "between" "bore-machine" "can-thread" "cancel-with" "ccw-code" "chipbreak-machine"
     "custom1-machine" "cw-code" "drill-machine" "end-code" "end-row" "first-tool-change" "index" "infeed"
@@ -33,7 +33,7 @@ samples! {
     "coolant-kinds" "conditions" "expressions"
 }
 
-/// Text of a form and its name.
+/// Lines of a form, and its name.
 pub struct Example {
     /// The lines of the example.
     pub text: String,
@@ -45,7 +45,7 @@ fn forms() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
     POSTS.iter().chain(SAMPLES)
 }
 
-/// The text of a sequence from its name to its End, in a shipped form.
+/// An example of a sequence, from its name to its End.
 pub fn sequence(id: SequenceId) -> Option<Example> {
     forms().find_map(|(form, text)| {
         let tree = parse(&Source::from_text(*form, *text), 0);
@@ -55,7 +55,7 @@ pub fn sequence(id: SequenceId) -> Option<Example> {
     })
 }
 
-/// A line that prints a variable.
+/// An example of a line that prints a variable.
 pub fn variable(var: VarId) -> Option<Example> {
     let word = format!("[{}]", var.name());
     forms().find_map(|(form, text)| {
@@ -64,7 +64,7 @@ pub fn variable(var: VarId) -> Option<Example> {
     })
 }
 
-/// A command as forms write it.
+/// An example of a command.
 pub fn command(name: &str) -> Option<Example> {
     forms().find_map(|(form, text)| {
         let tree = parse(&Source::from_text(*form, *text), 0);

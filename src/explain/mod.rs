@@ -1,6 +1,6 @@
-//! The meaning of each code, command, variable, sequence, cycle and control, from the tables and pages that are the source of
-//! the reference.
-// pages name variables as [var]
+//! Explains codes, commands, variables, sequences, cycles and controls. The texts come from the tables and pages from which
+//! the reference is made too.
+// pages contain variables as [var], which are not links
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod controls;
@@ -17,21 +17,21 @@ use crate::lang::{
     COMMANDS, CommandId, DIRECTIVES, LONGEST_NAME, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId, did_you_mean,
 };
 
-/// The text for a code, command, variable, sequence, cycle or control; the case does not matter.
+/// The explanation of a code, command, variable, sequence, cycle or control. Upper and lower case are equal.
 ///
 /// # Errors
-/// Nothing has this name; the text proposes similar names.
+/// Nothing has this name. The error suggests similar names.
 pub fn explain(what: &str) -> Result<String, String> {
     let asked = what.trim();
     let upon = asked.get(..5).is_some_and(|head| head.eq_ignore_ascii_case("Upon "));
-    // `X[h]` means the variable
+    // in `X[h]`, the variable is looked up
     let inner = asked.split_once(['[', '<']).filter(|(letter, _)| letter.len() <= 1).map(|(_, name)| name);
     let bare = inner.unwrap_or(asked).trim_matches(['[', ']', '<', '>']);
     let mut texts = Vec::new();
     if let Some(row) = CODES.iter().find(|row| names_of(row).any(|name| name.eq_ignore_ascii_case(asked))) {
         texts.push(code(row));
     }
-    // a name in brackets means only the variable
+    // a name in brackets can only be a variable
     if asked == bare {
         texts.extend(SequenceId::parse(asked).map(words::sequence));
         texts.extend(CommandId::parse(asked).map(words::command));
@@ -50,12 +50,12 @@ pub fn explain(what: &str) -> Result<String, String> {
     if asked == bare {
         texts.extend(words::cycle(asked));
     }
-    // a line of a form is looked up by its first word: `Back 3`, `Force X Z`
+    // for a line of a form such as `Back 3` or `Force X Z`, its first word is looked up
     if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty() && asked.len() < LONGEST_NAME) {
         texts.extend(explain(head));
     }
     texts.extend(Control::named(&asked.to_ascii_lowercase()).map(controls::text));
-    // a code of programs, as `G81`
+    // codes of programs, such as `G81`
     texts.extend(asked.to_ascii_uppercase().parse().ok().and_then(controls::on_each));
     match texts.is_empty() {
         false => Ok(texts.join("\n")),
@@ -99,7 +99,7 @@ pub fn list() -> String {
     text
 }
 
-/// The names of a code.
+/// The names with which a code can be looked up.
 fn names_of(row: &'static CodeRow) -> impl Iterator<Item = &'static str> {
     [row.name, row.code.key()].into_iter().filter(|name| !name.is_empty())
 }
@@ -115,14 +115,14 @@ fn all_names() -> impl Iterator<Item = &'static str> {
         .chain(words::CYCLES.iter().map(|row| row.name))
 }
 
-/// The page of a code, or its section of a page.
+/// The page of a code, or the section of a page about it.
 fn code(row: &CodeRow) -> String {
     let title = row.title.split_once(": ").map_or(row.title, |(_, title)| title);
     let head = format!("{} ({}): {title}\n", row.code.title(), row.severity.name());
     format!("{head}\n{}\n", plain(&pages::of(row)))
 }
 
-/// Markdown as text for a terminal.
+/// Converts Markdown to text for a terminal.
 fn plain(text: &str) -> String {
     let mut out = String::new();
     for line in text.trim().lines() {

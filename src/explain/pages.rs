@@ -1,4 +1,4 @@
-//! The texts of codes: one page for each code of forms, one section for each other code.
+//! The texts about codes. A code for forms has its own page. Every other code has a section of a page.
 
 use crate::diag::{Code, CodeRow};
 
@@ -22,7 +22,7 @@ pages! {
     PF715
 }
 
-/// Pages with one section per code, with its name as heading.
+/// Pages with a section for each code. The heading of a section begins with the code.
 const SECTIONS: [&str; 5] = [
     include_str!("../../docs/cycles.md"),
     include_str!("../../docs/programs.md"),
@@ -31,7 +31,7 @@ const SECTIONS: [&str; 5] = [
     include_str!("../../docs/errors.md"),
 ];
 
-/// The text of a code, without its heading.
+/// The text about a code, without its heading.
 pub fn of(row: &CodeRow) -> String {
     if let Some((_, page)) = RULES.iter().find(|(code, _)| *code == row.code) {
         return page.split_once("\n").map_or("", |(_, body)| body).trim().to_owned();

@@ -1,16 +1,16 @@
-//! The reference pages of docs/, generated from the tables. A test compares the files with this output.
+//! Generates the reference pages of docs/ from the tables. A test compares the files with this output.
 
 use super::words::{origin, standing, takes, unit};
 use crate::diag::CODES;
 use crate::lang::{COMMANDS, Machines, SEQUENCES, TEXTS, VARIABLES};
 use crate::lint::RULES;
 
-/// The first lines of a generated page.
+/// The beginning of a generated page.
 fn head(title: &str, lead: &str) -> String {
     format!("# {title}\n\n<!-- made from the tables of the source: `just overwrite` -->\n\n{lead}\n\n")
 }
 
-/// A cell of a table.
+/// Escapes a text for a cell of a table.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }
@@ -88,7 +88,7 @@ pub fn sequences() -> String {
     text
 }
 
-/// Code families of a form.
+/// The families of codes for forms.
 const FAMILIES: [(&str, &str); 8] = [
     ("PF0", "Structure"),
     ("PF1", "Spaces and comments"),
@@ -100,7 +100,7 @@ const FAMILIES: [(&str, &str); 8] = [
     ("PF7", "Texts, expressions, conditions"),
 ];
 
-/// docs/rules/README.md.
+/// The text of docs/rules/README.md.
 pub fn rules() -> String {
     let lead = "The findings of `postform lint`. A form with an *error* prints nothing. A finding marked *rule* can \
         be turned off ([lint](../lint.md)).";

@@ -1,4 +1,4 @@
-//! Texts for commands, variables, sequences and kinds of cycles.
+//! Explanations of commands, variables, sequences and kinds of cycles.
 
 use super::examples::{self, Example};
 use crate::lang::{
@@ -7,9 +7,9 @@ use crate::lang::{
 };
 use crate::toolpath::CycleKind;
 
-/// A kind of cycle in jobs.
+/// A kind of cycle, as jobs name it.
 pub struct CycleRow {
-    /// Its name in jobs.
+    /// Name of the kind in jobs.
     pub name: &'static str,
     /// The motion of the tool.
     pub meaning: &'static str,
@@ -17,7 +17,7 @@ pub struct CycleRow {
 
 macro_rules! cycles {
     ($($name:literal $meaning:literal)*) => {
-        /// All kinds.
+        /// All kinds of cycles.
         pub const CYCLES: &[CycleRow] = &[$(CycleRow { name: $name, meaning: $meaning }),*];
     };
 }
@@ -41,7 +41,7 @@ cycles! {
     "custom3"   "the moves of the form's Custom3"
 }
 
-/// The source of a meaning.
+/// The source of a meaning, in words.
 pub fn standing(standing: Standing) -> &'static str {
     match standing {
         Standing::Doc => "stated in the manual",
@@ -50,7 +50,7 @@ pub fn standing(standing: Standing) -> &'static str {
     }
 }
 
-/// The arguments of a command.
+/// The arguments of a command, in words.
 pub fn takes(args: Args) -> String {
     let range = |least: u8, most: u8, one: &str, many: &str| match (least, most) {
         (1, 1) => format!("one {one}"),
@@ -71,7 +71,7 @@ pub fn takes(args: Args) -> String {
     }
 }
 
-/// The unit of a value.
+/// The unit of a value, in words.
 pub fn unit(unit: Unit) -> &'static str {
     match unit {
         Unit::Length => "length",
@@ -85,7 +85,7 @@ pub fn unit(unit: Unit) -> &'static str {
     }
 }
 
-/// The origin of a value.
+/// Where a value comes from, in words.
 pub fn origin(origin: Origin) -> &'static str {
     match origin {
         Origin::Computed => "postform, from the toolpath",
@@ -94,7 +94,7 @@ pub fn origin(origin: Origin) -> &'static str {
     }
 }
 
-/// A page: heading, lines of a table, example.
+/// Formats an explanation: a heading, lines with labels, and an example.
 fn page(head: &str, lines: &[(&str, String)], example: Option<Example>) -> String {
     let mut text = format!("{head}\n\n");
     for (name, value) in lines.iter().filter(|(_, value)| !value.is_empty()) {
@@ -107,7 +107,7 @@ fn page(head: &str, lines: &[(&str, String)], example: Option<Example>) -> Strin
     text
 }
 
-/// The page of a command, as `explain` prints it.
+/// The explanation of a command, as `explain` prints it.
 pub fn command(id: CommandId) -> String {
     let row = id.row();
     let without = if row.without.is_nothing() { "nothing".to_owned() } else { row.without.to_string() };
@@ -122,7 +122,7 @@ pub fn command(id: CommandId) -> String {
     page(&format!("{} (command)", row.name), &lines, examples::command(row.name).or_else(|| as_it_would_be(row)))
 }
 
-/// An example for a command that no form uses.
+/// An example for a command that no form has, made from its default or its arguments.
 fn as_it_would_be(row: &Command) -> Option<Example> {
     let default = Some(row.without.arguments(Machine::Mill, UnitChoice::Inch)).filter(|default| !default.is_empty());
     let value = row.example.or(match row.args {
@@ -135,7 +135,7 @@ fn as_it_would_be(row: &Command) -> Option<Example> {
     Some(Example { text: format!("{} {value}", row.name), form: "in a form" })
 }
 
-/// The page of a variable, as `explain` prints it.
+/// The explanation of a variable, as `explain` prints it.
 pub fn variable(id: VarId) -> String {
     let row = id.row();
     let lines = [
@@ -148,13 +148,13 @@ pub fn variable(id: VarId) -> String {
     page(&format!("[{}] (variable)", row.name), &lines, examples::variable(id).or_else(|| in_a_comment(id)))
 }
 
-/// An example for a variable that no form prints: any variable may be printed in a comment.
+/// An example for a variable that no form prints. Every variable may be printed in a comment.
 fn in_a_comment(id: VarId) -> Option<Example> {
     let text = format!("({} [{}])", id.name().to_uppercase(), id.name());
     Some(Example { text, form: "in a comment of the program" })
 }
 
-/// The page of a text variable, as `explain` prints it.
+/// The explanation of a text variable, as `explain` prints it.
 pub fn text(id: TextId) -> String {
     let row = id.row();
     let lines = [
@@ -170,7 +170,7 @@ pub fn text(id: TextId) -> String {
     page(&format!("[{}] (text)", row.name), &lines, Some(example))
 }
 
-/// The text of a directive.
+/// The explanation of a directive, as `explain` prints it.
 pub fn directive(row: &DirectiveRow) -> String {
     let lines = [
         ("does", row.meaning.to_owned()),
@@ -187,7 +187,7 @@ pub fn directive(row: &DirectiveRow) -> String {
     page(&format!("{} (directive)", row.name), &lines, Some(example))
 }
 
-/// The page of a sequence, as `explain` prints it.
+/// The explanation of a sequence, as `explain` prints it.
 pub fn sequence(id: SequenceId) -> String {
     let row = id.row();
     let kind = if row.is_cycle { "canned cycle" } else { "sequence" };
@@ -203,7 +203,7 @@ pub fn sequence(id: SequenceId) -> String {
     page(&format!("{} ({kind})", row.name), &lines, examples::sequence(id))
 }
 
-/// The page of `Upon [var]`, as `explain` prints it.
+/// The explanation of `Upon [var]`, as `explain` prints it.
 pub fn upon() -> String {
     let lines = [
         ("is", "a sequence that is printed when a variable changes, before its next use".to_owned()),
@@ -216,7 +216,7 @@ pub fn upon() -> String {
     page("Upon [var] (sequence)", &lines, Some(Example { text, form: "postforms/fanuc.pf" }))
 }
 
-/// The page of `End`, which closes a sequence.
+/// The explanation of `End`, which closes a sequence.
 pub fn end() -> String {
     let lines = [
         ("is", "the end of a sequence, alone on a line".to_owned()),
@@ -227,7 +227,7 @@ pub fn end() -> String {
     page("End (of a sequence)", &lines, examples::sequence(SequenceId::Drill))
 }
 
-/// The page of `None`, which replaces a body.
+/// The explanation of `None`, which replaces the lines of a sequence.
 pub fn none() -> String {
     let lines = [
         ("is", "the complete body of a sequence that prints nothing: its event prints no block".to_owned()),
@@ -238,7 +238,7 @@ pub fn none() -> String {
     page("None (body of a sequence)", &lines, Some(Example { text, form: "in a form" }))
 }
 
-/// The page of a kind of cycle; sequences have their own page.
+/// The explanation of a kind of cycle. The sequence that prints the cycle has its own explanation.
 pub fn cycle(name: &str) -> Option<String> {
     let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
     let kind = CycleKind::parse(name)?;

@@ -1,4 +1,4 @@
-//! The zip archive of a document. Its unpacked size is limited, because an archive of a few kilobytes can unpack to terabytes.
+//! Reads the zip archive of a document. The unpacked size is limited, because an archive of a few kilobytes can unpack to terabytes.
 
 use std::io::{BufRead, BufReader, Read, Seek};
 
@@ -8,23 +8,23 @@ use zip::result::ZipError;
 use crate::diag::{Code, Diag};
 use crate::toolpath::ReadError;
 
-/// Maximum size of `Document.xml` in bytes. A document with a thousand objects has three million.
+/// Maximum size of `Document.xml` in bytes. In a document with a thousand objects, this file has three million bytes.
 pub(super) const LARGEST_DOCUMENT: u64 = 64 << 20;
-/// Maximum size of one operation's path in bytes: about twenty million moves.
+/// Maximum size of one operation's path in bytes. This is enough for about twenty million moves.
 const LARGEST_PATH: u64 = 1 << 30;
 
-/// Maximum ratio of unpacked to packed size. The limit of deflate itself is 1,032, and paths are far below.
+/// Maximum ratio of unpacked to packed size. The deflate format allows at most 1,032, and paths have much smaller ratios.
 const MOST_TIMES: u64 = 1000;
-/// Unpacked size in bytes that is always accepted.
+/// An unpacked size up to this number of bytes is always accepted.
 const ALWAYS: u64 = 1 << 20;
 
-/// A document's archive.
+/// The archive of a document.
 pub(super) struct Archive<R> {
     zip: ZipArchive<R>,
 }
 
 impl<R: Read + Seek> Archive<R> {
-    /// Reads the archive's directory.
+    /// Opens an archive and reads its directory.
     pub fn open(input: R) -> Result<Archive<R>, ReadError> {
         match ZipArchive::new(input) {
             Ok(zip) => Ok(Archive { zip }),
@@ -32,7 +32,7 @@ impl<R: Read + Seek> Archive<R> {
         }
     }
 
-    /// A whole member as text.
+    /// Reads a whole file of the archive as text.
     pub fn whole(&mut self, name: &str, most: u64) -> Result<String, ReadError> {
         let mut text = String::new();
         match self.bounded(name, most)?.read_to_string(&mut text) {
@@ -41,7 +41,7 @@ impl<R: Read + Seek> Archive<R> {
         }
     }
 
-    /// A path, for reading line by line. An operation without a path has no moves.
+    /// Opens the path of an operation for reading line by line. `None`: the operation has no path, and therefore no moves.
     pub fn member(&mut self, name: &Option<String>) -> Result<Option<impl BufRead + use<'_, R>>, ReadError> {
         match name {
             Some(name) => Ok(Some(BufReader::new(self.bounded(name, LARGEST_PATH)?))),
@@ -60,7 +60,7 @@ impl<R: Read + Seek> Archive<R> {
     }
 }
 
-/// A reader that fails if there is more data than allowed.
+/// A reader that fails if a file has more data than allowed.
 struct Bounded<R> {
     inner: R,
     left: u64,
@@ -79,7 +79,7 @@ impl<R: Read> Read for Bounded<R> {
     }
 }
 
-/// The error for a member that can't be opened.
+/// The error for a file of the archive that can't be opened.
 fn refused(what: &str, error: ZipError) -> ReadError {
     match error {
         ZipError::Io(error) if is_of_system(&error) => ReadError::Io(error),
@@ -88,7 +88,7 @@ fn refused(what: &str, error: ZipError) -> ReadError {
     }
 }
 
-/// The error for a member that can't be read to its end.
+/// The error for a file of the archive that can't be read to its end.
 pub(super) fn unpacked(name: &str, error: std::io::Error) -> ReadError {
     if is_of_system(&error) {
         return ReadError::Io(error);
@@ -96,7 +96,7 @@ pub(super) fn unpacked(name: &str, error: std::io::Error) -> ReadError {
     ReadError::Job(no_document(format!("`{name}` can't be unpacked: {error}")))
 }
 
-/// Is it an error of the operating system? Otherwise the archive is damaged.
+/// Whether the operating system reported the error. If not, the archive is damaged.
 fn is_of_system(error: &std::io::Error) -> bool {
     error.raw_os_error().is_some()
 }

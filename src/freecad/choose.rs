@@ -1,4 +1,4 @@
-//! Selects the job of a document.
+//! Selects one of the jobs in a document.
 
 use super::document::{Document, Object};
 use super::{Report, wrong};
@@ -6,13 +6,14 @@ use crate::diag::{Code, Diag};
 
 /// The selected job.
 pub(super) struct Job<'d> {
-    /// Label in FreeCAD.
+    /// Label of the job in FreeCAD.
     pub label: String,
-    /// The object of the job, with its properties.
+    /// The object of the job. It has the job's properties.
     pub object: &'d Object,
 }
 
-/// Is an object a job? Its class decides. If 1.1 has dropped the classes of a document from 0.20, its properties decide.
+/// Whether an object is a job. Its class shows this. FreeCAD 1.1 may have removed the classes from a document of 0.20; then its
+/// properties show it.
 fn is_job(object: &Object) -> bool {
     let properties = ["Operations", "Fixtures", "PostProcessor"];
     object
@@ -20,7 +21,7 @@ fn is_job(object: &Object) -> bool {
         .map_or_else(|| properties.iter().all(|name| object.get(name).is_some()), |class| class == "ObjectJob")
 }
 
-/// Finds the job with this name or label; without one, the only job of the document.
+/// Finds the job with this name or label. If no name is given, finds the only job of the document.
 pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut Report) -> Result<Job<'d>, Box<Diag>> {
     let jobs: Vec<(&str, &str, &Object)> = document
         .objects
@@ -34,7 +35,7 @@ pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut 
         .collect();
     let list = list.join(", ");
     let found: Vec<&(&str, &str, &Object)> = match asked {
-        // names are unique, but labels may not be
+        // each name occurs only once, but several jobs may have the same label
         Some(asked) => match jobs.iter().find(|(name, ..)| *name == asked) {
             Some(job) => vec![job],
             None => jobs.iter().filter(|(_, label, _)| *label == asked).collect(),

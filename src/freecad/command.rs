@@ -1,4 +1,4 @@
-//! The text of a path: one command per line, its name first.
+//! Reads the text of a path. Each line has one command, which begins with its name.
 
 use std::io::{BufRead, Read};
 
@@ -10,7 +10,7 @@ use crate::toolpath::{ReadError, Stop};
 /// Maximum length of a line in a path, in bytes.
 const LONGEST: u64 = 64 << 10;
 
-/// The return level selected by G98 and G99.
+/// The height to which the tool returns after a hole, as selected by G98 and G99.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Return {
     /// To the height before the cycle: G98.
@@ -28,11 +28,11 @@ pub(super) enum Command {
     Code(control::Code, Words),
 }
 
-/// The words of a command: capital letters, each once.
+/// The words of a command, by their capital letters. Each letter occurs only once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Words {
     values: Vec<(u8, f64)>,
-    /// The return mode that FreeCAD 1.2 writes after the words.
+    /// The return height, which FreeCAD 1.2 writes after the words.
     pub returns: Option<Return>,
 }
 
@@ -42,23 +42,23 @@ impl Words {
         self.values.iter().find(|(own, _)| *own == letter).map(|(_, value)| *value)
     }
 
-    /// The block as typed; its feed is converted with `feed`.
+    /// The command as a block of a program. `feed` converts its feed.
     pub fn block(&self, code: control::Code, feed: impl Fn(f64) -> f64) -> String {
         let words = self.values.iter().map(|&(letter, value)| {
             let value = if letter == b'F' { feed(value) } else { value };
-            // FreeCAD saves six decimals
+            // FreeCAD saves numbers with six decimals
             format!(" {}{}", char::from(letter), (value * 1e6).round() / 1e6)
         });
         format!("{code}{}", words.collect::<String>())
     }
 
-    /// The first letter that is not among these.
+    /// The first letter that is not in `known`.
     pub fn beyond(&self, known: &[u8]) -> Option<char> {
         self.values.iter().map(|(letter, _)| *letter).find(|letter| !known.contains(letter)).map(char::from)
     }
 }
 
-/// Calls `take` for each command of a path (the member `name` of the archive), with its line from 1.
+/// Calls `take` for each command of a path, with the number of its line from 1. `name`: the path's file in the archive.
 pub(super) fn each(
     name: &str,
     path: Option<impl BufRead>,
@@ -93,12 +93,12 @@ fn unread(text: &str) -> Box<Diag> {
     Box::new(Diag::new(Code::PD003, message).help(help))
 }
 
-/// Parses a line. `Some(None)`: it is empty; `None`: it can't be read.
+/// Parses a line. `Some(None)`: the line is empty. `None`: the line can't be read.
 fn parse(line: &str) -> Option<Option<Command>> {
     if line.is_empty() {
         return Some(None);
     }
-    // FreeCAD removes inner parentheses, but not always: the comment extends to the last one
+    // FreeCAD does not always remove inner parentheses, so the comment extends to the last one
     if let Some(rest) = line.strip_prefix('(') {
         let text = rest.rfind(')').map_or(rest, |end| &rest[..end]);
         return Some(Some(Command::Comment(text.trim().to_owned())));
@@ -118,14 +118,14 @@ fn parse(line: &str) -> Option<Option<Command>> {
     Some(Some(Command::Code(code, words)))
 }
 
-/// A letter and a finite number.
+/// Reads a word: a letter and a finite number.
 fn word(token: &str) -> Option<(u8, f64)> {
     let letter = *token.as_bytes().first()?;
     let value: f64 = token.get(1..)?.parse().ok()?;
     (letter.is_ascii_uppercase() && value.is_finite()).then_some((letter, value))
 }
 
-/// Parses the notes `RetractMode:'G98' operation:'tapping' depth:1.5` of FreeCAD 1.2; `None` if one is unknown.
+/// Reads the notes of FreeCAD 1.2, such as `RetractMode:'G98' operation:'tapping' depth:1.5`. `None`: one of them is unknown.
 fn returns(notes: &str) -> Option<Option<Return>> {
     let mut returns = None;
     for note in notes.split_ascii_whitespace() {

@@ -16,23 +16,23 @@ type Done<T = ()> = Result<T, Stop>;
 /// Letters of the six axes.
 const AXES: &[u8; 6] = b"XYZABC";
 
-/// The words that a command may have. `None`: jobs do not support the command, or it is a cycle, which checks its own words.
+/// The words that a command may have. `None`: jobs do not support the command, or it is a cycle (which checks its own words).
 fn words_of(letter: u8, tenths: u16) -> Option<&'static [u8]> {
     Some(match (letter, tenths) {
-        (b'G', 0 | 10) => b"XYZABCF", // F of a rapid is ignored
+        (b'G', 0 | 10) => b"XYZABCF", // the F of a rapid is ignored
         (b'G', 20 | 30) => b"XYZIJKRF",
         (b'G', 40) => b"P",
-        (b'G', 400 | 410 | 420) => b"D", // the register comes from the tool
+        (b'G', 400 | 410 | 420) => b"D", // the offset register comes from the tool
         (b'G', 170 | 180 | 190 | 800 | 900 | 980 | 990) | (b'M', 0 | 10 | 70 | 80 | 90) => b"",
         (b'M', 30 | 40 | 50) => b"S",
         _ => return None,
     })
 }
 
-/// Conversion of one step. The tool position at its start is unknown.
+/// Converts one step of a job. At its start, the position of the tool is unknown.
 pub(super) struct Convert<'a, 'h, 's> {
     label: &'a str,
-    /// The operation; `None` for comments and stops.
+    /// The operation; `None` if the step is a comment or a stop.
     operation: Option<&'a Operation>,
     hold: &'h mut Hold<'s>,
     place: Place,
@@ -42,15 +42,15 @@ pub(super) struct Convert<'a, 'h, 's> {
     plane: Plane,
     cycle: Option<Cycle>,
     side: Option<Side>,
-    /// Compensation that the next move turns on (with its side) or off.
+    /// The change of compensation at the next move: on at this side, or off.
     turning: Option<Option<Side>>,
     spindle: (Option<f64>, SpindleTurn),
-    /// A G code was printed as text, so that the meaning of later moves is unknown: they are printed as text too.
+    /// Whether a G code was printed as text. The meaning of later moves is then unknown, so they are printed as text too.
     as_text: bool,
 }
 
 impl<'a, 'h, 's> Convert<'a, 'h, 's> {
-    /// Begins a step.
+    /// Begins a step of the job.
     pub fn begin(step: &'a Step, place: Place, hold: &'h mut Hold<'s>) -> Done<Convert<'a, 'h, 's>> {
         let operation = match &step.kind {
             Kind::Operation(operation, _) => Some(operation.as_ref()),
@@ -100,7 +100,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         })
     }
 
-    /// Handles the command on a line of the path.
+    /// Converts the command on a line of the path.
     pub fn take(&mut self, line: u64, command: &Command) -> Done {
         self.place.item = line;
         let taken = match command {
@@ -113,7 +113,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 stop
             }),
         };
-        // add the location to errors of the sink
+        // add the location to an error of the sink
         let (place, label) = (self.place, self.label);
         taken.map_err(|stop| {
             stop.placed(|| Location::default().step(format!("{place}, operation `{label}`, line {line} of its path")))
@@ -134,7 +134,8 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.hold.push(event, self.place)
     }
 
-    /// Is this a typed command that jobs do not support? A tool change and an end of the program remain errors.
+    /// Whether this is a command that the user wrote and that jobs do not support. A tool change and an end of the program are always
+    /// errors.
     fn is_text(&self, code: control::Code, words: &Words) -> bool {
         let Some(Operation { typed: true, .. }) = self.operation else { return false };
         match (code.letter, code.tenths) {
@@ -145,7 +146,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
     }
 
-    /// Prints a typed command as text.
+    /// Prints a command that the user wrote as text.
     fn text(&mut self, code: control::Code, words: &Words) -> Done {
         let Some(operation) = self.operation else { return Ok(()) };
         self.as_text |= code.letter == b'G';
@@ -174,7 +175,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 self.compensation([None, Some(Side::Left), Some(Side::Right)][usize::from(tenths / 10 - 40)])
             }
             (b'G', 800) => self.end_cycle(),
-            (b'G', 900) => Ok(()), // positions are absolute
+            (b'G', 900) => Ok(()), // positions are already absolute
             (b'G', 980 | 990) => {
                 self.returns = if tenths == 980 { Return::Before } else { Return::Clearance };
                 Ok(())
@@ -200,7 +201,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
     }
 
-    /// Reports a word that would be lost.
+    /// Reports a word that the conversion would lose.
     fn only(&self, words: &Words, known: &[u8]) -> Done {
         match words.beyond(known) {
             Some(letter) => {
@@ -212,7 +213,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
     }
 
     fn comment(&mut self, text: &str) -> Done {
-        // a path begins with its operation's name, from which FreeCAD removed parentheses
+        // a path begins with the name of its operation, in which FreeCAD removed the parentheses
         let bare = |text: &str| text.replace(['(', ')', ' '], "");
         if text.is_empty() || self.place.item == 1 && bare(text) == bare(self.label) {
             return Ok(());
@@ -220,7 +221,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.between(Event::Comment(text))
     }
 
-    /// Pushes an event that happens at the tool's current position.
+    /// Ends an open cycle and pushes an event that is not a move.
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         self.push(event)
@@ -240,7 +241,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.between(Event::Spindle(Spindle { speed, turn: Some(turn), ..Spindle::default() }))
     }
 
-    /// The target axes of a command. Updates the tool's position.
+    /// The target axes of a command. Also updates the position of the tool.
     fn target(&mut self, words: &Words) -> Axes {
         let mut to = Axes::default();
         for (axis, letter) in AXES.iter().enumerate() {
@@ -268,7 +269,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
     }
 
-    /// The feed of a cut in millimetres per minute. Without one in the command, the last feed applies.
+    /// The feed of a cut in millimetres per minute. If the command has none, the last feed applies.
     fn feed(&mut self, words: &Words) -> Done<Option<f64>> {
         let Some(operation) = self.operation else { return Ok(None) };
         if let Some(feed) = words.get(b'F') {
@@ -335,7 +336,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.push(Event::Arc { arc: &arc, feed })
     }
 
-    /// Handles an arc with a radius, as users type it. FreeCAD's own arcs have centres.
+    /// Converts an arc that is given by its radius. Users write such arcs; FreeCAD itself writes centres.
     fn arc_by_radius(&mut self, words: &Words, radius: f64, direction: Direction) -> Done {
         if words.beyond(b"XYZRF").is_some() {
             return wrong(Code::PD003, "an arc with a radius and a centre", "give one of them: I and J, or R");
@@ -381,7 +382,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         Ok(())
     }
 
-    /// Ends an open cycle, and then pushes the rapids after its last hole.
+    /// Ends an open cycle, and then pushes the rapids that followed its last hole.
     fn end_cycle(&mut self) -> Done {
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
         self.place.point = 0;

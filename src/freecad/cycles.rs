@@ -1,4 +1,4 @@
-//! Canned cycles of a path. In a path, every hole has its own command and rapids before it; these are combined to one cycle.
+//! Canned cycles of a path. A path has a command for every hole, with rapids before it. Such commands are combined to one cycle.
 
 use super::command::{Return, Words};
 use super::order::Operation;
@@ -6,10 +6,10 @@ use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole, Place};
 
-/// Tolerance for equal heights: paths have six decimals.
+/// Tolerance within which two heights are equal. Paths have six decimals.
 const SAME: f64 = 1e-6;
 
-/// The kind of cycle for a G code, given as tenths.
+/// The kind of cycle for a G code. The code is given in tenths.
 pub(super) fn kind_of(tenths: u16) -> Option<CycleKind> {
     Some(match tenths {
         730 => CycleKind::Chipbreak,
@@ -23,27 +23,27 @@ pub(super) fn kind_of(tenths: u16) -> Option<CycleKind> {
     })
 }
 
-/// One hole, as in its command.
+/// One hole, as its command describes it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drilling {
     kind: CycleKind,
     /// Position of the hole in X and Y, in mm.
     pub at: [f64; 2],
     bottom: f64,
-    /// The R plane.
+    /// Height of the R plane.
     r: f64,
-    /// Height to which the cycle returns.
+    /// Height to which the tool returns after the hole.
     pub level: f64,
     peck: Option<f64>,
     dwell: Option<f64>,
-    /// Millimetres per minute.
+    /// The feed in millimetres per minute.
     feed: f64,
-    /// Revolutions per minute, for a tap.
+    /// The spindle speed in revolutions per minute, if the hole is tapped.
     pub speed: Option<f64>,
 }
 
 impl Drilling {
-    /// Reads the command of a hole. `position`: the tool position before it.
+    /// Reads the command of a hole. `position`: the position of the tool before it.
     pub fn read(
         kind: CycleKind,
         words: &Words,
@@ -78,7 +78,7 @@ impl Drilling {
             let help = format!("give {} a feed in FreeCAD", operation.controller.label);
             return wrong(Code::PD004, "a cycle without a feed", help);
         };
-        // F of a tap is the pitch; as a feed it would break the tap
+        // in a tap, F is the pitch; if it were used as a feed, the tap would break
         let (feed, speed) = match (kind.is_tap(), words.get(b'S').filter(|s| *s > 0.0)) {
             (false, _) => (operation.controller.feed(f), None),
             (true, Some(speed)) => (f * speed, Some(speed)),
@@ -96,8 +96,8 @@ impl Drilling {
         Ok(Drilling { kind, at: [x, y], bottom, r, level, peck, dwell: words.get(b'P'), feed, speed })
     }
 
-    /// The cycle that begins with this hole. The point of a hole is its top, where the operation begins to cut. FreeCAD has one
-    /// top for all holes of an operation.
+    /// The cycle that begins with this hole. The point of a hole is its top, where the operation begins to cut. In FreeCAD all
+    /// holes of an operation have the same top.
     fn spec(&self, top: f64) -> CycleSpec {
         let mut spec = CycleSpec::new(self.kind);
         spec.clear = Some(self.r - top);
@@ -118,27 +118,26 @@ impl Drilling {
     }
 }
 
-/// A cycle that accepts further holes.
+/// An open cycle, to which more holes can be added.
 #[derive(Debug)]
 pub(super) struct Cycle {
     first: Drilling,
     last: [f64; 2],
     top: f64,
-    /// Rapids since its last hole, with their target positions. They belong to the cycle unless a rapid leads to some other
-    /// position.
+    /// Rapids since the last hole, with the positions after them. They belong to the cycle if they lead to its next hole.
     pub pending: Vec<(Axes, [Option<f64>; 6], Place)>,
 }
 
 impl Cycle {
-    /// Begins a cycle.
+    /// Begins a cycle with its first hole.
     pub fn begin(first: Drilling, top: Option<f64>) -> (Cycle, CycleSpec, Hole) {
         let top = top.filter(|top| (first.bottom..=first.r).contains(top)).unwrap_or(first.r);
         let cycle = Cycle { first, last: first.at, top, pending: Vec::new() };
         (cycle, first.spec(top), first.hole(top, &first))
     }
 
-    /// Adds a hole if it belongs to this cycle: its words are the same, and the rapids before it only lead to it. A rapid above
-    /// the return height avoids an obstacle, so the hole does not belong to the cycle.
+    /// Adds a hole if it belongs to this cycle. This is so if its words are equal and the rapids before it only lead to it. A
+    /// rapid above the return height avoids an obstacle, so the hole after it does not belong to the cycle.
     pub fn add(&mut self, next: &Drilling) -> Option<Hole> {
         let key = |d: &Drilling| (d.kind, [d.r, d.level, d.feed], [d.peck, d.dwell, d.speed]);
         let leads = |position: &[Option<f64>; 6]| {

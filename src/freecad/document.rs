@@ -1,4 +1,4 @@
-//! `Document.xml`: the objects of a document and those of their properties that a toolpath needs.
+//! Reads `Document.xml`: the objects of a document, and those of their properties that a toolpath needs.
 
 use indexmap::IndexMap;
 use quick_xml::Reader;
@@ -7,30 +7,30 @@ use quick_xml::events::{BytesStart, Event};
 use super::wrong;
 use crate::diag::{Code, Diag};
 
-/// Value of a property.
+/// The value of a property.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     /// A float or an integer.
     Number(f64),
     /// Yes or no.
     Yes(bool),
-    /// Text, or the chosen value of an enumeration.
+    /// A text, or the selected value of an enumeration.
     Text(String),
     /// Texts in order.
     Texts(Vec<String>),
-    /// The name of another object; empty for none.
+    /// The name of another object; empty if there is none.
     Link(String),
     /// Names of other objects in order.
     Links(Vec<String>),
-    /// The archive's member with a path.
+    /// The file in the archive that contains a path.
     Path(String),
-    /// Class of FreeCAD's Python code, without its module.
+    /// The class of the object's Python code, without its module.
     Class(String),
-    /// A tool in the format of documents before 0.19.
+    /// A tool as it is stored in documents before 0.19.
     Tool(OldTool),
 }
 
-/// A tool inside a property, in the format of documents before 0.19.
+/// A tool that is stored in a property, as in documents before 0.19.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct OldTool {
     /// Name of the tool.
@@ -41,14 +41,14 @@ pub(super) struct OldTool {
     pub corner: Option<f64>,
 }
 
-/// An object: its properties by name.
+/// An object of the document, with its properties by name.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Object {
     properties: IndexMap<String, Value>,
 }
 
 impl Object {
-    /// A property; `None` if the object lacks it.
+    /// The value of a property; `None` if the object does not have the property.
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.properties.get(name)
     }
@@ -77,7 +77,7 @@ impl Object {
         }
     }
 
-    /// The name of a linked object. For a list (a path array of 1.1), the first one.
+    /// The name of a linked object. If the property is a list (a path array of 1.1), the first object in the list.
     pub fn link(&self, name: &str) -> Option<&str> {
         match self.get(name) {
             Some(Value::Link(link)) => Some(link.as_str()),
@@ -103,7 +103,7 @@ impl Object {
         }
     }
 
-    /// The class of its Python code. It is missing if 1.1 has saved a document of 0.20 without the old modules.
+    /// The class of the object's Python code. `None` if 1.1 saved a document of 0.20 without having the old modules.
     pub fn class(&self) -> Option<&str> {
         match self.get("Proxy") {
             Some(Value::Class(class)) => Some(class),
@@ -115,9 +115,9 @@ impl Object {
 /// A document.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Document {
-    /// FreeCAD's version, as `0.20R` or `1.1R20260725 (Git shallow)`.
+    /// The version of FreeCAD, such as `0.20R` or `1.1R20260725 (Git shallow)`.
     pub version: String,
-    /// Properties of the document itself.
+    /// The properties of the document itself.
     pub own: Object,
     /// The objects of the document by name, in the order of the file.
     pub objects: IndexMap<String, Object>,
@@ -146,7 +146,7 @@ impl Document {
                     at.end(tag.name().as_ref(), &mut document);
                 }
                 Event::End(tag) => at.end(tag.name().as_ref(), &mut document),
-                // FreeCAD writes no DTD, and entities could expand without limit
+                // FreeCAD writes no DTD; entities are refused, because they could expand without limit
                 Event::DocType(_) => return broken("it declares entities"),
                 Event::Eof if root && !at.data && at.object.is_none() => return Ok(document),
                 Event::Eof => return broken("the file is incomplete or not a FreeCAD document"),
@@ -155,10 +155,11 @@ impl Document {
         }
     }
 
-    /// The value of a property of an operation, or of the operation that it dresses up (as FreeCAD's `opProperty`).
+    /// The value of a property of an operation. If the operation is a dressup without this property, the value of its base (as in
+    /// FreeCAD's `opProperty`).
     pub fn inherited<'a>(&'a self, name: &str, property: &str) -> Option<&'a Value> {
         let mut object = self.objects.get(name)?;
-        // at most as many steps as objects, so that a cycle of bases ends
+        // the number of steps is limited, in case the bases form a circle
         for _ in 0..=self.objects.len() {
             if let Some(value) = object.get(property) {
                 return Some(value);
@@ -169,15 +170,15 @@ impl Document {
     }
 }
 
-/// State of the reader.
+/// The state while `Document.xml` is read.
 #[derive(Default)]
 struct Cursor {
-    /// In the section with the values, after the list of objects.
+    /// Whether the section with the values has begun. It comes after the list of objects.
     data: bool,
     object: Option<(String, Object)>,
     property: Option<String>,
     value: Option<Value>,
-    /// The index of an enumeration, and its values so far.
+    /// The index of the selected value of an enumeration, and the number of values read so far.
     chosen: Option<(usize, usize)>,
 }
 
@@ -258,12 +259,12 @@ impl Cursor {
     }
 }
 
-/// A finite number.
+/// Reads a finite number.
 fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// An attribute's text.
+/// Reads the text of an attribute.
 fn attribute(tag: &BytesStart<'_>, name: &str) -> Result<Option<String>, Box<Diag>> {
     match tag.try_get_attribute(name) {
         Ok(None) => Ok(None),

@@ -1,9 +1,9 @@
-//! FreeCAD documents as toolpaths: reads the job of a saved `.FCStd` without FreeCAD.
+//! Reads FreeCAD documents as toolpaths: the job of a saved `.FCStd` file. FreeCAD itself is not needed.
 //!
-//! A document is a zip archive. `Document.xml` lists all objects; the path of each operation is a separate text member. Lengths
-//! are in millimetres, feeds in millimetres per second, and angles in degrees, independent of the units that FreeCAD displays.
-//! Documents of 0.20 ("Path") and 1.1 ("CAM") differ in class names and in when they repeat a tool change; comments describe
-//! these differences where they matter.
+//! A document is a zip archive. `Document.xml` lists all objects. The path of each operation is a separate text file in the
+//! archive. Lengths are in millimetres, feeds in millimetres per second and angles in degrees, whatever units FreeCAD displays.
+//! Documents of 0.20 ("Path") and 1.1 ("CAM") have different class names and repeat tool changes at different times. Comments
+//! mention these differences where they matter.
 
 mod archive;
 mod choose;
@@ -23,18 +23,18 @@ use archive::Archive;
 use convert::Convert;
 use document::Document;
 
-/// Selects the job of a document.
+/// Which job of a document is read.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Name or label of the job, if the document has several.
+    /// Name or label of the job. It is needed if the document has several jobs.
     pub job: Option<String>,
 }
 
 /// Reads the job of a document.
 ///
 /// # Errors
-/// The input fails or is no FreeCAD document. The job is missing or not unique. An operation contains a command that jobs do not
-/// support, or lacks a tool, a speed or a feed.
+/// The input can't be read or is not a FreeCAD document. The job is missing, or there are several. An operation contains a
+/// command that jobs do not support, or has no tool, speed or feed.
 pub fn read_freecad(
     input: impl Read + Seek,
     options: &Options,

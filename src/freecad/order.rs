@@ -1,4 +1,4 @@
-//! Selects the operations that are posted, and their order.
+//! Finds the operations that FreeCAD would post, in the same order.
 
 use super::choose::Job;
 use super::document::{Document, Object, Value};
@@ -10,18 +10,18 @@ use crate::toolpath::{Coolant, SpindleTurn, StopKind};
 /// One step of a job.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
-    /// Label in FreeCAD.
+    /// Label of the step in FreeCAD.
     pub label: String,
-    /// Kind of the step.
+    /// What the step is.
     pub kind: Kind,
-    /// The archive's member with its path.
+    /// The file in the archive with the path of the step.
     pub path: Option<String>,
 }
 
 /// Kinds of steps.
 #[derive(Clone, Debug)]
 pub(super) enum Kind {
-    /// An operation with a tool, in a work offset (54 to 59.9).
+    /// An operation with a tool, and its work offset as a code (54 to 59.9).
     Operation(Box<Operation>, f64),
     /// A comment.
     Comment(String),
@@ -32,19 +32,19 @@ pub(super) enum Kind {
 /// An operation.
 #[derive(Clone, Debug)]
 pub(super) struct Operation {
-    /// Tool controller of the operation: tool, speed and feeds.
+    /// The tool controller of the operation: its tool, speed and feeds.
     pub controller: Controller,
-    /// Coolant of the operation: on before it, off after it.
+    /// Coolant of the operation. It is turned on before the operation and off after it.
     pub coolant: Coolant,
-    /// The top of its holes, where it begins to cut.
+    /// The top of the operation's holes, where it begins to cut.
     pub top: Option<f64>,
-    /// The user typed its commands. Those that jobs do not support are printed as typed.
+    /// Whether the user wrote the commands of the operation. Commands that jobs do not support are then printed as written.
     pub typed: bool,
-    /// Comment of its author.
+    /// The comment that the user gave the operation.
     pub comment: Option<String>,
 }
 
-/// The numbers of the tools in order of use.
+/// The numbers of all tools in the order of their use.
 pub(super) fn tools(steps: &[Step]) -> Vec<f64> {
     let mut tools = Vec::new();
     for step in steps {
@@ -58,7 +58,7 @@ pub(super) fn tools(steps: &[Step]) -> Vec<f64> {
     tools
 }
 
-/// All steps of a job in the order in which FreeCAD posts them.
+/// All steps of a job, in the order in which FreeCAD posts them.
 pub(super) fn steps(document: &Document, job: &Job<'_>, report: &mut Report) -> Result<Vec<Step>, Box<Diag>> {
     let operations = operations(document, job, report)?;
     let fixtures = fixtures(job)?;
@@ -97,8 +97,8 @@ pub(super) fn steps(document: &Document, job: &Job<'_>, report: &mut Report) -> 
     Ok(steps)
 }
 
-/// Groups steps with the same tool; steps without a tool stay in the current group. In 0.20 a tool is identified by its number,
-/// in 1.1 by number, speed and direction.
+/// Groups steps that use the same tool. Steps without a tool stay in the current group. In 0.20 a tool is identified by its
+/// number; in 1.1 by its number, speed and direction.
 fn by_tool(steps: &[Step], number_only: bool) -> Vec<&[Step]> {
     let key = |step: &Step| match &step.kind {
         Kind::Operation(operation, _) => {
@@ -121,7 +121,7 @@ fn by_tool(steps: &[Step], number_only: bool) -> Vec<&[Step]> {
     runs
 }
 
-/// The work offsets of a job as codes: 54 for G54.
+/// The work offsets of a job as codes, for example 54 for G54.
 fn fixtures(job: &Job<'_>) -> Result<Vec<f64>, Box<Diag>> {
     let names = job.object.texts("Fixtures");
     if names.is_empty() {
@@ -141,7 +141,7 @@ fn fixtures(job: &Job<'_>) -> Result<Vec<f64>, Box<Diag>> {
     names.iter().map(code).collect()
 }
 
-/// The active operations in the order of their creation.
+/// The active operations, in the order in which they were created.
 fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result<Vec<Step>, Box<Diag>> {
     let group = job.object.link("Operations").and_then(|name| document.objects.get(name));
     let Some(group) = group else {
@@ -181,7 +181,8 @@ fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result
     Ok(steps)
 }
 
-/// Is the object a comment or a stop? Its class decides, else its property, which operations with a tool do not have alone.
+/// Returns the kind of an object that is a comment or a stop. Its class shows this. Without a class, the object must have the property of
+/// a comment or a stop, and none of the properties of an operation with a tool.
 fn bare(object: &Object) -> Option<Kind> {
     let plain = object.class().is_none() && object.get("CoolantMode").is_none() && object.get("Base").is_none();
     if object.class() == Some("Stop") || plain && object.get("Stop").is_some() {

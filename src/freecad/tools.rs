@@ -5,13 +5,13 @@ use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Given, SpindleTurn, Tool};
 
-/// Maximum change of a feed by saving: paths have six decimals, controllers sixteen.
+/// How much saving can change a feed, because paths have six decimals and controllers sixteen.
 const SAVED: f64 = 1e-6;
 
-/// A tool controller.
+/// A tool controller: a tool with its speed and feeds.
 #[derive(Clone, Debug)]
 pub(super) struct Controller {
-    /// Label in FreeCAD.
+    /// Label of the controller in FreeCAD.
     pub label: String,
     /// The tool.
     pub tool: Tool,
@@ -19,7 +19,7 @@ pub(super) struct Controller {
     pub speed: f64,
     /// Direction of the spindle.
     pub turn: SpindleTurn,
-    /// Feeds across and down, in millimetres per second.
+    /// Feeds for moves across and down, in millimetres per second.
     feeds: [f64; 2],
 }
 
@@ -51,8 +51,8 @@ impl Controller {
         Ok(Controller { tool: tool(document, object, number), label, speed, turn, feeds })
     }
 
-    /// Converts a feed of a path to millimetres per minute. If it is a rounded feed of the controller, that exact feed is used;
-    /// otherwise it is rounded to four decimals, because saving makes further ones inaccurate.
+    /// Converts a feed of a path to millimetres per minute. If it is a rounded feed of the controller, the exact feed of the
+    /// controller is used. Otherwise it is rounded to four decimals, because saving has made further decimals inaccurate.
     pub fn feed(&self, saved: f64) -> f64 {
         match self.feeds.iter().find(|own| (**own - saved).abs() <= SAVED) {
             Some(own) => rounded(own * 60.0, 1e8),
@@ -65,7 +65,7 @@ fn rounded(value: f64, units: f64) -> f64 {
     (value * units).round() / units
 }
 
-/// Descriptive properties of a tool bit, and their names in jobs. Lengths are in millimetres.
+/// Properties that describe a tool bit, and their names in jobs. Lengths are in millimetres.
 const DATA: [(&str, &str); 6] = [
     ("Length", "length"),
     ("CuttingEdgeHeight", "cutting_length"),
@@ -75,7 +75,7 @@ const DATA: [(&str, &str); 6] = [
     ("Material", "material"),
 ];
 
-/// A property with a value. FreeCAD stores 0 for numbers that were not given.
+/// The value of a property of the tool bit; `None` for 0, which FreeCAD stores for numbers that were not given.
 fn data(bit: &Object, name: &str) -> Option<Given> {
     match bit.get(name)? {
         Value::Number(number) if *number > 0.0 => Some(Given::Number(*number)),
@@ -84,7 +84,7 @@ fn data(bit: &Object, name: &str) -> Option<Given> {
     }
 }
 
-/// The tool of a controller: a tool bit, or a value inside the controller in documents before 0.19.
+/// The tool of a controller. It is a tool bit; in documents before 0.19, it is a value in the controller itself.
 fn tool(document: &Document, controller: &Object, number: f64) -> Tool {
     let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
     let mut tool = Tool { number, ..Tool::default() };

@@ -1,4 +1,4 @@
-//! Actions for findings, and for a form as a whole.
+//! Actions that an editor offers for a finding or for a whole form.
 
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
@@ -8,27 +8,27 @@ use crate::lint::{Changed, edited};
 use crate::span::Span;
 use crate::syntax::{Head, Line, Tail};
 
-/// An action that the user may select.
+/// An action that the user can select in the editor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
-    /// Title, in the imperative.
+    /// Title of the action, as an instruction.
     pub title: String,
     /// Kind of the action.
     pub kind: Kind,
-    /// Index of its finding in [`Document::findings`].
+    /// Index of the finding that the action is for, in [`Document::findings`].
     pub finding: Option<usize>,
     /// Edits of the text.
     pub edits: Vec<(Span, String)>,
-    /// Effect on the program of the current job, if there is any.
+    /// The effect on the program of the current job, if the program changes.
     pub preview: Option<Preview>,
 }
 
 /// Kinds of actions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Fixes a finding without changing a program.
+    /// Fixes a finding. Programs do not change.
     Safe,
-    /// Fixes a finding and may change programs.
+    /// Fixes a finding. Programs may change.
     Unsafe,
     /// Allows a finding at its location.
     Allow,
@@ -38,24 +38,24 @@ pub enum Kind {
     Formats,
 }
 
-/// Effect of a change of the form on a program.
+/// The effect of a change of the form on a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// Number of changed blocks.
     pub blocks: usize,
-    /// Removed blocks with a minus and added blocks with a plus, up to a maximum number of lines.
+    /// Removed blocks begin with a minus and added blocks with a plus. The number of lines is limited.
     pub text: String,
 }
 
 /// Maximum number of lines in a preview.
 const MOST_LINES: usize = 24;
 
-/// The order of letters in a form: axes, arcs, cycles, feeds and tools, letters of the program itself.
+/// The order of letters in a form: axes, arcs, cycles, feeds and tools, and then letters of the program itself.
 const ORDER: &[u8] = b"XYZUVWABCIJKRQFPESTHDONLGM";
 
 impl Document {
-    /// The actions for the findings that lie wholly or partly in a span. `print` returns the program of the current job with changed text of
-    /// files, by file name; `None` if it can't be printed.
+    /// The actions for findings whose span overlaps `within`. `print` returns the program of the current job for changed texts of files (by
+    /// file name), or `None` if it can't be printed.
     pub fn actions(&self, within: Span, print: &mut dyn FnMut(&Changed) -> Option<String>) -> Vec<Action> {
         let mut actions = Vec::new();
         let mut before: Option<Option<String>> = None;
@@ -108,7 +108,7 @@ impl Document {
         }
     }
 
-    /// The text of each file after edits.
+    /// The new texts of the files that these edits change.
     fn changed(&self, edits: &[(Span, String)]) -> Changed {
         let mut changed = Changed::new();
         for (file, source) in self.files().iter().enumerate() {
@@ -122,7 +122,7 @@ impl Document {
         changed
     }
 
-    /// Actions that add a comment to allow a finding: above its line, and at the head of the file.
+    /// The actions that allow a finding by a comment: above its line, and at the head of the file.
     fn allowing(&self, index: usize, diag: &Diag, span: Span) -> Vec<Action> {
         let code = diag.code.name();
         let Some((line, _)) = self.line_before(span.file, span.start) else { return Vec::new() };
@@ -137,8 +137,8 @@ impl Document {
         ]
     }
 
-    /// Sorts letter formats by their letters, if they are in another order. Each block of adjacent formats is sorted separately,
-    /// and each format keeps the comment after it.
+    /// An action that sorts letter formats by their letters; `None` if they are sorted. Each block of adjacent formats is sorted
+    /// separately, and a comment stays with its format.
     pub fn organised_formats(&self, file: u32) -> Option<Action> {
         let mut edits = Vec::new();
         let mut group: Vec<(&Line, u8)> = Vec::new();
@@ -153,7 +153,7 @@ impl Document {
         (!edits.is_empty()).then_some(Action { title, kind: Kind::Formats, finding: None, edits, preview: None })
     }
 
-    /// Does a span touch a letter format?
+    /// Whether a span touches a letter format.
     pub fn has_format(&self, within: Span) -> bool {
         let touched = |item: &Head| matches!(item, Head::Format { line, .. } if touches(line.span, within));
         self.items(within.file).iter().any(touched)
@@ -164,7 +164,7 @@ impl Document {
         let rank = |letter: u8| ORDER.iter().position(|own| *own == letter).unwrap_or(ORDER.len());
         let mut sorted = formats.clone();
         sorted.sort_by_key(|(_, letter)| rank(*letter));
-        // text lost after two spaces must stay visible where it is
+        // text that is lost after two spaces must stay where it is, so that it stays visible
         let lost = formats.iter().any(|(line, _)| matches!(line.tail, Tail::Lost(_)));
         if lost || sorted.iter().map(|(line, _)| line.span).eq(formats.iter().map(|(line, _)| line.span)) {
             return;
@@ -186,7 +186,7 @@ fn capital(title: &str) -> String {
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// The difference between two programs.
+/// Compares two programs.
 fn compare(before: &str, after: &str) -> Preview {
     let [old, new]: [Vec<&str>; 2] = [before, after].map(|text| text.lines().collect());
     let (mut gone, mut come, mut lines) = (0, 0, Vec::new());
@@ -216,7 +216,7 @@ mod tests {
     use crate::sema::{Limits, analyse};
     use crate::source::Source;
 
-    /// Actions at the mark, and the form after each of them.
+    /// The actions at the mark, each with the form after it.
     fn done(document: &Document, offset: u32) -> Vec<(Action, String)> {
         let at = Span { file: 0, start: offset, end: offset };
         let read = |changed: &Changed| {
@@ -273,7 +273,7 @@ mod tests {
         let all = done(&document, offset);
         let (action, after) = all.iter().find(|(action, _)| action.title.starts_with("Write `vclear`")).unwrap();
         assert!(action.kind == Kind::Unsafe && after.contains("Z[d] R[vclear] F[frate]"), "{action:?}");
-        // no name is proposed, or none is near
+        // no name is suggested if none is similar
         let (document, offset) = haas("Z[d] R[vclear] F[frate]", "Z[d] R[qq|qqqq] F[frate]");
         assert!(done(&document, offset).iter().all(|(action, _)| !action.title.starts_with("Write")));
     }

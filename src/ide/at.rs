@@ -1,4 +1,4 @@
-//! Elements at a location in a form.
+//! Finds the element at a location of a form.
 
 use super::Document;
 use crate::control::Code;
@@ -7,12 +7,12 @@ use crate::sema::Property;
 use crate::span::Span;
 use crate::syntax::{Body, DirectiveKind, End, Expr, Head, Piece, PieceKind, SequenceNode, Spanned, Statement, Unread};
 
-/// An element of a form.
+/// An element of a form and its location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct At {
-    /// Its whole span.
+    /// The span of the whole element.
     pub span: Span,
-    /// Its kind.
+    /// What the element is.
     pub what: What,
 }
 
@@ -22,13 +22,13 @@ pub struct At {
 pub enum What {
     /// The name of a command.
     Command(CommandId),
-    /// An argument of a command, from 0.
+    /// An argument of a command, and its index from 0.
     Argument(CommandId, usize),
-    /// A letter format, of this letter.
+    /// A letter format, and its letter.
     Format(u8),
     /// The name of a sequence.
     Sequence(SequenceId),
-    /// `Upon`, `Upon Every`.
+    /// `Upon` or `Upon Every`.
     Upon,
     /// `End`.
     End,
@@ -40,18 +40,18 @@ pub enum What {
     Variable(VarId, Option<u8>),
     /// A text of the job, with or without a width.
     Text(TextId),
-    /// A property of the form, as its index.
+    /// A property of the form, and its index.
     Property(u16),
     /// Text in backquotes.
     Quote,
-    /// A typed code.
+    /// A code that is written in the form, such as `G43`.
     Code(Code),
-    /// Any other typed word with this letter.
+    /// Any other word that is written in the form, and its letter.
     Word(u8),
 }
 
 impl Document {
-    /// The element at a byte of a file. An element that ends there is used only if none begins there.
+    /// The element at a byte of a file. If one element ends there and another begins there, the one that begins.
     pub fn at(&self, file: u32, offset: u32) -> Option<At> {
         let mut ends = None;
         let mut hit = None;
@@ -65,7 +65,7 @@ impl Document {
         hit.or(ends)
     }
 
-    /// Calls `found` for all elements of a file, in order.
+    /// Calls `found` for each element of a file, in their order.
     pub(super) fn each(&self, file: u32, mut found: impl FnMut(At)) {
         let names = Names(&self.checked.form.settings.properties);
         for item in self.items(file) {
@@ -82,12 +82,12 @@ impl Document {
     }
 }
 
-/// The names of variables and of the form's properties.
+/// Resolves names of variables and of the form's properties.
 #[derive(Clone, Copy)]
 struct Names<'a>(&'a [Property]);
 
 impl Names<'_> {
-    /// The variable or property of a name, and the letter that prints it.
+    /// The variable or property with this name. `letter`: the letter that prints it.
     fn what(self, name: &str, letter: Option<u8>) -> Option<What> {
         let property = || self.0.iter().position(|property| property.name.eq_ignore_ascii_case(name));
         match VarId::parse(name) {
@@ -111,7 +111,7 @@ fn command(statement: &Statement, names: Names<'_>, found: &mut dyn FnMut(At)) {
     }
 }
 
-/// An argument that names a variable, with or without brackets.
+/// The variable that an argument names, with or without brackets.
 fn variable(arg: &Spanned) -> Option<VarId> {
     VarId::parse(arg.text.trim_matches(['[', ']', '<', '>']))
 }
@@ -164,7 +164,7 @@ fn body(line: &Body, names: Names<'_>, found: &mut dyn FnMut(At)) {
     }
 }
 
-/// The variables of an expression.
+/// Finds the variables of an expression.
 fn expression(expr: &Result<Expr, Unread>, names: Names<'_>, found: &mut dyn FnMut(At)) {
     let Ok(expr) = expr else { return };
     expr.variables(&mut |name, span| {

@@ -1,4 +1,4 @@
-//! Completions at a location.
+//! Completions for the text at a location.
 
 use super::words::markdown;
 use super::{Current, Document};
@@ -14,21 +14,21 @@ use crate::span::Span;
 /// A completion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Completion {
-    /// Text in the list.
+    /// Text of the completion in the list.
     pub label: String,
-    /// Kind of the completed element.
+    /// What the completion is.
     pub kind: Kind,
     /// Short description.
     pub detail: String,
-    /// Span of the replaced text.
+    /// Span of the text that is replaced.
     pub replaces: Span,
-    /// Inserted text.
+    /// Text that is inserted.
     pub text: String,
-    /// The completion as a snippet of the Language Server Protocol, if it has parts to fill in.
+    /// The completion as a snippet of the Language Server Protocol, if the user can fill in parts of it.
     pub snippet: Option<String>,
 }
 
-/// Kinds of completed elements.
+/// Kinds of completions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A command of the form.
@@ -47,8 +47,8 @@ pub enum Kind {
     Finding,
 }
 
-/// Documentation of a completion, as Markdown. It is created only for the selected completion, because each needs a search for an
-/// example. Values have no documentation.
+/// The documentation of a completion, as Markdown. It is created for the selected completion only, because each needs a search
+/// for an example. Values have no documentation.
 pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
     let page = match kind {
         Kind::Command => explain::command(CommandId::parse(label)?),
@@ -76,7 +76,7 @@ impl Kind {
 }
 
 impl Document {
-    /// The completions at a byte of a file, from the text before it.
+    /// The completions at a byte of a file. They depend on the text before it.
     pub fn complete(&self, file: u32, offset: u32, current: Option<&Current>) -> Vec<Completion> {
         let Some((start, before)) = self.line_before(file, offset) else { return Vec::new() };
         let span = |length: usize| Span::new(file, offset as usize - length, offset as usize);
@@ -84,7 +84,7 @@ impl Document {
             return list;
         }
         if before.contains('#') && !before.contains("Sequence#") && !before.contains("[program#") {
-            return Vec::new(); // a comment
+            return Vec::new(); // inside a comment
         }
         let node = self.sequence_at(file, start).filter(|node| node.name.line.span.start < start);
         let open = node.is_some_and(|node| node.end.as_ref().is_none_or(|end| end.line.span.end >= offset));
@@ -92,9 +92,9 @@ impl Document {
             && !before[at..].contains([']', '>'])
         {
             let line = self.line_of(file, offset).unwrap_or_default();
-            // in an expression, the name being typed is the last one
+            // in an expression, the user is writing the last name
             let name = before[at + 1..].rsplit(|c: char| !(c.is_alphanumeric() || c == '_' || c == '#')).next();
-            // the letter of the word shows which variables are likely
+            // the letter of the word shows which variables are likely here
             let letter = before[..at].bytes().last().filter(u8::is_ascii_alphabetic);
             return self.variables(span(name.map_or(0, str::len)), before.as_bytes()[at], letter, line, current);
         }
@@ -106,7 +106,7 @@ impl Document {
         }
     }
 
-    /// `# postform: allow PF`: the codes of existing findings.
+    /// Completes `# postform: allow PF` by the codes of findings that the form has.
     fn allowances(&self, before: &str, span: &dyn Fn(usize) -> Span) -> Option<Vec<Completion>> {
         let comment = before.rsplit_once('#')?.1.trim_start();
         let rest = comment.strip_prefix("postform:")?.trim_start();
@@ -129,7 +129,7 @@ impl Document {
         Some(rows.map(|row| new(row.name, row.title, Kind::Finding)).collect())
     }
 
-    /// The variables of this machine, with their values in the current job, and the texts of jobs.
+    /// The variables of this machine with their values in the current job, and the texts of jobs.
     fn variables(
         &self,
         replaces: Span,
@@ -233,7 +233,7 @@ impl Document {
         // commands are allowed only before the first sequence
         let any_above =
             self.checked.trees[replaces.file as usize].sequences().any(|node| node.span().start < replaces.start);
-        // a name typed in full is always listed, even if the form already has it
+        // a completely written name is always listed, even if the form already has it
         let typed = |name: &str| name.eq_ignore_ascii_case(word);
         let commands = COMMANDS.iter().filter(|row| typed(row.name) || !any_above && (row.repeats || !there(row.id)));
         let mut list: Vec<Completion> = commands
@@ -302,7 +302,7 @@ impl Document {
     }
 }
 
-/// Variables that a word with this letter is likely to print, most likely first, as in the posts that ship.
+/// The variables that a word with this letter probably prints, most likely first. They are taken from the shipped forms.
 fn likely(letter: u8, machine: Machine) -> &'static [VarId] {
     use VarId as V;
     match (letter, machine) {
@@ -330,7 +330,7 @@ fn likely(letter: u8, machine: Machine) -> &'static [VarId] {
     }
 }
 
-/// The codes of a control.
+/// The codes of a control as completions.
 pub(super) fn codes(control: &Control, letter: Option<u8>, replaces: Span) -> Vec<Completion> {
     let rows = control.rows().filter(|row| letter.is_none_or(|letter| row.code.letter == letter));
     rows.map(|row| {
@@ -348,7 +348,7 @@ pub(super) fn codes(control: &Control, letter: Option<u8>, replaces: Span) -> Ve
     .collect()
 }
 
-/// A snippet of a command with its default, ready to be changed.
+/// A snippet of a command with its default, which the user can change.
 fn shape(id: CommandId, machine: Machine) -> String {
     let row = id.row();
     let default = row.without.arguments(machine, UnitChoice::Inch);
@@ -364,7 +364,7 @@ fn shape(id: CommandId, machine: Machine) -> String {
     format!("{} {filled}", row.name)
 }
 
-/// A sequence with an empty body.
+/// A snippet of a sequence without lines.
 fn body(id: SequenceId) -> String {
     let end = if id.makes_holes() { "End Cancel" } else { "End" };
     format!("{}\n$0\n{end}", id.name())
@@ -447,7 +447,7 @@ mod tests {
         assert_eq!(first("T[tool] M6", "T[|"), "tool");
         assert_eq!(first("S[speed]", "S[|"), "speed");
         assert_eq!(first("X[h] Y[v]", "X[h] Y[|"), "v");
-        // a form has only one Tap, but a word typed in full is still listed
+        // a form can have only one Tap, but a completely written name is still listed
         let (document, offset) = haas("\nCancel", "\nTap|\nCancel");
         let list = listed(&document, offset);
         assert!(list.iter().any(|item| item.label == "Tap"), "{list:?}");

@@ -1,4 +1,4 @@
-//! The current job, printed with the current text of the form.
+//! The current job: a job that is printed with the form in the editor.
 
 use std::io::Cursor;
 
@@ -16,10 +16,10 @@ use crate::verify::Verdict;
 /// A job that was printed with a form.
 #[derive(Debug)]
 pub struct Current {
-    /// Name of the job, for display.
+    /// Name of the job, as it is displayed.
     pub name: String,
     text: String,
-    /// Start of each line of the text.
+    /// Offset of each line of the text.
     starts: Vec<usize>,
     trace: Trace,
     seen: Vec<Seen>,
@@ -28,24 +28,24 @@ pub struct Current {
     proven: Option<Proven>,
 }
 
-/// Output of a line of the form.
+/// The blocks that a line of the form printed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Printed<'a> {
     /// Number of blocks.
     pub times: usize,
-    /// The first blocks: line of the program, from 1, and text.
+    /// The first blocks. Each has its line in the program, from 1, and its text.
     pub first: Vec<(u64, &'a str)>,
 }
 
 impl Document {
-    /// Prints a job with the form and verifies the program; `None` if the form has errors. Prompts without an answer in the job
-    /// get their defaults, else 1, so that a program is printed.
+    /// Prints a job with the form and verifies the program. `None`: the form has errors. If the job does not answer a prompt,
+    /// the default of the prompt is used, or 1, so that a program can be printed.
     pub fn print(&self, name: &str, mut job: Job<'_>) -> Option<Current> {
         let post = self.post()?;
         let mut options = Options { shop_properties: self.properties.clone(), ..Options::default() };
         let mut followed = post.follow(job.again(), &options).ok()?;
         if followed.stopped.is_some() {
-            // values of the job are kept: only missing values are added
+            // values of the job are kept; only missing values are added
             let set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
             let answered = Options { program: Some(1), set, ..options.clone() };
             let again = post.follow(job.again(), &answered).ok().filter(|again| again.stopped.is_none());
@@ -66,7 +66,7 @@ impl Document {
         Some(Current { name: name.to_owned(), text, starts, trace, seen, notes, stopped, proven })
     }
 
-    /// Prints the built-in job for the form. It is shown if no job is named.
+    /// Prints the built-in job with the form. The editor shows it if no job is named.
     pub fn print_sample(&self) -> Option<Current> {
         let text = sample_job(&self.checked.form.settings);
         self.print("the sample job", Job::json(text))
@@ -74,12 +74,12 @@ impl Document {
 }
 
 impl Current {
-    /// The program, as far as it was printed.
+    /// The text of the program, as far as it was printed.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// A line of the program, from 1.
+    /// The text of a line of the program. Lines are counted from 1.
     pub fn block(&self, line: u64) -> &str {
         let at = (line as usize).saturating_sub(1);
         let Some(&start) = self.starts.get(at) else { return "" };
@@ -91,12 +91,12 @@ impl Current {
         self.text.lines().count()
     }
 
-    /// Origin of a line of the program; lines count from 1.
+    /// The form line and job item that printed a line of the program. Lines are counted from 1.
     pub fn origin(&self, line: u64) -> Option<&TraceLine> {
         self.trace.line(line)
     }
 
-    /// The source map, for both directions.
+    /// The source map between program, form and job.
     pub fn trace(&self) -> &Trace {
         &self.trace
     }
@@ -111,12 +111,12 @@ impl Current {
         self.stopped.as_ref()
     }
 
-    /// The verdict on the motions of the program; `None` if the program is incomplete or the job can't be read.
+    /// The verdict on the motions of the program; `None` if the program is not complete or the job can't be read.
     pub fn verdict(&self) -> Option<&Verdict> {
         self.proven.as_ref().map(|proven| &proven.verdict)
     }
 
-    /// The result of printing the job, in a few words: `119 blocks, proven`.
+    /// The result of printing the job in a few words, such as `119 blocks, proven`.
     pub fn outcome(&self) -> String {
         let blocks = match self.lines() {
             1 => "1 block".to_owned(),
@@ -138,24 +138,24 @@ impl Current {
         }
     }
 
-    /// The output of the form lines that a span touches: the number of blocks, and the first `most` of them.
+    /// The number of blocks that the form lines in a span printed, and the first `most` of these blocks.
     pub fn printed(&self, span: Span, most: usize) -> Printed<'_> {
         let lines: Vec<u64> = self.trace.printed_by_form(span).collect();
         let first = lines.iter().take(most).map(|&line| (line, self.block(line))).collect();
         Printed { times: lines.len(), first }
     }
 
-    /// The first output of a line of the form.
+    /// The first block that a line of the form printed.
     pub fn seen(&self, line: Span) -> Option<&Seen> {
         self.seen.iter().find(|seen| touches(seen.form, line))
     }
 
-    /// All lines of the form that printed.
+    /// All lines of the form that printed a block.
     pub fn all_seen(&self) -> &[Seen] {
         &self.seen
     }
 
-    /// The value of a variable at the first output of the first line in a span, in the program's units.
+    /// The value of a variable when the first line in a span printed its first block, in the program's units.
     pub fn value(&self, within: Span, var: VarId) -> Option<f64> {
         self.seen(within)?.values.iter().find(|(own, _)| *own == var).map(|(_, value)| *value)
     }

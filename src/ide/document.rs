@@ -1,4 +1,4 @@
-//! A form as in the editor.
+//! A form that is open in an editor.
 
 use crate::compile::compile;
 use crate::control::Control;
@@ -10,23 +10,23 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{Head, SequenceNode};
 
-/// A form as in the editor, with the forms that it calls: parsed, checked, and compiled if it can print.
+/// A form that is open in an editor, and the forms that it calls. It is parsed and checked. If it has no errors, it is also compiled.
 #[derive(Debug)]
 pub struct Document {
     pub(super) checked: Checked,
     found: Found,
     post: Option<Post>,
-    /// Values of the form's properties from the shop, by name.
+    /// The shop's values for the form's properties, by name.
     pub(super) properties: Vec<(String, String)>,
 }
 
 impl Document {
-    /// Checks a form. `files` returns the text of the files that it calls; unsaved text comes before that on the disk.
+    /// Checks a form. `files` returns the texts of the files that the form calls. Unsaved text has priority over the file on the disk.
     pub fn new(form: Source, files: &dyn Files, limits: Limits, levels: &Levels) -> Document {
         Document::of(analyse(form, limits, &mut |name| files.read(name)), levels)
     }
 
-    /// A document from an analysed form.
+    /// The document of a form that is already analysed.
     pub fn of(checked: Checked, levels: &Levels) -> Document {
         let found = lint(&checked, levels);
         let is_right = !found.diags.iter().any(Diag::is_error);
@@ -34,33 +34,33 @@ impl Document {
         Document { checked, found, post, properties: Vec::new() }
     }
 
-    /// Sets the shop's values for the form's properties, by name. They apply to the printed programs.
+    /// Sets the shop's values for the form's properties, by name. They are used when programs are printed.
     #[must_use]
     pub fn with_properties(self, properties: &[(String, String)]) -> Document {
         Document { properties: properties.to_vec(), ..self }
     }
 
-    /// The files: the form itself first, then those that it calls. Spans refer to them.
+    /// The files of the form: the main file first, then those that it calls. The file numbers in spans are indices of this list.
     pub fn files(&self) -> &[Source] {
         &self.checked.files
     }
 
-    /// The analysis.
+    /// The result of the analysis.
     pub fn checked(&self) -> &Checked {
         &self.checked
     }
 
-    /// The findings of lint, by location.
+    /// The findings of lint, sorted by location.
     pub fn findings(&self) -> &[Diag] {
         &self.found.diags
     }
 
-    /// The compiled post; `None` if the form has errors.
+    /// The compiled form; `None` if the form has errors.
     pub fn post(&self) -> Option<&Post> {
         self.post.as_ref()
     }
 
-    /// The control whose codes apply: that of the form, else the default control.
+    /// The control whose codes apply: the control of the form, otherwise the default control.
     pub fn control(&self) -> &'static Control {
         self.checked.form.settings.control.unwrap_or_else(Control::of_no_name)
     }
@@ -75,15 +75,15 @@ impl Document {
         self.checked.trees.get(file as usize).map_or(&[], |tree| &tree.items)
     }
 
-    /// The sequence that contains a location, including its name line and end. A sequence without an end includes the lines after
-    /// it.
+    /// The sequence that contains a location. Its name line and its end are part of it. If a sequence has no end, the lines after
+    /// it are part of it.
     pub(super) fn sequence_at(&self, file: u32, offset: u32) -> Option<&SequenceNode> {
         let nodes = self.checked.trees.get(file as usize)?.sequences();
         let above = nodes.take_while(|node| node.span().start <= offset).last();
         above.filter(|node| node.end.is_none() || offset <= node.span().end)
     }
 
-    /// The text of the line before a location, and the start of the line.
+    /// The text of a line up to a location, and the offset of the line.
     pub(super) fn line_before(&self, file: u32, offset: u32) -> Option<(u32, &str)> {
         let source = self.files().get(file as usize)?;
         let start = *source.line_starts().get(source.line(offset))?;
@@ -96,7 +96,7 @@ pub(super) mod tests {
     use super::*;
     use crate::post::NoFiles;
 
-    /// Creates a form from text, and returns the location of the mark `|`, which is removed.
+    /// Creates a form from a text with the mark `|`. Removes the mark and returns its location.
     pub(in crate::ide) fn marked(text: &str) -> (Document, u32) {
         let at = text.find('|').unwrap_or(0);
         let text = text.replacen('|', "", 1);
@@ -104,7 +104,7 @@ pub(super) mod tests {
         (Document::new(form, &NoFiles, Limits::default(), &Levels::default()), at as u32)
     }
 
-    /// The shipped post for Haas mills, with the first `from` replaced.
+    /// The shipped form for Haas mills, with the first `from` replaced by `to`.
     pub(in crate::ide) fn haas(from: &str, to: &str) -> (Document, u32) {
         let text = include_str!("../../postforms/haas.pf");
         assert!(text.contains(from), "{from}");

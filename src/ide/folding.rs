@@ -3,19 +3,19 @@
 use super::Document;
 use crate::syntax::{Head, Tail};
 
-/// A range of lines that can be folded, from 0, both ends included.
+/// A range of lines that an editor can fold. Lines are counted from 0; `last` is part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fold {
-    /// The line that stays visible.
+    /// The first line. It stays visible.
     pub first: u32,
     /// The last line.
     pub last: u32,
-    /// The folded lines are comments.
+    /// Whether the folded lines are comments.
     pub comment: bool,
 }
 
 impl Document {
-    /// The foldable parts: sequences, and comments of several lines.
+    /// The parts that can be folded: sequences, and comments of several lines.
     pub fn folding(&self, file: u32) -> Vec<Fold> {
         let Some(source) = self.files().get(file as usize) else { return Vec::new() };
         let line = |at: u32| source.line(at) as u32;

@@ -1,15 +1,15 @@
-//! Examples of numbers in a letter format.
+//! Example numbers for a letter format.
 
 use crate::number::{LetterFormat, quantise, write_number};
 
-/// Values that show the effects of a format: a fraction, a negative value below one, a whole number, digits to round, zero.
+/// Values that show what a format does: a fraction, a negative value, a whole number, digits to be rounded, zero.
 const VALUES: [f64; 6] = [12.5, -0.25, 3.0, 1.23456, 0.0, 0.5];
 
-/// Three values, each with its text after the letter.
+/// Up to three values, each with its text after the letter.
 pub fn examples(letter: u8, format: &LetterFormat, leading_zero: bool) -> Vec<(f64, String)> {
     let written = |value: f64| {
         let mut text = vec![letter];
-        // a value that rounds to zero is no useful example
+        // a value that is rounded to zero is no useful example
         let units = quantise(value, format.dec.count).filter(|&units| units != 0 || value == 0.0)?;
         write_number(&mut text, units, format, leading_zero).ok()?;
         Some((value, String::from_utf8(text).ok()?))

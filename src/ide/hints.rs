@@ -1,4 +1,4 @@
-//! Hints: the output of each word of a form in the current job.
+//! Hints, which show what each word of a form prints in the current job.
 
 use super::{Current, Document};
 use crate::sema::WordKind;
@@ -9,12 +9,12 @@ use crate::span::Span;
 pub struct Hint {
     /// The word.
     pub span: Span,
-    /// Output in the first block of the line; empty if the word was left out because the control already had its value.
+    /// The text that the word printed in the first block of its line. Empty if the word was left out because its value did not change.
     pub text: String,
 }
 
 impl Document {
-    /// Hints for the words with variables in a span, each from the first block of its line.
+    /// Hints for the words with variables in a span. They show the first block of each line.
     pub fn hints(&self, within: Span, current: &Current) -> Vec<Hint> {
         let mut hints = Vec::new();
         let form = &self.checked.form;

@@ -1,4 +1,4 @@
-//! Information about the element under the pointer.
+//! Information about the element under the mouse pointer.
 
 use super::formats::examples;
 use super::words::{blocks, escape, markdown};
@@ -14,19 +14,19 @@ use crate::span::Span;
 pub struct Hover {
     /// Span of the element.
     pub span: Span,
-    /// Markdown.
+    /// The information, as Markdown.
     pub text: String,
 }
 
-/// Description of backquotes.
+/// The description of text in backquotes.
 const QUOTE: &str = "**text in backquotes**\n\nis printed unchanged, with its spaces, `#` and brackets; two \
     backquotes inside print one. `Replace`, `Rename`, `Spaces` and `UpperCaseComments` do not change it.";
 
-/// Maximum number of blocks of a line in a hover.
+/// Maximum number of blocks that are shown for a line.
 const MOST_BLOCKS: usize = 3;
 
 impl Document {
-    /// Description of a property: its kind, its default and its question.
+    /// The description of a property: its kind, its default and its question.
     fn property(&self, row: u16) -> String {
         let Some(property) = self.checked.form.settings.properties.get(usize::from(row)) else { return String::new() };
         let [name, kind, default] = [&property.name, &property.kind.takes().to_string(), &property.default.to_string()]
@@ -34,8 +34,8 @@ impl Document {
         format!("**{name}**: {}\n\nA property of this form: {kind}; by default {default}.", escape(&property.text))
     }
 
-    /// Information about the element at a byte of a file: the text of `explain`, the effect of a code, examples of a format, and
-    /// the output of its line in the current job.
+    /// Information about the element at a byte of a file: its explanation, the effect of a code, examples of a format, and what
+    /// its line prints in the current job.
     pub fn hover(&self, file: u32, offset: u32, current: Option<&Current>) -> Option<Hover> {
         let line = self.line_of(file, offset)?;
         let printed = current.and_then(|current| printed(current, line));
@@ -70,7 +70,7 @@ impl Document {
         }
     }
 
-    /// Examples of numbers with this letter.
+    /// Examples of numbers in the format of this letter.
     fn format(&self, letter: u8) -> String {
         let shown = char::from(letter);
         let settings = &self.checked.form.settings;
@@ -84,7 +84,7 @@ impl Document {
         format!("{head}\n```text\n{}\n```", rows.join("\n"))
     }
 
-    /// The line that contains a byte, without its end.
+    /// The line that contains a byte, without its line end.
     pub fn line_of(&self, file: u32, offset: u32) -> Option<Span> {
         let (start, _) = self.line_before(file, offset)?;
         let text = &self.files()[file as usize].text[start as usize..];
@@ -92,7 +92,7 @@ impl Document {
         Some(Span::new(file, start as usize, start as usize + text[..length].trim_end().len()))
     }
 
-    /// The value of a variable in the current job: at the first output of its line, else of its sequence.
+    /// The value of a variable in the current job when its line, or otherwise its sequence, printed first.
     pub(super) fn value(&self, line: Span, var: VarId, current: &Current) -> Option<String> {
         let sequence = self.sequence_at(line.file, line.start).map(|node| node.span());
         let value = current.value(line, var).or_else(|| current.value(sequence?, var))?;
@@ -109,7 +109,7 @@ fn shown(value: f64, var: VarId) -> String {
     }
 }
 
-/// The effect of a code on a control.
+/// The effect of a code on a control, as Markdown.
 pub(super) fn about_code(code: Code, control: &Control) -> String {
     match explain::controls::code(control, code) {
         Some(about) => format!("**{code}** on {}\n\n{}", escape(control.shown()), escape(&about)),
@@ -138,7 +138,7 @@ fn in_words(format: &LetterFormat) -> String {
     format!("{sign}; {} digits{point}", digits(format.int))
 }
 
-/// The output of a line.
+/// The blocks that a line printed, as Markdown.
 fn printed(current: &Current, line: Span) -> Option<String> {
     let printed = current.printed(line, MOST_BLOCKS);
     let times = match printed.times {

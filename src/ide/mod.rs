@@ -1,8 +1,8 @@
-//! Queries of an editor about a form that is being written, and about a program. There is no I/O here.
+//! Answers an editor's questions about a form that is being written, or about a program. Nothing in this module does I/O.
 //!
-//! A [`Document`] is a form as in the editor, checked; a [`Current`] is a job printed with it. Locations are bytes of the text,
-//! as in [`Span`](crate::span::Span); [`utf16`] converts them for editors.
-// meanings contain variables as [var]
+//! A [`Document`] is a checked form that is open in the editor. A [`Current`] is a job printed with this form. Locations are
+//! bytes of the text, as in [`Span`](crate::span::Span); [`utf16`] converts them for editors.
+// descriptions contain variables as [var], which are not links
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod actions;

@@ -1,4 +1,4 @@
-//! NC programs: findings of a control, and the effects of their codes.
+//! Checks NC programs by the rules of a control, and explains their codes.
 
 use std::io::Cursor;
 
@@ -10,26 +10,26 @@ use crate::nc::{Kind, RunError, RunSettings, Simulator, Unpointed, tokens};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Findings of a control about a program.
+/// What a control would report about a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
     /// Warnings and errors of the control.
     pub diags: Vec<Diag>,
-    /// Number of blocks that were run.
+    /// Number of blocks that were simulated.
     pub blocks: u64,
-    /// Number of blocks with errors; the other blocks are run.
+    /// Number of blocks with errors. The other blocks are simulated.
     pub refused: u64,
-    /// The program was not run to its end, because that would take too long while the user types.
+    /// Whether the simulation stopped before the end of the program, because it would take too long while the user writes.
     pub cut: bool,
 }
 
-/// Maximum number of machine actions; the rest of the program is not run.
+/// Maximum number of machine actions. The program is not simulated further.
 const MOST_ACTIONS: usize = 3_000_000;
-/// Maximum number of findings. A fault that occurs in each block needs no more.
+/// Maximum number of findings. If a fault occurs in each block, more findings would not help.
 const MOST_FINDINGS: usize = 200;
 
-/// Runs a program by the rules of a control. On some controls a setting decides the meaning of a length without a point. Such a
-/// length is reported once, and the program is run with lengths in whole units.
+/// Simulates a program by the rules of a control. On some controls, a setting decides what a length without a decimal point
+/// means. Such a length is reported once, and the program is then simulated with lengths in whole units.
 pub fn check(text: &str, control: &'static Control) -> Checked {
     let mut checked = run(text, RunSettings::new(control));
     let unpointed = |diag: &Diag| diag.code == FindingCode::PN017;
@@ -72,7 +72,7 @@ fn run(text: &str, settings: RunSettings) -> Checked {
     checked
 }
 
-/// The span of a finding in a program: the word with the fault, else its line.
+/// The span of a finding in a program: the word with the fault, or otherwise the line.
 pub fn place(source: &Source, location: &Location) -> Span {
     let line = location.line.unwrap_or(1).saturating_sub(1) as usize;
     let Some(&start) = source.line_starts().get(line) else { return Span::default() };
@@ -87,8 +87,8 @@ pub fn place(source: &Source, location: &Location) -> Span {
     Span::new(0, start as usize + from, start as usize + to.max(from))
 }
 
-/// The control named by a comment in the first twenty lines of a program, `(postform: control haas)` or
-/// `; postform: control haas`.
+/// The control that a comment in the first twenty lines of a program names, such as `(postform: control haas)` or `;
+/// postform: control haas`.
 pub fn named_control(text: &str) -> Option<&str> {
     text.lines().take(20).find_map(|line| {
         let at = line.to_ascii_lowercase().find("postform:")?;
@@ -116,13 +116,13 @@ pub fn code_at(source: &Source, offset: u32) -> Option<(Span, Code)> {
     })
 }
 
-/// Information about a code of a program.
+/// Information about the code at a byte of a program.
 pub fn hover(source: &Source, offset: u32, control: &Control) -> Option<Hover> {
     let (span, code) = code_at(source, offset)?;
     Some(Hover { span, text: about_code(code, control) })
 }
 
-/// Completions after G and M: the codes of the control.
+/// Completions for words that begin with G or M: the codes of the control.
 pub fn complete(source: &Source, offset: u32, control: &Control) -> Vec<Completion> {
     let Some(&start) = source.line_starts().get(source.line(offset)) else { return Vec::new() };
     let before = source.text.get(start as usize..offset as usize).unwrap_or("");

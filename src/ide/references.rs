@@ -1,12 +1,12 @@
-//! References to an element.
+//! Finds all occurrences of an element, and its definition.
 
 use super::{At, Document, What};
 use crate::lang::SequenceId;
 use crate::span::Span;
 
 impl Document {
-    /// All occurrences of the element at a byte of a file, in all files of the form, in order: of a variable, a code, the words
-    /// and format of a letter, a sequence with its calls, or a command.
+    /// All occurrences of the element at a byte of a file, in all files of the form. The element may be a variable, a code, a
+    /// letter (its words and its format), a sequence (its name and its calls), or a command.
     pub fn references(&self, file: u32, offset: u32) -> Vec<Span> {
         self.at(file, offset).map_or_else(Vec::new, |at| self.places(&at.what))
     }

@@ -1,28 +1,28 @@
-//! Renaming of variables and sequences whose names the form may choose: val1 to val10, and the three Custom sequences.
+//! Renames elements whose names the form can choose: the variables val1 to val10, the three Custom sequences, and properties.
 
 use super::{At, Document, What};
 use crate::lang::{SequenceId, VarId};
 use crate::sema::check_name;
 use crate::span::Span;
 
-/// Replacements of text.
+/// The replacements that rename an element.
 pub type Renamed = Vec<(Span, String)>;
 
-/// Reason why an element can't be renamed, as a sentence.
+/// The reason why an element can't be renamed, as a sentence.
 pub type CantRename = String;
 
 const CUSTOM: [SequenceId; 3] = [SequenceId::Custom1, SequenceId::Custom2, SequenceId::Custom3];
 
-/// Is the variable one of `val1` to `val10`?
+/// Whether the variable is one of `val1` to `val10`.
 fn is_free(var: VarId) -> bool {
     var.name().strip_prefix("val").is_some_and(|number| number.parse::<u8>().is_ok())
 }
 
 impl Document {
-    /// The name at a byte of a file, if it can be renamed.
+    /// The span of the name at a byte of a file, if the element can be renamed.
     ///
     /// # Errors
-    /// It is a fixed word of the language.
+    /// The element is a fixed word of the language.
     pub fn renameable(&self, file: u32, offset: u32) -> Result<Span, CantRename> {
         match self.at(file, offset) {
             Some(At { span, what: What::Variable(var, _) }) if is_free(var) => Ok(name_in(self, span, var)),
@@ -38,7 +38,7 @@ impl Document {
         }
     }
 
-    /// The edits that rename the element at a byte of a file.
+    /// The edits that rename the element at a byte of a file. `name`: the new name.
     ///
     /// # Errors
     /// The element can't be renamed, or the new name is invalid or already used.
@@ -81,19 +81,19 @@ impl Document {
 }
 
 impl Document {
-    /// The name of a property that the form declares; `None`: it is a field of the job's tools.
+    /// The name of a property that the form declares; `None` if it is a field of the job's tools.
     fn renamed_property(&self, row: u16) -> Option<&str> {
         let property = self.checked.form.settings.properties.get(usize::from(row))?;
         property.of_tool().is_none().then_some(property.name.as_str())
     }
 }
 
-/// The span of only the name in `X[val1]`.
+/// The span of the name alone, for the span of a word such as `X[val1]`.
 fn name_in(document: &Document, span: Span, var: VarId) -> Span {
     text_in(document, span, var.name())
 }
 
-/// The span of only the name, which is in lower case, in the span of its word.
+/// The span of the name alone, for the span of its word. `name` is in lower case.
 fn text_in(document: &Document, span: Span, name: &str) -> Span {
     match document.slice(span).to_ascii_lowercase().find(name) {
         Some(at) => {

@@ -1,4 +1,4 @@
-//! Help for the arguments of a command.
+//! Shows the arguments of a command while the user writes it.
 
 use super::Document;
 use crate::explain;
@@ -7,19 +7,19 @@ use crate::lang::{Args, CommandId};
 /// The arguments of a command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signature {
-    /// `Coolant on off mist`.
+    /// The command with its arguments, such as `Coolant on off mist`.
     pub label: String,
-    /// The arguments in order, as byte ranges of the label.
+    /// The arguments in their order, as byte ranges of `label`.
     pub words: Vec<(usize, usize)>,
-    /// Index of the current argument, from 0.
+    /// Index of the argument that the user is writing, from 0.
     pub active: usize,
     /// Description of the command.
     pub meaning: String,
 }
 
 impl Document {
-    /// The command on the line of a byte, with the argument being typed. `None`: the line is no command, or its name is still
-    /// being typed.
+    /// The command on the line at a byte, and the argument that the user is writing. `None`: the line is not a command, or
+    /// the user is still writing its name.
     pub fn signature(&self, file: u32, offset: u32) -> Option<Signature> {
         let (start, before) = self.line_before(file, offset)?;
         let inside = self.sequence_at(file, start).filter(|node| node.name.line.span.start < start);
@@ -49,7 +49,7 @@ impl Document {
     }
 }
 
-/// The names of a command's arguments: from its description if that lists them, else from the text about its arguments.
+/// The names of a command's arguments. They come from the command's description, or otherwise from the text about its arguments.
 fn names(args: Args, meaning: &str, takes: &str) -> Vec<String> {
     let most = args.count().map_or(1, |(_, most)| most);
     let list = |text: &str, by: &str| text.split(by).map(|name| name.trim().to_owned()).collect::<Vec<_>>();

@@ -7,22 +7,22 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{Head, SequenceNode, Tail, parse};
 
-/// A part of a form.
+/// A part of a form in the outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Symbol {
-    /// Name in the form: `Drill`, `Upon [work]`, `Coolant`.
+    /// Name of the part, such as `Drill`, `Upon [work]` or `Coolant`.
     pub name: String,
-    /// Description of the symbol, or the arguments of a command.
+    /// Description of the part. For a command, its arguments.
     pub detail: String,
-    /// Kind of the symbol.
+    /// What the part is.
     pub kind: Kind,
-    /// Its whole span.
+    /// Span of the whole part.
     pub span: Span,
     /// Span of the name.
     pub name_span: Span,
 }
 
-/// Kinds of symbols.
+/// Kinds of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A command.
@@ -36,13 +36,13 @@ pub enum Kind {
 }
 
 impl Document {
-    /// The commands, formats and sequences of a file, in its order.
+    /// The commands, formats and sequences of a file, in the order of the file.
     pub fn symbols(&self, file: u32) -> Vec<Symbol> {
         self.items(file).iter().filter_map(symbol).collect()
     }
 }
 
-/// The symbols of a form that is parsed only.
+/// The parts of a form that is parsed but not checked.
 pub fn symbols_of(form: &Source) -> Vec<Symbol> {
     parse(form, 0).items.iter().filter_map(symbol).collect()
 }

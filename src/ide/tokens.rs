@@ -1,4 +1,4 @@
-//! Classification of the words in a form, for syntax colouring.
+//! Classifies the words in a form for syntax colouring.
 
 use super::{At, Document, What};
 use crate::span::Span;
@@ -7,9 +7,9 @@ use crate::syntax::{Head, Line, Piece, PieceKind, Tail};
 /// A coloured word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// Span, within one line.
+    /// Span of the word. It is within one line.
     pub span: Span,
-    /// Kind.
+    /// What the word is.
     pub kind: Kind,
 }
 
@@ -30,7 +30,7 @@ pub enum Kind {
     Variable,
     /// A G or M code.
     Code,
-    /// Any other typed word.
+    /// Any other word that is written in the form.
     Word,
     /// A comment of the program, or text in backquotes.
     Note,
@@ -41,7 +41,7 @@ pub enum Kind {
 }
 
 impl Document {
-    /// The words of a file in order. No word contains another.
+    /// The words of a file in their order. No word contains another word.
     pub fn tokens(&self, file: u32) -> Vec<Token> {
         let mut tokens = Vec::new();
         self.each(file, |At { span, what }| {
@@ -82,7 +82,8 @@ fn tail(line: &Line) -> Option<Token> {
     }
 }
 
-/// Adds the text of a program's comment around the words in it. `tokens`: the words of the file, in order.
+/// Adds the parts of a program's comment that are before, between and after the words in it. `tokens`: the words of the file in their
+/// order.
 fn notes(piece: &Piece, tokens: &[Token], notes: &mut Vec<Token>) {
     if !matches!(piece.kind, PieceKind::Note { .. }) {
         return;
@@ -131,7 +132,7 @@ mod tests {
         );
     }
 
-    /// A calculated value in a comment is a word of its own.
+    /// A calculated value in a comment is a separate word.
     #[test]
     fn a_comment_is_around_its_calculated_values() {
         let (document, _) = marked("Drill\n(P[work-59] X[h])\nEnd\n");

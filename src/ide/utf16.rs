@@ -1,4 +1,5 @@
-//! Positions as editors count them: a line, and UTF-16 code units in it, both from 0.
+//! Positions as editors count them: the line, and the number of UTF-16 code units before the position in its line. Both are counted from
+//! 0.
 
 use crate::source::Source;
 use crate::span::Span;
@@ -8,11 +9,11 @@ use crate::span::Span;
 pub struct Place {
     /// Line, from 0.
     pub line: u32,
-    /// UTF-16 code units before it in that line.
+    /// Number of UTF-16 code units before the position in its line.
     pub character: u32,
 }
 
-/// The position of a byte. For a byte inside a character, this is the position of that character.
+/// The position of a byte. If the byte is inside a character, the position of this character.
 pub fn place(source: &Source, at: u32) -> Place {
     let mut at = (at as usize).min(source.text.len());
     while !source.text.is_char_boundary(at) {
@@ -24,8 +25,8 @@ pub fn place(source: &Source, at: u32) -> Place {
     Place { line: line as u32, character: units as u32 }
 }
 
-/// The byte at a position. A position after the end of its line is the end of the line; one after the text is the end of the
-/// text.
+/// The byte at a position. If the position is after the end of its line, the end of the line. If it is after the end of the
+/// text, the end of the text.
 pub fn offset(source: &Source, place: Place) -> u32 {
     let starts = source.line_starts();
     let Some(&start) = starts.get(place.line as usize) else { return source.text.len() as u32 };
@@ -41,7 +42,7 @@ pub fn offset(source: &Source, place: Place) -> u32 {
     start + line.len() as u32
 }
 
-/// Start and end position of a span.
+/// The start and end positions of a span.
 pub fn range(source: &Source, span: Span) -> (Place, Place) {
     (place(source, span.start), place(source, span.end))
 }

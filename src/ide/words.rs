@@ -1,6 +1,6 @@
-//! Conversion of `explain` pages to Markdown for editors.
+//! Converts explanations of `explain` to Markdown for editors.
 
-/// Converts a page: its heading becomes bold, its first text a paragraph, the labels of other lines italic, and its example code.
+/// Converts an explanation: its heading becomes bold, its first line a paragraph, labels of other lines italic, and its example code.
 pub fn markdown(page: &str) -> String {
     let mut lines = page.lines();
     let mut out = lines.next().map(|head| format!("**{}**", head.trim())).unwrap_or_default();
@@ -37,7 +37,7 @@ fn said(facts: &mut Vec<String>) -> String {
     if facts.is_empty() { String::new() } else { format!("\n\n{}", std::mem::take(facts).join("  \n")) }
 }
 
-/// Escapes text so that none of it is Markdown.
+/// Escapes a text so that Markdown shows it unchanged.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

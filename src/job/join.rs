@@ -1,7 +1,7 @@
 //! Joins jobs to one: their operations follow each other, and the head is that of the first job.
 //!
-//! What one job leaves in force must not change the meaning of the next one. Each job is therefore checked at its first
-//! operation: everything that the jobs before it have set must be given again there, because alone the job would not have it.
+//! A state that one job leaves active must not change the meaning of the next job. Therefore the first operation of a job must
+//! set every value again that an earlier job has set. Alone, the job would not have these values.
 
 use std::collections::HashMap;
 
@@ -11,11 +11,11 @@ use crate::toolpath::{
     Axes, Event, FeedMode, First, Flow, Place, Sink, Spindle, SpindleTurn, Start, Stop, Tool, ToolChange, key,
 };
 
-/// Passes on the events of several jobs as those of one.
+/// Passes on the events of several jobs as those of one job.
 pub(super) struct Joining<'s> {
     sink: &'s mut dyn Sink,
     names: &'s [String],
-    /// The job that is read, from 1.
+    /// The number of the current job, from 1.
     part: u16,
     start: Option<Start>,
     /// No operation of this job has begun yet.
@@ -27,7 +27,7 @@ pub(super) struct Joining<'s> {
     subprograms: HashMap<u64, u16>,
 }
 
-/// What the jobs so far have left in force.
+/// The state that the jobs so far have left active.
 #[derive(Default)]
 struct Held {
     /// Axes that were moved, as bits.
@@ -61,7 +61,7 @@ impl<'s> Joining<'s> {
         }
     }
 
-    /// The next job begins.
+    /// Begins the next job.
     pub fn next(&mut self) {
         self.part = self.part.saturating_add(1);
         self.is_new = self.part > 1;
@@ -71,7 +71,7 @@ impl<'s> Joining<'s> {
         self.names.get(usize::from(part).saturating_sub(1)).map_or("the job", String::as_str)
     }
 
-    /// The job can't follow an earlier one.
+    /// The error that the job can't follow an earlier one.
     fn wrong(&self, earlier: u16, why: &str, help: &'static str, place: Place) -> Stop {
         let message = format!("{} can't follow {}: {why}", self.name(self.part), self.name(earlier));
         Diag::new(Code::PJ014, message).help(help).place(place).into()
@@ -80,7 +80,7 @@ impl<'s> Joining<'s> {
     /// The head of a job: only the first one is passed on.
     fn start(&mut self, own: &Start, place: Place) -> Flow {
         let Some(first) = &self.start else {
-            // the list ends with the tools of this job
+            // the list contains only the tools of this job
             let head = Start { tool_order: None, ..own.clone() };
             self.start = Some(head.clone());
             return self.sink.event(Event::Start(&head), place);
@@ -99,7 +99,8 @@ impl<'s> Joining<'s> {
         wrong.map_or(Flow::Continue(()), Flow::Break)
     }
 
-    /// An operation begins. The first one of a job must give what the jobs before it have left in force.
+    /// Handles the beginning of an operation. The first operation of a job must set every state that earlier jobs left
+    /// active.
     fn change(&mut self, change: &ToolChange, place: Place) -> Flow {
         let mut own = change.clone();
         if std::mem::take(&mut self.is_new) {
@@ -182,7 +183,7 @@ impl<'s> Joining<'s> {
         self.start.as_ref().is_some_and(|start| start.machine == machine)
     }
 
-    /// An axis that the first move must give, but does not.
+    /// An axis that the first move must contain but does not.
     fn missing_axis(&self, change: &ToolChange) -> Option<char> {
         // a lathe's axes are Z and X, in this order
         let (usual, names) = match self.is_of(Machine::Mill) {
@@ -199,7 +200,7 @@ impl<'s> Joining<'s> {
         names.into_iter().enumerate().find(|(axis, _)| missing & 1 << axis != 0).map(|(_, axis)| axis)
     }
 
-    /// Is a tool the one that earlier jobs have under its number?
+    /// Do earlier jobs have the same tool under its number?
     fn is_same_tool(&mut self, tool: &Tool, place: Place) -> Result<(), Box<Stop>> {
         let data =
             |tool: &Tool| [tool.diameter, tool.corner_radius, tool.length_offset, tool.diameter_offset, tool.turret];
@@ -227,7 +228,7 @@ impl<'s> Joining<'s> {
         }
     }
 
-    /// Follows what stays in force.
+    /// Updates the state that stays active after an event.
     fn follow(&mut self, event: &Event<'_>) {
         let moves = matches!(
             event,
@@ -287,7 +288,7 @@ impl Sink for Joining<'_> {
                 }
                 self.follow(&event);
             }
-            // what a subprogram sets stays in force, too
+            // a state that a subprogram sets also stays active
             _ => self.follow(&event),
         }
         self.sink.event(event, place)

@@ -43,7 +43,7 @@ pub struct Reading {
     /// The position before a CL file or program that begins with a cut, in the units of the file. A program that cuts from a
     /// machine position also begins there.
     pub start: Option<[f64; 3]>,
-    /// A CL file is complete even without the usual end statement of its system.
+    /// The CL file is complete even without the usual end statement of its system.
     pub end: bool,
     /// The setup of a CL file to read, counted from 1: the motions with one tool axis, in a frame of their own.
     pub setup: Option<usize>,
@@ -183,7 +183,7 @@ impl<'a> Job<'a> {
     /// the first job. Locations in errors have the names of the jobs ([`Job::named`]).
     ///
     /// Reading is an error (PJ014) if a job would have another meaning than alone: other units or tools, or a first operation
-    /// that does not give what the job before has left in force.
+    /// that does not set a state which an earlier job has left active.
     pub fn join(parts: Vec<Job<'a>>) -> Job<'a> {
         let name =
             |(at, part): (usize, &Job<'_>)| part.name.as_deref().map_or(format!("job {}", at + 1), str::to_owned);

@@ -13,7 +13,7 @@ use crate::remarks::Remarks;
 use crate::toolpath::json::{read_document, read_lines};
 use crate::toolpath::{ReadError, Sink, Units};
 
-/// Formats that are read from beginning to end.
+/// Reads a job in a format that is read from beginning to end.
 pub(super) fn read_once(
     input: impl Read,
     format: Format,

@@ -1,4 +1,4 @@
-//! Selection of operations of a job: from a tool on, up to a tool, only those with some tools, or all except those.
+//! Selection of operations of a job: from one tool on, up to one tool, only those with some tools, or all except those.
 //!
 //! Some values of a left-out operation stay in force: work offset, spindle, coolant and set values. They are added to the next
 //! operation that is selected. That operation starts at the position that the tool would have reached.
@@ -67,9 +67,9 @@ pub(super) struct Selecting<'s> {
     sink: &'s mut dyn Sink,
     selection: &'s Selection,
     progress: Progress,
-    /// The current operation is selected; everything before the first operation is.
+    /// The current operation is selected. Items before the first operation are always selected.
     takes: bool,
-    /// An operation was left out since the last selected one.
+    /// An operation was left out after the last selected one.
     left_out: bool,
     /// The next move is the first after a left-out operation, so its missing axes are filled in.
     fills: bool,

@@ -1,11 +1,11 @@
 //! Kinds of coolant, by their names.
 
-/// Coolant: one kind, several at once, or none.
+/// Coolant: one kind, several kinds at the same time, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coolant {
-    /// The kinds that are on, one bit for each.
+    /// The kinds that are on, as bits.
     kinds: u8,
-    /// The bit of the first kind, which `[cool]` prints.
+    /// The bit of the first kind. `[cool]` prints the code of this kind.
     first: u8,
 }
 
@@ -20,10 +20,10 @@ impl Coolant {
     pub const THROUGH: Coolant = Coolant::of(4);
     /// Air.
     pub const AIR: Coolant = Coolant::of(8);
-    /// Under high pressure.
+    /// Coolant under high pressure.
     pub const HIGH: Coolant = Coolant::of(16);
 
-    /// All kinds with their names in jobs and forms.
+    /// All names of coolant in jobs and forms, with their kinds.
     pub const NAMES: [(&'static str, Coolant); 7] = [
         ("on", Coolant::FLOOD),
         ("flood", Coolant::FLOOD),
@@ -38,12 +38,12 @@ impl Coolant {
         Coolant { kinds: kind, first: kind }
     }
 
-    /// Finds a kind by its name, in any case.
+    /// Finds a kind by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<Coolant> {
         Coolant::NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
     }
 
-    /// Name of the first kind in forms and messages.
+    /// Name of the first kind, as in forms and messages.
     pub fn name(self) -> &'static str {
         Coolant::NAMES.iter().find(|(_, kind)| *kind == self.first()).map_or("on", |(name, _)| *name)
     }
@@ -64,14 +64,14 @@ impl Coolant {
         self.each().filter(move |kind| kind.first != self.first)
     }
 
-    /// This coolant together with the kinds of another.
+    /// This coolant and the kinds of `other`.
     #[must_use]
     pub fn and(self, other: Coolant) -> Coolant {
         let first = if self.first == 0 { other.first } else { self.first };
         Coolant { kinds: self.kinds | other.kinds, first }
     }
 
-    /// This coolant without the kinds of another.
+    /// This coolant without the kinds of `other`.
     #[must_use]
     pub fn without(self, other: Coolant) -> Coolant {
         let kinds = self.kinds & !other.kinds;
@@ -79,7 +79,7 @@ impl Coolant {
         Coolant { kinds, first: if self.first & kinds == 0 { lowest } else { self.first } }
     }
 
-    /// Whether this kind is on. For `OFF`: whether no kind is on.
+    /// Whether this kind is on. For `OFF`, whether no kind is on.
     pub fn holds(self, kind: Coolant) -> bool {
         if kind == Coolant::OFF { self == Coolant::OFF } else { self.kinds & kind.kinds == kind.kinds }
     }

@@ -1,8 +1,8 @@
-//! The table of directives: lines of a sequence that decide which of its lines are printed.
+//! The table of directives. A directive is a line of a sequence that determines which lines are printed.
 
 use super::suggest::nearest;
 
-/// A row of the table.
+/// One row of the table of directives.
 #[derive(Debug)]
 pub struct DirectiveRow {
     /// Name as written, such as `@if`.
@@ -39,7 +39,7 @@ pub const DIRECTIVES: &[DirectiveRow] = &[
     },
 ];
 
-/// Names in other languages, with the directive here.
+/// Names of directives in other languages, each with the name in postform.
 const OTHERS: &[(&str, &str)] = &[
     ("@elseif", "@elif"),
     ("@elsif", "@elif"),
@@ -52,35 +52,35 @@ const OTHERS: &[(&str, &str)] = &[
     ("@let", "@set"),
 ];
 
-/// The directive that an unknown name is probably meant to be.
+/// The directive that was probably intended, for an unknown name.
 pub fn directive_meant(name: &str) -> Option<&'static str> {
     let other = OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, own)| *own);
-    let joined: String = name.split([' ', '\t']).collect(); // `@ if`
+    let joined: String = name.split([' ', '\t']).collect(); // as in `@ if`
     other.or_else(|| nearest(&joined, DIRECTIVES.iter().map(|row| row.name)))
 }
 
-/// The objects that `@for` repeats over.
+/// What an `@for` repeats its lines for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Each {
     /// Each tool of the job, in the order of use.
     Tool,
-    /// Each operation of the job. Inside `@for tool` or `@for work`: the operations of that tool or offset.
+    /// Each operation of the job. Inside `@for tool` or `@for work`: the operations of that tool or work offset.
     Operation,
     /// Each work offset of the job, in the order of use.
     Work,
 }
 
 impl Each {
-    /// All of them with their names.
+    /// All kinds, each with its name.
     pub const ALL: [(&'static str, Each); 3] =
         [("tool", Each::Tool), ("operation", Each::Operation), ("work", Each::Work)];
 
-    /// Finds one by its name, in any case.
+    /// Finds a kind by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<Each> {
         Each::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, each)| *each)
     }
 
-    /// The name after `@for`.
+    /// The name of the kind, as it is written after `@for`.
     pub fn name(self) -> &'static str {
         Each::ALL[self as usize].0
     }

@@ -1,6 +1,6 @@
 //! Types of machine.
 
-/// Type of machine of a form or job.
+/// Type of machine that a form or job is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Machine {
     /// Mill, drill, router.
@@ -22,7 +22,7 @@ impl Machine {
         }
     }
 
-    /// Reads a name in any case. A torch or laser is a mill with another tool.
+    /// Finds a machine by its name; upper and lower case are equal. For a torch or a laser, the type of machine is a mill.
     pub fn parse(name: &str) -> Option<Machine> {
         let own =
             [Machine::Mill, Machine::Lathe, Machine::Edm].into_iter().find(|m| m.name().eq_ignore_ascii_case(name));
@@ -30,10 +30,10 @@ impl Machine {
     }
 }
 
-/// Tools that are switched on and off instead of going up and down.
+/// Tools that are switched on and off, instead of being moved up and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beam {
-    /// A torch: plasma, flame.
+    /// A torch for plasma or flame cutting.
     Torch,
     /// A laser.
     Laser,
@@ -48,13 +48,13 @@ impl Beam {
         }
     }
 
-    /// Reads a name in any case.
+    /// Finds a torch or laser by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<Beam> {
         [Beam::Torch, Beam::Laser].into_iter().find(|beam| beam.name().eq_ignore_ascii_case(name))
     }
 }
 
-/// Units of a form's lengths.
+/// Units of the lengths in a form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum UnitChoice {
     /// Inches.
@@ -62,19 +62,19 @@ pub enum UnitChoice {
     Inch,
     /// Millimetres.
     Mm,
-    /// The form is for both units. Its own lengths are in inches.
+    /// The form accepts jobs in both units. Its own lengths are in inches.
     Both,
 }
 
 impl UnitChoice {
-    /// Reads a name in any case.
+    /// Finds units by their name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<UnitChoice> {
         let names = [("inch", UnitChoice::Inch), ("mm", UnitChoice::Mm), ("both", UnitChoice::Both)];
         names.into_iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, units)| units)
     }
 }
 
-/// A set of machine types. The manual has such a set for each sequence.
+/// A set of machine types. The manual gives such a set for each sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Machines {
     /// Whether mills are in the set.
@@ -86,7 +86,7 @@ pub struct Machines {
 }
 
 impl Machines {
-    /// The set named by the letters M, L and E.
+    /// The set for the letters M (mill), L (lathe) and E (wire EDM).
     pub const fn of(letters: &str) -> Machines {
         let bytes = letters.as_bytes();
         let mut set = Machines { mill: false, lathe: false, edm: false };

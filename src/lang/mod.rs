@@ -1,5 +1,5 @@
-//! The vocabulary of POSTFORM in tables, for checks, messages, `explain` and the reference.
-// descriptions contain variables as [var], which are not links
+//! The vocabulary of POSTFORM as tables. Checks, messages, `explain` and the reference pages are based on it.
+// descriptions contain variables of forms as [var], which are not links to items
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod commands;
@@ -23,13 +23,13 @@ pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::{additional_work, work_code};
 
-/// Source of a rule. The reference shows it.
+/// The source of a rule. The reference pages show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// Stated in the manual.
+    /// The manual states the rule.
     Doc,
-    /// Not stated, but the only reading that prints the manual's examples.
+    /// The manual does not state the rule, but its examples print correctly only with this rule.
     Ex,
-    /// Our decision, because no public source settles it.
+    /// We decided the rule, because no public source determines it.
     Ours,
 }

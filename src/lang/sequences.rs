@@ -3,32 +3,32 @@
 use super::Standing::{self, Doc, Ours};
 use super::machine::Machines;
 
-/// One row of the table.
+/// One row of the table of sequences.
 #[derive(Debug)]
 pub struct Sequence {
-    /// Id of the sequence.
+    /// Identifier of the sequence.
     pub id: SequenceId,
-    /// Name in forms.
+    /// Name of the sequence in forms.
     pub name: &'static str,
-    /// Whether it is a canned cycle. Such a sequence may have a line count and `End Cancel`.
+    /// Whether the sequence is a canned cycle. A canned cycle may have a line count and `End Cancel`.
     pub is_cycle: bool,
-    /// The machines that have it. They are from the manual unless marked.
+    /// The machines that have the sequence. They are from the manual unless marked.
     pub machines: Machines,
-    /// Machines whose forms must contain it.
+    /// Machines whose forms must contain the sequence.
     pub required: Machines,
     /// When the sequence is printed.
     pub meaning: &'static str,
-    /// Source of the description.
+    /// The source of the description.
     pub standing: Standing,
-    /// The job's item for which it is printed.
+    /// The item of a job for which the sequence is printed.
     pub event: &'static str,
-    /// The name of the folder in samples/ that has an example.
+    /// The name of the folder in samples/ with an example.
     pub sample: &'static str,
 }
 
 macro_rules! sequences {
     ($($id:ident $name:literal $kind:ident $machines:literal $required:literal $standing:ident $meaning:literal $event:literal $sample:literal)*) => {
-        /// A sequence. `Upon [var]` exists for each variable.
+        /// A sequence. Upon sequences are not listed here, because they exist for each variable.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum SequenceId { $(#[doc = $meaning] $id),* }
@@ -122,17 +122,17 @@ impl SequenceId {
         &SEQUENCES[self as usize]
     }
 
-    /// Name in forms.
+    /// Name of the sequence in forms.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Whether it is a canned cycle for holes, and not the end of a cycle or a thread.
+    /// Whether the sequence is a canned cycle for holes, and not Cancel or a thread.
     pub fn makes_holes(self) -> bool {
         self.row().is_cycle && !matches!(self, SequenceId::Cancel | SequenceId::AutoThread | SequenceId::CanThread)
     }
 
-    /// Finds a sequence by its name, in any case. `Chip Break` is Chipbreak.
+    /// Finds a sequence by its name; upper and lower case are equal. `Chip Break` is another name of Chipbreak.
     pub fn parse(name: &str) -> Option<SequenceId> {
         if name.eq_ignore_ascii_case("Chip Break") {
             return Some(SequenceId::Chipbreak);
@@ -141,19 +141,19 @@ impl SequenceId {
     }
 }
 
-/// The content of a line with a sequence name.
+/// The name of a sequence on its name line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SequenceName<'a> {
-    /// A named sequence with the text after the name, such as a count.
+    /// A named sequence, and the text after its name, such as a count.
     Plain(SequenceId, Option<&'a str>),
-    /// `Upon [var]`, with the variable as written.
+    /// `Upon [var]`, with the name of the variable as written.
     Upon(&'a str),
     /// `Upon Every [var]`.
     UponEvery(&'a str),
 }
 
 impl<'a> SequenceName<'a> {
-    /// Reads the words of a line. `None`: they do not name a sequence.
+    /// Reads the words of a line. `None`: they are not the name of a sequence.
     pub fn parse(words: &[&'a str]) -> Option<SequenceName<'a>> {
         let first = *words.first()?;
         if first.eq_ignore_ascii_case("Upon") {

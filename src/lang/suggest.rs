@@ -1,18 +1,18 @@
-//! "Did you mean": finds the known name nearest to a wrong one.
+//! Finds the known name that is most similar to a wrong one, for suggestions such as "did you mean".
 
-/// Names of this length or longer get no suggestion. No known name is so long.
+/// For names of this length or longer there is no suggestion, because no known name is so long.
 pub const LONGEST_NAME: usize = 64;
 
-/// The candidate nearest to `name`, in any case, if it is near enough to be a typing mistake.
+/// The candidate most similar to `name`, if it is similar enough for a typing error. Upper and lower case are equal.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() >= LONGEST_NAME {
         return None;
     }
     let wrong = name.to_ascii_lowercase();
     let (length, letters) = shape(&wrong);
-    // one mistake in a short name, a third of its letters in a long one
+    // allow one error in a short name, and errors in a third of the letters of a long one
     let allowed = (length / 3).clamp(1, 4);
-    // one mistake changes the length by at most one and the set of letters by at most two, so few candidates remain
+    // one error changes the length by at most one and the set of letters by at most two; this excludes most candidates quickly
     let may_be = |candidate: &&str| {
         let (own_length, own_letters) = shape(candidate);
         own_length.abs_diff(length) <= allowed && (own_letters ^ letters).count_ones() as usize <= 2 * allowed
@@ -22,7 +22,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter(may_be)
         .map(|candidate| (strsim::damerau_levenshtein(&wrong, &candidate.to_ascii_lowercase()), candidate))
         .filter(|&(distance, candidate)| {
-            // accept `dd` for `d`: the same letter twice
+            // accept `dd` for `d`, although every letter of a one-letter name may be wrong
             let twice = || wrong.chars().all(|c| candidate.chars().any(|own| own.eq_ignore_ascii_case(&c)));
             distance <= allowed && (distance < candidate.chars().count() || twice())
         })
@@ -30,14 +30,14 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// The number of letters of a name, and its set of letters as bits. Some letters share a bit. Upper and lower case are
-/// equal.
+/// The number of letters of a name, and its set of letters as bits. Several letters may share a bit. Upper and lower
+/// case are equal.
 fn shape(name: &str) -> (usize, u64) {
     let bit = |c: char| 1_u64 << (u32::from(c.to_ascii_lowercase()) % 64);
     name.chars().fold((0, 0), |(length, letters), c| (length + 1, letters | bit(c)))
 }
 
-/// `did you mean `x`?`, as text for a help line.
+/// The text of a suggestion for a help line, such as `did you mean `x`?`.
 pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }
@@ -60,7 +60,7 @@ mod tests {
     fn long_words_are_no_slips() {
         let name = "b".repeat(1_000_000);
         assert_eq!(nearest(&name, [name.as_str()]), None);
-        // a near name is still found
+        // a similar name is still found
         assert_eq!(nearest("Sequence#", ["Sequence#s"]), Some("Sequence#s"));
         assert_eq!(nearest("fRAET", ["frate"]), Some("frate"));
     }

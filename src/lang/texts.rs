@@ -1,15 +1,15 @@
-//! Text variables: names and comments of the job, the date, the form itself.
+//! The table of text variables: names and comments of the job, the date, and texts of the form itself.
 
-/// A row of the table of text variables.
+/// One row of the table of text variables.
 #[derive(Debug)]
 pub struct Text {
-    /// Id of the text.
+    /// Identifier of the text.
     pub id: TextId,
-    /// Name of the text, as between brackets.
+    /// Name of the text, as it is written between brackets.
     pub name: &'static str,
     /// Description of the text.
     pub meaning: &'static str,
-    /// Source of the text.
+    /// Where the text comes from.
     pub from: &'static str,
 }
 
@@ -78,7 +78,7 @@ impl TextId {
         &TEXTS[self as usize]
     }
 
-    /// Finds a text by its name, in any case.
+    /// Finds a text by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<TextId> {
         TEXTS.iter().find(|text| text.name.eq_ignore_ascii_case(name)).map(|text| text.id)
     }
@@ -87,9 +87,10 @@ impl TextId {
 /// A text variable with its width, such as `[toolname:12]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextVar {
-    /// Id of the text.
+    /// Identifier of the text.
     pub id: TextId,
-    /// Number of characters to pad or cut to. A negative width aligns to the right. 0: the length of the text.
+    /// Number of characters to which the text is padded or cut. If negative, the text is aligned to the right. If 0, the text keeps its
+    /// length.
     pub width: i8,
 }
 
@@ -97,12 +98,12 @@ pub struct TextVar {
 pub const WIDEST: i8 = 100;
 
 impl TextVar {
-    /// Whether this is the name of a text, with or without a width.
+    /// Whether the name is that of a text, with or without a width.
     pub fn is_text(name: &str) -> bool {
         TextId::parse(name.split(':').next().unwrap_or(name)).is_some()
     }
 
-    /// Reads a name with an optional width. `None`: the name or the width is wrong.
+    /// Reads a name with an optional width. `None`: the name is unknown or the width is invalid.
     pub fn parse(name: &str) -> Option<TextVar> {
         let (name, width) = name.split_once(':').map_or((name, None), |(name, width)| (name, Some(width)));
         let id = TextId::parse(name)?;
@@ -145,7 +146,7 @@ mod tests {
 
     #[test]
     fn no_text_has_the_name_of_a_number() {
-        const { assert!(TEXT_COUNT <= 32) }; // TextSet has as many bits
+        const { assert!(TEXT_COUNT <= 32) }; // a TextSet has 32 bits
         assert!(TEXTS.iter().all(|text| crate::lang::VarId::parse(text.name).is_none()));
     }
 }

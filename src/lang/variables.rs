@@ -9,13 +9,13 @@ pub enum Unit {
     Length,
     /// Degrees.
     Angle,
-    /// Length per minute, or per revolution.
+    /// Length per minute, or length per revolution.
     Feed,
-    /// Revolutions per minute, or surface speed.
+    /// Revolutions per minute, or a surface speed.
     Speed,
-    /// Seconds; a dwell in the unit of the Dwell command.
+    /// Seconds. For a dwell, the unit that the Dwell command sets.
     Time,
-    /// The number of a G or M code, from a command of the form.
+    /// The number of a G or M code that a command of the form defines.
     Code,
     /// A whole number.
     Count,
@@ -23,25 +23,25 @@ pub enum Unit {
     Number,
 }
 
-/// The source of a variable's value.
+/// Where the value of a variable comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The renderer, from the toolpath; a job can't set it.
+    /// The renderer calculates it from the toolpath. A job can't set it.
     Computed,
-    /// The job's `set`, or a prompt.
+    /// The job sets it with `set`, or it is the answer to a prompt.
     Job,
-    /// The renderer, from the job. If the job has no value: a prompt or `--set`.
+    /// The renderer takes it from the job. If the job has no value, it comes from a prompt or from `--set`.
     Asked,
 }
 
-/// One row of the table.
+/// One row of the table of variables.
 #[derive(Debug)]
 pub struct Variable {
-    /// Id of the variable.
+    /// Identifier of the variable.
     pub id: VarId,
-    /// Name as between brackets, in lower case.
+    /// Name of the variable as it is written between brackets, in lower case.
     pub name: &'static str,
-    /// Its group in the reference.
+    /// The group of the variable in the reference.
     pub group: &'static str,
     /// The unit of its value.
     pub unit: Unit,
@@ -49,13 +49,13 @@ pub struct Variable {
     pub origin: Origin,
     /// The machines that have it.
     pub machines: Machines,
-    /// A description of one line.
+    /// A description in one line.
     pub meaning: &'static str,
 }
 
 macro_rules! variables {
     ($($id:ident $name:literal $group:literal $unit:ident $origin:ident $machines:literal $meaning:literal)*) => {
-        /// A variable. Its number is its slot during rendering.
+        /// A variable. Its number is the index of its value during rendering.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum VarId { $(#[doc = $meaning] $id),* }
@@ -211,7 +211,7 @@ variables! {
     Lowerdist     "lowerdist"      "Wire EDM"           Length  Job       "E"    "distance of the lower guide"
 }
 
-/// Other names for variables in the manual's list.
+/// Other names of variables that occur in the manual's list.
 const ALSO: [(&str, VarId); 2] = [("lastrotang", VarId::Lastrotangle), ("etplane", VarId::Retplane)];
 
 impl VarId {
@@ -221,19 +221,19 @@ impl VarId {
         &VARIABLES[self as usize]
     }
 
-    /// Name as between brackets.
+    /// Name of the variable, as it is written between brackets.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Finds a variable by its name, in any case.
+    /// Finds a variable by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<VarId> {
         let own = VARIABLES.iter().find(|v| v.name.eq_ignore_ascii_case(name)).map(|v| v.id);
         own.or_else(|| ALSO.iter().find(|(also, _)| also.eq_ignore_ascii_case(name)).map(|(_, id)| *id))
     }
 }
 
-/// Variables about later parts of the job.
+/// Variables whose values depend on later parts of the job.
 pub const AHEAD: VarSet = VarSet::of(&[
     VarId::Hmin,
     VarId::Hmax,
@@ -254,7 +254,7 @@ pub const AHEAD: VarSet = VarSet::of(&[
     VarId::Cutlength,
 ]);
 
-/// Variables about later tools, which the head of a job may contain.
+/// Variables whose values depend on later tools. The head of a job may already contain them.
 pub const TOOLS_AHEAD: VarSet = VarSet::of(&[VarId::Nexttool, VarId::Islasttool]);
 
 /// The largest number of variables.
@@ -294,7 +294,7 @@ impl VarSet {
         self.0[id as usize / 64] & 1 << (id as usize % 64) != 0
     }
 
-    /// Whether any variable of `other` is in the set.
+    /// Whether the two sets have a variable in common.
     #[inline]
     pub fn meets(self, other: VarSet) -> bool {
         self.0.iter().zip(other.0).any(|(own, other)| own & other != 0)

@@ -1,5 +1,6 @@
-//! Suppression comments in a form: `# postform: allow PF103` at the end of a line, above a line, or above a sequence;
-//! `# postform: allow-file PF103` above the form's first line, for the whole file.
+//! Suppression comments in a form. `# postform: allow PF103` at the end of a line, above a line or above a sequence
+//! applies to that line or sequence. `# postform: allow-file PF103` above the form's first line applies to the whole
+//! file.
 
 use std::collections::BTreeMap;
 
@@ -13,17 +14,17 @@ use crate::syntax::{Head, Line, Tail};
 use super::places::{Cover, Places};
 use super::{Levels, stops_printing};
 
-/// A code in a suppression comment.
+/// One code of a suppression comment, with the range in which its findings are allowed.
 struct Allow {
     code: Code,
-    /// The code in the comment.
+    /// The location of the code in the comment.
     word: Span,
-    /// The range in which its findings are allowed.
+    /// The range in which findings of this code are allowed.
     range: Span,
 }
 
-/// Removes the findings that comments allow, and adds findings about the comments themselves. Returns the number of removed
-/// findings.
+/// Removes the findings that comments allow, and adds findings about the comments themselves, for example about an unknown
+/// code. Returns the number of removed findings.
 pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -> usize {
     let mut allows = Vec::new();
     let mut wrong = Vec::new();
@@ -37,7 +38,7 @@ pub fn take_allowed(checked: &Checked, levels: &Levels, diags: &mut Vec<Diag>) -
     }
     let before = diags.len();
     for (code, allows) in by_code(&allows) {
-        // errors of the form can't be allowed
+        // findings that are errors of the form itself can't be allowed
         let place = |diag: &Diag| {
             diag.labels.first().map(|label| label.span).filter(|_| diag.code == code && !stops_printing(diag))
         };
@@ -61,7 +62,7 @@ fn by_code(allows: &[Allow]) -> BTreeMap<Code, Vec<&Allow>> {
 }
 
 fn unused(allow: &Allow) -> Diag {
-    // an error always prevents printing
+    // a code that is an error by default can't be allowed, because it always prevents printing
     let help = match allow.code.row().severity {
         Severity::Error => "an error can't be allowed: fix it",
         _ => "remove it, so that it does not hide a later finding",
@@ -76,11 +77,11 @@ fn unused(allow: &Allow) -> Diag {
 struct Ranges {
     /// The line or sequence at which the comment is.
     here: Span,
-    /// The whole file, for a comment at its head.
+    /// The whole file, if the comment is above the form's first line.
     whole: Option<Span>,
 }
 
-/// The first line of a form that is no comment. Comments above it are the form's head.
+/// The form's first line that is neither blank nor a comment. The comments above it are the head of the form.
 fn head(items: &[Head]) -> Option<Span> {
     items.iter().find_map(|item| match item {
         Head::Blank(_) => None,
@@ -90,7 +91,8 @@ fn head(items: &[Head]) -> Option<Span> {
     })
 }
 
-/// All comments that begin with `#`, each with the range to which it applies: its own line, or the item after it.
+/// All comments that begin with `#`. Each has the range to which it applies (its own line, or the item after it), and for a head comment
+/// the file.
 fn comments(items: &[Head]) -> Vec<(Span, Span)> {
     let mut found = Vec::new();
     let mut waiting: Vec<Span> = Vec::new();
@@ -107,7 +109,7 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
             }
         }
     };
-    // an indented line is a comment, but it may look like words and cause a finding
+    // an indented line is a comment; if it looks like words, it may itself have a finding
     let own = |line: &Line| matches!(line.tail, Tail::Lost(_)).then_some(line.span);
     for item in items {
         match item {
@@ -131,7 +133,7 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
     found
 }
 
-/// Reads one comment, if it is for postform.
+/// Reads one comment. Comments that are not for postform are ignored.
 fn read(source: &Source, comment: Span, ranges: Ranges, allows: &mut Vec<Allow>, wrong: &mut Vec<Diag>) {
     let text = source.slice(comment);
     let body = text.trim_start_matches('#').trim_start();
@@ -172,7 +174,7 @@ fn read(source: &Source, comment: Span, ranges: Ranges, allows: &mut Vec<Allow>,
                 match forms().find(|row| row.name.eq_ignore_ascii_case(word)) {
                     Some(row) => allows.push(Allow { code: row.code, word: *span, range }),
                     None => {
-                        // a family can be turned off in postform.toml only
+                        // only postform.toml can turn off a whole family of codes
                         let family = word.len() < 5
                             && word.get(2..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit()));
                         let full = || Some("name each code in full, as PF414".to_owned());

@@ -1,4 +1,4 @@
-//! The blocks of a body, as a control reads them, with the modes in each block.
+//! The blocks of a sequence as a control reads them, with the motion and positioning mode that are active in each block.
 
 use crate::control::{AxisWords, Code, Control, Meaning};
 use crate::lang::{Origin, VarId, VarSet};
@@ -7,7 +7,7 @@ use crate::sema::{Line, Settings, Word, WordKind};
 /// Motion mode of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// No block of this body has set the motion yet.
+    /// No block of this sequence has set the motion mode before.
     Unknown,
     /// G0.
     Rapid,
@@ -15,63 +15,63 @@ pub enum Motion {
     Line,
     /// G2, G3.
     Arc,
-    /// A motion of the control's own: [`Control::moves_by_itself`].
+    /// The control moves the axes by itself, as in a cycle: [`Control::moves_by_itself`].
     Cycle,
 }
 
-/// A line with its modes. A control executes all codes of a block together.
+/// A line of a sequence with its active modes. A control executes all codes of a block together, in whatever order they are printed.
 pub struct Block<'a> {
     /// The line that prints the block.
     pub line: &'a Line,
-    /// The axis words with their axis: 0 and 1 across, 2 the depth. Empty if the block only sets data, as with G4, G10, G52, G68
-    /// and G92, or calls a macro.
+    /// The words that move an axis, each with its axis: 0 and 1 are the axes across, 2 is the depth. Empty if the block calls a
+    /// macro or only sets data, as with G4, G10, G52, G68 and G92.
     pub axis_words: Vec<(&'a Word, usize)>,
     /// Motion of the block.
     pub motion: Motion,
     /// G91 is active in the block.
     pub incremental: bool,
-    /// The block has G28 or G30: its axis words are an intermediate point.
+    /// The block has G28 or G30. Its axis words are then an intermediate point.
     pub reference: bool,
-    /// The block has G53: its axis words are machine coordinates.
+    /// The block has G53. Its axis words are then machine coordinates.
     pub machine: bool,
 }
 
 impl<'a> Block<'a> {
-    /// Are the axis words of this block positions of the part, not of the machine?
+    /// Whether the axis words of this block are positions relative to the part, and not to the machine.
     pub fn in_part(&self) -> bool {
         !self.reference && !self.machine
     }
 
-    /// Does the block retract the tool: to the reference point, in machine coordinates, to a plane above the part, or to a typed
-    /// height?
+    /// Whether the block retracts the tool: to the reference point, to machine coordinates, to a plane above the part, or to a
+    /// height that is a number in the form.
     pub fn retracts(&self) -> bool {
         self.axis_words.iter().any(|(word, axis)| {
             let up = |value: f64| if self.incremental { value > 0.0 } else { value >= 0.0 };
             let typed = matches!(word.kind, WordKind::Literal(_, _, value) if up(value));
-            // a height from a prompt or the job was chosen on purpose
+            // a height that comes from a prompt or from the job counts as a retract
             let chosen = word.printed_var().is_some_and(|var| var == VarId::Rplane || var.row().origin == Origin::Job);
             *axis == 2 && (typed || !self.in_part() || chosen)
         })
     }
 }
 
-/// Does the word print the tool number? On a lathe, `[comp]` contains station and offset register.
+/// Whether the word prints the tool number. On a lathe, `[comp]` contains the station and the offset register.
 pub fn says_tool(word: &Word) -> bool {
     word.printed_vars().meets(VarSet::of(&[VarId::Tool, VarId::Comp]))
 }
 
-/// Does the word call external code: a macro, a subprogram, a code of the machine's builder?
+/// Whether the word calls external code: a macro, a subprogram, or a code of the machine's builder.
 pub fn calls(control: &Control, word: &Word) -> bool {
     word.code().is_some_and(|code| control.calls(code))
 }
 
-/// Are the axis words of a block with this code no positions, but a time or data: dwell, data, scale, mirror, local zero,
-/// rotation?
+/// Whether the axis words of a block with this code are a time or data, and not positions. This applies to dwell, data
+/// input, scaling, mirroring, local zero and rotation.
 fn sets(meaning: Meaning) -> bool {
     meaning == Meaning::Dwell || meaning.axes() == AxisWords::Data
 }
 
-/// Reads the blocks of a body. `axis`: the axis that a word moves.
+/// Reads the blocks of a sequence. `axis` returns the axis that a word moves.
 pub fn read<'a>(settings: &Settings, axis: impl Fn(&Word) -> Option<usize>, lines: &'a [Line]) -> Vec<Block<'a>> {
     let control = settings.codes();
     let mut motion = Motion::Unknown;

@@ -1,4 +1,4 @@
-//! Applies fixes: selects those that can be made together, and edits the text.
+//! Applies fixes: selects fixes that do not overlap, and edits the text.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -7,7 +7,7 @@ use crate::diag::Diag;
 use crate::sema::Checked;
 use crate::span::Span;
 
-/// Changed text of files, by the file's name in messages.
+/// The changed texts of files, by the name that messages use for the file.
 pub type Changed = HashMap<String, String>;
 
 /// A form after its fixes.
@@ -19,15 +19,15 @@ pub struct Fixed {
     pub findings: Found,
     /// Files that the fixes changed.
     pub changed: Changed,
-    /// Findings that were fixed. A finding from a later round has no location, because its text existed only in between.
+    /// Findings that were fixed. A finding from a later round has no location, because its location refers to an intermediate text.
     pub made: Vec<Diag>,
 }
 
-/// Maximum number of rounds: a fix may enable another one, but not without end.
+/// Maximum number of rounds. A fix may make another fix possible; this limit ends an endless sequence of fixes.
 const MOST_ROUNDS: usize = 50;
 
-/// Applies fixes until none is left. `unsafe_too`: also those that change the output. `read` analyses the form with the changed
-/// text.
+/// Applies fixes until none is left. `unsafe_too`: also applies fixes that change the output. `read` analyses the form with the
+/// changed texts.
 pub fn fix(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> Checked) -> Fixed {
     let mut changed = Changed::new();
     let mut made: Vec<Diag> = Vec::new();
@@ -55,10 +55,10 @@ pub fn fix(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> 
 /// Text replacements that do not overlap, in order.
 pub(crate) type Edits<'a> = Vec<(Span, &'a str)>;
 
-/// Selects the fixes that can be made together. `unsafe_too`: also those that change the output. If two fixes touch the same
-/// text, the earlier one is made; the other is found again in the next round.
+/// Selects fixes that do not overlap. `unsafe_too`: also fixes that change the output. If two fixes change the same text,
+/// only the earlier one is selected. The next round finds the other one again.
 fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
-    // start to end, by file; the selected edits never overlap, so the last one that begins before a span is the nearest
+    // by file, from start to end; the selected edits never overlap, so only the last one that begins before a span can touch it
     let mut taken: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut chosen = Vec::new();
     for diag in diags {
@@ -85,7 +85,7 @@ fn edits_of<'a>(diags: &[&'a Diag], file: u32) -> Edits<'a> {
     edits
 }
 
-/// Applies edits to a text. A line that becomes empty is removed.
+/// Applies edits to a text. If an edit makes a line empty, the line is removed.
 pub(crate) fn edited(text: &str, edits: &Edits) -> String {
     let mut out = String::with_capacity(text.len());
     let mut at = 0;

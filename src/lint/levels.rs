@@ -1,8 +1,8 @@
-//! Severities of findings that a shop sets differently from the table.
+//! Severities of findings, as a shop sets them.
 
 use crate::diag::{CODES, Code, Diag, Severity};
 
-/// Level of a rule's findings.
+/// The level that a shop sets for a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Findings are not shown.
@@ -24,15 +24,15 @@ impl Level {
     }
 }
 
-/// Levels that differ from the table. The last level of a code applies.
+/// The levels that a shop sets differently from the table of codes. If a code has several, the last one applies.
 #[derive(Clone, Debug, Default)]
 pub struct Levels(Vec<(Code, Level)>);
 
 impl Levels {
-    /// Sets the level of a code, as `PF303`, or of the codes of a family, as `PF3`.
+    /// Sets the level of a code such as `PF303`, or of all codes of a family such as `PF3`.
     ///
     /// # Errors
-    /// The code is unknown, or it is an error of the form, which always prevents printing. The text of the error continues a
+    /// The code is unknown, or it is an error of the form and therefore always prevents printing. The error is the rest of a
     /// sentence that begins with the name.
     pub fn set(&mut self, name: &str, level: Level) -> Result<(), &'static str> {
         let upper = name.to_ascii_uppercase();
@@ -53,7 +53,7 @@ impl Levels {
         Ok(())
     }
 
-    /// Is a code shown at all?
+    /// Whether findings of this code are shown.
     pub(super) fn shows(&self, code: Code) -> bool {
         self.level(code) != Some(Level::Off)
     }
@@ -62,7 +62,7 @@ impl Levels {
         self.0.iter().rev().find(|(c, _)| *c == code).map(|(_, level)| *level)
     }
 
-    /// Applies the level to a finding. Returns `false` if the level is off.
+    /// Applies the level of its code to a finding. Returns `false` if the level is off.
     pub(super) fn apply(&self, diag: &mut Diag) -> bool {
         match self.level(diag.code) {
             Some(Level::Off) => false,

@@ -1,4 +1,4 @@
-//! Rules for forms: each finds one fault that can cost a part or a spindle. Each rule has its own file and a row in `rules`.
+//! The lint rules for forms. Each rule finds one fault that can cost a part or a spindle. It has its own file and a row in `rules`.
 
 mod allow;
 mod blocks;
@@ -26,13 +26,13 @@ use view::View;
 /// Findings in a form.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// Findings, by file and location.
+    /// The findings that are shown, sorted by file and location.
     pub diags: Vec<Diag>,
-    /// Number of further findings that comments of the form allow.
+    /// Number of findings that are not shown because comments of the form allow them.
     pub suppressed: usize,
 }
 
-/// Finds all findings of a form: those of its analysis and those of the rules.
+/// Finds everything that is wrong in a form: the findings of its analysis and of the rules.
 pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     let view = View::new(checked);
     let mut diags = checked.diags.clone();
@@ -49,24 +49,24 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     Found { diags, suppressed }
 }
 
-/// A form that can print, with its warnings.
+/// A compiled form without errors, and its warnings.
 #[derive(Debug)]
 pub struct Ready {
     /// The compiled form.
     pub program: Program,
-    /// Warnings and notes of lint about the form, by location.
+    /// Warnings and notes about the form, sorted by location.
     pub findings: Vec<Diag>,
 }
 
-/// Compiles an analysed form. The levels and the form's suppression comments apply.
+/// Compiles an analysed form. The levels and the form's suppression comments are applied first.
 ///
 /// # Errors
-/// All errors and warnings, if at least one is an error: of the form itself, or because of the levels.
+/// If there is at least one error, all errors and warnings. An error comes from the form itself or from the levels.
 pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
     ready_of(checked, lint(checked, levels).diags)
 }
 
-/// Like [`ready`], with findings from an earlier run of lint.
+/// Like [`ready`], but uses the findings of an earlier run of lint.
 ///
 /// # Errors
 /// As [`ready`].
@@ -78,8 +78,8 @@ pub fn ready_of(checked: &Checked, mut diags: Vec<Diag>) -> Result<Ready, Vec<Di
     Ok(Ready { program: compile(&checked.form), findings: diags })
 }
 
-/// Removes findings that only follow from another one: if words of a sequence were not understood, findings about missing words
-/// of that sequence say nothing new.
+/// Removes findings that only follow from another one. If some words of a sequence were not understood, a finding that the
+/// sequence lacks a word may be wrong.
 fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
     let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
@@ -87,17 +87,17 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let causes: Places = diags.iter().filter(is_cause).filter_map(place).collect();
     let nodes = checked.trees.iter().flat_map(|tree| tree.sequences()).map(SequenceNode::span);
     let unclear: Cover = nodes.filter(|whole| causes.any_in(*whole)).collect();
-    // only these families report words that a sequence lacks
+    // only codes from PF401 on report words that a sequence lacks
     let may_follow = |diag: &Diag| diag.code >= Code::PF401 && !is_cause(&diag);
     diags.retain(|diag| !(may_follow(diag) && place(diag).is_some_and(|at| unclear.holds(at))));
 }
 
-/// Is this an error of the form itself, independent of the levels? Nothing is printed until it is fixed.
+/// Whether the finding is an error of the form itself, independent of the levels. Nothing is printed until it is fixed.
 fn stops_printing(diag: &Diag) -> bool {
     diag.is_error() && diag.code.row().severity == Severity::Error
 }
 
-/// Sorts findings by file and location; at the same location the most severe comes first.
+/// Sorts findings by file and location. At the same location, the most severe finding comes first.
 pub fn sort(diags: &mut [Diag]) {
     diags.sort_by_key(|d| {
         let span = d.labels.first().map(|l| l.span).unwrap_or_default();

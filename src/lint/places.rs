@@ -1,15 +1,15 @@
-//! Fast lookup of locations and ranges: a form may be huge and have thousands of findings.
+//! Fast search in lists of locations and ranges, because a form may be large and have thousands of findings.
 
 use crate::span::Span;
 
-/// Spans, for checking whether one of them covers a location.
+/// A list of spans that finds quickly whether one of them covers a location.
 pub struct Cover(Vec<Span>);
 
 impl FromIterator<Span> for Cover {
     fn from_iter<I: IntoIterator<Item = Span>>(spans: I) -> Cover {
         let mut spans: Vec<Span> = spans.into_iter().collect();
         spans.sort_by_key(|span| (span.file, span.start));
-        // extend each span to the furthest end so far, so that the last span that begins before a location decides
+        // extend each span to the greatest end so far; then only the last span that begins before a location must be checked
         for i in 1..spans.len() {
             if spans[i - 1].file == spans[i].file {
                 spans[i].end = spans[i].end.max(spans[i - 1].end);
@@ -20,14 +20,14 @@ impl FromIterator<Span> for Cover {
 }
 
 impl Cover {
-    /// Does one of the spans cover the start of `at`?
+    /// Whether one of the spans covers the start of `at`.
     pub fn holds(&self, at: Span) -> bool {
         let after = self.0.partition_point(|span| (span.file, span.start) <= (at.file, at.start));
         after.checked_sub(1).is_some_and(|last| self.0[last].file == at.file && at.start <= self.0[last].end)
     }
 }
 
-/// Starts of spans, for checking whether one of them is inside a span.
+/// A list of starts of spans that finds quickly whether one of them is inside a given span.
 pub struct Places(Vec<(u32, u32)>);
 
 impl FromIterator<Span> for Places {
@@ -39,7 +39,7 @@ impl FromIterator<Span> for Places {
 }
 
 impl Places {
-    /// Is one of the starts inside `whole`, including its end?
+    /// Whether one of the starts is inside `whole` or at its end.
     pub fn any_in(&self, whole: Span) -> bool {
         let first = self.0.partition_point(|&place| place < (whole.file, whole.start));
         self.0.get(first).is_some_and(|&(file, start)| file == whole.file && start <= whole.end)

@@ -1,6 +1,6 @@
-//! Classifies text by its resemblance to words of NC programs.
+//! Tests whether text looks like words of an NC program.
 
-/// Does the text look like NC output, as `X[h]`, `<work>`, `M6`, `G0`? A comment does not.
+/// Whether the text looks like NC output, as `X[h]`, `<work>`, `M6` or `G0`, and not like a comment.
 pub fn looks_like_a_word(token: &str) -> bool {
     if (token.contains('[') && token.contains(']')) || (token.contains('<') && token.contains('>')) {
         return true;
@@ -8,7 +8,7 @@ pub fn looks_like_a_word(token: &str) -> bool {
     looks_like_a_code(token)
 }
 
-/// Is the text a capital letter and a number, as `M6`, `X-1.5`?
+/// Whether the text is a capital letter (or `%`) and a number, as `M6` or `X-1.5`.
 pub fn looks_like_a_code(token: &str) -> bool {
     let Some(number) = token.strip_prefix(|c: char| c.is_ascii_uppercase() || c == '%') else { return false };
     number.bytes().all(|b| b.is_ascii_digit() || b"+-.".contains(&b)) && number.bytes().any(|b| b.is_ascii_digit())

@@ -1,4 +1,4 @@
-//! A form, prepared for the rules: a list of its bodies, the output of its letters, and its settings.
+//! A form prepared for the rules: its sequences (bodies), the formats of its letters, and its settings.
 
 use crate::compile::LetterTable;
 use crate::control::{Code, Control, Meaning, Traits};
@@ -12,31 +12,31 @@ use super::blocks::{self, Block};
 
 /// A form with data that several rules need.
 pub struct View<'a> {
-    /// Files, trees and their meaning.
+    /// Files, syntax trees and their meaning.
     pub checked: &'a Checked,
-    /// The meaning of all files together.
+    /// The analysed form, from all files together.
     pub form: &'a Form,
-    /// Commands of the form.
+    /// Settings from the form's commands.
     pub settings: &'a Settings,
-    /// Output of the form's letters, in the form's own units.
+    /// How each letter is printed, in the form's own units.
     pub letters: LetterTable,
-    /// Sequences and Upons in the order of the form.
+    /// The bodies of sequences and Upons, in the order of the form.
     pub bodies: Vec<Body<'a>>,
     /// Blocks of each body, in the order of `bodies`.
     blocks: Vec<Vec<Block<'a>>>,
-    /// Letters that have a format of their own.
+    /// Whether a letter has a format of its own.
     has_format: [bool; 256],
-    /// The variables that bodies print, outside comments.
+    /// The variables that the form prints outside comments.
     printed: VarSet,
-    /// Variables that bodies print, also in comments.
+    /// Variables that the form prints, in comments too.
     told: VarSet,
-    /// Letters that words of the form begin with.
+    /// Whether a word of the form begins with this letter.
     has_words: [bool; 256],
-    /// A body has a cycle of the control.
+    /// Whether some body starts a cycle of the control.
     has_cycles: bool,
 }
 
-/// Purpose of a body.
+/// What a body is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A sequence or canned cycle.
@@ -56,7 +56,7 @@ pub struct Body<'a> {
     pub span: Span,
     /// The lines that print.
     pub lines: &'a [Line],
-    /// Selection of the lines by directives, if there are any.
+    /// The directives that select the lines, if there are any.
     pub steps: Option<&'a [Step]>,
     /// The sequence itself; `None` for an Upon.
     pub sequence: Option<&'a Sequence>,
@@ -65,7 +65,7 @@ pub struct Body<'a> {
 }
 
 impl<'a> View<'a> {
-    /// A view of a form.
+    /// Prepares a form for the rules.
     pub fn new(checked: &'a Checked) -> View<'a> {
         let form = &checked.form;
         let codes = form.settings.codes();
@@ -96,7 +96,7 @@ impl<'a> View<'a> {
             word.letter().into_iter().for_each(|letter| has_words[usize::from(letter)] = true);
         }
         for body in &bodies {
-            // variables in conditions count as printed, because they decide the output
+            // a variable in a condition counts as printed, because it influences the output
             each_formula(body.steps.unwrap_or_default(), &mut |formula, _| {
                 printed = printed.with(formula.vars());
                 told = told.with(formula.vars());
@@ -123,7 +123,7 @@ impl<'a> View<'a> {
         view
     }
 
-    /// A sequence's body.
+    /// The body of a sequence.
     pub fn body(&self, id: SequenceId) -> Option<Body<'a>> {
         self.bodies.iter().find(|body| body.purpose == Purpose::Sequence(id)).copied()
     }
@@ -133,7 +133,7 @@ impl<'a> View<'a> {
         ids.iter().filter_map(|&id| self.body(id))
     }
 
-    /// The canned cycles that make holes, with their own lines.
+    /// The canned cycles that make holes and have lines of their own.
     pub fn hole_cycles(&self) -> impl Iterator<Item = (&'a Sequence, Body<'a>)> + '_ {
         self.bodies.iter().filter_map(|body| {
             let sequence = body.sequence.filter(|sequence| sequence.id.makes_holes() && !sequence.is_none)?;
@@ -141,12 +141,12 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The canned cycles of these kinds; the kind of a Custom is that in its comment.
+    /// The canned cycles of these kinds. A Custom cycle has the kind that its comment names.
     pub fn cycles_for<'s>(&'s self, ids: &'s [SequenceId]) -> impl Iterator<Item = Body<'a>> + 's {
         self.hole_cycles().filter(|(sequence, _)| ids.contains(&serves(sequence))).map(|(_, body)| body)
     }
 
-    /// Is the form for a mill?
+    /// Whether the form is for a mill.
     pub fn is_mill(&self) -> bool {
         self.settings.machine == Machine::Mill
     }
@@ -156,17 +156,17 @@ impl<'a> View<'a> {
         self.settings.control().traits()
     }
 
-    /// The meaning of a typed code on the form's control.
+    /// The meaning of a word's code on the form's control, if the word is a code.
     pub fn meaning(&self, word: &Word) -> Option<Meaning> {
         self.settings.codes().meaning(word.code()?)
     }
 
-    /// Does a word start a cycle of the control?
+    /// Whether a word starts a cycle of the control.
     pub fn starts_cycle(&self, word: &Word) -> bool {
         self.meaning(word).is_some_and(Meaning::is_cycle)
     }
 
-    /// Is the machine flat: its rapids and lines have no depth, and nothing else prints it? This applies to torches and beams.
+    /// Whether the form never prints the depth axis. This always applies to torches and lasers.
     pub fn is_flat(&self) -> bool {
         if self.settings.beam.is_some() {
             return true;
@@ -177,32 +177,32 @@ impl<'a> View<'a> {
         self.is_mill() && all && !self.words().any(says)
     }
 
-    /// Does a cycle of the control make one hole and then end, as G74 to G76 of a lathe?
+    /// Whether a cycle of the control makes one hole and then ends, as G74 to G76 on a lathe.
     pub fn works_once(&self, code: Code) -> bool {
         !self.is_mill() && (Code::g(74)..=Code::g(76)).contains(&code)
     }
 
-    /// Are the form's own lengths in millimetres?
+    /// Whether the form's own lengths are in millimetres.
     pub fn is_metric(&self) -> bool {
         self.settings.units == UnitChoice::Mm
     }
 
-    /// The variables that bodies print, outside comments.
+    /// The variables that the form prints outside comments.
     pub fn printed(&self) -> VarSet {
         self.printed
     }
 
-    /// Does a body print this variable, also in comments?
+    /// Whether the form prints this variable, in comments too.
     pub fn tells(&self, var: VarId) -> bool {
         self.told.has(var)
     }
 
-    /// Does a body have words with this letter?
+    /// Whether a body has words with this letter.
     pub fn has_words_of(&self, letter: u8) -> bool {
         self.has_words[usize::from(letter)]
     }
 
-    /// Does a body have a cycle of the control?
+    /// Whether a body has a cycle of the control.
     pub fn has_cycles(&self) -> bool {
         self.has_cycles
     }
@@ -223,18 +223,18 @@ impl<'a> View<'a> {
         self.checked.trees.iter().flat_map(|tree| tree.sequences()).find(|node| node.name.line.span == span)
     }
 
-    /// Words as typed, except those of comments that extend to the end of the block.
+    /// The words as written in the form, without comments that extend to the end of the block.
     pub fn written(&self) -> impl Iterator<Item = &'a syntax::Word> + '_ {
         let bodies = self.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
         bodies.flat_map(|body| self.codes(&body.words))
     }
 
-    /// The words of a line before a comment that extends to the end of the block.
+    /// The words of a line that come before a comment that extends to the end of the block.
     pub fn codes<'s>(&self, words: &'s [syntax::Word]) -> &'s [syntax::Word] {
         &words[..before_remark(words, &self.settings.comment)]
     }
 
-    /// The pieces of words as typed.
+    /// The pieces of all words as written in the form.
     pub fn pieces(&self) -> impl Iterator<Item = &'a Piece> + '_ {
         self.written().flat_map(|word| &word.pieces)
     }
@@ -249,12 +249,12 @@ impl<'a> View<'a> {
         &self.blocks[body.index]
     }
 
-    /// The letter of the word in the program, after `Rename`.
+    /// The letter that the word has in the program, after `Rename`.
     pub fn printed_letter(&self, word: &Word) -> Option<u8> {
         word.letter().map(|letter| self.letters[letter].printed)
     }
 
-    /// The letter whose format applies to the word: a lower-case letter without a format uses that of its capital.
+    /// The letter whose format applies to the word. A lower-case letter without a format uses the format of its capital letter.
     pub fn format_letter(&self, word: &Word) -> Option<u8> {
         let letter = word.letter()?;
         Some(if self.has_format[usize::from(letter)] { letter } else { letter.to_ascii_uppercase() })
@@ -265,7 +265,7 @@ impl<'a> View<'a> {
         self.settings.axes.iter().position(|&axis| axis == self.letters[letter].printed)
     }
 
-    /// Does the letter turn a rotary axis?
+    /// Whether the letter turns a rotary axis.
     pub fn is_rotary(&self, letter: u8) -> bool {
         let printed = self.letters[letter].printed;
         b"ABC".contains(&printed) && self.axis(letter).is_none() && !self.settings.axes2.contains(&printed)
@@ -273,7 +273,7 @@ impl<'a> View<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Maximum number of lines that the body prints: only one branch of a condition prints.
+    /// Maximum number of lines that the body prints. Only one branch of each condition is counted.
     pub fn most_lines(&self) -> usize {
         self.steps.map_or(self.lines.len(), |steps| line_counts(steps).1)
     }
@@ -292,44 +292,44 @@ impl<'a> Body<'a> {
         self.lines.iter().flat_map(|line| &line.words)
     }
 
-    /// The line of one of its words.
+    /// The index of the line that contains this word.
     pub fn line_of(&self, word: &Word) -> usize {
         self.lines.iter().position(|line| line.words.iter().any(|own| std::ptr::eq(own, word))).unwrap_or(0)
     }
 
-    /// Does the body print this variable outside comments?
+    /// Whether the body prints this variable outside comments.
     pub fn prints(&self, var: VarId) -> bool {
         self.words().any(|word| word.printed_vars().has(var))
     }
 
-    /// Does the body print one of these variables?
+    /// Whether the body prints one of these variables outside comments.
     pub fn prints_any(&self, vars: &[VarId]) -> bool {
         vars.iter().any(|&var| self.prints(var))
     }
 
-    /// The word with one of these typed codes, as `G43`.
+    /// The word that is one of these codes, as `G43`.
     pub fn code(&self, letter: u8, codes: &[f64]) -> Option<&'a Word> {
         self.words().find(|word| word.is_code(letter, codes))
     }
 
-    /// The word that starts a cycle of the control, if any, with its code.
+    /// The word that starts a cycle of the control, with its code.
     pub fn cycle_word(&self) -> Option<(&'a Word, Code)> {
         let starts = |code: &Code| self.codes.meaning(*code).is_some_and(Meaning::is_cycle);
         self.words().find_map(|word| Some((word, word.code().filter(starts)?)))
     }
 
-    /// The first word with a typed code of this meaning.
+    /// The first word whose code has this meaning.
     pub fn meaning(&self, is: impl Fn(Meaning) -> bool) -> Option<&'a Word> {
         self.words().find(|word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(&is))
     }
 
-    /// Does the control move by itself anywhere in the body, as in a cycle?
+    /// Whether some code of the body makes the control move by itself, as a cycle does.
     pub fn moves_by_itself(&self) -> bool {
         self.words().any(|word| word.code().is_some_and(|code| self.codes.moves_by_itself(code)))
     }
 
-    /// Does a cycle of the control print one of these variables when it starts? All lines up to the end of its block are
-    /// searched, or all lines if it has no cycle code.
+    /// Whether one of these variables is printed before or in the block that starts a cycle of the control. If no block
+    /// starts a cycle, all lines of the body are searched.
     pub fn begins_with(&self, vars: &[VarId]) -> bool {
         let starts = |word: &Word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(Meaning::is_cycle);
         let cycle = self.lines.iter().position(|line| line.words.iter().any(starts));
@@ -338,7 +338,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The kind of a canned cycle: its own, or for a Custom the kind in its comment.
+/// The sequence whose kind of hole a canned cycle makes: the cycle itself, or for a Custom cycle the one that its comment names.
 pub fn serves(sequence: &Sequence) -> SequenceId {
     let kind = sequence.custom_kind().and_then(CycleKind::parse);
     kind.and_then(CycleKind::sequence).unwrap_or(sequence.id)

@@ -3,33 +3,33 @@
 /// An axis of the machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// Its travel in machine coordinates, in millimetres or degrees. `None`: not in the file.
+    /// The travel of the axis in machine coordinates, in millimetres or degrees. `None`: the machine file does not give it.
     pub travel: Option<Travel>,
-    /// Its rapid, in millimetres or degrees per minute.
+    /// Speed of rapids, in millimetres or degrees per minute.
     pub rapid: Option<f64>,
-    /// Its fastest feed, in millimetres or degrees per minute.
+    /// Highest feed, in millimetres or degrees per minute.
     pub feed: Option<f64>,
-    /// Its acceleration, in millimetres or degrees per second squared.
+    /// Acceleration, in millimetres or degrees per second squared.
     pub acceleration: Option<f64>,
-    /// The kind of a rotary axis.
+    /// For a rotary axis, the part of the machine that it turns.
     pub kind: Option<Kind>,
-    /// The direction of its rotation axis.
+    /// For a rotary axis, the direction about which it turns.
     pub about: Option<[f64; 3]>,
-    /// Its words are the angle of the table, not that of the tool: they are negated.
+    /// Whether words of the axis are angles of the table and not of the tool. They are then negated.
     pub counts_table: bool,
 }
 
 /// The travel of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Travel {
-    /// From a position to another.
+    /// Between a least and a greatest position.
     Between(f64, f64),
-    /// Endless rotation.
+    /// Rotation without limits.
     Endless,
 }
 
 impl Axis {
-    /// Least and greatest position, if there are any.
+    /// Least and greatest position, if the travel is limited.
     pub fn limits(&self) -> Option<[f64; 2]> {
         match self.travel? {
             Travel::Between(least, greatest) => Some([least, greatest]),

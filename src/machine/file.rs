@@ -1,5 +1,5 @@
-//! Reads machine files (TOML). A wrong value in a file is an error with its line and column; the message also names the check
-//! that is left out without this value.
+//! Reads machine files (TOML). A wrong value is an error with its line and column. The message also names the check that is
+//! not made without this value.
 
 use std::collections::BTreeMap;
 
@@ -13,13 +13,14 @@ use super::{Corners, LETTERS, Machine, Rotary, offsets};
 use crate::control::{self, Control, Wrong};
 use crate::toolpath::Units;
 
-/// Returns the text of a file that the machine's file names, relative to its folder, or the reason why it can't be read.
+/// A function that reads a file which the machine file names. It returns the text, or the reason why the file can't be read. Names are
+/// relative to the folder of the machine file.
 pub type Beside<'a> = dyn Fn(&str) -> Result<String, String> + 'a;
 
-/// Reads a file's text.
+/// Reads the text of a machine file.
 ///
 /// # Errors
-/// The error, with its line and column.
+/// The first error, with its line and column.
 pub fn read(name: &str, text: &str, beside: &Beside<'_>) -> Result<Machine, Wrong> {
     let reader = Reader { name, text };
     let file: File = toml::from_str(text).map_err(|error| {
@@ -140,11 +141,11 @@ impl Reader<'_> {
     }
 }
 
-/// Reads lengths in the file's units.
+/// Reads lengths that are in the file's units.
 struct Lengths<'r> {
     reader: &'r Reader<'r>,
     scale: f64,
-    /// X is a diameter.
+    /// Whether lengths along X are diameters.
     by_diameter: bool,
 }
 
@@ -258,7 +259,7 @@ impl Lengths<'_> {
         ))
     }
 
-    /// Positions of the axes in their order; missing ones are unknown.
+    /// Reads the positions of the axes, in their order. Positions that are not given are unknown.
     fn list(&self, said: &Spanned<Vec<f64>>) -> Result<[Option<f64>; 6], Wrong> {
         let values = said.get_ref();
         if values.is_empty() || values.len() > 6 || values.iter().any(|value| !value.is_finite()) {
@@ -327,7 +328,7 @@ impl Lengths<'_> {
                         let message = format!("{name}:{line}: {message}");
                         wrong(start, message, "a table is a tool.tbl of LinuxCNC, a CSV file, or a list of G10 blocks")
                     })?;
-                    // the values in the machine's file override those of the table
+                    // values in the machine file have priority over those in the tool table
                     for (number, entry) in read.0 {
                         table.0.entry(number).or_insert(entry);
                     }
@@ -377,7 +378,7 @@ impl Lengths<'_> {
     }
 }
 
-/// A finite number, with or without a decimal point.
+/// Reads a finite number, with or without a decimal point.
 fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(number) => Some(*number as f64),

@@ -1,4 +1,4 @@
-//! The structure of a machine file, as serde reads it.
+//! The structure of a machine file for serde.
 
 use std::collections::BTreeMap;
 

@@ -1,33 +1,33 @@
 //! Boxes that no rapid may enter, such as clamps and vices.
 
-/// A box in a work offset.
+/// A box that is in a work offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
-    /// Its name in the shop.
+    /// Name of the box in the shop.
     pub name: Option<String>,
-    /// The number of the work offset in which it is located.
+    /// Number of the work offset in which the box is.
     pub work: usize,
-    /// Its least X, Y, Z, in millimetres.
+    /// The least X, Y and Z of the box, in millimetres.
     pub least: [f64; 3],
-    /// Its greatest.
+    /// The greatest X, Y and Z of the box, in millimetres.
     pub greatest: [f64; 3],
 }
 
-/// A tool on a straight path: a cylinder above its tip.
+/// A tool that moves along a straight path. The tool is a cylinder above its tip.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep {
-    /// Start of the tip.
+    /// Position of the tip at the start of the path.
     pub from: [f64; 3],
-    /// End of the tip.
+    /// Position of the tip at the end of the path.
     pub to: [f64; 3],
-    /// Its radius.
+    /// Radius of the tool, in millimetres.
     pub radius: f64,
-    /// Its height above the tip; endless if unknown, because the spindle is above it.
+    /// Length of the tool above its tip. If it is unknown, it is infinite, because the spindle is above the tool.
     pub length: f64,
 }
 
 impl Fixture {
-    /// Does a tool enter the box on a straight path? Touching is not entering.
+    /// Whether a tool on a straight path enters the box. A tool that only touches the box does not enter it.
     pub fn is_entered(&self, sweep: &Sweep) -> bool {
         let Some([begin, end]) = self.at_its_height(sweep) else { return false };
         let at = |part: f64| {
@@ -36,17 +36,17 @@ impl Fixture {
         self.distance(at(begin), at(end)) < sweep.radius.max(TOUCH)
     }
 
-    /// The part of the path on which the cylinder is at the height of the box: from and to, as fractions of the path.
+    /// The part of the path on which the cylinder is at the height of the box. It is given as two fractions of the path.
     fn at_its_height(&self, sweep: &Sweep) -> Option<[f64; 2]> {
         let (mut begin, mut end) = (0.0f64, 1.0f64);
         let rise = sweep.to[2] - sweep.from[2];
-        // tip below the top, and the upper end above the bottom
+        // the tip must be below the top of the box, and the upper end of the tool above its bottom
         for (above, sign) in [
             (self.greatest[2] - TOUCH - sweep.from[2], 1.0),
             (sweep.from[2] + sweep.length - self.least[2] - TOUCH, -1.0),
         ] {
             let slope = sign * rise;
-            // slope * part < above
+            // the condition is: slope * part < above
             if slope == 0.0 || !above.is_finite() {
                 if above <= 0.0 {
                     return None;
@@ -60,7 +60,7 @@ impl Fixture {
         (begin <= end).then_some([begin, end])
     }
 
-    /// The least distance of a straight path in X and Y from the box; 0 if the path enters the box.
+    /// The least distance between a straight path and the box in X and Y. It is 0 if the path enters the box.
     fn distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let (least, greatest) = (&self.least, &self.greatest);
         if crosses(from, to, [least[0], least[1]], [greatest[0], greatest[1]]) {
@@ -80,7 +80,7 @@ impl Fixture {
 /// Tolerance for touching, in millimetres.
 const TOUCH: f64 = 1e-6;
 
-/// Is a part of the path inside the box? Computed from the parameters at which it enters and leaves each pair of sides.
+/// Whether a part of the path is inside the box. Calculated from the fractions at which the path enters and leaves each pair of sides.
 fn crosses(from: [f64; 2], to: [f64; 2], least: [f64; 2], greatest: [f64; 2]) -> bool {
     let (mut begin, mut end) = (0.0f64, 1.0f64);
     for axis in 0..2 {
@@ -98,7 +98,7 @@ fn crosses(from: [f64; 2], to: [f64; 2], least: [f64; 2], greatest: [f64; 2]) ->
     begin <= end
 }
 
-/// The distance of a point from a path.
+/// The distance between a point and a path.
 fn to_way(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     let step = [to[0] - from[0], to[1] - from[1]];
     let length = step[0] * step[0] + step[1] * step[1];
@@ -123,13 +123,13 @@ mod tests {
         assert!(!enters([-50.0, 5.0, 5.0], [50.0, 5.0, 5.0], 3.0, over), "on its top face");
         assert!(!enters([-50.0, 15.0, 0.0], [50.0, 15.0, 0.0], 5.0, over), "touches with the side of the tool");
         assert!(enters([-50.0, 14.9, 0.0], [50.0, 14.9, 0.0], 5.0, over));
-        // by a corner: 3, 4, 5
+        // past a corner, at a distance of 5 (3, 4, 5)
         assert!(!enters([23.0, 14.0, 0.0], [23.0, 14.0, -5.0], 4.99, over));
         assert!(enters([23.0, 14.0, 0.0], [23.0, 14.0, -5.0], 5.01, over));
-        // comes down beside the box, then over it, first while still high
+        // down beside the box; then into the box from above, where the tool is high at first
         assert!(!enters([10.0, 5.0, 20.0], [50.0, 5.0, -20.0], 1.0, over));
         assert!(enters([10.0, 5.0, 20.0], [20.0, 5.0, 0.0], 1.0, over));
-        // a short tool far below goes under it
+        // a short tool far below the box passes under it
         assert!(!enters([-50.0, 5.0, -100.0], [50.0, 5.0, -100.0], 1.0, 50.0));
         assert!(enters([-50.0, 5.0, -100.0], [50.0, 5.0, -100.0], 1.0, over));
     }

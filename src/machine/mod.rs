@@ -1,6 +1,7 @@
-//! A machine, as its file describes it: travels, offsets, tools, fixtures.
+//! The machine as its file describes it: travels, offsets, tools, fixtures.
 //!
-//! Lengths are in millimetres internally, in any units of the file. A value that the file does not contain is not checked.
+//! The file may use any units; here lengths are in millimetres. If the file does not contain a value, the check that needs it is not
+//! made.
 
 mod axis;
 mod file;
@@ -29,52 +30,52 @@ pub use file::{Beside, read};
 /// A machine.
 #[derive(Clone, Debug, Default)]
 pub struct Machine {
-    /// Its name in the shop.
+    /// Name of the machine in the shop.
     pub name: String,
-    /// Its control, if the file names one.
+    /// Control of the machine, if the file names it.
     pub control: Option<&'static Control>,
-    /// The units of lengths in messages about it.
+    /// The units of lengths in messages about the machine.
     pub units: Units,
-    /// It is a lathe whose X is a diameter in the file and in messages; internally X is a radius.
+    /// Whether the machine is a lathe whose X is a diameter in the file and in messages. Here X is always a radius.
     pub by_diameter: bool,
-    /// X Y Z A B C; only the axes in the file.
+    /// The axes X Y Z A B C. Axes that the file does not contain are `None`.
     pub axes: [Option<Axis>; 6],
-    /// Its behaviour in corners, for times.
+    /// How the control moves through corners, for calculating times.
     pub corners: Corners,
-    /// The position of the rotary axes, in machine coordinates.
+    /// The rotary axes and their position in machine coordinates.
     pub rotary: Option<Rotary>,
-    /// Targets of G28 and G30, in machine coordinates: millimetres and degrees.
+    /// Targets of G28 and G30 in machine coordinates, in millimetres and degrees.
     pub references: [Option<[f64; 6]>; 2],
     /// Least and greatest spindle speed, in revolutions per minute.
     pub speeds: Option<[f64; 2]>,
-    /// Seconds from standstill to the highest speed.
+    /// Seconds that the spindle needs from standstill to its highest speed.
     pub spin_up: Option<f64>,
-    /// Number of tool places in its magazine.
+    /// Number of tools that the magazine can hold.
     pub places: Option<u32>,
-    /// Seconds of a tool change, from chip to chip.
+    /// Seconds of a tool change from chip to chip (from the end of one cut to the next).
     pub change: Option<f64>,
-    /// Its tools, if the file or a file that it names lists them.
+    /// The tools, if the machine file or a file that it names lists them.
     pub tools: Option<ToolTable>,
-    /// Its work offsets by their numbers in `offsets::number`: G54 is 1, the first additional one is 10.
+    /// The work offsets, by their numbers as in `offsets::number`: G54 is 1, and the first additional offset is 10.
     pub offsets: Option<BTreeMap<usize, [Option<f64>; 6]>>,
-    /// The kinds of coolant that it has.
+    /// The kinds of coolant that the machine has.
     pub coolant: Option<Vec<Coolant>>,
-    /// Size of the program memory of its control, in bytes.
+    /// Size of the control's program memory, in bytes.
     pub bytes: Option<u64>,
-    /// The least and greatest program number.
+    /// The least and the greatest allowed program number.
     pub numbers: Option<[u32; 2]>,
     /// Boxes that no rapid may enter.
     pub fixtures: Vec<Fixture>,
 }
 
-/// The rotary axes: read and checked, and used for planes.
+/// The rotary axes. They are read and checked, and used for planes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rotary {
-    /// Letters of the axes, beginning with the axis nearest to the machine's frame.
+    /// The letters of the axes. The first is the axis nearest to the frame of the machine.
     pub order: Vec<char>,
-    /// Their intersection, in machine coordinates, in millimetres.
+    /// The point where the axes intersect, in machine coordinates, in millimetres.
     pub centre: [f64; 3],
-    /// The control keeps the tool tip in position while they turn.
+    /// Whether the control keeps the position of the tool tip while the axes turn.
     pub tip_control: bool,
 }
 
@@ -90,7 +91,7 @@ pub enum Coolant {
 }
 
 impl Coolant {
-    /// Its name in files.
+    /// Name of the kind in machine files.
     pub fn name(self) -> &'static str {
         match self {
             Coolant::Flood => "flood",
@@ -103,13 +104,13 @@ impl Coolant {
 }
 
 impl Machine {
-    /// A length for messages, in the units of the file.
+    /// A length as text for messages, in the units of the file.
     pub fn shown(&self, mm: f64) -> String {
         let parts = if self.units == Units::Inch { 1e4 } else { 1e3 };
         short(mm / self.units.in_mm(), parts)
     }
 
-    /// A position of an axis for messages: degrees are degrees.
+    /// A position of an axis as text for messages. Angles are in degrees.
     pub fn at(&self, axis: usize, value: f64) -> String {
         match axis {
             0 if self.by_diameter => self.shown(value * 2.0),
@@ -118,13 +119,13 @@ impl Machine {
         }
     }
 
-    /// The work offset with this number; `None` for an offset or an axis that the file does not contain.
+    /// The work offset with this number. `None`: the file does not contain this offset or this axis.
     pub fn offset(&self, number: usize) -> Option<&[Option<f64>; 6]> {
         self.offsets.as_ref()?.get(&number)
     }
 }
 
-/// A number without needless zeros; `parts` is the number of parts of one that are shown.
+/// A number as text, without unneeded zeros. It is rounded to 1/`parts`.
 fn short(value: f64, parts: f64) -> String {
     format!("{}", (value * parts).round() / parts + 0.0)
 }

@@ -1,29 +1,29 @@
-//! Work offsets by their names: `G54`, `G59.1`, `G54.1 P3`, `G154 P3`, `G505`, `H2`.
+//! Work offsets and their names, such as `G54`, `G59.1`, `G54.1 P3`, `G154 P3`, `G505` or `H2`.
 
 use crate::control::{Code, Control, Meaning, WorkOffset};
 
-/// The names of the usual offsets, in their order.
+/// The names of the first nine offsets, in their order.
 const USUAL: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
 
-/// Those with a part after the point, such as G59.1, in tenths.
+/// The codes of these offsets that have a number after the point, such as G59.1, in tenths.
 const USUAL_PARTS: [u16; 4] = [541, 591, 592, 593];
 
 /// Maximum number of additional offsets.
 const ADDITIONAL: usize = WorkOffset::MOST as usize;
 
-/// The number of an offset by its name on this control: G54 is 1, the first additional one is 10. A control that numbers its
-/// offsets keeps its own numbers. `None`: it has no such offset.
+/// The number of the offset with this name on this control: G54 is 1, and the first additional offset is 10. If the control
+/// numbers its offsets, its own number is used. `None`: the control has no such offset.
 pub fn number(control: &Control, text: &str) -> Option<usize> {
     let text = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
     (1..=USUAL.len() + ADDITIONAL).find(|number| names(control, *number).contains(&text))
 }
 
-/// The name of an offset in programs of this control.
+/// The name of an offset in programs for this control.
 pub fn name(control: &Control, number: usize) -> String {
     names(control, number).swap_remove(0)
 }
 
-/// All names of an offset, the usual one first.
+/// All names of an offset. The most common name is first.
 fn names(control: &Control, number: usize) -> Vec<String> {
     if let Some(letter) = counted(control) {
         return vec![format!("{}{number}", char::from(letter))];
@@ -41,7 +41,7 @@ fn names(control: &Control, number: usize) -> Vec<String> {
             _ => {}
         }
     }
-    // the control's own name comes first, the name on other controls last
+    // the name on this control comes first, the name on other controls last
     names.sort_by_key(|name| name.starts_with("G54.1 "));
     if names.is_empty() {
         names.push(USUAL.get(number.wrapping_sub(1)).map_or(format!("G54.1 P{additional}"), |name| (*name).to_owned()));
@@ -49,7 +49,7 @@ fn names(control: &Control, number: usize) -> Vec<String> {
     names
 }
 
-/// The letter of the offset number on a control that numbers its offsets: E on a FADAL, H on an Okuma.
+/// The letter with which the control selects an offset by its number: E on a FADAL, H on an Okuma. `None`: it selects offsets by codes.
 fn counted(control: &Control) -> Option<u8> {
     let by_code = || {
         [150, 2470].into_iter().find_map(|tenths| match control.row(Code { letter: b'G', tenths })?.runs.work? {

@@ -1,30 +1,30 @@
-//! The speeds of a machine, for the times of programs.
+//! The speeds and accelerations of a machine, for calculating the times of programs.
 
 use super::{LETTERS, Machine};
 use crate::control::{Control, Rules};
 use crate::times::{AxisRates, Corner, PathMode, Rates};
 
-/// How far a path may leave a corner if the file contains no value: Grbl's own `$11`, in millimetres.
+/// How far a path may deviate at a corner if the file does not contain a value, in millimetres. It is the default of Grbl's `$11`.
 const DEVIATION: f64 = 0.01;
-/// Number of blocks in Grbl's planner: one block of its ring of 16 stays free.
+/// Number of blocks that Grbl plans ahead: its buffer has 16 blocks, one of which stays free.
 const GRBL_AHEAD: usize = 15;
-/// Number of blocks on other controls if the file contains none: our own choice.
+/// Number of blocks that other controls plan ahead if the file does not contain a value. This is our own choice.
 const AHEAD: usize = 200;
 
-/// The behaviour of a control in corners.
+/// How a control moves through corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Corners {
-    /// How far the path may leave a corner, in millimetres.
+    /// How far the path may deviate at a corner, in millimetres.
     pub deviation: Option<f64>,
     /// Number of blocks that the control plans ahead.
     pub ahead: Option<usize>,
 }
 
 impl Machine {
-    /// Speeds and accelerations.
+    /// The speeds and accelerations of the machine.
     ///
     /// # Errors
-    /// The missing values, in words.
+    /// Some values are missing. The error names them.
     pub fn rates(&self) -> Result<Rates, String> {
         let missing = |what: &str, of: fn(&super::Axis) -> Option<f64>| {
             let lacks = |axis: &usize| self.axes[*axis].as_ref().is_some_and(|axis| of(axis).is_none());
@@ -50,7 +50,7 @@ impl Machine {
         let rules = self.control.map(Control::rules);
         let ahead = self.corners.ahead.unwrap_or(if rules == Some(Rules::Grbl) { GRBL_AHEAD } else { AHEAD });
         let corner = match (rules, self.corners.deviation) {
-            // until the program specifies the accuracy
+            // valid until the program sets an accuracy
             (Some(Rules::Linuxcnc | Rules::Emc2), tolerance) => Corner::Linuxcnc(PathMode::Blend(tolerance)),
             (_, deviation) => Corner::Deviation(deviation.unwrap_or(DEVIATION)),
         };

@@ -1,10 +1,10 @@
-//! A text about a machine's file: its values, and the checks that it leaves out.
+//! Describes a machine file as text: its values, and the checks that are not made because of missing values.
 
 use std::fmt::Write as _;
 
 use super::{Axis, LETTERS, Machine, Travel};
 
-/// The known values of a machine, for people.
+/// What is known about a machine, as text for the user.
 pub fn summary(machine: &Machine) -> String {
     let mut text = String::new();
     let mut missing: Vec<String> = Vec::new();

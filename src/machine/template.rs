@@ -1,8 +1,8 @@
-//! The machine file that `new --machine` writes.
+//! The machine file that `postform new --machine` writes.
 
 use crate::control::Control;
 
-/// A commented file for a machine of this control.
+/// A commented machine file for a machine with this control.
 pub fn template(control: &Control) -> String {
     let offset = super::offsets::name(control, 1);
     let further = super::offsets::name(control, 10);
@@ -70,7 +70,7 @@ units = \"mm\"                        # units of all lengths in this file: mm or
     if !control.is_lathe() {
         return whole;
     }
-    // X is a diameter, and there is no Y
+    // on a lathe X is a diameter, and there is no Y
     let whole = whole.replace("[axes.Y]\n# travel = [-406.0, 0.0]\n", "");
     let whole = whole.replace(
         "[axes.X]\n",

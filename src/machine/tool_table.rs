@@ -1,4 +1,4 @@
-//! Tool tables: LinuxCNC tables, CSV tables, and lists of G10 as Haas and Fanuc print them.
+//! Reads tool tables: those of LinuxCNC, CSV files, and lists of G10 as Haas and Fanuc print them.
 
 use std::collections::BTreeMap;
 
@@ -7,33 +7,33 @@ use std::collections::BTreeMap;
 pub struct ToolTable(pub BTreeMap<u32, Entry>);
 
 impl ToolTable {
-    /// The length in a register, which has the number of its tool; negated if the register is negative.
+    /// The length in a register. The register has the number of its tool. If it is negative, the length is negated.
     pub fn length(&self, register: i32) -> Option<f64> {
         let length = self.0.get(&register.unsigned_abs())?.length?;
         Some(if register < 0 { -length } else { length })
     }
 }
 
-/// The values of a tool in a table, in millimetres.
+/// The values of one tool, in millimetres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Entry {
-    /// From the gauge line to the tip: the value that G43 adds.
+    /// Length from the gauge line to the tip. G43 adds this value.
     pub length: Option<f64>,
-    /// Its diameter.
+    /// Diameter of the tool.
     pub diameter: Option<f64>,
-    /// Its name in the shop.
+    /// Name of the tool in the shop.
     pub name: Option<String>,
-    /// Offset of its tip from the spindle along X and Y, in LinuxCNC's table.
+    /// Offset of the tip from the spindle axis along X and Y. Only tables of LinuxCNC contain it.
     pub aside: [f64; 2],
 }
 
-/// An error in a table: the line from 1, and the reason.
+/// An error in a table: the number of the line from 1, and the reason.
 pub type Wrong = (usize, String);
 
-/// Reads a table in the format that its text shows; `scale` is the number of millimetres in a unit of the table.
+/// Reads a table. Its format is recognised from its text. `scale`: the number of millimetres in a unit of the table.
 ///
 /// # Errors
-/// The line and the reason.
+/// The line of the first error, and the reason.
 pub fn read(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines =
@@ -54,7 +54,7 @@ pub fn read(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
     }
 }
 
-/// `T5 P5 D10 Z123.4 ;end mill`.
+/// Reads a table of LinuxCNC, with lines such as `T5 P5 D10 Z123.4 ;end mill`.
 fn linuxcnc<'t>(lines: impl Iterator<Item = (usize, &'t str)>, scale: f64) -> Result<ToolTable, Wrong> {
     let mut table = ToolTable::default();
     for (at, line) in lines {
@@ -72,7 +72,7 @@ fn linuxcnc<'t>(lines: impl Iterator<Item = (usize, &'t str)>, scale: f64) -> Re
                 'D' => entry.diameter = Some(length().ok_or_else(wrong)?),
                 'X' => entry.aside[0] = length().ok_or_else(wrong)?,
                 'Y' => entry.aside[1] = length().ok_or_else(wrong)?,
-                // pockets, other axes, angles, orientation
+                // pockets, other axes, angles and orientation are checked but not used
                 'P' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W' | 'I' | 'J' | 'Q' => {
                     length().ok_or_else(wrong)?;
                 }
@@ -90,7 +90,8 @@ fn linuxcnc<'t>(lines: impl Iterator<Item = (usize, &'t str)>, scale: f64) -> Re
     Ok(table)
 }
 
-/// Reads a table whose head names the columns: `number,length,diameter,name`. The separator may also be a semicolon or a tab.
+/// Reads a table whose first line names the columns, such as `number,length,diameter,name`. The separator may also be a semicolon or a
+/// tab.
 fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<ToolTable, Wrong> {
     let mut table = ToolTable::default();
     let Some((at, head)) = lines.next() else { return Ok(table) };
@@ -110,7 +111,7 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
         let value = |column: Option<usize>, what: &str| match cell(column) {
             None => Ok(None),
             Some(text) => {
-                // decimal commas such as 12,5 in a table with semicolons
+                // a table with semicolons may have decimal commas, as in 12,5
                 let text = if between == ',' { text.clone() } else { text.replace(',', ".") };
                 let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
                 value.map(|value| Some(value * scale)).ok_or_else(|| (at, format!("`{text}` is not a {what}")))
@@ -130,13 +131,13 @@ fn csv(lines: &mut dyn Iterator<Item = (usize, &str)>, scale: f64) -> Result<Too
     Ok(table)
 }
 
-/// A cell without the quotation marks around it; a single mark, such as an inch mark, stays.
+/// A cell without quotation marks around it. A single mark, such as an inch mark, is kept.
 fn unquoted(cell: &str) -> &str {
     cell.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(cell)
 }
 
-/// Reads the lengths in `G10 L10 P5 R123.4`. `L12` is skipped, because the list does not show whether it is a radius or a
-/// diameter. `L11` and `L13` are wear, which is added to the length.
+/// Reads lengths from lines such as `G10 L10 P5 R123.4`. `L12` is skipped, because the list does not show whether it is a
+/// radius or a diameter. `L11` and `L13` are wear. The wear of a length is added to the length.
 fn g10(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
     let mut table = ToolTable::default();
     let mut wear: BTreeMap<u32, f64> = BTreeMap::new();

@@ -6,12 +6,12 @@ use crate::toolpath::{Direction, FeedMode, Plane, Side, StopKind, Units};
 /// X Y Z A B C in program coordinates: lengths in the program's units, angles in degrees.
 pub type Position = [f64; 6];
 
-/// One action with its block.
+/// One action, with the line of its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
     /// Line of the program, from 1.
     pub line: u64,
-    /// Whether a canned cycle makes the action.
+    /// Whether the action is part of a canned cycle.
     pub by_cycle: bool,
     /// The action itself.
     pub action: Action,
@@ -24,12 +24,12 @@ pub enum Action {
     Rapid {
         /// End of the move.
         to: Position,
-        /// Axes whose end is a position in machine coordinates, as bits. Their position in the work is known only at the
-        /// machine.
+        /// As bits, the axes whose end is a machine position. Their position in the work offset is unknown, because it
+        /// depends on values that only the machine has.
         machine: u8,
-        /// Those of the `machine` axes that have since moved by increments, so that their position is unknown.
+        /// Those of the `machine` axes that have moved by increments since then. Their machine position is unknown, too.
         astray: u8,
-        /// Those of the `machine` axes whose machine position is given in the program, by G28 or G53.
+        /// Those of the `machine` axes whose machine position the program contains, by G28 or G53.
         placed: u8,
     },
     /// A straight feed move.
@@ -38,92 +38,92 @@ pub enum Action {
         to: Position,
         /// The feed, in the feed mode's unit.
         feed: f64,
-        /// For a thread: the feed per turn of the spindle, which the feed follows.
+        /// For a move that follows the spindle, such as a thread: the feed per revolution.
         lead: Option<f64>,
-        /// Axes whose position is known only at the machine, as bits.
+        /// As bits, the axes whose position is known only at the machine.
         machine: u8,
-        /// Those of the `machine` axes that this move takes to a machine position (G53 under G1).
+        /// Those of the `machine` axes that this move takes to a machine position, by G53 with G1.
         home: u8,
     },
     /// An arc or helix at feed.
     Arc(Turn),
     /// A dwell in seconds.
     Dwell(f64),
-    /// The spindle is switched: direction, and speed in revolutions per minute or in the unit of the surface speed.
+    /// The spindle gets a new state: its direction, and its speed in revolutions per minute or in the unit of the surface speed.
     Spindle(Rotation, f64),
     /// The spindle is stopped at an angle.
     Orient(f64),
     /// A stop.
     Stop(StopKind),
-    /// The program is over.
+    /// The program has ended.
     End,
-    /// A tool is in the spindle.
+    /// A tool is now in the spindle.
     Tool(f64),
     /// Coolant: flood, mist or off.
     Coolant(Cooling),
-    /// The units from here on.
+    /// The units of the following blocks.
     Units(Units),
-    /// The feed mode from here on.
+    /// The feed mode of the following blocks.
     FeedMode(FeedMode),
     /// The plane of arcs, cycles and compensation.
     Plane(Plane),
-    /// Work offset: 54, 59.1, or 1540 + the number for a Haas.
+    /// The work offset as a number: 54, 59.1, or for a Haas 1540 plus the number of the offset.
     Work(f64),
-    /// Tool length offset by its register; `None`: off.
+    /// The tool length offset as its register; `None`: off.
     Length(Option<f64>),
-    /// Cutter compensation: its side and register; `None`: off.
+    /// Cutter compensation as its side and register; `None`: off.
     Compensation(Option<(Side, Option<f64>)>),
     /// Constant surface speed; `None`: revolutions per minute.
     SurfaceSpeed(Option<f64>),
-    /// Highest speed of the spindle.
+    /// The maximum spindle speed.
     SpeedLimit(f64),
     /// The coordinate frame was moved by G10, G52 or G92.
     Frame,
-    /// A hole of a canned cycle. Its moves follow as actions.
+    /// A hole of a canned cycle. The moves of the hole follow as separate actions.
     Hole(Box<Drilling>),
-    /// How the next moves cut a thread.
+    /// The data of the thread that the next moves cut.
     Threading(Threading),
-    /// A thread in passes. Its moves follow as actions.
+    /// A thread that is cut in passes. The moves of the passes follow as separate actions.
     Passes(Box<Passes>),
-    /// The cycle is no longer in force.
+    /// The canned cycle has ended.
     CycleOff,
-    /// A comment: its first and last column in the line.
+    /// A comment: the columns of its start and its end in the line.
     Comment(usize, usize),
-    /// A code with its meaning that moves nothing and is not simulated, such as M10 or G8.
+    /// A code that moves nothing and is not simulated, such as M10 or G8, with its meaning.
     LeftOut(Code, Meaning),
-    /// The block begins with a slash and is run.
+    /// The block begins with a slash, and is run.
     BlockDelete,
 }
 
-/// Data of a lathe's thread besides its moves.
+/// Data of a thread on a lathe, besides its moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Threading {
-    /// Angle of the spindle from its mark when the cut begins, in degrees.
+    /// Angle in degrees between the mark of the spindle and the start of the cut.
     pub start: f64,
-    /// The angle of the flanks in degrees. The infeed of the passes follows the flanks.
+    /// The angle between the flanks in degrees. The infeed of the passes follows the flanks.
     pub flanks: f64,
-    /// Distance before the end at which the tool begins to leave the thread, in leads.
+    /// Distance from the end of the thread at which the tool begins to move out, as a number of leads.
     pub pull_out: f64,
 }
 
-/// A thread in passes, such as G76 of a lathe. Positions are a radius and Z, in the units in force.
+/// A thread that is cut in passes, for example by G76 on a lathe. Positions are a radius and Z, in the active units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passes {
     /// Start of the thread at its crest.
     pub from: [f64; 2],
     /// End of the thread at its crest.
     pub to: [f64; 2],
-    /// Distance per turn of the spindle, in the unit of the feed mode.
+    /// Distance per revolution of the spindle, in the unit of the feed mode.
     pub lead: f64,
     /// Height of the thread, on the radius; negative for an internal thread.
     pub depth: f64,
-    /// Depth of the first cut, on the radius.
+    /// Depth of the first pass, on the radius.
     pub first: f64,
-    /// Smallest cut, on the radius.
+    /// Smallest depth of a pass, on the radius.
     pub least: f64,
-    /// Allowance for the last cut, on the radius.
+    /// Allowance for the last pass, on the radius.
     pub allowance: f64,
-    /// Number of passes at full depth after the regular cuts.
+    /// Number of passes at full depth after the other passes.
     pub last: u32,
     /// The radius at the start minus the radius at the end.
     pub taper: f64,
@@ -148,7 +148,7 @@ impl Rotation {
         }
     }
 
-    /// The opposite direction; a stopped spindle stays stopped.
+    /// The opposite direction; a stopped spindle remains stopped.
     pub fn reversed(self) -> Rotation {
         match self {
             Rotation::Cw => Rotation::Ccw,
@@ -158,7 +158,7 @@ impl Rotation {
     }
 }
 
-/// Coolant codes.
+/// The states of the coolant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Cooling {
@@ -183,21 +183,21 @@ impl Cooling {
 pub struct Turn {
     /// End of the arc.
     pub to: Position,
-    /// Centre of the arc, X Y Z. Its coordinate across the plane is that of the start.
+    /// Centre of the arc, X Y Z. Along the axis perpendicular to the plane, it has the coordinate of the start.
     pub center: [f64; 3],
     /// The plane of the arc.
     pub plane: Plane,
-    /// Direction of the arc, seen from the positive end of the axis across the plane.
+    /// Direction of the arc, seen from the positive end of the axis perpendicular to the plane.
     pub direction: Direction,
-    /// Full turns before the arc stops at its end.
+    /// Number of full turns in addition to the part of a turn to the end.
     pub turns: u32,
     /// Feed of the arc, in the feed mode's unit.
     pub feed: f64,
-    /// The axes, as bits, whose end position is an unknown machine position.
+    /// As bits, the axes whose end is an unknown machine position.
     pub machine: u8,
 }
 
-/// Which heights of a hole are given in the program. The others are known only at the machine.
+/// The heights of a hole that the program contains. All other heights are known only at the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {
     /// All heights.
@@ -209,7 +209,7 @@ pub enum Heights {
     Unknown,
 }
 
-/// The code of a canned cycle, and how it moves.
+/// The code of a canned cycle, and its motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
     /// The code as in the program.
@@ -221,37 +221,37 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// The cycle of a row of the code table; `None`: the row is not a cycle.
+    /// The cycle of a row of the code table; `None`: the code of the row is not a cycle.
     pub fn of(row: &Row) -> Option<Cycle> {
         Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells() })
     }
 }
 
-/// A hole of a canned cycle with all its words resolved.
+/// A hole of a canned cycle, with the values of all words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drilling {
     /// The cycle of the hole.
     pub cycle: Cycle,
-    /// The position above the hole, at the clear level. The height is ignored while the cycle is being resolved.
+    /// The position above the hole at the return level. While the words of the cycle are read, its height is not used yet.
     pub at: Position,
-    /// The plane across the hole.
+    /// The plane perpendicular to the hole.
     pub plane: Plane,
     /// Height of the R plane, where the feed begins, as a position of the depth axis.
     pub r: f64,
     /// Height of the bottom, as a position of the depth axis.
     pub bottom: f64,
-    /// Return level of the tool.
+    /// The return level: the height to which the tool retracts.
     pub clear: f64,
     /// Dwell at the bottom in seconds.
     pub dwell: f64,
-    /// Length of a peck.
+    /// Depth of a peck.
     pub peck: f64,
-    /// Shift of a boring cycle in the plane.
+    /// Sideways shift of the tool in the plane, for a boring cycle.
     pub shift: [f64; 2],
-    /// Height at which a back bore ends.
+    /// Height at which the cut of a back bore ends.
     pub level: f64,
     /// Feed into the hole, in the feed mode's unit.
     pub feed: f64,
-    /// Which of the heights are given in the program.
+    /// The heights that the program contains.
     pub heights: Heights,
 }

@@ -1,4 +1,4 @@
-//! G2 and G3.
+//! Arcs: G2 and G3.
 
 use super::action::{Action, Turn};
 use super::block::Block;
@@ -10,7 +10,7 @@ use crate::control::Tolerance;
 use crate::diag::Code;
 use crate::toolpath::{Direction, Plane, Units};
 
-/// The axes of a plane as indexes: first, second, and the axis across the plane.
+/// The indexes of the axes of a plane: the first axis, the second axis, and the axis perpendicular to the plane.
 pub(crate) fn axes_of(plane: Plane) -> [usize; 3] {
     match plane {
         Plane::Xy => [0, 1, 2],
@@ -19,11 +19,11 @@ pub(crate) fn axes_of(plane: Plane) -> [usize; 3] {
     }
 }
 
-/// Letters of an arc's centre, by axis.
+/// The letters of the words for the centre of an arc, by axis.
 pub(super) const CENTERS: [u8; 3] = *b"IJK";
 
 impl State {
-    /// An arc or helix.
+    /// Makes an arc or helix.
     pub(super) fn arc(&mut self, direction: Direction, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let [first, second, across] = axes_of(self.modes.plane);
@@ -85,7 +85,8 @@ impl State {
                 return refuse(Code::PN018, format!("an arc with P{p}"), "only LinuxCNC has P, the number of turns");
             }
         };
-        // after these turns, the arc sweeps less than a full turn unless it ends where it begins
+        // the arc makes these full turns and then sweeps less than a full turn; if it ends at its start, it makes one
+        // more full turn
         let machine = self.place.at_machine;
         let turn = Turn { to, center, plane: self.modes.plane, direction, turns: turns as u32 - 1, feed, machine };
         self.place.position = to;
@@ -110,9 +111,9 @@ impl State {
     }
 }
 
-/// The centre of an arc from its radius. A negative radius means the longer way round.
+/// The centre of an arc with the given radius. With a negative radius, the arc takes the longer of the two ways around.
 ///
-/// `slack`: the amount by which the radius may be too short.
+/// The radius may be too short by `slack`.
 pub(super) fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Direction, slack: f64) -> Done<[f64; 2]> {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let chord = dx.hypot(dy);
@@ -125,7 +126,7 @@ pub(super) fn center_of(from: [f64; 2], to: [f64; 2], radius: f64, direction: Di
         return refuse(Code::PN009, message, format!("R must be at least {half:.5}"));
     }
     let height = (radius * radius - half * half).max(0.0).sqrt();
-    // the centre is on the left of the chord if the shorter way round is counter-clockwise
+    // the centre is to the left of the chord if the shorter of the two arcs is counterclockwise
     let left = (direction == Direction::Ccw) == (radius > 0.0);
     let side = if left { 1.0 } else { -1.0 };
     Ok([from[0] + dx / 2.0 - side * height * dy / chord, from[1] + dy / 2.0 + side * height * dx / chord])

@@ -1,4 +1,4 @@
-//! Data that a simulator gets before the first block, and questions about the block that was run last.
+//! The settings that a simulator gets before its first block, and queries about the block that was run last.
 
 use super::action::Position;
 use super::codes::Group;
@@ -9,25 +9,25 @@ use super::state::State;
 use crate::control::{Control, Meaning};
 
 impl Simulator<'_> {
-    /// Sets the units that are in force until the program sets its own. Call this before the first block.
+    /// Sets the units that are active until the program sets units itself. Call this before the first block.
     pub fn begin_in(&mut self, units: crate::toolpath::Units) {
         self.state.begin_in(units);
     }
 
-    /// Sets the machine's work offsets by number, and its positions for G28 and G30, in machine coordinates (millimetres
-    /// and degrees). Call this before the first block.
+    /// Sets the work offsets of the machine by number, and its positions for G28 and G30. All are in machine
+    /// coordinates (millimetres and degrees). Call this before the first block.
     pub fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         self.state.begin_on(offsets, homes);
     }
 
-    /// Sets how many programs come before the main one. They are subprograms of the control. Call this before the first
-    /// block.
+    /// Sets the number of programs before the main one in the input. They are subprograms of the control. Call this
+    /// before the first block.
     pub fn begin_behind(&mut self, programs: usize) {
         self.passing = if programs == 0 { 0 } else { programs + 1 };
     }
 
-    /// Runs the program as a lathe program, with the lathe control of the same maker. Call this before the first block. A
-    /// machine parameter decides whether X is a diameter; on LinuxCNC, G7 does.
+    /// Runs the program as a lathe program, with the lathe control of the same maker. Call this before the first block.
+    /// X is a diameter if `by_diameter` is set, as by a machine parameter; on LinuxCNC, G7 makes X a diameter.
     pub fn is_of_lathe(&mut self, by_diameter: bool) {
         let units = self.state.units();
         let control = self.state.settings.control.of_lathe();
@@ -36,7 +36,7 @@ impl Simulator<'_> {
         self.parameters = Parameters::new(control);
     }
 
-    /// Runs the program as a wire EDM program, with the wire control of the same maker. Call this before the first block.
+    /// Runs the program as a wire EDM program, with the wire EDM control of the same maker. Call this before the first block.
     pub fn is_of_wire(&mut self) {
         let units = self.state.units();
         let control = self.state.settings.control.of_wire();
@@ -45,13 +45,13 @@ impl Simulator<'_> {
         self.parameters = Parameters::new(control);
     }
 
-    /// The reference point that the last block moves to: 0 is the point of G28, 1 that of G30.
+    /// The reference point to which the last block moves: 0 is the point of G28, 1 is the point of G30.
     pub fn reference_point(&self) -> Option<usize> {
         let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference)?;
         Some(usize::from(row.runs.point == Some(2)))
     }
 
-    /// How far the path may deviate from its corners, from P of the last block.
+    /// The allowed distance of the path from its corners: P of the last block.
     pub fn path_tolerance(&self) -> Option<f64> {
         self.block.get(b'P').filter(|_| self.block.row(Group::Path).is_some())
     }
@@ -76,7 +76,7 @@ impl Simulator<'_> {
         self.block.get(b'T').is_some()
     }
 
-    /// Whether the last block sets the units, and whether it sets the feed mode.
+    /// Two values: whether the last block sets the units, and whether it sets the feed mode.
     pub fn says_modes(&self) -> [bool; 2] {
         [Group::Units, Group::FeedMode].map(|group| self.block.row(group).is_some())
     }
@@ -91,7 +91,7 @@ impl Simulator<'_> {
         self.block.g_meaning(Group::Length) == Some(Meaning::LengthAdd)
     }
 
-    /// Whether the last block moves a frame so that the tool is at the values of the block.
+    /// Whether the last block moves a frame so that the tool has the position that the block contains.
     pub fn presets(&self) -> bool {
         match self.block.g_meaning(Group::Once) {
             Some(Meaning::Preset) => true,
@@ -100,12 +100,12 @@ impl Simulator<'_> {
         }
     }
 
-    /// Whether axis words are absolute positions (not increments).
+    /// Whether axis words are absolute positions, not increments.
     pub fn is_absolute(&self) -> bool {
         self.state.modes.absolute
     }
 
-    /// The number of the next line, unless a subprogram or loop jumps elsewhere.
+    /// The number of the next line, if no subprogram or loop jumps elsewhere.
     pub fn next_line(&self) -> u64 {
         self.at.line + 1
     }
@@ -120,7 +120,7 @@ impl Simulator<'_> {
         self.state.settings.control
     }
 
-    /// Whether the last block has an S word and neither starts nor stops the spindle.
+    /// Whether the last block has an S word but neither starts nor stops the spindle.
     pub fn only_says_speed(&self) -> bool {
         let taps = self.block.row(Group::Motion).is_some_and(|row| row.meaning == Meaning::RigidTap);
         let switches = self.block.m().any(|(_, row)| row.stops_spindle || row.meaning.turns_spindle());

@@ -1,4 +1,4 @@
-//! One block: its words with their values, its codes, and the check that they may be used together.
+//! A block: its words with their values, its codes, and the check that they may be used together.
 
 use super::call::{Call, Pattern};
 use super::codes::{AXES, CHECKED, Group, bit};
@@ -9,7 +9,7 @@ use crate::control::{GROUPS, Meaning, Row};
 use crate::diag::Code;
 use crate::toolpath::Plane;
 
-/// The largest number of M codes that is kept for a block.
+/// The maximum number of M codes that are stored for a block.
 pub(super) const MOST: usize = 16;
 
 /// A block.
@@ -23,64 +23,64 @@ pub struct Block {
     pub whole: u32,
     /// G codes by group.
     pub(super) g: [Option<&'static Row>; GROUPS],
-    /// Whether the block has a G code.
+    /// Whether the block has a G code at all.
     pub(super) has_g: bool,
     /// Whether the block has a G code other than motions and cycles.
     pub(super) has_modes: bool,
-    /// Whether the block has a G code that is not a motion but uses the axis words.
+    /// Whether the block has a G code that uses the axis words but is not a motion.
     pub(super) takes_axes: bool,
-    /// M codes in order: the number and the control's row for it.
+    /// The M codes in their order: number, and the control's row for this number.
     m: [Option<(u16, &'static Row)>; MOST],
     m_count: usize,
-    /// Polar radius `@` and angle `^`.
+    /// The polar radius (word `@`) and the polar angle (word `^`).
     pub polar: [Option<f64>; 2],
     /// Whether the block has a `$` word.
     pub(super) spindle: bool,
-    /// The block begins with a slash.
+    /// Whether the block begins with a slash.
     pub deleted: bool,
-    /// Whether the block is a `%`.
+    /// Whether the block is a `%` line.
     pub percent: bool,
     /// Columns of the first comment, without its delimiters.
     pub comment: Option<(usize, usize)>,
-    /// Axes whose words are absolute positions, in G90 and in G91, as bits.
+    /// As bits, the axes whose words are absolute positions in every distance mode.
     pub(super) absolute: u8,
-    /// Axes whose words are increments in any distance mode, as bits.
+    /// As bits, the axes whose words are increments in every distance mode.
     pub(super) incremental: u8,
-    /// The tool to be preselected after the tool change of this block.
+    /// The tool that is preselected after the tool change of this block.
     pub(super) next_tool: Option<f64>,
-    /// The number of the work offset, selected by a word that is not a G code.
+    /// The number of the work offset, if a word that is not a G code selects one.
     pub(super) work: Option<f64>,
-    /// Full turns of the block's arc before its end.
+    /// Number of full turns that the arc of the block makes before its end.
     pub(super) turns: u32,
-    /// A cycle that is called at the end of the block's motion.
+    /// The call of a cycle at the end of the block's motion.
     pub(super) call: Option<Call>,
-    /// The holes of a cycle that the block makes.
+    /// The holes of a cycle that this block makes.
     pub(super) pattern: Option<Box<Pattern>>,
-    /// Program flow: subprograms and loops.
+    /// The effect of the block on the program flow: subprograms and loops.
     pub flow: Option<Flow>,
     pub(super) settings: Vec<(Target, f64)>,
     pub(super) is_empty: bool,
-    /// Whether the block is of the usual kind that `plain.rs` runs.
+    /// Whether the block has the simple form that `plain.rs` runs.
     pub(super) plain: bool,
-    /// Whether a comment may run to the end of its line without a closing bracket.
+    /// Whether a comment may end at the end of its line, without a closing bracket.
     pub(super) open_comments: bool,
-    /// The line without the characters that the control drops before reading it.
+    /// The text of the line, without characters that the control drops before it reads the line.
     pub text: Vec<u8>,
 }
 
 impl Block {
-    /// A word's value.
+    /// The value of a word; `None`: the block does not have the word.
     #[inline]
     pub fn get(&self, letter: u8) -> Option<f64> {
         (self.given & bit(letter) != 0).then(|| self.values[usize::from(letter - b'A')])
     }
 
-    /// Changes the value of a word that the block has.
+    /// Changes the value of a word. The block must have the word.
     pub fn set(&mut self, letter: u8, value: f64) {
         self.values[usize::from(letter - b'A')] = value;
     }
 
-    /// Whether the block has one of these words.
+    /// Whether the block has at least one of these words.
     #[inline]
     pub fn has(&self, words: u32) -> bool {
         self.given & words != 0
@@ -113,7 +113,7 @@ impl Block {
         self.has_modes
     }
 
-    /// The M codes: their numbers and the control's rows.
+    /// The M codes in their order: number, and the control's row for this number.
     #[inline]
     pub fn m(&self) -> impl Iterator<Item = (u16, &'static Row)> {
         self.m[..self.m_count].iter().flatten().copied()
@@ -141,18 +141,18 @@ impl Block {
         self.given & AXES != 0 || self.polar != [None; 2]
     }
 
-    /// Whether a code that is not a motion uses the axis words.
+    /// Whether the axis words belong to a code that is not a motion.
     #[inline]
     pub fn axes_are_taken(&self) -> bool {
         self.takes_axes
     }
 
-    /// Whether the block has only spaces, comments and a number.
+    /// Whether the block contains nothing but spaces, comments and a block number.
     pub fn is_empty(&self) -> bool {
         self.is_empty
     }
 
-    /// Empties the block before the next line is read.
+    /// Clears the block before the next line is read.
     #[inline]
     pub fn clear(&mut self) {
         self.given = 0;
@@ -181,7 +181,7 @@ impl Block {
         self.values[usize::from(letter - b'A')] = value;
     }
 
-    /// Adds a G code. Returns whether it is the first of its group.
+    /// Adds a G code. Returns whether it is the first code of its group.
     pub fn put_g(&mut self, row: &'static Row, its_group: Group, takes_axes: bool) -> bool {
         self.is_empty = false;
         self.has_g = true;
@@ -190,7 +190,7 @@ impl Block {
         self.g[its_group as usize].replace(row).is_none()
     }
 
-    /// Adds an M code. Returns whether the block had room for it.
+    /// Adds an M code. Returns `false` if the block already has the maximum number.
     pub fn put_m(&mut self, number: u16, row: &'static Row) -> bool {
         self.is_empty = false;
         let place = self.m.get_mut(self.m_count);
@@ -198,8 +198,8 @@ impl Block {
         place.map(|place| *place = Some((number, row))).is_some()
     }
 
-    /// Checks that every word is used when `motion` is the code of the motion. `free`: letters that need no code, as
-    /// bits.
+    /// Checks that every word of the block is used by a code. `motion` is the code of the motion. `free`: as bits, the
+    /// letters that need no code.
     ///
     /// # Errors
     /// A word is not used by any code.

@@ -1,4 +1,4 @@
-//! The moves of a canned cycle at its hole, once the tool is above the hole.
+//! The moves of a canned cycle at a hole, from the moment when the tool is above the hole.
 
 use super::action::{Action, Drilling, Heights, Position, Rotation};
 use super::arcs::axes_of;
@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
 
 impl Drilling {
-    /// The position above the hole at a height.
+    /// The position in the axis of the hole at a height.
     #[inline]
     pub fn over(&self, height: f64) -> Position {
         let mut to = self.at;
@@ -18,7 +18,7 @@ impl Drilling {
         to
     }
 
-    /// The position beside the hole at a height.
+    /// The position at a height, shifted sideways in the plane by the shift of the hole.
     fn beside(&self, height: f64) -> Position {
         let mut to = self.over(height);
         let [first, second, _] = axes_of(self.plane);
@@ -29,12 +29,12 @@ impl Drilling {
 }
 
 impl State {
-    /// The cycle switches the spindle.
+    /// Switches the spindle for a cycle.
     fn turn(&mut self, rotation: Rotation, out: &mut Out<'_>) {
         out.push(Action::Spindle(rotation, self.drive.speed));
     }
 
-    /// The distance above the last depth at which the rapid of a peck stops.
+    /// The rapid into a hole after a peck stops at this distance above the depth reached so far.
     pub(super) fn back_off(&self) -> f64 {
         let inch = self.modes.units == Units::Inch;
         self.settings.back_off.unwrap_or(match (self.control.is_linuxcnc(), inch) {
@@ -45,7 +45,7 @@ impl State {
         })
     }
 
-    /// Records that the tool comes to a height of the hole. `clear`: the height is the return level.
+    /// Records that the tool moves to a height of the hole. `clear`: the height is the return level.
     fn comes_to(&mut self, hole: &Drilling, clear: bool) {
         let [_, _, across] = axes_of(hole.plane);
         match hole.heights {
@@ -89,8 +89,8 @@ impl State {
         self.place.rapid_to(hole.beside(hole.clear), out);
     }
 
-    /// Drills a hole, from R to the clear level above it. `from`: the hole was begun earlier, and its next peck ends at
-    /// this depth. Returns the depth at which the next peck ends if one call has made enough actions.
+    /// Makes the moves of a hole, from R to the return level. `from`: an earlier call has begun the hole, and the next
+    /// peck ends at this depth. If this call has made enough actions, it returns the depth at which the next peck ends.
     pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let emc2 = self.control.rules() == Rules::Emc2;
         match hole.cycle.motions {
@@ -108,7 +108,7 @@ impl State {
                 if hole.cycle.dwells {
                     out.push(Action::Dwell(hole.dwell));
                 }
-                // LinuxCNC feeds all the way out only in cycles that dwell; the manual of EMC2 always does
+                // LinuxCNC feeds out to the return level only in cycles that dwell; by its manual, EMC2 always does
                 if emc2 || hole.cycle.dwells && self.control.is_linuxcnc() {
                     self.feed_clear(hole, out);
                 } else {
@@ -148,7 +148,7 @@ impl State {
         Ok(None)
     }
 
-    /// G73 breaks the chip, G83 retracts to clear the chip.
+    /// Drills in pecks: G73 retracts a little to break the chip, G83 retracts out of the hole to clear the chips.
     fn pecks(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         if hole.peck <= 0.0 {
             return refuse(Code::PN018, format!("a peck of {}", hole.peck), "Q must be greater than zero");
@@ -185,11 +185,11 @@ impl State {
         Ok(None)
     }
 
-    /// Pecks of EMC2: a dwell of a quarter of a second, a retract to the clear level, and a feed move down again.
+    /// Pecks as in EMC2: a dwell of a quarter of a second, a retract to the return level, and a feed move down to the last depth.
     fn pecks_of_emc2(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Option<f64> {
-        // depth at which the last peck ended
+        // the depth at which the last peck ended
         let mut depth = from.unwrap_or(hole.r);
-        // a rest from rounding of decimals is not a peck
+        // a remainder that comes from rounding is not a peck
         while depth > hole.bottom + 1e-9 {
             if out.is_full() {
                 return Some(depth);
@@ -202,7 +202,7 @@ impl State {
         None
     }
 
-    /// The direction of the spindle. It is an error if the spindle does not turn.
+    /// The direction in which the spindle turns. It is an error if the spindle is stopped.
     fn turning(&self, hole: &Drilling) -> Done<Rotation> {
         if self.drive.spindle == Rotation::Stop {
             return refuse(
@@ -279,7 +279,7 @@ impl State {
         Ok(None)
     }
 
-    /// Orients the spindle, moves the tool off the wall and retracts.
+    /// Orients the spindle, moves the tool sideways away from the wall, and retracts.
     fn leave_aside(&mut self, hole: &Drilling, turning: Rotation, out: &mut Out<'_>) {
         self.turn(Rotation::Stop, out);
         out.push(Action::Orient(0.0));
@@ -289,11 +289,11 @@ impl State {
         self.turn(turning, out);
     }
 
-    /// Back boring: the tool goes through the hole beside its axis, then feeds up from below.
+    /// Back boring: the shifted tool moves down through the hole, then moves to the axis of the hole and feeds up.
     fn back_bore(&mut self, hole: &Drilling, out: &mut Out<'_>) -> Done {
         let turning = self.turning(hole)?;
         if !self.control.is_linuxcnc() {
-            // on a Fanuc, R is below and Z above, so the height here is still the initial level
+            // on a Fanuc, R is below the part and Z is above R: the tool is still at the initial level here
             self.turn(Rotation::Stop, out);
             out.push(Action::Orient(0.0));
             self.clear_beside(hole, out);
@@ -326,7 +326,7 @@ impl State {
     }
 }
 
-/// Refuses a hole with so many pecks that a control would run for days.
+/// Refuses a hole with more than a million pecks, which would take a control days.
 fn check_pecks(hole: &Drilling) -> Done {
     if (hole.r - hole.bottom) / hole.peck > 1e6 {
         return refuse(Code::PN018, format!("Q{} makes more than a million pecks", hole.peck), "write a larger Q");
@@ -334,7 +334,7 @@ fn check_pecks(hole: &Drilling) -> Done {
     Ok(())
 }
 
-/// Dwells, unless the time is zero.
+/// Dwells at the bottom of a hole, unless the time is zero.
 fn wait(hole: &Drilling, out: &mut Out<'_>) {
     if hole.dwell > 0.0 {
         out.push(Action::Dwell(hole.dwell));

@@ -1,4 +1,4 @@
-//! Holes of cycles whose calls contain all their levels: the input of a call, and the resulting steps.
+//! Cycles whose calls contain all heights: the state on which a call depends, and the resulting steps of a hole.
 
 use std::collections::VecDeque;
 use std::fmt::Debug;
@@ -8,76 +8,76 @@ use super::action::{Drilling, Position, Rotation};
 use super::fault::Done;
 use crate::toolpath::{Plane, Units};
 
-/// One step of a hole. Heights are positions of the axis across the plane.
+/// One step of a hole. Heights are positions of the axis perpendicular to the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// A rapid to a height.
     Rapid(f64),
-    /// A feed move to a height: the height, and the feed in the unit of the feed mode.
+    /// A feed move. The first number is the height, the second is the feed in the unit of the feed mode.
     Feed(f64, f64),
     /// A dwell in seconds.
     Dwell(f64),
-    /// The spindle turns in this direction at this speed.
+    /// The spindle starts, with this direction and this speed.
     Turn(Rotation, f64),
-    /// The spindle stops at an angle.
+    /// The spindle stops at an angle in degrees.
     Orient(f64),
-    /// A rapid by this distance in the plane and along its axis.
+    /// A rapid by these distances: along the two axes of the plane, and along the axis perpendicular to it.
     Aside([f64; 3]),
-    /// A rapid to the upper end of the axis, whose height is known only at the machine.
+    /// A rapid to the upper limit of the axis. Its height is known only at the machine.
     Top,
-    /// The program stops.
+    /// A program stop.
     Stop,
 }
 
-/// A hole with all its steps. The first step may begin at any height above the hole.
+/// A hole with all its steps. The tool may be at any height above the hole when the first step begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canned {
-    /// The hole, at the position of the tool.
+    /// The hole, at the current position of the tool.
     pub hole: Drilling,
     /// The steps in order.
     pub steps: Vec<Step>,
 }
 
-/// The state of the control that a hole depends on.
+/// The state of the control on which a hole depends.
 #[derive(Clone, Copy, Debug)]
 pub struct Stand {
     /// Position of the tool.
     pub at: Position,
-    /// The plane across the hole.
+    /// The plane perpendicular to the hole.
     pub plane: Plane,
     /// The units of the program.
     pub units: Units,
-    /// The feed in force, in the unit of the feed mode; 0 if none is known.
+    /// The active feed, in the unit of the feed mode; 0 if it is unknown.
     pub feed: f64,
-    /// Whether feeds are per turn of the spindle.
+    /// Whether feeds are per revolution of the spindle.
     pub per_turn: bool,
-    /// The speed in force.
+    /// The active spindle speed.
     pub speed: f64,
     /// Rotation of the spindle.
     pub turning: Rotation,
-    /// The distance above the last depth at which the rapid of a peck stops, if the cycle has no such word.
+    /// The rapid into a hole after a peck stops at this distance above the depth reached so far, if the cycle has no word for it.
     pub back_off: f64,
-    /// The direction along the first axis in which a bore leaves the wall: 1 or -1.
+    /// The direction along the first axis in which a boring tool moves away from the wall: 1 or -1.
     pub bore_shift: f64,
 }
 
-/// A cycle call of a block, with its words as written.
+/// The call of a cycle in a block, with its words as written.
 pub trait Plan: Debug + Send + Sync {
-    /// Works out the hole; `None`: the call makes no hole.
+    /// Calculates the hole. `None`: the call makes no hole.
     ///
     /// # Errors
-    /// The cycle refuses its words, or the documentation leaves the result open.
+    /// The cycle refuses its words, or the documentation does not define the result.
     fn plan(&self, stand: &Stand) -> Done<Option<Canned>>;
 }
 
-/// A cycle that may be called more than once.
+/// A call that may be run more than once.
 pub type Call = Arc<dyn Plan>;
 
-/// The remaining holes of one cycle, by their positions in the plane.
+/// The positions at which one cycle still has to make holes.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// The cycle.
     pub call: Call,
-    /// Positions of the holes.
+    /// Positions of the holes in the plane.
     pub at: VecDeque<[f64; 2]>,
 }

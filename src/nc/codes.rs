@@ -1,11 +1,11 @@
-//! A control's codes in the simulator: their groups and the words they use.
+//! The codes of a control as the simulator uses them: their groups and the words they use.
 
 use std::borrow::Cow;
 
 pub use crate::control::Group;
 use crate::control::{AxisWords, Code, Control, Meaning, Row, Rules};
 
-/// Letters as bits.
+/// The bits of the letters in a text.
 pub const fn letters(text: &str) -> u32 {
     crate::control::Words::of(text).bits()
 }
@@ -15,9 +15,9 @@ pub const fn bit(letter: u8) -> u32 {
     1 << (letter - b'A')
 }
 
-/// Words that are an error unless a code uses them; all others may be in any block.
+/// Words that are an error if no code of the block uses them. All other words may be in any block.
 pub const CHECKED: u32 = letters("DEHIJKLPQR");
-/// Axis words.
+/// The bits of the axis words.
 pub const AXES: u32 = letters("XYZABCUVW");
 
 /// The group in which a row's G code is stored in a block.
@@ -30,7 +30,7 @@ pub fn group(row: &Row, rules: Rules) -> Group {
     }
 }
 
-/// Whether the code of a row uses the axis words although it is not a motion. X in a Fanuc's dwell is its time.
+/// Whether the code of a row uses the axis words although it is not a motion. In a dwell of a Fanuc, for example, X is the time.
 pub fn takes_axes(row: &Row, rules: Rules) -> bool {
     match row.meaning {
         Meaning::Reference => true,
@@ -39,25 +39,25 @@ pub fn takes_axes(row: &Row, rules: Rules) -> bool {
     }
 }
 
-/// The row for a G number, given in tenths; `None`: the control has no such code, or it is not run.
+/// The row for a G code, given in tenths; `None`: the control does not have the code, or the simulator does not run it.
 #[inline]
 pub fn g_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     control.row(Code { letter: b'G', tenths: code }).filter(|row| is_run(row, b'G'))
 }
 
-/// The row for an M number; `None`: the control has no such code, or it is not run.
+/// The row for an M code; `None`: the control does not have the code, or the simulator does not run it.
 pub fn m_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     let tenths = code.checked_mul(10)?;
     control.row(Code { letter: b'M', tenths }).filter(|row| is_run(row, b'M'))
 }
 
-/// Whether the simulator runs the row under codes of this letter.
+/// Whether the simulator runs a row under codes with this letter.
 #[inline]
 fn is_run(row: &Row, letter: u8) -> bool {
     row.not_run.is_none() && is_run_by(row.meaning, letter) && row.lacks().is_none()
 }
 
-/// Why a code that this control has is not run; `None`: the control has no such code.
+/// The reason why the simulator does not run a code of the control; `None`: the control does not have the code.
 pub fn why_not_run(control: &Control, code: Code) -> Option<Cow<'_, str>> {
     let row = control.row(code)?;
     if let Some(why) = &row.not_run {
@@ -75,7 +75,8 @@ fn article(letter: char) -> &'static str {
     if letter == 'M' { "an" } else { "a" }
 }
 
-/// Whether codes of this letter run a meaning. Codes of all other letters refuse it by name.
+/// Whether the simulator runs this meaning under codes with this letter. Other codes with this meaning are refused,
+/// with their name.
 #[inline]
 const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
     use Meaning as M;
@@ -101,15 +102,15 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
         | M::Output
         | M::Override => letter == b'M',
         M::Harmless | M::RigidAhead => true,
-        // the reader of the control's own language runs these
+        // only the reader of the control's own language runs these
         M::ToLevel | M::ToTop | M::ReturnLevel => false,
-        // their effect is written elsewhere, or known only at the machine
+        // their effect is defined outside of the program, or is known only at the machine
         M::Macro | M::MacroOn | M::Data | M::Transform | M::Unsaid => false,
         _ => letter == b'G',
     }
 }
 
-/// Groups of M codes; group 0 has no effect in the simulator.
+/// The group of an M code: a block may have only one code of a group. Group 0 has no effect in the simulator.
 pub fn m_group(row: &Row) -> u8 {
     use crate::control::Group as G;
     match row.meaning {
@@ -126,7 +127,7 @@ pub fn m_group(row: &Row) -> u8 {
     }
 }
 
-/// The row of a motion code; `None`: no motion is in force.
+/// The row of the active motion code; `None`: no motion is active.
 pub type Motion = Option<&'static Row>;
 
 /// Whether a motion has one of these meanings.
@@ -135,7 +136,7 @@ pub fn is_one_of(motion: Motion, meanings: &[Meaning]) -> bool {
     motion.is_some_and(|row| meanings.contains(&row.meaning))
 }
 
-/// Rapids and straight cuts.
+/// The meanings of rapids and straight cuts.
 pub const STRAIGHT: [Meaning; 2] = [Meaning::Rapid, Meaning::Line];
-/// Arcs.
+/// The meanings of arcs.
 pub const ARCS: [Meaning; 2] = [Meaning::ArcCw, Meaning::ArcCcw];

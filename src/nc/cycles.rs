@@ -1,4 +1,4 @@
-//! Canned cycles of LinuxCNC and EMC2: the meaning of their words, and the moves from hole to hole (nc.md section 2).
+//! Canned cycles of LinuxCNC and EMC2: the meaning of their words, and the moves from hole to hole.
 
 use super::action::{Action, Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
@@ -12,13 +12,13 @@ use crate::control::{Meaning, Motions, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-/// A word's value, unless it is LinuxCNC's mark for a missing word.
+/// The value of a word. LinuxCNC marks a missing word by -1.
 fn given(word: Option<f64>) -> Option<f64> {
     word.filter(|&value| value != -1.0)
 }
 
 impl State {
-    /// Resolves the words of a cycle: words of this block first, then kept words; a missing word is an error.
+    /// Runs a cycle. Its words come from this block, otherwise from earlier blocks of the cycle; a word in neither is an error.
     pub(super) fn linuxcnc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
         self.check_cycle(block)?;
         let same = self.modes.motion.is_some_and(|motion| motion.code == row.code);
@@ -57,7 +57,7 @@ impl State {
         }
         self.holes.series.r = Some(r);
         self.holes.series.depth = Some(depth);
-        // if the tool is below R, it first goes straight up
+        // if the tool is below R, it first moves straight up to R
         if initial < plane_r && !unknown {
             let mut to = self.place.position;
             to[across] = plane_r;
@@ -86,7 +86,7 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// Makes the holes of a block one after the other. Stops early when there are enough actions to be read.
+    /// Makes the holes of a block, one after the other. If the output is full, the rest is made by the next call.
     pub(super) fn make_holes(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         while let Some(mut work) = self.holes.work.take() {
             if work.depth.is_none() {
@@ -118,7 +118,7 @@ impl State {
         }
     }
 
-    /// Moves `at` to the next hole by the words of these axes, which are positions or increments.
+    /// Moves `at` to the next hole. The words of `axes` in the block are positions or increments.
     pub(super) fn move_over(&mut self, axes: &[usize], block: &Block, at: &mut [f64; 6]) {
         for &axis in axes {
             if let Some(value) = self.axis_word(block, axis) {
@@ -137,7 +137,7 @@ impl State {
         let [first, second, across] = axes_of(self.modes.plane);
         let (begun, level) = (work.begun, work.level);
         let at = &mut work.hole.at;
-        // an absolute polar position is the same for each repeat
+        // an absolute polar position is the same in each repeat
         if block.polar != [None; 2] && (begun == 0 || !self.modes.absolute) {
             let held = std::mem::replace(&mut self.place.position, *at);
             let done = self.polar(block, at);
@@ -166,7 +166,7 @@ impl State {
         Ok(())
     }
 
-    /// Pushes the action of a hole, before its moves.
+    /// Adds the action of a hole. The actions of its moves follow.
     pub(super) fn announce(&self, hole: &Drilling, out: &mut Out<'_>) {
         out.by_cycle = false;
         let at = hole.over(hole.clear);
@@ -193,7 +193,7 @@ impl State {
         Ok(())
     }
 
-    /// Takes P, Q and the shift from the block, or the kept ones. The first block of a cycle needs them.
+    /// Takes P, Q and the shift from the block, or their values from earlier blocks. The first block of a cycle must contain them.
     fn words(&mut self, cycle: Cycle, same: bool, block: &Block) -> Done<Drilling> {
         let Cycle { code: name, motions, dwells } = cycle;
         let missing = |letter: char| {
@@ -257,7 +257,7 @@ impl State {
     }
 }
 
-/// Refuses a block with more moves than a machine makes in a day.
+/// Refuses a block that makes more than a million moves.
 pub(super) fn check_moves(times: u32, hole: &Drilling) -> Done {
     let pecks = if hole.peck > 0.0 { ((hole.r - hole.bottom) / hole.peck).abs() } else { 0.0 };
     if f64::from(times) * (pecks + 4.0) > 1e6 {
@@ -266,7 +266,7 @@ pub(super) fn check_moves(times: u32, hole: &Drilling) -> Done {
     Ok(())
 }
 
-/// The number of repeats: L, a whole number.
+/// The number of repeats: the L word, a whole number; 1 without L.
 fn repeats(word: Option<f64>) -> Done<u32> {
     let times = word.unwrap_or(1.0);
     let whole = times.round();

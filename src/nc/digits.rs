@@ -1,23 +1,24 @@
-//! Reads the numbers of an NC program: with a sign and a point. Spaces may be anywhere between, as on controls.
+//! Reads the numbers of an NC program, with sign and decimal point. Like a control, it allows spaces anywhere in a number.
 
 use crate::number::short_decimal;
 
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
-    /// The value of the number, the nearest double.
+    /// The value of the number: the nearest double.
     pub value: f64,
-    /// Whether it is written with a point.
+    /// Whether the number is written with a decimal point.
     pub point: bool,
 }
 
-/// A space or tab.
+/// Whether a byte is a space or a tab.
 #[inline]
 pub(super) fn is_blank(byte: u8) -> bool {
     byte == b' ' || byte == b'\t'
 }
 
-/// A number with its sign, and its end. Leading spaces are skipped. `None`: there is no number at this location.
+/// Reads a number with its sign, and returns the byte after it. Leading spaces are skipped. `None`: there is no number
+/// at this location.
 #[inline(always)]
 pub(super) fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
     let at = skip_blanks(line, at);
@@ -33,7 +34,7 @@ pub(super) fn signed(line: &[u8], at: usize) -> Option<(Number, usize)> {
     Some((number, end))
 }
 
-/// The first byte from here on that is not a space.
+/// The first byte from `at` on that is not a space or tab.
 #[inline(always)]
 pub(super) fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     while line.get(at).is_some_and(|&b| is_blank(b)) {
@@ -42,10 +43,10 @@ pub(super) fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// Powers of ten, up to the number of digits that a double always represents exactly.
+/// Powers of ten, up to the number of decimal digits that a double represents exactly.
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// Digits and at most one point. Spaces between them are ignored.
+/// Reads digits with at most one decimal point. Spaces between them are ignored.
 #[inline(always)]
 pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     if let Some(short) = short_decimal(line, start) {
@@ -57,7 +58,7 @@ pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     unsigned_of_any_length(line, start)
 }
 
-/// Whether more of a number, or more blanks, come after a blank.
+/// Whether the number, or a further blank, continues after a blank.
 #[inline(always)]
 fn goes_on(line: &[u8], blank: usize) -> bool {
     matches!(line.get(blank + 1), Some(b'0'..=b'9' | b'.' | b' ' | b'\t'))
@@ -79,7 +80,7 @@ fn unsigned_of_any_length(line: &[u8], start: usize) -> Option<(Number, usize)> 
     number(mantissa, count, decimals, point, &text[..at]).map(|number| (number, start + at))
 }
 
-/// The number of digits at the beginning of a text, and the value of `before` continued by these digits.
+/// Reads the digits at the beginning of a text. Returns the value of `before` followed by these digits, and their number.
 #[inline(always)]
 fn digits(text: &[u8], before: u64) -> (u64, usize) {
     let (mut mantissa, mut count) = (before, 0);
@@ -94,7 +95,7 @@ fn digits(text: &[u8], before: u64) -> (u64, usize) {
     (mantissa, count)
 }
 
-/// A number that may have spaces between its digits.
+/// Reads a number that may have spaces between its digits.
 #[cold]
 fn in_parts(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let (mut mantissa, mut count, mut decimals, mut point) = (0, 0, 0, false);
@@ -116,18 +117,19 @@ fn in_parts(line: &[u8], start: usize) -> Option<(Number, usize)> {
     number(mantissa, count, decimals, point, &line[start..at]).map(|number| (number, at))
 }
 
-/// The value of a number from its digits, some of which are decimals; `None` without digits.
+/// The value of a number. `mantissa` is the value of its digits without the decimal point; `decimals` of them are after
+/// the point. `None`: there are no digits.
 #[inline(always)]
 fn number(mantissa: u64, count: usize, decimals: usize, point: bool, text: &[u8]) -> Option<Number> {
     let value = match count {
         0 => return None,
-        1..=15 => mantissa as f64 / POWERS[decimals], // both exact, so this is the nearest double
+        1..=15 => mantissa as f64 / POWERS[decimals], // both are exact, so the quotient is the nearest double
         _ => slow(text),
     };
     Some(Number { value, point })
 }
 
-/// Reads numbers with more digits than a double has.
+/// Reads a number that has too many digits for the fast method.
 #[cold]
 fn slow(text: &[u8]) -> f64 {
     let text: String = text.iter().filter(|b| !is_blank(**b)).map(|&b| char::from(b)).collect();

@@ -1,14 +1,14 @@
-//! Values written as expressions: `[#1 * 2 + SIN[30]]`.
+//! Evaluates expressions in words: `[#1 * 2 + SIN[30]]`.
 
 use super::fault::{Done, Fault, refuse};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, Token, Tokens};
 use crate::diag::Code;
 
-/// Deepest nesting of brackets.
+/// Maximum nesting of brackets.
 const DEEPEST: u32 = 64;
 
-/// The tokens of a line without spaces. The next token is always read ahead.
+/// The tokens of a line, without spaces. The reader is always one token ahead.
 pub struct Reader<'a> {
     line: &'a [u8],
     tokens: Tokens<'a>,
@@ -21,7 +21,7 @@ const OPERATORS: [&[&str]; 5] =
     [&["AND", "OR", "XOR"], &["EQ", "NE", "GT", "GE", "LT", "LE"], &["+", "-"], &["*", "/", "MOD"], &["**"]];
 
 impl<'a> Reader<'a> {
-    /// Reads after the tokens that are already taken.
+    /// A reader that begins after the tokens that are already taken.
     pub fn new(line: &'a [u8], tokens: Tokens<'a>) -> Reader<'a> {
         let mut reader = Reader { line, tokens, ahead: None, depth: 0 };
         reader.ahead = reader.pull();
@@ -32,7 +32,7 @@ impl<'a> Reader<'a> {
         self.tokens.find(|token| token.kind != Kind::Blank)
     }
 
-    /// The next token, without taking it.
+    /// Returns the next token without taking it.
     pub fn peek(&self) -> Option<Token> {
         self.ahead
     }
@@ -44,7 +44,7 @@ impl<'a> Reader<'a> {
         token
     }
 
-    /// Takes a symbol if it is next.
+    /// Takes the next token if it is this symbol.
     pub fn takes(&mut self, symbol: u8) -> bool {
         let is_next = self.ahead.is_some_and(|token| token.kind == Kind::Symbol(symbol));
         if is_next {
@@ -69,10 +69,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A value: a number, a parameter, an expression in brackets, a function; with signs.
+    /// Reads a value with its signs: a number, a parameter, an expression in brackets, or a function.
     ///
     /// # Errors
-    /// There is no value, or it has no result.
+    /// There is no value, or the value is not defined, such as a division by zero.
     pub fn value(&mut self, parameters: &Parameters) -> Done<f64> {
         self.depth += 1;
         if self.depth > DEEPEST {
@@ -111,10 +111,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The target after `#`.
+    /// Reads the parameter after `#`, to which a value is assigned.
     ///
     /// # Errors
-    /// It is not a parameter.
+    /// There is no parameter.
     pub fn target(&mut self, parameters: &Parameters) -> Done<Target> {
         if let Some(token) = self.ahead.filter(|token| token.kind == Kind::Quoted) {
             self.next();
@@ -124,10 +124,10 @@ impl<'a> Reader<'a> {
         Ok(Target::Number(Parameters::number(self.value(parameters)?)?))
     }
 
-    /// An expression in brackets, `[..]`.
+    /// Reads an expression in brackets, `[..]`.
     ///
     /// # Errors
-    /// The bracket does not close, or the content is not an expression.
+    /// The bracket is not closed, or its content is not an expression.
     pub fn bracketed(&mut self, parameters: &Parameters) -> Done<f64> {
         if !self.takes(b'[') {
             return self.unexpected("`[`");
@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    /// Values joined by operators of this precedence or higher.
+    /// Reads values that are joined by operators of precedence `strength` or higher.
     fn operation(&mut self, parameters: &Parameters, strength: usize) -> Done<f64> {
         if strength == OPERATORS.len() {
             return self.value(parameters);
@@ -197,7 +197,7 @@ fn apply(operator: &str, left: f64, right: f64) -> Done<f64> {
         "AND" => truth(left != 0.0 && right != 0.0),
         "OR" => truth(left != 0.0 || right != 0.0),
         "XOR" => truth((left != 0.0) != (right != 0.0)),
-        // as in LinuxCNC: values within a ten-thousandth are equal
+        // as on LinuxCNC, values that differ by less than 0.0001 are equal
         "EQ" => truth((left - right).abs() < 1e-4),
         "NE" => truth((left - right).abs() >= 1e-4),
         "GT" => truth(left > right),

@@ -1,4 +1,4 @@
-//! Canned cycles of Fanuc and Haas mills. Their words are kept until G80, also when the cycle code changes.
+//! Canned cycles of Fanuc and Haas mills. The values of their words are kept until G80, even if the cycle code changes.
 
 use super::action::{Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
@@ -13,7 +13,7 @@ use crate::diag::Code;
 use crate::toolpath::{FeedMode, Units};
 
 impl State {
-    /// Puts a cycle in force. A new series of holes begins unless a cycle is already in force.
+    /// Makes a cycle active. If no cycle was active before, a new series of holes begins.
     pub(super) fn enter_fanuc_cycle(&mut self, row: &'static Row) {
         if self.holes.cycle.is_none() {
             self.holes.series = Series::default();
@@ -21,7 +21,7 @@ impl State {
         self.holes.cycle = Some(row);
     }
 
-    /// Runs a block while a cycle is in force: a block with X, Y, Z or R makes a hole.
+    /// Runs a block while a cycle is active. A block with X, Y, Z or R makes a hole.
     pub(super) fn fanuc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(cycle) = Cycle::of(row) else { return Ok(()) };
         let motions = cycle.motions;
@@ -80,8 +80,8 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// Feed and peck of a tap whose pitch has its own word. `None`: the block has no such word, and the tap is an
-    /// ordinary one.
+    /// The feed and the peck of a tapping cycle that has a separate word for the pitch. `None`: there is no such word,
+    /// and the pitch comes from the feed.
     fn tap_by_pitch(&self, row: &Row) -> Done<Option<(f64, f64)>> {
         let kept = |letter: u8| match letter {
             b'Q' => self.holes.series.peck,
@@ -104,13 +104,13 @@ impl State {
         }))
     }
 
-    /// The feed for this pitch, in the unit of the feed mode.
+    /// The feed for a pitch, in the unit of the feed mode.
     fn by_turns(&self, pitch: f64) -> f64 {
         if self.modes.feed_mode == FeedMode::PerRev { pitch } else { pitch * self.drive.speed }
     }
 
-    /// Keeps the words of a block for the holes of the series. `depth` is the letter of the axis across the plane.
-    /// Increments become positions at once, counted from the level of the series.
+    /// Stores the words of a block for the holes of the series. `depth` is the letter of the axis perpendicular to the
+    /// plane. Increments are converted to positions at once; they are measured from the initial level of the series.
     fn keep_cycle_words(&mut self, block: &Block, depth: u8) {
         let dwell = block.get(b'P').map(|p| self.seconds(p, block));
         let initial = self.holes.series.initial;
@@ -132,7 +132,7 @@ impl State {
         }
     }
 
-    /// Refuses a cycle that can't run in the current state of the control, or between these heights.
+    /// Refuses a cycle that can't run in the current state of the control, or with these heights.
     fn check_fanuc_cycle(&self, cycle: Cycle, r: f64, bottom: f64, has_feed: bool) -> Done {
         if self.tool.side.is_some() {
             return refuse(
@@ -172,7 +172,7 @@ impl State {
         let hole = work.hole;
         self.announce(&hole, out);
         out.by_cycle = true;
-        // first across at the current height of the tool, then down to R
+        // the tool first moves across at its current height, then down to R
         let height = self.place.position[across];
         self.place.rapid_to(hole.over(height), out);
         let known = self.place.at_machine & 1 << across == 0;
@@ -181,7 +181,7 @@ impl State {
         }
     }
 
-    /// The shift off the wall: Q along the first axis, or I and J.
+    /// The shift away from the wall: Q along the first axis, or I and J.
     fn bore_shift(&self, motions: Motions) -> [f64; 2] {
         if !motions.shifts() {
             return [0.0; 2];

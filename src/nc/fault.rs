@@ -1,4 +1,4 @@
-//! Faults of a block.
+//! The error for a block that is refused.
 
 use crate::diag::{Code, Diag, Location};
 
@@ -9,7 +9,7 @@ pub struct Fault {
     pub code: Code,
     /// The problem, in one sentence.
     pub message: String,
-    /// The correction to write.
+    /// The proposed correction.
     pub help: String,
     /// Column of the letter or number in the block, from 0.
     pub column: Option<usize>,
@@ -29,7 +29,7 @@ impl Fault {
         Box::new(Fault { column: Some(column), ..*Fault::new(code, message, help) })
     }
 
-    /// The fault as a finding about this line of the program.
+    /// Converts the fault to a finding about this line of the program.
     pub fn diag(self, line: u64, text: &[u8]) -> Diag {
         let block = String::from_utf8_lossy(text);
         let block = block.trim();

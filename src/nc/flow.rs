@@ -19,7 +19,7 @@ pub struct Flow {
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Step {
-    /// Begin of a program or subprogram, as on a Fanuc.
+    /// The beginning of a program or subprogram, as on a Fanuc.
     Program,
     Sub,
     EndSub,
@@ -38,7 +38,7 @@ pub enum Step {
     EndRepeat,
 }
 
-/// The words and their steps.
+/// The words after an O word, and their steps.
 const NAMES: [(&str, Step); 15] = [
     ("sub", Step::Sub),
     ("endsub", Step::EndSub),
@@ -65,7 +65,7 @@ impl Flow {
     /// Reads the rest of a block after its O word.
     ///
     /// # Errors
-    /// The word is unknown, or its condition can't be read.
+    /// The word is unknown, or the condition after it can't be read.
     pub fn read(label: String, reader: &mut Reader<'_>, parameters: &Parameters) -> Done<Flow> {
         let mut step = Step::Program;
         if let Some(token) = reader.peek().filter(|token| token.kind == Kind::Name) {
@@ -84,7 +84,7 @@ impl Flow {
                         arguments.push(reader.bracketed(parameters)?);
                     }
                 }
-                // the return value of a subprogram
+                // the value that a subprogram returns is not used
                 Step::EndSub | Step::Return if reader.peek().is_some_and(|t| t.kind == Kind::Symbol(b'[')) => {
                     reader.bracketed(parameters)?;
                 }
@@ -100,7 +100,7 @@ impl Flow {
         Ok(Flow { label, step })
     }
 
-    /// The label and word of a line without their values, for lines that are skipped.
+    /// Reads the label and the step of a line, but not the values after them. Used for lines that are skipped.
     pub fn head(line: &[u8]) -> Option<(String, Step)> {
         let first = line.iter().find(|b| !b.is_ascii_whitespace())?;
         if !matches!(first, b'o' | b'O' | b':') {

@@ -1,5 +1,5 @@
-//! Detection of programs that are not G code or are in a control's own language, by the first blocks of the program. A
-//! language is read if one of the supported controls reads it. The others are named and refused.
+//! Detects programs that are not G code or use a control's own language, by their first blocks. If a control of
+//! postform reads the language, the program is run with this control. Other languages are reported by name and refused.
 
 use std::io::{self, Read, Seek};
 use std::path::Path;
@@ -9,21 +9,21 @@ use memchr::memmem;
 use super::settings::RunSettings;
 use crate::control::Control;
 
-/// How many bytes of a program are searched.
+/// Number of bytes at the beginning of a program that are searched.
 const SEARCHED: usize = 16 << 10;
 
-/// A text that identifies a language, in capital letters.
+/// A text that identifies a language, in upper case.
 enum Mark {
-    /// The line begins with this text, spaces and comments included.
+    /// The line, with its spaces and comments, begins with this text.
     Line(&'static str),
-    /// The block begins with this text, without block number, spaces and comments.
+    /// The block, without block number, spaces and comments, begins with this text.
     Block(&'static str),
     /// The block contains this text.
     Word(&'static str),
 }
 use Mark::{Block, Line, Word};
 
-/// The languages: name, the control that reads it, and its marks. The marks are from public programs and manuals.
+/// The languages: name, the control that reads the language, and the marks. The marks come from public programs and manuals.
 const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
     ("Klartext of a Heidenhain control", Some("heidenhain"), &[Block("BEGINPGM")]),
     (
@@ -39,7 +39,7 @@ const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
             Block("WORKPIECE"),
             Block("DEFREAL"),
             Word("SUPA"),
-            // in `I=AC(10)`, the number looks like a comment
+            // without brackets: the number in `I=AC(10)` looks like a comment, and comments are removed
             Word("X=AC"),
             Word("Y=AC"),
             Word("Z=AC"),
@@ -72,26 +72,26 @@ const LANGUAGES: [(&str, Option<&str>, &[Mark]); 5] = [
     ),
 ];
 
-/// File name extensions that are typical of one control.
+/// For each control, the file name extensions that only this control uses.
 const NAMES: [(&str, &[&str]); 4] =
     [("siemens", &["mpf", "spf"]), ("heidenhain", &["h", "i"]), ("okuma", &["min", "ssb"]), ("mazak", &["eia"])];
 
-/// Texts that occur in lathe programs only: codes with their words, without spaces.
+/// Texts that are found only in lathe programs: codes with their words, without spaces.
 const TURNED: [&str; 8] = ["G50S", "G28U", "G28W", "G30U", "G30W", "G71U", "G72W", "G70P"];
 
 /// The language of a program.
 pub struct Foreign {
     /// Name of the language, such as `Klartext of a Heidenhain control`.
     pub is: &'static str,
-    /// The control that reads the language; `None`: no control here reads it.
+    /// The control that reads the language; `None`: no control of postform reads it.
     pub control: Option<&'static Control>,
-    /// The line where the language was recognised, from 1.
+    /// The line in which the language was recognised, from 1.
     pub line: u64,
     /// The text of that line.
     pub text: Vec<u8>,
 }
 
-/// Detects the language of a program by its first blocks; `None`: they have no mark of these languages.
+/// Detects the language of a program by its first blocks. `None`: they contain no mark of a language in the table.
 pub fn foreign(start: &[u8]) -> Option<Foreign> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
@@ -135,8 +135,8 @@ pub fn foreign(start: &[u8]) -> Option<Foreign> {
     Some(Foreign { is, control, line: line as u64 + 1, text })
 }
 
-/// The line, from 1, that identifies a program as a lathe program. Such a line has codes of lathes, or a tool with its
-/// register (`T0101`) in a program without M6.
+/// The number, from 1, and the text of a line that occurs only in lathe programs. The line contains a code of lathes,
+/// or a tool with its register (`T0101`) in a program without M6.
 pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let mut block = Vec::new();
@@ -158,20 +158,20 @@ pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
     station.filter(|_| !is_changed)
 }
 
-/// The control for programs with this file name: `part.MPF` is for a Siemens control.
+/// The control for programs with this file name. Example: `part.MPF` is a program for a Siemens control.
 pub fn control_of_name(name: &Path) -> Option<&'static Control> {
     let extension = name.extension()?.to_str()?.to_ascii_lowercase();
     let (control, _) = NAMES.iter().find(|(_, extensions)| extensions.contains(&extension.as_str()))?;
     Control::named(control)
 }
 
-/// The settings for a program whose control is not given. The control is that of the language of the first blocks, else
-/// that of the file name.
+/// The settings for a program whose control is not given. The control is taken from the language of the first blocks,
+/// otherwise from the file name.
 ///
 /// # Errors
-/// Reading the input fails.
+/// The input can't be read.
 pub fn settings_for(input: &mut (impl Read + Seek), name: &Path, settings: RunSettings) -> io::Result<RunSettings> {
-    // an input without seek is left unread
+    // an input that can't seek is not read here
     let Some(start) = input.stream_position().ok().filter(|_| settings.assumed) else { return Ok(settings) };
     let mut head = Vec::new();
     input.by_ref().take(SEARCHED as u64).read_to_end(&mut head)?;
@@ -182,7 +182,7 @@ pub fn settings_for(input: &mut (impl Read + Seek), name: &Path, settings: RunSe
     })
 }
 
-/// Appends a line in capital letters, without block number, spaces and comments.
+/// Appends a line in upper case, without block number, spaces and comments.
 fn push_block(line: &[u8], blocks: &mut Vec<u8>) {
     let begin = blocks.len();
     let mut inside = false;

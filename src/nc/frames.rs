@@ -2,27 +2,28 @@
 
 use super::action::Position;
 
-/// The shift that G92, or G52 of LinuxCNC, adds to positions of the program.
+/// The shift that G92 (on LinuxCNC also G52) adds to positions of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shift {
     /// Distance by which the frame was moved.
     pub by: Position,
-    /// Axes along which the shift is unknown, as bits: G92 was given at a position that was known only at the machine.
+    /// As bits, the axes along which the shift is unknown: the position of the axis was known only at the machine when
+    /// G92 was run.
     pub unknown: u8,
 }
 
 /// The frames of a machine, in the program's units.
 #[derive(Clone, Debug)]
 pub struct Frames {
-    /// Work offsets by number: 0 shifts all others, 1 to 9 are G54 to G59.3, 10 and up are G54.1 P1 and up.
+    /// Work offsets by number. Number 0 shifts all other offsets, 1 to 9 are G54 to G59.3, 10 and up are G54.1 P1 and up.
     work: Vec<Position>,
-    /// Axes of each work offset whose machine position the program itself has set, as bits.
+    /// For each work offset, as bits, the axes for which the program has set the offset.
     given: Vec<u8>,
     /// Rotation of each work offset about its origin in XY, in degrees.
     rotation: Vec<f64>,
     /// Index of the active work offset.
     pub active: usize,
-    /// The shift of G92, or of G52 of LinuxCNC.
+    /// The active shift of G92, on LinuxCNC also of G52.
     pub shift: Shift,
     /// The shift that G92.3 restores.
     pub shift_kept: Shift,
@@ -30,7 +31,8 @@ pub struct Frames {
     pub tool: [f64; 3],
 }
 
-/// The number of work offsets: the one that shifts all others, nine, 99 more of a Haas, and one for all higher numbers.
+/// The number of work offsets: one that shifts all others, nine usual ones, 99 additional ones of a Haas, and one for
+/// all higher numbers.
 const OFFSETS: usize = 110;
 
 impl Default for Frames {
@@ -48,22 +50,22 @@ impl Default for Frames {
 }
 
 impl Frames {
-    /// Index of the work offset of a control that numbers its offsets. All higher numbers share one index.
+    /// Index of a work offset on a control that only numbers its offsets. All numbers that are too high share one index.
     pub fn counted(number: f64) -> usize {
         if (1.0..(OFFSETS - 1) as f64).contains(&number) { number as usize } else { OFFSETS - 1 }
     }
 
-    /// Machine position of Z0.
+    /// Machine position of Z0 in program coordinates.
     pub fn zero_height(&self) -> f64 {
         self.to_machine(&[0.0; 6])[2]
     }
 
-    /// The active rotation.
+    /// The rotation of the active work offset, in degrees.
     pub fn angle(&self) -> f64 {
         self.rotation[self.active]
     }
 
-    /// Converts a position of the program to the coordinates of its work offset: with the shift and the rotation.
+    /// Converts program coordinates to coordinates of the work offset: adds the shift and applies the rotation.
     pub fn to_work(&self, at: &Position) -> Position {
         let mut place = *at;
         for (value, shift) in place.iter_mut().zip(&self.shift.by) {
@@ -73,7 +75,7 @@ impl Frames {
         place
     }
 
-    /// Converts a position of the program to machine coordinates.
+    /// Converts program coordinates to machine coordinates.
     pub fn to_machine(&self, at: &Position) -> Position {
         let mut place = self.to_work(at);
         for (axis, value) in place.iter_mut().enumerate() {
@@ -85,7 +87,7 @@ impl Frames {
         place
     }
 
-    /// Converts a position in machine coordinates to program coordinates.
+    /// Converts machine coordinates to program coordinates.
     pub fn to_program(&self, at: &Position) -> Position {
         let mut place = *at;
         for (value, tool) in place.iter_mut().zip(&self.tool) {
@@ -101,20 +103,20 @@ impl Frames {
         place
     }
 
-    /// Records that the program has set an axis of this work offset to a machine position.
+    /// Records that the program has set the offset of an axis to a machine position.
     pub fn gives(&mut self, number: usize, axis: usize) {
         if let Some(axes) = self.given.get_mut(number) {
             *axes |= 1 << axis;
         }
     }
 
-    /// Axes of the active work offset that the program has set, as bits.
+    /// As bits, the axes for which the program has set the active work offset.
     pub fn given(&self) -> u8 {
         self.given[self.active]
     }
 
-    /// The distance that a work offset moves so that a machine position has these values in it. Axes without a value do
-    /// not move.
+    /// The distance by which a work offset must move, so that the machine position `place` has these values in it. It
+    /// is 0 for axes without a value.
     pub fn to_stand(&self, number: usize, place: &Position, values: &[Option<f64>; 6]) -> Position {
         if number >= self.work.len() {
             return Position::default();
@@ -126,7 +128,7 @@ impl Frames {
         by
     }
 
-    /// The offset and rotation of this number, if the number exists.
+    /// The position and the rotation of the work offset with this number, if it exists.
     pub fn work(&mut self, number: usize) -> Option<(&mut Position, &mut f64)> {
         Some((self.work.get_mut(number)?, self.rotation.get_mut(number)?))
     }

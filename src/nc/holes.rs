@@ -1,39 +1,39 @@
-//! State of a control's canned cycles.
+//! The state of a control's canned cycles.
 
 use super::action::Drilling;
 use super::call::Pattern;
 use super::codes::Motion;
 use crate::toolpath::{Plane, Units};
 
-/// The cycle in force and its holes.
+/// The active cycle and its holes.
 #[derive(Clone, Debug, Default)]
 pub struct Holes {
-    /// The cycle in force on a Fanuc. On other controls the cycle is the modal motion.
+    /// The active cycle on a Fanuc. On other controls the cycle is the modal motion.
     pub cycle: Motion,
-    /// Values that are kept from one hole to the next.
+    /// Values that are kept for the next hole.
     pub series: Series,
-    /// Remaining work of the block's cycle.
+    /// The part of the block's cycle that has not been run yet.
     pub work: Option<Work>,
-    /// Remaining holes of the block, each made by a call.
+    /// The holes of the block that are not made yet. Each is made by a call of a cycle.
     pub pattern: Option<Box<Pattern>>,
 }
 
-/// Values that a control keeps from one hole to the next.
+/// Values that a control keeps for the next hole.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Series {
     /// Whether a series of holes is running.
     pub running: bool,
-    /// Height of the tool at the beginning of the series.
+    /// Height of the tool at the beginning of the series, which is the initial level.
     pub initial: f64,
-    /// Whether the height at the beginning is known only at the machine.
+    /// Whether the initial level is known only at the machine.
     pub initial_unknown: bool,
     /// Whether R is an increment from an unknown height.
     pub r_unknown: bool,
     /// Whether the depth is an increment from an unknown height.
     pub depth_unknown: bool,
-    /// The R plane, as written.
+    /// R as written.
     pub r: Option<f64>,
-    /// The depth, as written.
+    /// The depth as written.
     pub depth: Option<f64>,
     /// The dwell in seconds.
     pub dwell: Option<f64>,
@@ -41,21 +41,21 @@ pub struct Series {
     pub peck: Option<f64>,
     /// I, J and K of boring cycles.
     pub shift: [Option<f64>; 3],
-    /// The distance mode (`true`: G91), plane and units in force when R and depth were written.
+    /// The distance mode (`true`: G91), the plane and the units that were active when R and the depth were written.
     pub written: Option<(bool, Plane, Units)>,
 }
 
 impl Series {
-    /// Ends the series: the block has a motion that is not a cycle.
+    /// Ends the series. To be called for a block with a motion that is not a cycle.
     pub fn end(&mut self) {
         self.running = false;
     }
 }
 
-/// The holes of one block that remain to be made.
+/// The state of a block whose holes are being made.
 #[derive(Clone, Copy, Debug)]
 pub struct Work {
-    /// The current or last hole.
+    /// The current hole, or the last one.
     pub hole: Drilling,
     /// Number of holes to make.
     pub times: u32,
@@ -63,6 +63,6 @@ pub struct Work {
     pub begun: u32,
     /// Height of the tool before the first hole.
     pub level: f64,
-    /// Depth at which the next peck of the hole ends.
+    /// If the hole is not finished: the depth at which its next peck ends.
     pub depth: Option<f64>,
 }

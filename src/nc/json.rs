@@ -1,10 +1,10 @@
-//! Actions as JSON Lines.
+//! Writes actions as JSON Lines.
 
 use super::action::{Action, Item};
 use crate::toolpath::{Direction, Plane, StopKind};
 
-/// Writes an action as a JSON object and a line end; an action without an object, such as a comment, writes nothing. `unknown`:
-/// unknown positions are null.
+/// Writes an action as a JSON object and a line end. Some actions, such as comments, are not written. If `unknown` is
+/// set, unknown positions are written as null.
 pub fn json_line(item: &Item, unknown: bool, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let start = out.len();
@@ -57,14 +57,14 @@ pub fn json_line(item: &Item, unknown: bool, out: &mut Vec<u8>) {
     out.extend_from_slice(b"}\n");
 }
 
-/// The axes at a machine position.
+/// Writes the letters of the axes that are at a machine position.
 fn in_machine(axes: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(b",\"machine\":\"");
     out.extend((0..6).filter(|axis| axes & 1 << axis != 0).map(|axis| b"xyzabc"[axis]));
     out.push(b'"');
 }
 
-/// A list of numbers; numbers whose bit in `unknown` is set are null.
+/// Writes a list of numbers. Numbers whose bit in `unknown` is set are written as null.
 fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     for (i, value) in values.iter().enumerate() {
@@ -79,7 +79,7 @@ fn list(before: &[u8], values: &[f64], unknown: u8, out: &mut Vec<u8>) {
     out.push(b']');
 }
 
-/// A number with enough digits to be read back as the same double.
+/// Writes a number with enough digits to read back the same double.
 fn number(before: &[u8], value: f64, out: &mut Vec<u8>) {
     out.extend_from_slice(before);
     if value.fract() == 0.0 && value.abs() < 1e15 {
@@ -95,7 +95,7 @@ fn name(before: &[u8], value: &str, out: &mut Vec<u8>) {
     out.push(b'"');
 }
 
-/// Name of a plane, by its axes in their order.
+/// Name of a plane: the letters of its axes in the order of the plane.
 pub fn plane_name(plane: Plane) -> &'static str {
     match plane {
         Plane::Xy => "xy",

@@ -8,7 +8,7 @@ use super::way::{Ends, Frame, Jump, Spot};
 use crate::control::{self, Meaning};
 use crate::diag::Code;
 
-/// Deepest nesting of subprograms and loops.
+/// Maximum nesting of subprograms and loops.
 const DEEPEST: usize = 64;
 
 fn no_end() -> Box<Fault> {
@@ -42,7 +42,7 @@ impl Simulator<'_> {
                 self.push(Frame::If { label: label.clone() })?;
                 Ok(Jump::Skip(label, Ends::Branch))
             }
-            // a branch of this `if` has run
+            // another branch of this `if` has already run
             Step::ElseIf(_) | Step::Else if inner => {
                 self.frames.pop();
                 Ok(Jump::Skip(label, Ends::If))
@@ -78,8 +78,8 @@ impl Simulator<'_> {
         }
     }
 
-    /// Begin of a program or subprogram, as on a Fanuc. It is an error if the previous subprogram runs into it without
-    /// M99.
+    /// Runs the beginning of a program or subprogram, as on a Fanuc. It is an error if the subprogram before it has no
+    /// M99 and continues into it.
     fn program_begins(&mut self, label: String) -> Done<Jump> {
         self.program = self.program.or(label.parse().ok());
         self.labels.insert(label, self.at);
@@ -100,7 +100,7 @@ impl Simulator<'_> {
         Ok(Jump::To(start))
     }
 
-    /// Runs `o.. while`, at the beginning of a loop or at the end of a `do`.
+    /// Runs `o.. while`, which is at the beginning of a loop or at the end of a `do`.
     fn loop_while(&mut self, label: String, is_so: bool) -> Done<Jump> {
         if let Some(Frame::Do { label: opened, start }) = self.frames.last()
             && *opened == label
@@ -133,7 +133,7 @@ impl Simulator<'_> {
         Ok(Jump::On)
     }
 
-    /// Leaves a loop for good, or the rest of the current round.
+    /// Leaves a loop (`for_good`), or only its current round.
     pub(super) fn out_of_loop(&mut self, label: String, for_good: bool) -> Done<Jump> {
         while let Some(frame) = self.frames.last_mut() {
             if frame.label() != label {
@@ -177,7 +177,7 @@ impl Simulator<'_> {
         refuse(Code::PN015, format!("o{label} does not belong to an open loop or branch"), help)
     }
 
-    /// Returns from a subprogram, at its end or at M99.
+    /// Returns from a subprogram, at its end or by M99.
     pub(super) fn return_from(&mut self, what: &str) -> Done<Jump> {
         while let Some(frame) = self.frames.last_mut() {
             if let Frame::Call { back, start, times, arguments, .. } = frame {
@@ -192,7 +192,7 @@ impl Simulator<'_> {
                 self.frames.pop();
                 return Ok(Jump::To(back));
             }
-            self.frames.pop(); // loops and branches end together with their subprogram
+            self.frames.pop(); // a loop or branch ends together with its subprogram
         }
         if self.state.settings.control.is_linuxcnc() {
             return refuse(
@@ -201,12 +201,12 @@ impl Simulator<'_> {
                 "call it, or remove the end",
             );
         }
-        // M99 in a main program starts it again; one run is enough
+        // M99 in a main program starts the program again; here it is run once
         self.again = true;
         Ok(Jump::End)
     }
 
-    /// Skips lines to the end of the part that a label began.
+    /// Skips the lines up to the end of the part that begins at a label.
     pub(super) fn skip(&mut self, label: &str, ends: Ends) -> Result<(), RunError> {
         let begin = self.at.line;
         loop {
@@ -214,7 +214,7 @@ impl Simulator<'_> {
                 let message = format!("o{label} of line {begin} has no end");
                 return Err(self.refused(Fault::new(Code::PN015, message, "write its end word")));
             }
-            // a line that is read for the first time is not a round of a loop
+            // a line that is read for the first time does not count as a round of a loop
             if self.at.line <= self.farthest {
                 self.count_jump()?;
             }
@@ -238,7 +238,7 @@ impl Simulator<'_> {
                 }
                 (Ends::Branch, Step::Else) => return Ok(()),
                 (Ends::Branch, Step::ElseIf(_)) => {
-                    // the condition of the ELSEIF is evaluated now
+                    // the condition of the ELSEIF is evaluated only now
                     let read = self.block.read(&self.line, &mut self.parameters, &self.state.settings);
                     if let Err(fault) = read {
                         return Err(self.refused(fault));
@@ -252,13 +252,13 @@ impl Simulator<'_> {
         }
     }
 
-    /// Skips the programs before the main one. Each is a subprogram and needs its M99, whether it is called or not.
+    /// Skips the programs before the main one. Each is a subprogram, which must have an M99 even if it is never called.
     pub(super) fn pass_programs(&mut self) -> Result<(), RunError> {
         let mut left = std::mem::take(&mut self.passing);
         let mut returns = true;
         while left > 0 {
             if !self.read_line()? {
-                return self.go(Spot { byte: 0, line: 0 }); // the programs have no O words
+                return self.go(Spot { byte: 0, line: 0 }); // without O words, the run begins at the first line
             }
             if let Some((label, Step::Program)) = Flow::head(&self.line) {
                 if !std::mem::take(&mut returns) {
@@ -284,7 +284,7 @@ impl Simulator<'_> {
         })
     }
 
-    /// Calls a subprogram of M98. The subprogram may come after the main program.
+    /// Calls a subprogram by M98. The subprogram may be after the main program.
     pub(super) fn find(&mut self, label: String, times: u32) -> Result<(), RunError> {
         let back = self.at;
         if !self.labels.contains_key(&label) && !self.searched {
@@ -295,7 +295,7 @@ impl Simulator<'_> {
                 }
             }
             self.searched = true;
-            // reading ahead is not a jump back
+            // reading ahead must not count as a jump back
             let farthest = self.farthest;
             self.go(back)?;
             self.farthest = farthest;

@@ -1,4 +1,4 @@
-//! Lathes of the Fanuc kind: the turret, and threads by G32, G92 and G76 (system A).
+//! Lathes of the Fanuc kind: the turret, and threads by G32, G92 and G76 (G code system A).
 
 use super::action::{Action, Passes, Rotation, Threading};
 use super::block::Block;
@@ -12,25 +12,25 @@ use crate::toolpath::Units;
 
 /// Flank angles that G76 accepts, in degrees.
 const FLANKS: [f64; 6] = [0.0, 29.0, 30.0, 55.0, 60.0, 80.0];
-/// The largest number of passes of a thread.
+/// The maximum number of passes of a thread.
 const MOST: u32 = 10_000;
 
-/// Data of the first block of G76. It stays in force until another first block.
+/// Data of the first block of G76. It is kept until another first block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FirstBlock {
-    /// How often the last pass is cut.
+    /// The number of times that the last pass is cut.
     last: u32,
     /// Smallest cut, on the radius.
     least: f64,
     /// Allowance for the last pass, on the radius.
     allowance: f64,
-    /// Distance before the end at which the tool leaves the thread, in leads.
+    /// Distance from the end of the thread at which the tool begins to move out, as a number of leads.
     pull_out: f64,
-    /// The angle of the flanks in degrees.
+    /// The angle between the flanks in degrees.
     flanks: f64,
 }
 
-/// State of threads and passes that a lathe keeps.
+/// The state of threads and passes that a lathe keeps between blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Threads {
     first: Option<FirstBlock>,
@@ -38,7 +38,7 @@ pub struct Threads {
     pass: Option<Pass>,
 }
 
-/// A pass. The following blocks contain only the words that change.
+/// A pass of G90, G92 or G94. Later blocks need to contain only the words that change.
 #[derive(Clone, Copy, Debug)]
 struct Pass {
     /// The code of the pass: G90, G92 or G94.
@@ -50,8 +50,8 @@ struct Pass {
 }
 
 impl Threads {
-    /// Ends the kept pass at a code that is not a pass: another motion, or a code that is in force for its block only. A
-    /// dwell does not end it.
+    /// Deletes the stored pass if a code follows that is not a pass: another motion, or a code that takes effect only
+    /// in its block. A dwell does not delete it.
     pub(super) fn end_passes(&mut self, by: Option<Meaning>) {
         let goes_on =
             matches!(by, None | Some(Meaning::Dwell | Meaning::TurnPass | Meaning::FacePass | Meaning::ThreadPass));
@@ -62,7 +62,7 @@ impl Threads {
 }
 
 impl State {
-    /// Runs a T word, whose last two digits are the offset. The turret indexes at once.
+    /// Runs a T word. Its last two digits are the offset. The turret indexes at once.
     pub(super) fn turn_turret(&mut self, word: f64, out: &mut Out<'_>) {
         const STATIONS: f64 = 100.0;
         let offset = word % STATIONS;
@@ -104,7 +104,7 @@ impl State {
         Ok(())
     }
 
-    /// The end and the taper of a pass, from the words of its block and of the previous pass.
+    /// The end and the taper of a pass, from the words of the block and the stored pass.
     pub(super) fn pass_end(&mut self, does: Meaning, block: &Block) -> Done<([f64; 6], f64)> {
         let mut end = self.target(block)?;
         let says = [letters("XU"), letters("ZW")].map(|words| block.has(words));
@@ -120,7 +120,7 @@ impl State {
             end[2 * at] = kept.end[at];
             self.place.at_machine &= !(1 << (2 * at));
         }
-        // controls differ in whether the taper of the previous pass stays in force if the code is written again
+        // if the code is written again, some controls keep the taper of the previous pass and others do not
         let before = self.threads.pass.map_or(0.0, |pass| pass.taper);
         if taper.is_none() && before != 0.0 && block.row(Group::Motion).is_some() {
             let message = format!("{code} is written again after a tapered pass, but without its taper");
@@ -131,7 +131,7 @@ impl State {
         Ok((end, taper))
     }
 
-    /// Makes the moves of a thread. G32: one cut that follows the spindle. G92: one pass and its retract. G76: all
+    /// Makes the moves of a thread. G32 makes one cut that follows the spindle, G92 one pass with its retract, G76 all
     /// passes.
     pub(super) fn lathe_thread(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
@@ -146,7 +146,7 @@ impl State {
         let lead = Some(self.drive.feed);
         let first = self.threads.first.filter(|_| does == Meaning::ThreadCycle);
         out.push(Action::Threading(Threading {
-            // in thousandths of a degree; Q of G76 is a depth
+            // Q is in thousandths of a degree; in G76, Q is a depth
             start: block.get(b'Q').filter(|_| first.is_none()).map_or(0.0, |angle| (angle / 1e3).rem_euclid(360.0)),
             flanks: first.map_or(0.0, |first| first.flanks),
             pull_out: first.map_or(0.0, |first| first.pull_out),
@@ -170,7 +170,7 @@ impl State {
             out.push(Action::Passes(Box::new(passes)));
             ways = list;
         }
-        // the block contains the radii and the end; the start of its passes comes from earlier blocks
+        // the block contains the radii and the end of each pass; the start position comes from earlier blocks
         let at_end = self.place.at_machine;
         let [radius_is_said, z_is_said] = [0b001, 0b100].map(|axis| unsaid & !axis | at_end & axis);
         out.by_cycle = true;
@@ -191,8 +191,8 @@ impl State {
         Ok(())
     }
 
-    /// The thread of G76, and the radii at the ends of all passes. The depth of the n-th pass is the first cut times the
-    /// square root of n.
+    /// The thread of G76, and the radius at the end of each pass. The depth of the n-th pass is the depth of the first
+    /// pass times the square root of n.
     fn passes(&self, begin: [f64; 6], end: [f64; 6], taper: f64, block: &Block) -> Done<(Passes, Vec<f64>)> {
         let Some(first) = self.threads.first else {
             return refuse(Code::PN007, "G76 without its first block", "write G76 P010060 Q.. R.. before it");
@@ -208,7 +208,7 @@ impl State {
                 "P is the depth and Q the first cut, both on the radius",
             );
         }
-        // direction from the crest to the full depth: towards the axis, or away from it
+        // the direction of the infeed: -1 towards the axis of the spindle, 1 away from it
         let inward = if begin[0] >= end[0].max(end[0] + taper) { -1.0 } else { 1.0 };
         let crest = end[0] - inward * depth;
         let whole = depth - first.allowance;

@@ -1,14 +1,14 @@
-//! The modal state between two blocks as codes and values, as on the control's screen.
+//! The modal state between two blocks, as the codes and values that the screen of a control shows.
 
 use super::action::Rotation;
 use super::state::State;
 use crate::control::{Code, Meaning};
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
-/// Modal state of the control between two blocks. Fields that are numbers are ten times the usual code.
+/// The modal state of the control between two blocks. Fields of type `u16` are the number of the usual code, times ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modal {
-    /// G0 to G3 and others of their group, but no canned cycles.
+    /// The active motion: G0 to G3 or another code of their group. Canned cycles are in `cycle`.
     pub motion: Option<Code>,
     /// G17 to G19.
     pub plane: u16,
@@ -24,13 +24,13 @@ pub struct Modal {
     pub compensation: u16,
     /// Whether a tool length offset is on.
     pub length: bool,
-    /// The canned cycle in force.
+    /// The active canned cycle.
     pub cycle: Option<Code>,
-    /// Register of cutter compensation.
+    /// The register of cutter compensation.
     pub diameter: Option<f64>,
-    /// F in the unit of the feed mode; 0 if no F was programmed.
+    /// The F value in the unit of the feed mode; 0 if the program has set no F.
     pub feed: f64,
-    /// S.
+    /// The S value.
     pub speed: f64,
     /// Rotation of the spindle.
     pub spindle: Rotation,

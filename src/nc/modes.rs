@@ -1,4 +1,4 @@
-//! Codes that take effect before the motion of a block: feed mode, dwell, plane, units, distance, work offset.
+//! The codes that take effect before the motion of a block: feed mode, dwell, plane, units, distance mode, work offset.
 
 use super::action::Action;
 use super::block::Block;
@@ -19,7 +19,7 @@ impl State {
             Some(Meaning::PerRev) => FeedMode::PerRev,
             _ => FeedMode::PerMinute,
         };
-        // LinuxCNC drops F at each such code, other controls only when the mode changes
+        // LinuxCNC forgets F at each feed mode code, other controls only when the mode changes
         if mode != FeedMode::InverseTime && (self.forgets_feed() || mode != self.modes.feed_mode) {
             self.drive.feed = 0.0;
         }
@@ -33,7 +33,7 @@ impl State {
         matches!(self.control.rules(), Rules::Linuxcnc | Rules::Emc2)
     }
 
-    /// Runs all codes between the feed and the motion.
+    /// Runs the codes that take effect after the feed and before the motion.
     pub(super) fn set_up(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         self.compensated(block.means(Meaning::Output), "an output")?;
         self.compensated(block.changes_tool(), "a tool change")?;
@@ -107,8 +107,8 @@ impl State {
         Ok(())
     }
 
-    /// P in seconds. Without a point, P is in milliseconds, except on controls that use seconds. A point means seconds
-    /// only on controls of the Fanuc kind.
+    /// Converts P to seconds. P without a decimal point is in milliseconds, except on controls that use seconds. P with
+    /// a decimal point is in seconds, but only on controls of the Fanuc kind.
     pub(super) fn seconds(&self, p: f64, block: &Block) -> f64 {
         let dwell = self.control.traits().dwell;
         let by_point = !self.control.rules().is_nist();
@@ -116,7 +116,7 @@ impl State {
         if seconds { p } else { p / 1000.0 }
     }
 
-    /// Refuses these changes while cutter compensation is on, as was observed on LinuxCNC.
+    /// If `changes` is set, refuses a change while cutter compensation is on, as LinuxCNC does.
     pub(super) fn compensated(&self, changes: bool, what: &str) -> Done {
         if !changes || self.tool.side.is_none() || !self.control.is_linuxcnc() {
             return Ok(());
@@ -132,7 +132,7 @@ impl State {
             if self.modes.feed_mode != FeedMode::InverseTime {
                 self.drive.feed *= factor;
             }
-            // LinuxCNC reads F before the units of its block, a Fanuc after them
+            // LinuxCNC reads F before the units of its block take effect, a Fanuc reads F after that
             if let Some(feed) = feed {
                 self.drive.feed = feed;
             }
@@ -188,13 +188,13 @@ impl State {
         Ok(())
     }
 
-    /// Selects a work offset on a control that numbers its offsets.
+    /// Selects a work offset on a control that only numbers its offsets.
     fn counted_work(&mut self, number: f64, out: &mut Out<'_>) {
         self.place.reframe(|frames| frames.active = Frames::counted(number));
         self.work_is(number, out);
     }
 
-    /// Selects a work offset by its code or number.
+    /// Sets the work offset, given as the number of its code or of the offset.
     fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
         if self.place.work_is(work) && self.settings.places_unknown {
             self.place.becomes_unknown(0b111);

@@ -1,4 +1,4 @@
-//! Straight moves: targets of axis words, G0, G1, G53, G33.
+//! Straight moves: the targets of axis words, G0, G1, G53 and G33.
 
 use super::action::{Action, Position, Rotation};
 use super::block::Block;
@@ -11,28 +11,28 @@ use crate::diag::Code;
 use crate::toolpath::Plane;
 
 impl State {
-    /// The word of an axis as a length. X is halved if it is a diameter.
+    /// The value of an axis word as a length. If X is a diameter, its value is halved.
     #[inline]
     pub(super) fn axis_word(&self, block: &Block, axis: usize) -> Option<f64> {
         let value = block.get(self.control.axes()[axis])?;
         Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
-    /// Whether the word of an axis is a position and not an increment.
+    /// Whether the word of an axis is a position, not an increment.
     #[inline]
     fn is_absolute(&self, block: &Block, axis: usize) -> bool {
         let at = 1 << axis;
         block.absolute & at != 0 || self.modes.absolute && block.incremental & at == 0
     }
 
-    /// Axes for which a block contains positions, as bits.
+    /// As bits, the axes for which a block contains positions.
     pub(super) fn said_positions(&self, block: &Block) -> u8 {
         let polar = if block.polar == [None; 2] { 0 } else { 0b11 };
         let said = |axis: &usize| self.axis_word(block, *axis).is_some() && self.is_absolute(block, *axis);
         (0..6).filter(said).fold(if self.modes.absolute { polar } else { 0 }, |said, axis| said | 1 << axis)
     }
 
-    /// The target of a block's axis words, in program coordinates.
+    /// The target of the axis words of a block, in program coordinates.
     #[inline]
     pub(super) fn target(&mut self, block: &Block) -> Done<Position> {
         let mut to = self.place.position;
@@ -40,7 +40,7 @@ impl State {
             let Some(value) = self.axis_word(block, axis) else { continue };
             if self.is_absolute(block, axis) {
                 *place = value;
-                // without its length offset, Z of a FADAL is in machine coordinates
+                // on a FADAL, Z is in machine coordinates while no tool length offset is active
                 match axis == 2 && self.control.traits().height_is_machine && !self.tool.length_on {
                     true => {
                         *place -= self.place.frames.zero_height();
@@ -69,7 +69,7 @@ impl State {
         Ok(to)
     }
 
-    /// The incremental word of a lathe: U along X, as a diameter; W along Z.
+    /// The value of an incremental word of a lathe: U along X, where it is a diameter, and W along Z.
     pub(super) fn increment(&self, block: &Block, axis: usize) -> Option<f64> {
         let letter = [b'U', b'V', b'W'].get(axis).filter(|_| self.control.is_lathe())?;
         let value = block.get(*letter)?;
@@ -130,7 +130,7 @@ impl State {
         Ok(())
     }
 
-    /// G38: moves towards a position. The contact position is known only at the machine.
+    /// Runs G38: a move towards a position until the probe touches. The contact position is known only at the machine.
     pub(super) fn probe_of_linuxcnc(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "a probe under cutter compensation", "end the compensation with G40 first");
@@ -147,12 +147,12 @@ impl State {
         Ok(())
     }
 
-    /// The linear axes that a block contains, as bits.
+    /// As bits, the linear axes for which the block has words.
     fn named(&self, block: &Block) -> u8 {
         (0..3).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum()
     }
 
-    /// G53: the words are machine coordinates.
+    /// Runs G53: the axis words are machine coordinates.
     fn in_machine(&mut self, rapid: bool, block: &Block, out: &mut Out<'_>) -> Done {
         if !self.modes.absolute && self.control.rules() != Rules::Grbl {
             return refuse(Code::PN018, "G53 under G91", "write G90 in the block: an increment would have no start");
@@ -169,13 +169,13 @@ impl State {
             }
         }
         let mut to = self.place.frames.to_program(&place);
-        // in a rotated frame, X of the machine moves both axes of the program
+        // in a rotated frame, a machine move along X changes both X and Y of the program
         let turned = if self.place.frames.angle() == 0.0 { 0 } else { 0b11 };
         for axis in (0..6).filter(|axis| (named | turned) & 1 << axis == 0) {
             to[axis] = self.place.position[axis];
         }
         self.place.goes_home(named);
-        // a Fanuc makes this move at rapid, whatever motion is in force
+        // a Fanuc makes this move at rapid, even if another motion is active
         if rapid || !self.control.is_linuxcnc() {
             self.place.rapid_to(to, out);
         } else {
@@ -185,7 +185,7 @@ impl State {
         Ok(())
     }
 
-    /// G33.1: a tap that follows the spindle in, reverses the spindle, and follows it out to the start.
+    /// Runs G33.1: a tap that follows the spindle into the hole, reverses the spindle, and follows it back to the start.
     pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let (begin, turning, unknown) = (self.place.position, self.drive.spindle, self.place.at_machine);
         if turning == Rotation::Stop {
@@ -199,7 +199,7 @@ impl State {
         Ok(())
     }
 
-    /// G33: a move that follows the spindle. A tap moves no rotary axis.
+    /// Runs G33: a move that follows the spindle. If it is a tap (`taps`), rotary axes do not move.
     pub(super) fn synchronised(&mut self, taps: bool, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(lead) = block.get(b'K') else {
             return refuse(Code::PN007, "G33 without K", "write K with the distance per revolution");

@@ -1,4 +1,4 @@
-//! Codes that are in force for their block only: G10 sets offsets, G52 and G92 shift frames, G28 and G30 go home.
+//! Codes that take effect only in their block: G10 sets offsets, G52 and G92 shift frames, G28 and G30 move to reference points.
 
 use super::action::Action;
 use super::block::Block;
@@ -11,10 +11,10 @@ use crate::control::{self, Meaning, Rules};
 use crate::diag::Code;
 
 impl State {
-    /// Runs codes that are in force for their block only: G10, G28, G30, G52, G92.
+    /// Runs the codes that take effect only in their block: G10, G28, G30, G52, G92.
     pub(super) fn once(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(row) = block.row(Group::Once) else { return Ok(()) };
-        // index 0 is the point of G28, index 1 that of G30
+        // index 0 is the reference point of G28, index 1 that of G30
         let point = usize::from(row.runs.point == Some(2));
         match row.meaning {
             Meaning::SetOffsets => self.set_data(row.code, block, out),
@@ -37,7 +37,7 @@ impl State {
     fn set_data(&mut self, code: control::Code, block: &Block, out: &mut Out<'_>) -> Done {
         let l = block.get(b'L').unwrap_or(-1.0);
         if !self.control.is_linuxcnc() && l != 2.0 && l != 20.0 {
-            // tool registers: no position here depends on them
+            // G10 sets tool registers here; no position in the simulator depends on them
             out.push(Action::LeftOut(code, Meaning::SetOffsets));
             return Ok(());
         }
@@ -55,7 +55,7 @@ impl State {
         let active = self.place.frames.active;
         let number = match (p as usize, self.control.is_linuxcnc()) {
             (0, true) => active,
-            // an additional work offset of a Haas or Fanuc
+            // on a Haas or Fanuc, L20 sets an additional work offset
             (p, false) if l == 20.0 => p + 9,
             (p, _) => p,
         };
@@ -63,7 +63,7 @@ impl State {
         let place = self.place.frames.to_machine(&self.place.position);
         let words: [Option<f64>; 6] = std::array::from_fn(|axis| self.axis_word(block, axis));
         let (absolute, control) = (self.modes.absolute, self.control);
-        // G10 L20 of LinuxCNC: the tool position gets this value in that offset
+        // G10 L20 of LinuxCNC moves the offset so that the tool has this position in it
         let stands = l == 20.0 && control.is_linuxcnc();
         let to_stand = stands.then(|| self.place.frames.to_stand(number, &place, &words));
         let Some((work, rotation)) = self.place.frames.work(number) else {
@@ -71,7 +71,7 @@ impl State {
         };
         let before = [*work, [*rotation; 6]];
         match to_stand {
-            // in a rotated frame, the offset moves along both axes
+            // in a rotated frame, the offset moves along X and Y
             Some(by) => work.iter_mut().zip(by).for_each(|(work, by)| *work += by),
             None => {
                 for (work, value) in work.iter_mut().zip(words).filter_map(|(work, value)| Some((work, value?))) {
@@ -112,14 +112,14 @@ impl State {
                     if does == Meaning::Frame {
                         shift.by[axis] = value;
                         if is_linuxcnc {
-                            shift.unknown &= !(1 << axis); // a Fanuc adds G52 to G92
+                            shift.unknown &= !(1 << axis); // on a Fanuc, G52 does not replace G92: both are added
                         }
                         continue;
                     }
                     shift.by[axis] += at - value;
                     if unknown {
                         shift.unknown |= 1 << axis;
-                        self.place.given(axis); // in the new frame, the position is known
+                        self.place.given(axis); // in the shifted frame, the position is known
                         lost = true;
                     }
                 }
@@ -155,7 +155,7 @@ impl State {
         for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {
             to[axis] = home[axis];
         }
-        // a rotary axis is at its reference point when its angle is zero
+        // a rotary axis is at an angle of zero at its reference point
         self.place.goes_home(axes & 0b111);
         self.place.rapid_to(to, out);
         Ok(())

@@ -1,37 +1,37 @@
-//! The output of actions, and the continuation of the program after a block.
+//! The output of actions, and the ways in which a program continues after a block.
 
 use super::action::{Action, Item};
 use super::profiled::Profiled;
 
-/// The number of actions of one call. The rest of a longer block waits for the next call.
+/// Maximum number of actions of one call. If a block makes more, the next call makes the rest.
 const AT_ONCE: usize = 4096;
 
 /// How a program continues after a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
-    /// The program goes on with the next block.
+    /// The program continues with the next block.
     On,
-    /// The program is over.
+    /// The program has ended.
     End,
-    /// The program calls a subprogram, this many times.
+    /// The program calls a subprogram: the number of the subprogram, and the number of runs.
     Call(f64, u32),
     /// The program returns from a subprogram.
     Return,
     /// The block is not finished: continue with `State::run_on`.
     Rest,
-    /// A cycle that follows a profile of the program.
+    /// The block contains a cycle that follows a profile of the program.
     Profile(Profiled),
 }
 
-/// The output for the actions of a block.
+/// The output to which a block adds its actions.
 pub struct Out<'a> {
-    /// All actions so far, including those of earlier blocks.
+    /// The list of actions. It also contains actions of earlier blocks.
     pub items: &'a mut Vec<Item>,
-    /// Number of actions before the block.
+    /// Number of actions in the list before the block.
     start: usize,
     /// Line of the block.
     pub line: u64,
-    /// Whether the next actions are made by a canned cycle.
+    /// Whether the next actions are part of a canned cycle.
     pub by_cycle: bool,
 }
 
@@ -41,13 +41,13 @@ impl<'a> Out<'a> {
         Out { start: items.len(), items, line, by_cycle: false }
     }
 
-    /// Whether there are enough actions to be read.
+    /// Whether the output has enough actions, so that the caller should read them first.
     #[inline]
     pub fn is_full(&self) -> bool {
         self.items.len() - self.start >= AT_ONCE
     }
 
-    /// Removes the actions of the block.
+    /// Removes all actions of the block.
     pub fn take_back(&mut self) {
         self.items.truncate(self.start);
     }

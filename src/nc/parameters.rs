@@ -1,4 +1,4 @@
-//! `#` parameters.
+//! The `#` parameters of a program.
 
 use std::collections::HashMap;
 
@@ -6,10 +6,10 @@ use super::fault::{Done, refuse};
 use crate::control::Control;
 use crate::diag::Code;
 
-/// Highest number of a parameter.
+/// The highest number of a parameter.
 const HIGHEST: usize = 9999;
 
-/// Parameters of a program, by number and by name.
+/// The parameters of a program, numbered and named.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     control: &'static Control,
@@ -17,23 +17,23 @@ pub struct Parameters {
     global: HashMap<String, f64>,
     /// Named parameters, one map for the main program and for each running subprogram.
     local: Vec<HashMap<String, f64>>,
-    /// Values of `#1` to `#30` that are restored when a subprogram ends.
+    /// For each running subprogram, the values of `#1` to `#30` that are restored at its end.
     kept: Vec<[Option<f64>; 30]>,
-    /// Position of the tool, for `#5420` and following.
+    /// Position of the tool, which is read by `#5420` and the next parameters.
     pub position: [f64; 6],
 }
 
-/// The target of an assignment.
+/// The parameter to which a value is assigned.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
-    /// An assignment by number: `#1=`.
+    /// The parameter with this number: `#1=`.
     Number(usize),
-    /// An assignment by name: `#<name>=`.
+    /// The parameter with this name: `#<name>=`.
     Name(String),
 }
 
 impl Parameters {
-    /// Parameters at the beginning of a program. None has a value yet.
+    /// The parameters at the beginning of a program, all without a value.
     pub fn new(control: &'static Control) -> Parameters {
         Parameters {
             control,
@@ -45,7 +45,7 @@ impl Parameters {
         }
     }
 
-    /// The number of a parameter from a value.
+    /// Converts a value to the number of a parameter.
     ///
     /// # Errors
     /// The value is not the number of a parameter.
@@ -57,19 +57,19 @@ impl Parameters {
         Ok(number as usize)
     }
 
-    /// The value of a parameter by number.
+    /// The value of a numbered parameter.
     ///
     /// # Errors
-    /// A Fanuc parameter that the program has not set: its value is known only at the control.
+    /// On a Fanuc, the program has not set the parameter, so its value is known only at the control.
     pub fn get(&self, number: usize) -> Done<f64> {
         if self.control.is_linuxcnc() && (5420..5426).contains(&number) {
             return Ok(self.position[number - 5420]);
         }
         match self.numbered.get(number).copied().flatten() {
             Some(value) => Ok(value),
-            // the interpreter keeps system values between runs, so only the program's own parameters are known
+            // LinuxCNC keeps the values of system parameters between runs; only the parameters of a program begin at 0
             None if self.control.is_linuxcnc() && number < 5000 => Ok(0.0),
-            // tool position, alarms, offsets: a program does not set these
+            // these hold tool positions, alarms and offsets, which the program does not set
             None if number >= 1000 => {
                 let help = "write its value as a number, or run the program without this block";
                 refuse(Code::PN016, format!("#{number} is a variable of the control, known only at the machine"), help)
@@ -81,7 +81,7 @@ impl Parameters {
         }
     }
 
-    /// The value of a parameter by name.
+    /// The value of a named parameter.
     ///
     /// # Errors
     /// The parameter has no value.
@@ -96,7 +96,8 @@ impl Parameters {
             }
             None => {
                 let help = format!("set it before this block: #<{name}>=0");
-                // LinuxCNC has named parameters of its own, and refuses any other
+                // names with `_` may be system parameters of LinuxCNC, which are not simulated; LinuxCNC refuses other
+                // names without a value
                 let code = if name.starts_with('_') { Code::PN016 } else { Code::PN014 };
                 refuse(code, format!("#<{name}> is not set in the program"), help)
             }
@@ -106,7 +107,7 @@ impl Parameters {
     /// Sets a parameter.
     ///
     /// # Errors
-    /// The parameter belongs to the control, and is not simulated.
+    /// The parameter belongs to the control and is not simulated.
     pub fn set(&mut self, target: Target, value: f64) -> Done {
         if !self.control.is_linuxcnc() && matches!(target, Target::Number(34..=99 | 200..=499 | 1000..)) {
             let help = "variables of a program are #1 to #33, #100 to #199 and #500 to #999";
@@ -128,7 +129,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// Begins a subprogram: `#1` to `#30` become its arguments.
+    /// Begins a subprogram: `#1` to `#30` get the values of its arguments.
     pub fn enter(&mut self, arguments: &[f64]) {
         let mut kept = [None; 30];
         for (i, old) in kept.iter_mut().enumerate() {
@@ -139,7 +140,7 @@ impl Parameters {
         self.local.push(HashMap::new());
     }
 
-    /// Ends a subprogram: restores the local parameters of the caller.
+    /// Ends a subprogram: the caller gets its local parameters back.
     pub fn leave(&mut self) {
         if let Some(kept) = self.kept.pop() {
             self.numbered[1..=30].copy_from_slice(&kept);

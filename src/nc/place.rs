@@ -1,4 +1,4 @@
-//! Position of the tool, and the frames of that position.
+//! The position of the tool, and the frames that position refers to.
 
 use super::action::{Action, Position};
 use super::frames::Frames;
@@ -7,25 +7,25 @@ use super::out::Out;
 /// The position of the tool and its coordinate frames.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// Position in program coordinates and the program's units. Axes in `at_machine` are counted from an unknown position
-    /// of the machine.
+    /// Position in program coordinates and the program's units. For an axis in `at_machine`, the position is measured
+    /// from an unknown position of the machine.
     pub position: Position,
     /// Axes whose position is in machine coordinates, as bits.
     pub at_machine: u8,
-    /// Those of the `at_machine` axes that have since moved by increments, so that their position is unknown.
+    /// Those of the `at_machine` axes that have moved by increments since then. Their machine position is unknown, too.
     pub astray: u8,
-    /// Those of the `at_machine` axes whose machine position is given in the program, as bits.
+    /// As bits, those of the `at_machine` axes whose machine position the program contains.
     pub placed: u8,
     /// The coordinate frames of the program.
     pub frames: Frames,
-    /// The work offset in force, by its code or number; `None`: none was selected, and the control has no default.
+    /// The active work offset, by its code or number; `None`: the program has selected none, and the control has no default.
     pub work: Option<f64>,
-    /// Targets of G28 and G30, in machine coordinates.
+    /// The target positions of G28 and G30, in machine coordinates.
     pub homes: [Position; 2],
 }
 
 impl Place {
-    /// A position at zero. `at_machine`: axes whose position is known only at the machine.
+    /// A position at zero. `at_machine`: as bits, the axes whose position is known only at the machine.
     pub fn new(at_machine: u8, work: Option<f64>) -> Place {
         Place {
             position: [0.0; 6],
@@ -38,18 +38,18 @@ impl Place {
         }
     }
 
-    /// Selects a work offset. Returns whether it is another one. The distance between the two is unknown.
+    /// Selects a work offset. Returns whether it differs from the one before. The distance between the two is then unknown.
     pub fn work_is(&mut self, work: f64) -> bool {
         self.work.replace(work) != Some(work)
     }
 
-    /// The program sets the position of an axis.
+    /// The program contains the position of an axis: it is known from now on.
     #[inline]
     pub fn given(&mut self, axis: usize) {
         self.are_given(1 << axis);
     }
 
-    /// The program sets the positions of these axes.
+    /// The program contains the positions of these axes: they are known from now on.
     #[inline]
     pub fn are_given(&mut self, axes: u8) {
         self.at_machine &= !axes;
@@ -66,35 +66,35 @@ impl Place {
         }
     }
 
-    /// Moves axes to a position that is an increment from an unknown machine position.
+    /// Moves axes by increments from an unknown machine position.
     pub fn strays(&mut self, axes: u8) {
         self.at_machine |= axes;
         self.astray |= axes;
         self.placed &= !axes;
     }
 
-    /// Moves axes to a machine position that is given in the program.
+    /// Moves axes to a machine position that the program contains.
     pub fn goes_home(&mut self, axes: u8) {
         self.at_machine |= axes;
         self.astray &= !axes;
         self.placed |= axes;
     }
 
-    /// Moves axes to a machine position that is not given in the program, such as that of a tool change or of a cycle's
-    /// start.
+    /// Moves axes to a machine position that the program does not contain, such as the position of a tool change or of
+    /// a cycle's start.
     pub fn goes_to_machine(&mut self, axes: u8) {
         self.goes_home(axes);
         self.placed &= !axes;
     }
 
-    /// The axes do not move, but from here on their position is known only at the machine.
+    /// Makes the position of axes unknown, although they do not move: from now on it is known only at the machine.
     pub fn becomes_unknown(&mut self, axes: u8) {
         self.placed &= !axes;
         self.astray &= self.at_machine;
         self.at_machine |= axes;
     }
 
-    /// Makes a rapid in program coordinates.
+    /// Makes a rapid to a position in program coordinates.
     #[inline]
     pub fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
         self.position = to;
@@ -102,7 +102,7 @@ impl Place {
         out.push(Action::Rapid { to, machine, astray: self.astray & machine, placed: self.placed & machine });
     }
 
-    /// Makes a straight feed move. `lead`: feed per turn, if the move follows the spindle.
+    /// Makes a straight feed move. `lead`: feed per revolution, if the move follows the spindle.
     #[inline]
     pub fn feed_to(&mut self, to: Position, feed: f64, lead: Option<f64>, out: &mut Out<'_>) {
         self.position = to;
@@ -115,7 +115,7 @@ impl Place {
         out.push(Action::Feed { to, feed, lead: None, machine: self.at_machine, home: axes });
     }
 
-    /// Changes the frames. The tool does not move.
+    /// Changes the frames. The tool does not move, so its position in program coordinates changes.
     pub fn reframe(&mut self, change: impl FnOnce(&mut Frames)) {
         let place = self.frames.to_machine(&self.position);
         change(&mut self.frames);

@@ -1,6 +1,6 @@
-//! The usual block: a straight cut with positions in words, perhaps with its code and a feed. Most blocks of long programs are
-//! of this kind. It is run without the questions that no such block can answer with yes. The general path of [`State::run`]
-//! has the same result for it; a test compares both.
+//! Runs simple blocks fast. A simple block is a straight cut with axis words, perhaps with its code and a feed; most
+//! blocks of long programs are such. Checks that can't apply to a simple block are left out. [`State::run`] gives the
+//! same result for these blocks; a test compares both.
 
 use super::block::Block;
 use super::codes::{AXES, Group, bit, g_code, letters};
@@ -10,12 +10,12 @@ use crate::control::{Control, Meaning, Row};
 use crate::number::short_decimal;
 use crate::toolpath::FeedMode;
 
-/// The words of a usual block.
+/// The words that a simple block may have.
 const WORDS: u32 = letters("XYZABCFN");
 
 impl Block {
-    /// Reads a line that has only axis words, a number, a feed and one G0 or G1, each with a short number. Returns `false` if
-    /// the line is another one, which the general reader must read.
+    /// Reads a line that has only axis words, a number, a feed and one G0 or G1, with short numbers. Returns `false` if
+    /// the line has anything else; the general reader must then read it.
     #[inline]
     pub(super) fn read_plain(&mut self, line: &[u8], control: &'static Control) -> bool {
         let (mut at, mut given, mut whole, mut code) = (0, 0, 0, None);
@@ -43,7 +43,7 @@ impl Block {
             let start = at + 1 + usize::from(negative);
             let Some(short) = short_decimal(line, start) else { return false };
             at = start + short.length;
-            // a number that continues after a blank ends this loop there: a digit is no letter
+            // a number that continues after a blank ends the loop in the next round, because a digit is not a letter
             if given & bit(letter) != 0 || negative && letter == b'F' {
                 return false;
             }
@@ -62,7 +62,7 @@ impl Block {
         true
     }
 
-    /// Whether the block, as just read, has only axis words, a number, a feed, and the code of a motion.
+    /// Whether the block that was just read has only axis words, a number, a feed, and the code of a motion.
     #[inline]
     pub(super) fn is_plain(&self) -> bool {
         self.given & !WORDS == 0
@@ -77,12 +77,12 @@ impl Block {
 }
 
 impl State {
-    /// Makes the cut of a plain block. Returns `false` if the general path must run the block.
+    /// Makes the cut of a simple block. Returns `false` if `State::run` must run the block.
     #[inline]
     pub(super) fn cuts_plainly(&mut self, block: &Block, out: &mut Out<'_>) -> bool {
         let modes = &self.modes;
         let (word, control) = (block.row(Group::Motion), self.control);
-        // a straight cut is in force, so that the code of another one changes nothing
+        // a straight cut is active already, so a G1 in the block changes nothing
         let is_line = |row: &Row| row.meaning == Meaning::Line;
         let is_usual = modes.motion.is_some_and(is_line)
             && word.is_none_or(is_line)
@@ -93,7 +93,7 @@ impl State {
             && self.turning.corner.is_none()
             && !control.is_lathe()
             && !control.traits().height_is_machine
-            // lengths without a point depend on a setting
+            // the meaning of lengths without a decimal point depends on a setting
             && (block.whole & AXES == 0 || control.rules().is_nist());
         let feed = block.get(b'F').unwrap_or(self.drive.feed);
         if !is_usual || feed.is_nan() || feed <= 0.0 {

@@ -1,46 +1,46 @@
-//! Data of the blocks of turning cycles.
+//! Data for the cycles of a lathe that follow a profile, and for corners.
 
-/// Data of the first blocks of the cycles. It stays in force until another first block.
+/// Data from the first block of a cycle with two blocks. It is kept until another first block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FirstBlocks {
-    /// Depth of a pass of G71, and its retract.
+    /// Depth of a pass of G71, and retract after it.
     pub turn: [Option<f64>; 2],
-    /// Depth of a pass of G72, and its retract.
+    /// Depth of a pass of G72, and retract after it.
     pub face: [Option<f64>; 2],
     /// Distance of the first pass of G73 from the profile along X and Z, and the number of passes.
     pub pattern: [Option<f64>; 3],
-    /// Retract of G74 and G75 after a peck.
+    /// Retract after each peck of G74 and G75.
     pub back: Option<f64>,
-    /// A chamfer or rounded corner that the next block must leave.
+    /// A chamfer or rounded corner that was just cut. The next block must continue from it.
     pub corner: Option<Corner>,
 }
 
-/// A chamfer or rounded corner that was cut, and the required direction of the next block.
+/// A chamfer or rounded corner that was just cut, and the direction in which the next block must move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
-    /// The axis along which the next block moves.
+    /// The axis along which the next block must move.
     pub axis: usize,
-    /// Distance from the corner to the end of the chamfer along that axis, with its sign.
+    /// Distance along that axis from the corner to the end of the chamfer, with its sign.
     pub by: f64,
 }
 
-/// A cycle that follows a profile of the program.
+/// A cycle that cuts along a profile, which is a part of the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profiled {
-    /// The number of the profile's first block.
+    /// The block number of the first block of the profile.
     pub first: f64,
-    /// The number of its last block.
+    /// The block number of the last block of the profile.
     pub last: f64,
-    /// How the profile is cut.
+    /// The kind of cuts.
     pub how: How,
 }
 
-/// How a profile is cut.
+/// The kind of cuts along a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum How {
-    /// The blocks of the profile are run once.
+    /// The finish: the blocks of the profile are run once.
     Finish,
-    /// Passes along an axis.
+    /// Roughing passes along an axis.
     Passes {
         /// Whether the passes are along X instead of Z.
         across: bool,
@@ -48,16 +48,16 @@ pub enum How {
         depth: f64,
         /// Retract after each pass.
         back: f64,
-        /// Allowance for the finish: radius and Z.
+        /// Allowance that the finish removes: on the radius, and along Z.
         left: [f64; 2],
     },
-    /// The whole profile, several times.
+    /// Roughing along the whole profile, several times.
     Pattern {
-        /// Distance of the first pass from the profile: radius and Z.
+        /// Distance of the first pass from the profile: on the radius, and along Z.
         outside: [f64; 2],
         /// Number of passes.
         count: u32,
-        /// Allowance for the finish: radius and Z.
+        /// Allowance that the finish removes: on the radius, and along Z.
         left: [f64; 2],
     },
 }

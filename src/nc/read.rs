@@ -1,4 +1,4 @@
-//! Reads a line as a block: words, values and comments. Checks that its codes may be used together.
+//! Reads a line as a block: words, values and comments. Checks that the codes of the block may be used together.
 
 use super::block::Block;
 use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
@@ -15,7 +15,7 @@ impl Block {
     /// Reads a line.
     ///
     /// # Errors
-    /// The control can't read the line, or refuses it before running it.
+    /// The control can't read the line, or refuses it before it runs.
     pub fn read(&mut self, line: &[u8], parameters: &mut Parameters, settings: &RunSettings) -> Done {
         let control = settings.control;
         self.clear();
@@ -72,7 +72,7 @@ impl Block {
         self.check(control)
     }
 
-    /// Reads the rest of a line that has expressions.
+    /// Reads the rest of a line, from its first expression on.
     #[cold]
     fn read_values(
         &mut self,
@@ -126,7 +126,7 @@ impl Block {
         Ok(())
     }
 
-    /// Records a token that is not a word.
+    /// Records a token that is not a word, such as a comment.
     fn mark(&mut self, line: &[u8], kind: Kind, start: usize, end: usize, control: &'static Control) -> Done {
         match kind {
             Kind::Comment => {
@@ -218,7 +218,7 @@ impl Block {
         self.takes_axes |= takes_axes(row, rules);
         self.has_modes |= !matches!(its_group, Group::Motion | Group::Cycle);
         let group = its_group as usize;
-        // LinuxCNC ignores G80 in a block with another motion
+        // on LinuxCNC, G80 has no effect in a block with another motion
         if control.is_linuxcnc() && its_group == Group::Motion {
             match self.g[group].map(|before| before.meaning) {
                 Some(_) if row.meaning == Meaning::CycleEnd => return Ok(()),
@@ -226,7 +226,7 @@ impl Block {
                 _ => {}
             }
         }
-        // several modal codes of group `Other`, which change nothing here, may be in one block
+        // codes of group `Other` have no effect in the simulator, so a block may contain several of them
         if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
             let message =
                 format!("{} and {} are of one group", before.code, control::Code { letter: b'G', tenths: code });
@@ -274,7 +274,7 @@ impl Block {
         Ok(())
     }
 
-    /// Refuses a code whose meaning is known only for some values of its word, if the word has another value.
+    /// Refuses a code whose meaning is known only for some values of a word, if the word has another value.
     fn check_values(&self) -> Done {
         for row in self.g.iter().flatten().filter(|row| !row.only.is_empty()) {
             if !row.only.iter().any(|&(letter, value)| self.get(letter) == Some(value)) {
@@ -309,11 +309,11 @@ fn twice<T>(letter: u8, column: usize) -> Done<T> {
     Err(Fault::at(Code::PN002, column, message, "keep one of them"))
 }
 
-/// Statements of Fanuc macros. They are not run.
+/// Statements of Fanuc macros, which the simulator does not run.
 const STATEMENTS: [&str; 13] =
     ["IF", "THEN", "GOTO", "WHILE", "DO", "END", "POPEN", "PCLOS", "DPRNT", "BPRNT", "SETVN", "ACTVN", "SETSVN"];
 
-/// A fault for a name that is not a word of the control.
+/// The fault for a name that is not a word of the control.
 #[cold]
 fn unknown_name(text: &str, after_comment: bool, column: usize, control: &'static Control) -> Box<Fault> {
     if STATEMENTS.contains(&text.to_ascii_uppercase().as_str()) {
@@ -341,7 +341,7 @@ fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) ->
     }
 }
 
-/// Refuses a code whose meaning is known but which is not run.
+/// Refuses a code with a known meaning that the simulator does not run.
 #[cold]
 fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
     Err(Fault::at(Code::PN016, column, format!("{code} is not supported: {why}"), "run the program without it"))

@@ -1,4 +1,4 @@
-//! Runs the codes of a block in the order of the control.
+//! Runs the codes of a block in the order in which the control runs them.
 
 use super::action::{Action, Item};
 use super::block::Block;
@@ -11,12 +11,12 @@ use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::{Direction, FeedMode, Units};
 
-/// Words whose values are lengths or angles.
+/// The words whose values are lengths or angles.
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
 
 impl State {
-    /// The words that need no code in their block. H beside a work offset needs one if the control is not given, because
-    /// `G56 H1` is a length on some controls.
+    /// The words that need no code in their block. If the control is only assumed, H in the block of a work offset does
+    /// need a code, because on some controls `G56 H1` selects a tool length.
     fn free_words(&self, block: &Block) -> u32 {
         let free = self.control.traits().everywhere.bits();
         if self.settings.assumed && block.row(Group::Work).is_some() { free & !bit(b'H') } else { free }
@@ -46,7 +46,7 @@ impl State {
         if let Some((start, end)) = block.comment {
             out.push(Action::Comment(start, end));
         }
-        // most blocks only move
+        // most blocks only move, so they have none of these codes
         if block.row(Group::FeedMode).is_some() {
             self.feed_mode(block, &mut out);
         }
@@ -91,7 +91,7 @@ impl State {
         self.finish(block, &mut out)
     }
 
-    /// Runs the rest of a block. The block must be unchanged.
+    /// Runs the rest of a block whose output was full. The block must be unchanged.
     ///
     /// # Errors
     /// The control refuses the block.
@@ -102,7 +102,7 @@ impl State {
         self.finish(block, &mut out)
     }
 
-    /// Runs the M codes that come after everything else in the block.
+    /// Runs the M codes that take effect after everything else in the block.
     #[inline]
     fn finish(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         if self.holes.work.is_some() || self.holes.pattern.is_some() {
@@ -111,17 +111,17 @@ impl State {
         if block.has_m() { self.after(block, out) } else { Ok(Next::On) }
     }
 
-    /// Converts lengths without a point.
+    /// Converts lengths without a decimal point, as the settings require.
     fn unpointed(&self, block: &mut Block) -> Done {
         let said = block.g_meaning(Group::Units).map(|meaning| meaning == Meaning::Inch);
         let inch = said.unwrap_or(self.modes.units == Units::Inch);
         if block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
-            return Ok(()); // words of these codes are not lengths
+            return Ok(()); // the words of these codes are not lengths
         }
-        // K is then a number of repeats, not a length
+        // in a cycle without a shift, K is a number of repeats, not a length
         let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
-        // not lengths: P and Q of a turning cycle (block numbers or increments), Q of a thread (an angle), R of a pattern
-        // (passes)
+        // not lengths: P and Q of a turning cycle (block numbers or increments), Q of a thread (an angle), R of a
+        // pattern cycle (number of passes)
         let motion = block.row(Group::Motion).or(self.modes.motion).map(|row| row.meaning);
         let (more, less) = match (block.g_meaning(Group::Once), motion) {
             (Some(Meaning::RoughPattern), _) => (0, letters("QR")),
@@ -153,7 +153,7 @@ impl State {
         Ok(())
     }
 
-    /// The canned cycle of a Fanuc that begins in a block or is in force.
+    /// The canned cycle of a Fanuc that this block begins, or that is active.
     fn cycle_of(&self, block: &Block) -> Motion {
         match block.row(Group::Cycle) {
             Some(row) => Some(row).filter(|row| row.meaning != Meaning::CycleEnd),
@@ -161,7 +161,7 @@ impl State {
         }
     }
 
-    /// The code of a block's motion, if it has one. If no motion is in force, this is the code of its cycle.
+    /// The code of the motion that a block makes, if it moves. If no motion is active, this is the code of the active cycle.
     fn motion_of(&self, block: &Block) -> Done<Motion> {
         let word = block.row(Group::Motion);
         let moves = block.has_axes() && !block.axes_are_taken();
@@ -169,7 +169,7 @@ impl State {
             if block.axes_are_taken() || self.control.is_linuxcnc() {
                 return Ok(None);
             }
-            // on a Fanuc, R alone runs a cycle, and I, J or K alone runs a full circle
+            // on a Fanuc, R alone runs the active cycle; I, J or K alone makes a full circle
             let has_cycle = block.row(Group::Cycle).is_some() || self.holes.cycle.is_some();
             let circle = !has_cycle && is_one_of(self.modes.motion, &ARCS) && block.has(letters("IJK"));
             let runs = circle || has_cycle && block.has(bit(b'R'));
@@ -245,7 +245,7 @@ impl State {
             self.leave_cycle(row, out);
         }
         if block.axes_are_taken() {
-            // G0 G28 X0: the word belongs to G28, and G0 is in force for the blocks after it
+            // in `G0 G28 X0`, the axis word belongs to G28; G0 is active for the next blocks
             let help = "write the cycle in a separate block";
             return if begins_cycle(block) {
                 refuse(Code::PN004, "two codes that both use the axis words", help)
@@ -281,14 +281,14 @@ impl State {
         }
     }
 
-    /// Ends the series of holes: the motion is not a cycle.
+    /// Ends the series of holes, because the motion is not a cycle.
     fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
         self.end_cycle(out);
         self.threads.end_passes(Some(row.meaning));
         self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
     }
 
-    /// Ends the cycle in force. The modal motion remains.
+    /// Ends the active cycle. The modal motion does not change.
     fn end_cycle(&mut self, out: &mut Out<'_>) {
         if self.cycle_in_force().is_some() {
             out.push(Action::CycleOff);

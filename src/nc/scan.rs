@@ -1,7 +1,7 @@
-//! Splits lines of an NC program into tokens. Each byte belongs to a token, and none is guessed.
+//! Splits a line of an NC program into tokens. Every byte is part of a token; nothing is guessed.
 //!
-//! Spaces inside numbers, missing spaces between words, lower case and both comment styles are read as on controls. The
-//! scanner does not know codes. A byte that no control can read is [`Kind::Unread`].
+//! Spaces inside numbers, missing spaces between words, lower case and both comment styles are read as controls read
+//! them. The scanner does not depend on the meaning of codes. A byte that no control can read becomes [`Kind::Unread`].
 
 use super::digits::{Number, is_blank, signed, skip_blanks, unsigned};
 
@@ -23,29 +23,29 @@ pub enum Kind {
     Blank,
     /// CR, LF or both.
     LineEnd,
-    /// A word: a letter with its number, including sign and spaces.
+    /// A word: a letter and its number, with the sign and the spaces between.
     Word(u8, Number),
-    /// A letter whose value is an expression or parameter in the next tokens.
+    /// A letter whose value is the expression or parameter in the next tokens.
     Letter(u8),
     /// A number in an expression, without sign.
     Number(Number),
-    /// Two letters or more, or letters in an expression: `sub`, `SIN`, `GOTO`.
+    /// Two or more letters, or any letters in an expression: `sub`, `SIN`, `GOTO`.
     Name,
-    /// `<name>`, with its brackets.
+    /// A name in angle brackets, `<name>`.
     Quoted,
     /// One of `# [ ] = + - * , ` and `/` in an expression; also `**`.
     Symbol(u8),
-    /// `(...)` with its closing bracket.
+    /// A comment in brackets, `(...)`, with its closing bracket.
     Comment,
-    /// `(...` without its closing bracket.
+    /// A comment in brackets whose closing bracket is missing.
     OpenComment,
-    /// `;` and the rest of the line.
+    /// A comment that begins with `;`, up to the end of the line.
     Remark,
-    /// `/` before a block, with its digit if it has one.
+    /// A `/` before a block, with the digit after it if there is one.
     Delete,
-    /// `%` and the text after it.
+    /// A `%`, with the text after it.
     Percent,
-    /// A byte that is part of no token.
+    /// A byte that does not belong to any other token.
     Unread,
 }
 
@@ -56,9 +56,9 @@ pub struct Tokens<'a> {
     at: usize,
     /// Number of open square brackets.
     depth: u32,
-    /// Whether a value must follow: after `#`, `=` and operators.
+    /// Whether a value must be next: true after `#`, `=` and operators.
     value: bool,
-    /// Whether only spaces and a block delete were read so far.
+    /// Whether only spaces and a block delete have been read so far.
     fresh: bool,
 }
 
@@ -68,7 +68,7 @@ pub fn tokens(line: &[u8]) -> Tokens<'_> {
     Tokens { line, at: 0, depth: 0, value: false, fresh: true }
 }
 
-/// The tokens of a line after a word.
+/// The tokens of a line from the byte `at` on, after a word.
 pub(super) fn tokens_from(line: &[u8], at: usize) -> Tokens<'_> {
     Tokens { line, at, depth: 0, value: false, fresh: false }
 }
@@ -101,8 +101,8 @@ impl Iterator for Tokens<'_> {
 }
 
 impl Tokens<'_> {
-    /// The next token, if it is a letter with its number and not the O of a program: the letter, the number and the first
-    /// byte. Most tokens are of this kind.
+    /// Reads the next token if it is a letter with its number, except the O of a program. Returns the letter, the
+    /// number and the first byte. Most tokens are words of this kind.
     #[inline(always)]
     pub(super) fn word(&mut self) -> Option<(u8, Number, usize)> {
         let start = self.at;
@@ -115,7 +115,7 @@ impl Tokens<'_> {
         Some((letter, number, start))
     }
 
-    /// Reads a word, a letter before an expression, or a name.
+    /// Reads a token that begins with a letter: a word, a letter before an expression, or a name.
     #[inline(always)]
     fn letter(&mut self, letter: u8) -> Kind {
         let next = self.at + 1;
@@ -171,7 +171,7 @@ impl Tokens<'_> {
                 self.value = true;
                 (Kind::Symbol(byte), 1)
             }
-            // polar coordinates, the spindle, and the alternative mark of a program number
+            // polar coordinates, a spindle number, and `:`, which may begin a program number
             b'@' | b'^' | b'$' | b':' => match signed(self.line, self.at + 1) {
                 Some((number, end)) => (Kind::Word(byte, number), end - self.at),
                 None => (Kind::Letter(byte), 1),
@@ -188,7 +188,7 @@ impl Tokens<'_> {
         self.at = skip_blanks(self.line, self.at);
     }
 
-    /// Number of bytes after the next one on this line.
+    /// Number of bytes between the next byte and the end of the line.
     fn to_line_end(&self) -> usize {
         let rest = &self.line[self.at + 1..];
         rest.iter().position(|&b| b == b'\r' || b == b'\n').unwrap_or(rest.len())

@@ -1,39 +1,40 @@
-//! Settings for running a program.
+//! The settings for running a program.
 
 use crate::control::Control;
 use crate::toolpath::Units;
 
-/// Settings for running a program.
+/// The settings for running a program.
 #[derive(Clone, Copy, Debug)]
 pub struct RunSettings {
-    /// The control whose rules are used.
+    /// The control by whose rules the program is run.
     pub control: &'static Control,
-    /// Units before the first G20 or G21.
+    /// The units that are active before the first G20 or G21.
     pub units: Units,
     /// Whether blocks with a slash are skipped.
     pub block_delete: bool,
-    /// The retract of G73, and the distance above the last depth where the rapid of G83 ends, in the program's units. By
-    /// default, the control's values.
+    /// The retract of G73, and the distance above the last depth at which the rapid of G83 ends, in the program's
+    /// units. `None`: the values of the control.
     pub back_off: Option<f64>,
-    /// How a Fanuc reads a length without a point.
+    /// The meaning of a length without a decimal point, on a Fanuc.
     pub unpointed: Unpointed,
-    /// Whether the position of the tool is known only at the machine, at the beginning and in height after a tool change.
+    /// Whether the position of the tool counts as unknown at the beginning, and its height after a tool change.
     /// Otherwise the position is zero.
     pub places_unknown: bool,
-    /// Whether I, J and K are positions at the beginning, as after G90.1.
+    /// Whether I, J and K are absolute positions at the beginning, as after G90.1.
     pub centers_absolute: bool,
-    /// Whether the control is assumed: it is not given, and the program does not indicate another one.
+    /// Whether the control is an assumption: the user did not name it, and the program gives no indication of another one.
     pub assumed: bool,
-    /// Direction in which G76 and G87 of a Fanuc leave the wall along the first axis: a machine parameter, 1 or -1.
+    /// The direction along the first axis in which G76 and G87 of a Fanuc move away from the wall: 1 or -1. A machine
+    /// parameter sets it.
     pub bore_shift: f64,
-    /// For a lathe: whether X is a diameter; `None`: as in the control's file.
+    /// On a lathe, whether X is a diameter; `None`: as in the control's file.
     pub by_diameter: Option<bool>,
 }
 
-/// How a Fanuc reads a length without a point. This is a setting of the machine.
+/// The meaning of a length without a decimal point on a Fanuc. It depends on a setting of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Unpointed {
-    /// A length without a point is an error, because the setting is unknown.
+    /// A length without a decimal point is an error, because the setting is unknown.
     #[default]
     Refused,
     /// The value is in whole inches or millimetres.

@@ -21,18 +21,18 @@ use crate::diag::{Code, Diag};
 
 /// The longest line of any control, in bytes.
 const LONGEST: usize = 1 << 16;
-/// Largest number of loop rounds, calls and repeated blocks. A program with more is refused as endless.
+/// Maximum number of loop rounds, calls and repeated blocks. A program with more counts as endless and is refused.
 const MOST_JUMPS: u64 = 1_000_000;
 
-/// Largest number of actions from subprograms, loops and long blocks. A program with more is refused as endless.
+/// Maximum number of actions from subprograms, loops and long blocks. A program with more is refused.
 const MOST_REPEATED: u64 = 20_000_000;
 
-/// Why a program was not run to its end.
+/// The reason why a program was not run to its end.
 #[derive(Debug)]
 pub enum RunError {
-    /// The program could not be read.
+    /// The program can't be read.
     Io(io::Error),
-    /// The control refuses a block. The number is the line.
+    /// The control refuses a block. The number is its line.
     Refused(Box<Diag>, u64),
 }
 
@@ -42,7 +42,7 @@ impl From<io::Error> for RunError {
     }
 }
 
-/// The input of a program. It is read from the beginning. Jumps seek in it.
+/// The input of a program. Lines are read in sequence, and jumps seek.
 pub(super) trait Input: Read + Seek {}
 
 impl<T: Read + Seek> Input for T {}
@@ -53,13 +53,13 @@ impl std::fmt::Debug for dyn Input + '_ {
     }
 }
 
-/// The number of bytes that are read at a time.
+/// The number of bytes that are read at once.
 const BUFFER: usize = 128 << 10;
 
-/// Runs a program. The input is a trait object, so that the simulator is compiled once for all inputs. The simulator has
-/// its own buffer.
+/// Runs a program. The input is a trait object, so the simulator is compiled only once for all kinds of input. The
+/// simulator buffers the input itself.
 ///
-/// Memory does not grow with the program: one line is read at a time, and jumps seek in the input.
+/// Memory use does not grow with the program: one line is read at a time, and jumps seek in the input.
 #[derive(Debug)]
 pub struct Simulator<'a> {
     pub(super) input: BufReader<Box<dyn Input + 'a>>,
@@ -67,32 +67,32 @@ pub struct Simulator<'a> {
     pub(super) parameters: Parameters,
     pub(super) block: Block,
     pub(super) line: Vec<u8>,
-    /// Position in the input after the line.
+    /// Position in the input after the current line.
     pub(super) at: Spot,
     /// Number of the line that was run last.
     ran: u64,
     pub(super) frames: Vec<Frame>,
-    /// Positions of subprograms after their first line, by O number or name.
+    /// Positions after the first line of each subprogram, by O number or name.
     pub(super) labels: HashMap<String, Spot>,
-    /// Whether the rest of the input was searched for labels.
+    /// Whether the rest of the input has been searched for labels.
     pub(super) searched: bool,
-    /// Profiles that a cycle has followed. They are kept for the finish.
+    /// Profiles that a roughing cycle has followed. They are stored for the finish.
     pub(super) profiles: Vec<profile::Found>,
-    /// The first O number.
+    /// The first O number of the program.
     pub(super) program: Option<f64>,
     percent: bool,
     over: bool,
-    /// Whether the program ended with M99, which starts it again.
+    /// Whether the program ended with M99. The control would start it again.
     pub(super) again: bool,
     jumps: u64,
-    /// The last line before a jump. Lines up to it may be read again.
+    /// The highest line that was read before a jump. Lines up to this one may be read again.
     pub(super) farthest: u64,
-    /// Actions inside subprograms, loops and long blocks.
+    /// Number of actions from subprograms, loops and long blocks.
     repeated: u64,
-    /// Whether the current block has more actions.
+    /// Whether the current block has further actions.
     unfinished: bool,
     pub(super) blocks: u64,
-    /// Whether one of the blocks had words.
+    /// Whether any block so far had words.
     words: bool,
     /// State of a Siemens program.
     pub(super) siemens: Box<Siemens>,
@@ -100,11 +100,11 @@ pub struct Simulator<'a> {
     pub(super) klartext: Box<Klartext>,
     /// State of an Okuma program.
     pub(super) osp: Box<Osp>,
-    /// Whether the input is at its end, so that nothing more can be run.
+    /// Whether the input has ended, so that nothing more can be run.
     ended: bool,
-    /// Whether the first block was read or is being read.
+    /// Whether the first block has been read, or is being read.
     begun: bool,
-    /// O words to skip before the first block.
+    /// Number of O words to skip before the first block.
     pub(super) passing: usize,
 }
 
@@ -151,12 +151,12 @@ impl<'a> Simulator<'a> {
         &self.state
     }
 
-    /// The block that was run last, as written.
+    /// The text of the block that was run last.
     pub fn text(&self) -> &[u8] {
         &self.line
     }
 
-    /// The text of the line that was run last. Take it before the next step. `None`: the line has more actions.
+    /// The text of the line that was run last. Take it before the next step. `None`: the line has further actions.
     #[inline]
     pub fn text_to_keep(&mut self) -> Option<&mut Vec<u8>> {
         if self.unfinished { None } else { Some(&mut self.line) }
@@ -167,7 +167,7 @@ impl<'a> Simulator<'a> {
         self.ran
     }
 
-    /// Whether the program ended with M99, which starts it again.
+    /// Whether the program ended with M99. The control would start it again.
     pub fn begins_again(&self) -> bool {
         self.again
     }
@@ -182,7 +182,7 @@ impl<'a> Simulator<'a> {
         self.block.comment.and_then(|(start, end)| self.line.get(start..end))
     }
 
-    /// Restarts at the beginning, in the power-up state.
+    /// Starts again at the beginning of the program, in the power-up state.
     ///
     /// # Errors
     /// The input can't seek.
@@ -191,7 +191,7 @@ impl<'a> Simulator<'a> {
         self.again_with(settings)
     }
 
-    /// Restarts at the beginning with other settings.
+    /// Starts again at the beginning of the program, with other settings.
     ///
     /// # Errors
     /// The input can't seek.
@@ -200,16 +200,16 @@ impl<'a> Simulator<'a> {
         Ok(Simulator::of(self.input, settings))
     }
 
-    /// Number of blocks run so far.
+    /// Number of blocks that have been run so far.
     pub fn blocks(&self) -> u64 {
         self.blocks
     }
 
-    /// Runs the next line and appends its actions. Returns `false` when the program is over. A long line returns its
-    /// actions in parts of some thousand.
+    /// Runs the next line and adds its actions to `items`. Returns `false` when the program has ended. If a line has
+    /// more than some thousand actions, they are returned in several steps.
     ///
     /// # Errors
-    /// The input fails, or the control refuses the block. Actions before the refusal are in `items`.
+    /// The input can't be read, or the control refuses the block. `items` then contains the actions before the refusal.
     #[inline]
     pub fn step(&mut self, items: &mut Vec<Item>) -> Result<bool, RunError> {
         if self.over {
@@ -237,7 +237,7 @@ impl<'a> Simulator<'a> {
             Err(fault) => Err(self.refused(fault)),
         };
         if let Err(error) = jump {
-            // after a failed search, the next block is the one after this block
+            // after a failed search, the run continues with the block after this one
             self.input.seek(SeekFrom::Start(behind.byte))?;
             self.at = behind;
             return Err(error);
@@ -245,7 +245,7 @@ impl<'a> Simulator<'a> {
         Ok(true)
     }
 
-    /// Skips the refused block, as an operator would. Returns `false` if nothing comes after it.
+    /// Skips a refused block, as an operator might. Returns `false` if the program has no further block.
     pub fn pass_over(&mut self) -> bool {
         if self.ended {
             return false;
@@ -267,7 +267,7 @@ impl<'a> Simulator<'a> {
         Ok(())
     }
 
-    /// Refuses a program whose first blocks are in a language that is not read.
+    /// Refuses a program whose first blocks are in a language that postform does not read.
     fn check_language(&mut self) -> Result<(), RunError> {
         let head = loop {
             match self.input.fill_buf() {
@@ -278,7 +278,7 @@ impl<'a> Simulator<'a> {
         };
         let control = self.state.settings.control;
         if !control.is_run() {
-            return Ok(()); // its first block is refused
+            return Ok(()); // the first block is refused when it is read
         }
         if self.state.settings.assumed
             && !control.is_lathe()
@@ -308,7 +308,7 @@ impl<'a> Simulator<'a> {
         Err(self.refused(Fault::new(Code::PN016, message, help)))
     }
 
-    /// Returns the warnings since the last call, as findings.
+    /// Returns the warnings since the last call as findings.
     pub fn take_warnings(&mut self) -> Vec<Diag> {
         let list = self.state.take_warnings();
         let (line, text) = (self.at.line, self.text());
@@ -318,7 +318,7 @@ impl<'a> Simulator<'a> {
     #[expect(clippy::boxed_local, reason = "faults come in boxes")]
     pub(super) fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
-        // a loop is refused before its first line is read, when `at` is still the previous line
+        // a loop is refused before its first line is read; `at` is then still the line before it
         let line = self.at.line.max(u64::from(self.blocks > 0));
         RunError::Refused(Box::new(fault.diag(line, self.text())), line)
     }
@@ -332,7 +332,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Reads the next line into `self.line`. Returns `false` at the end of the input.
+    /// Reads the next line into `self.line`. Returns `false` if the input has ended.
     #[inline]
     pub(super) fn read_line(&mut self) -> Result<bool, RunError> {
         self.line.clear();
@@ -359,7 +359,7 @@ impl<'a> Simulator<'a> {
             return Ok(false);
         }
         if self.at.byte == 0 && self.line.starts_with(b"\xef\xbb\xbf") {
-            // a byte order mark of UTF-8: spaces keep the columns and bytes correct
+            // the line begins with a UTF-8 byte order mark: spaces in its place keep columns and bytes correct
             self.line[..3].fill(b' ');
         }
         self.at.byte += self.line.len() as u64;
@@ -367,7 +367,7 @@ impl<'a> Simulator<'a> {
         Ok(true)
     }
 
-    /// Runs the line, or the rest of it. Returns where the program continues.
+    /// Runs the current line, or the rest of it. Returns where the program continues.
     #[inline]
     fn line_step(&mut self, items: &mut Vec<Item>) -> Done<Jump> {
         let before = items.len();
@@ -380,7 +380,7 @@ impl<'a> Simulator<'a> {
             self.state.run(&mut self.block, self.at.line, items)?
         };
         self.unfinished = next == Next::Rest;
-        // one block alone may make as many actions as a loop
+        // a single block may make as many actions as a loop
         if self.unfinished || !self.frames.is_empty() {
             self.repeated += (items.len() - before) as u64;
             if next == Next::On
@@ -403,7 +403,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
+    /// Reads the line into the block. Returns a jump if there is nothing to run.
     #[inline]
     fn read_block(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         let control = self.state.settings.control;
@@ -432,7 +432,7 @@ impl<'a> Simulator<'a> {
         }
         if self.block.is_empty() && self.block.comment.is_none() {
             if self.block.percent {
-                // comments before the first `%` are not part of the program
+                // lines without words before the first `%` are not part of the program
                 let ends = self.percent || self.words;
                 self.percent = true;
                 if ends && control.rules() == Rules::Fanuc {
@@ -458,11 +458,11 @@ impl<'a> Simulator<'a> {
         Ok(None)
     }
 
-    /// Handles the end of the input before the end of the program.
+    /// Handles an input that ends before the program does.
     fn at_end(&mut self) -> Done<bool> {
         (self.over, self.ended) = (true, true);
         if self.state.settings.control.rules() == Rules::Grbl {
-            // Grbl reads block by block and has no end of a program
+            // Grbl runs block by block, and needs no code for the end of the program
             if self.state.drive.spindle != Rotation::Stop {
                 let message = "the program ends while the spindle turns: check that the file is complete";
                 self.state.warnings.push((Code::PN037, message));
@@ -476,12 +476,12 @@ impl<'a> Simulator<'a> {
     pub(super) fn go(&mut self, spot: Spot) -> Result<(), RunError> {
         self.farthest = self.farthest.max(self.at.line);
         if self.jumps == 0 {
-            // fail at the first jump if the input can't seek, even if the buffer would be enough
+            // if the input can't seek, fail at the first jump, even if the target is still in the buffer
             self.input.get_mut().stream_position()?;
         }
         let offset = i128::from(spot.byte) - i128::from(self.at.byte);
         match i64::try_from(offset) {
-            // stay inside the buffer if possible
+            // if possible, the target is read from the buffer
             Ok(offset) => self.input.seek_relative(offset)?,
             Err(_) => _ = self.input.seek(SeekFrom::Start(spot.byte))?,
         }

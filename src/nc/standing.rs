@@ -1,4 +1,4 @@
-//! The state in force between two blocks, for putting it in force again.
+//! The state that is active between two blocks. It is used to restore this state in another program.
 
 use super::action::{Position, Rotation};
 use super::frames::Shift;
@@ -6,24 +6,24 @@ use super::state::State;
 use crate::control::Meaning;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// The state in force between two blocks.
+/// The state that is active between two blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
-    /// Position in program coordinates and the units in force.
+    /// Position in program coordinates and the active units.
     pub position: Position,
-    /// Axes whose position is known only at the machine, as bits.
+    /// As bits, the axes whose position is known only at the machine.
     pub unknown: u8,
-    /// Those of the `unknown` axes whose machine position is given in the program.
+    /// Those of the `unknown` axes whose machine position the program contains.
     pub said: u8,
-    /// The units in force.
+    /// The active units.
     pub units: Units,
     /// The plane of arcs.
     pub plane: Plane,
-    /// Whether axis words are positions.
+    /// Whether axis words are absolute positions.
     pub absolute: bool,
     /// The feed mode.
     pub feed_mode: FeedMode,
-    /// The feed in the unit of its mode; 0 if none is known.
+    /// The feed in the unit of the feed mode; 0 if it is unknown.
     pub feed: f64,
     /// Whether cycles return to the initial level.
     pub to_initial: bool,
@@ -37,20 +37,20 @@ pub struct Standing {
     pub tool: Option<f64>,
     /// Whether cutter compensation is on.
     pub compensated: bool,
-    /// Whether the motion in force is a rapid.
+    /// Whether the active motion is a rapid.
     pub is_rapid: bool,
-    /// Whether the motion in force is a straight cut.
+    /// Whether the active motion is a straight cut.
     pub is_line: bool,
-    /// Whether a canned cycle is in force.
+    /// Whether a canned cycle is active.
     pub has_cycle: bool,
     /// The number of the work offset.
     pub work: usize,
-    /// Whether a frame is moved by G52 or G92, or rotated.
+    /// Whether G52 or G92 has shifted a frame, or a frame is rotated.
     pub is_shifted: bool,
 }
 
 impl State {
-    /// The state in force.
+    /// The state that is active now.
     pub fn standing(&self) -> Standing {
         Standing {
             position: self.place.position,

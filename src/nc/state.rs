@@ -1,4 +1,4 @@
-//! The state of a control between two blocks, in parts.
+//! The state of a control between two blocks, divided into parts.
 
 use super::action::{Position, Rotation};
 use super::block::Block;
@@ -23,38 +23,38 @@ pub struct State {
     pub(super) drive: Drive,
     pub(super) tool: Tool,
     pub(super) holes: Holes,
-    /// State of threads that a lathe keeps from block to block.
+    /// The state of threads, which a lathe keeps between blocks.
     pub(super) threads: Threads,
-    /// State of turning cycles that a lathe keeps from block to block.
+    /// The state of turning cycles, which a lathe keeps between blocks.
     pub(super) turning: FirstBlocks,
-    /// Warnings of the block: the control accepts it, but a machinist should know about it.
+    /// Warnings of the block: the control accepts the block, but the user should check it.
     pub(super) warnings: Vec<(Code, &'static str)>,
 }
 
-/// Modal codes.
+/// The active modal codes.
 #[derive(Clone, Debug)]
 pub(super) struct Modes {
     /// The modal motion; `None` after G80.
     pub motion: Motion,
     pub plane: Plane,
     pub units: Units,
-    /// G90: axis words are positions.
+    /// Whether axis words are absolute positions: G90.
     pub absolute: bool,
-    /// G90.1: I, J and K are positions.
+    /// Whether I, J and K are absolute positions: G90.1.
     pub centers_absolute: bool,
-    /// Whether the mode of I, J and K is known, from the control's file or from the program.
+    /// Whether it is known if I, J and K are positions, from the control's file or from the program.
     pub centers_known: bool,
     pub feed_mode: FeedMode,
-    /// G98: cycles return to the initial level.
+    /// Whether cycles return to the initial level: G98.
     pub to_initial: bool,
-    /// G7: X words are diameters.
+    /// Whether X words are diameters: G7.
     pub diameter: bool,
 }
 
-/// Feed and spindle.
+/// The feed and the state of the spindle.
 #[derive(Clone, Debug)]
 pub(super) struct Drive {
-    /// Feed in the unit of the feed mode; 0 if none is known.
+    /// The feed in the unit of the feed mode; 0 if it is unknown.
     pub feed: f64,
     pub spindle: Rotation,
     pub speed: f64,
@@ -69,14 +69,14 @@ pub(super) struct Tool {
     pub loaded: Option<f64>,
     /// Whether a tool length offset is on.
     pub length_on: bool,
-    /// Side of the path where the tool is; `None`: cutter compensation is off.
+    /// The side of the programmed path on which the tool is; `None`: cutter compensation is off.
     pub side: Option<Side>,
-    /// The last D, which a Fanuc keeps.
+    /// The last D number. A Fanuc keeps it.
     pub diameter_register: Option<f64>,
 }
 
 impl Drive {
-    /// The feed of a block that cuts.
+    /// The feed of a block with a cut.
     #[inline]
     pub fn feed_of(&self, block: &Block, mode: FeedMode) -> Done<f64> {
         if mode == FeedMode::InverseTime {
@@ -129,7 +129,7 @@ impl State {
         }
     }
 
-    /// Sets the units before the first G20 or G21.
+    /// Sets the units that are active before the first G20 or G21.
     pub(super) fn begin_in(&mut self, units: Units) {
         self.modes.units = units;
     }
@@ -150,17 +150,17 @@ impl State {
         self.place.at_machine
     }
 
-    /// Axes whose machine position is given in the program, as bits.
+    /// As bits, the axes whose machine position the program contains.
     pub fn at_said_machine(&self) -> u8 {
         self.place.placed
     }
 
-    /// Whether the position of an axis is known only at the machine, if the settings treat such positions as unknown.
+    /// Whether the position of an axis is known only at the machine. False if the settings assume known positions.
     pub(super) fn is_unknown(&self, axis: usize) -> bool {
         self.settings.places_unknown && self.place.at_machine & 1 << axis != 0
     }
 
-    /// Drops what a refused block had begun. The block is skipped.
+    /// Drops the holes that a refused block has begun. The block is skipped.
     pub(super) fn gives_up_block(&mut self) {
         (self.holes.work, self.holes.pattern) = (None, None);
         if self.settings.places_unknown {
@@ -168,23 +168,23 @@ impl State {
         }
     }
 
-    /// Axes whose frame G92 moved from a position that was known only at the machine, as bits.
+    /// As bits, the axes whose frame G92 moved while the position of the axis was known only at the machine.
     pub fn frame_unknown(&self) -> u8 {
         self.place.frames.shift.unknown
     }
 
-    /// The shift of the frame by G92 or G52, in the units in force.
+    /// The shift of the frame by G92 or G52, in the active units.
     pub fn frame_shift(&self) -> &Position {
         &self.place.frames.shift.by
     }
 
-    /// Converts a position of the program to machine coordinates, in the units in force.
+    /// Converts program coordinates to machine coordinates, in the active units.
     pub fn in_machine_coordinates(&self, at: &Position) -> Position {
         self.place.frames.to_machine(at)
     }
 
-    /// Converts a position of the program to the coordinates of its work offset, in the units in force. A shift from an unknown
-    /// position is left out: the program then counts from its own zero.
+    /// Converts program coordinates to coordinates of the work offset, in the active units. A shift from an unknown
+    /// position is left out: coordinates along this axis are then measured from the program's own zero.
     pub fn in_work_offset(&self, at: &Position) -> Position {
         let frames = &self.place.frames;
         let mut at = *at;
@@ -196,18 +196,18 @@ impl State {
         frames.to_work(&at)
     }
 
-    /// The number of the work offset in force: G54 is 1, the first additional one is 10. Controls that number their
-    /// offsets keep their own numbers.
+    /// The number of the active work offset: G54 is 1, the first additional offset is 10. On controls that only number
+    /// their offsets, it is their number.
     pub fn work_number(&self) -> usize {
         self.place.frames.active
     }
 
-    /// Axes of the work offset in force that the program itself has set to a machine position, as bits.
+    /// As bits, the axes for which the program has set the active work offset to a machine position.
     pub fn offset_given(&self) -> u8 {
         self.place.frames.given()
     }
 
-    /// Sets the machine's own offsets and reference points, in millimetres and degrees. Call this before the first block.
+    /// Sets the machine's offsets and reference points, in millimetres and degrees. Call this before the first block.
     pub(super) fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         let factor = 1.0 / self.modes.units.in_mm();
         for (number, at) in offsets {
@@ -220,17 +220,17 @@ impl State {
         self.place.position = self.place.frames.to_program(&machine);
     }
 
-    /// Converts a position in machine coordinates to program coordinates, in the units in force.
+    /// Converts machine coordinates to program coordinates, in the active units.
     pub fn in_program_coordinates(&self, at: &Position) -> Position {
         self.place.frames.to_program(at)
     }
 
-    /// The units in force.
+    /// The active units.
     pub fn units(&self) -> Units {
         self.modes.units
     }
 
-    /// The canned cycle in force.
+    /// The active canned cycle.
     pub fn cycle_in_force(&self) -> Motion {
         match self.control.is_linuxcnc() {
             true => self.modes.motion.filter(|row| row.meaning == Meaning::Cycle),
@@ -244,7 +244,7 @@ impl State {
     }
 }
 
-/// A position with its lengths multiplied by a factor.
+/// A position with all lengths multiplied by a factor. Angles do not change.
 fn scaled(at: &Position, factor: f64) -> Position {
     std::array::from_fn(|axis| if axis < 3 { at[axis] * factor } else { at[axis] })
 }

@@ -1,4 +1,4 @@
-//! Codes that are run last in a block: stops, the end, subprograms.
+//! The codes that are run last in a block: stops, the end of the program, subprogram calls and returns.
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
@@ -11,7 +11,7 @@ use crate::diag::Code;
 use crate::toolpath::StopKind;
 
 impl State {
-    /// Runs stops and subprogram calls, which come last.
+    /// Runs stops and subprogram calls, the last codes of a block.
     pub(super) fn after(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {
         let mut next = Next::On;
         for (code, row) in block.m() {
@@ -36,7 +36,7 @@ impl State {
         Ok(next)
     }
 
-    /// M98 P1000 L3, or P31000 as on older controls.
+    /// Calls a subprogram: M98 P1000 L3, or M98 P31000 as on older controls.
     fn call(&self, code: u16, block: &Block) -> Done<Next> {
         let Some(p) = block.get(b'P').filter(|p| p.fract() == 0.0 && *p >= 1.0) else {
             let message = format!("M{code} without the number of its subprogram");

@@ -1,30 +1,30 @@
-//! Statistics of a program: blocks, moves, holes, extents, distances, time.
+//! Statistics of a program: blocks, moves, holes, extents, distances and times.
 
 use super::action::{Action, Item, Position, Turn};
 use super::arcs::axes_of;
 use super::pace::Pace;
 use crate::toolpath::{Direction, Units};
 
-/// Collects statistics of the actions of a program.
+/// Statistics of the actions of a program.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    /// Number of rapids, straight feed moves and arcs.
+    /// Number of rapids, of straight feed moves, and of arcs.
     pub moves: [u64; 3],
     /// Number of holes of canned cycles.
     pub holes: u64,
     /// Number of tool changes.
     pub tools: u64,
-    /// Lengths of rapids and of feed moves.
+    /// Total length of the rapids, and of the feed moves.
     pub distances: [f64; 2],
-    /// Least and greatest X, Y, Z of the feed moves, including the positions between their ends.
+    /// Least and greatest X, Y, Z of the feed moves, including positions between the ends of a move.
     pub extents: Option<[(f64, f64); 3]>,
-    /// Minutes of feed moves, as programmed.
+    /// Time of the feed moves at their programmed feeds, in minutes.
     pub cutting: f64,
     /// Time of dwells, in minutes.
     pub dwelling: f64,
-    /// Number of feed moves whose time is unknown, because their feed follows a spindle without speed.
+    /// Number of feed moves with an unknown time: their feed depends on a spindle whose speed is not set.
     pub timeless: u64,
-    /// Units of the lengths: those in force at the end.
+    /// Units of all lengths: the units that are active at the end.
     pub units: Units,
     at: Position,
     pace: Pace,
@@ -54,7 +54,7 @@ impl Tally {
         match &item.action {
             Action::Rapid { to, machine, .. } => {
                 self.moves[0] += 1;
-                // the distance to a machine position is known only at the machine
+                // the position in the program, and so the distance, is unknown for a move to a machine position
                 if *machine == 0 {
                     self.distances[0] += distance(&self.at, to);
                 }
@@ -94,16 +94,16 @@ impl Tally {
         }
     }
 
-    /// Minutes of the whole program at rapids of [`rapid_rate`], without tool changes.
+    /// Minutes of the whole program. Rapids are counted at [`rapid_rate`]; tool changes are not counted.
     pub fn minutes(&self) -> f64 {
         self.cutting + self.dwelling + self.distances[0] / rapid_rate(self.units)
     }
 
-    /// Adds a feed move. `radius`: radius of a lathe cut.
+    /// Adds a feed move. `radius` is the radius of a lathe cut.
     fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>, radius: f64) {
         self.distances[1] += length;
         let minutes = match lead {
-            // this also covers rotary moves, whose length is 0
+            // in inverse time, this is also the time of rotary moves, whose length is 0
             None if self.pace.is_inverse() => 1.0 / feed,
             _ => {
                 let (scale, length) = (self.units.in_mm(), length * self.units.in_mm());
@@ -120,7 +120,7 @@ impl Tally {
         }
     }
 
-    /// Adds the quadrant points that an arc passes.
+    /// Extends the extents to the quadrant points that an arc passes.
     fn round(&mut self, turn: &Turn) {
         let [first, second, _] = axes_of(turn.plane);
         let radius = (self.at[first] - turn.center[first]).hypot(self.at[second] - turn.center[second]);
@@ -140,12 +140,12 @@ impl Tally {
     }
 }
 
-/// Rapid rate for time estimates, in units per minute: 10 m, or 400 inch.
+/// The rapid rate for time estimates, in units per minute: 10 m/min, or 400 inch/min.
 pub fn rapid_rate(units: Units) -> f64 {
     if units == Units::Inch { 400.0 } else { 10_000.0 }
 }
 
-/// Minutes as `1:02:03`, or `2:03` if less than an hour.
+/// Minutes as text: `1:02:03`, or `2:03` for less than an hour.
 pub fn clock(minutes: f64) -> String {
     let seconds = (minutes * 60.0).round() as u64;
     let (hours, rest) = (seconds / 3600, seconds % 3600);
@@ -160,7 +160,7 @@ fn distance(from: &Position, to: &Position) -> f64 {
     (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The angle of an arc in radians. It is a full turn if the arc ends where it begins.
+/// The angle of an arc in radians. If the arc ends where it begins, it is a full turn.
 pub(crate) fn sweep(from: &[f64], turn: &Turn) -> f64 {
     let [first, second, _] = axes_of(turn.plane);
     let angle = |at: &[f64]| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);

@@ -1,4 +1,4 @@
-//! G76 of LinuxCNC: a thread in passes (nc.md section 2.11).
+//! G76 of LinuxCNC: a thread that is cut in passes.
 
 use super::action::Rotation;
 use super::block::Block;
@@ -8,7 +8,7 @@ use super::out::Out;
 use super::state::State;
 use crate::diag::Code;
 
-/// The largest number of passes of a thread.
+/// The maximum number of passes of a thread.
 const MOST: f64 = 10_000.0;
 
 struct Thread {
@@ -53,7 +53,7 @@ impl State {
             return refuse(Code::PN018, *message, "G76 P(pitch) Z(end) I(crest) J(first cut) K(depth)");
         }
         let target = self.target(block)?;
-        // without a taper length there is no taper
+        // L selects the tapered ends; it has an effect only if E, the length of a taper, is not zero
         let ends = block.get(b'L').filter(|_| block.get(b'E').is_some_and(|e| e != 0.0)).unwrap_or(0.0);
         let mut tan = block.get(b'Q').unwrap_or(0.0).to_radians().tan();
         if target[2] > self.place.position[2] {

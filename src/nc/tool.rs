@@ -1,4 +1,4 @@
-//! Codes of a block for spindle and tool: speed, tool, coolant, compensation, length.
+//! The codes of a block for spindle and tool: speed, tool, coolant, compensation, tool length.
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
@@ -20,7 +20,7 @@ pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
     }
 }
 
-/// The coolant state after an M code of this meaning. Coolant through the spindle is on as a flood is.
+/// The coolant state after an M code of this meaning. Through-spindle coolant counts as flood.
 pub(crate) fn cooling(meaning: Meaning) -> Option<Cooling> {
     match meaning {
         Meaning::Mist => Some(Cooling::Mist),
@@ -84,7 +84,7 @@ impl State {
             let rotation = rotation(row.meaning);
             if let Some(rotation) = rotation {
                 turned = true;
-                // on a Fanuc, a stop of spindle and coolant takes effect after the block's motion
+                // on a Fanuc, a code that stops spindle or coolant takes effect after the motion of the block
                 if rotation != Rotation::Stop || self.control.is_linuxcnc() {
                     self.turn_spindle(rotation, out);
                 }
@@ -97,7 +97,7 @@ impl State {
                         let message = format!("M19 to an angle of {angle}");
                         return refuse(diag::Code::PN018, message, "write an angle from 0 to 360");
                     }
-                    self.drive.spindle = Rotation::Stop; // the spindle stops at its angle
+                    self.drive.spindle = Rotation::Stop; // an orientation also stops the spindle
                     out.push(Action::Orient(angle));
                 }
                 Meaning::ToolChange | Meaning::ToolNumber | Meaning::Call | Meaning::Return | Meaning::End => {}
@@ -130,7 +130,7 @@ impl State {
         out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
     }
 
-    /// Handles the second T of a block: the next tool, after the one that the block loads.
+    /// Handles a second T word in a block: the number of the next tool, after the one that the block loads.
     fn preselect(&mut self, tool: f64, block: &Block) -> Done {
         if !block.changes_tool() {
             let help = "a second T is allowed only with M6, for the next tool: write M6, or keep one T";
@@ -147,7 +147,7 @@ impl State {
         Ok(())
     }
 
-    /// M6: the spindle is stopped afterwards.
+    /// Runs M6. The spindle is stopped after it.
     pub(super) fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
         let Some(tool) = self.tool.number else {
             return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before it");
@@ -163,12 +163,12 @@ impl State {
 
     pub(super) fn compensation(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         if !self.control.is_linuxcnc() {
-            // D in a cycle of a Haas lathe is a depth
+            // in a cycle of a Haas lathe, D is a depth, not a register
             let of_cycle = block.row(Group::Once).is_some_and(|row| row.words.has(b'D'));
             self.tool.diameter_register = block.get(b'D').filter(|_| !of_cycle).or(self.tool.diameter_register);
         }
         let Some(row) = block.row(Group::Compensation) else {
-            // another register while compensation is on
+            // the register changes while compensation is on
             if let (Some(side), Some(_), false) = (self.tool.side, block.get(b'D'), self.control.is_linuxcnc()) {
                 out.push(Action::Compensation(Some((side, self.tool.diameter_register))));
             }
@@ -186,7 +186,7 @@ impl State {
             return refuse(diag::Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
         }
         let side = if row.meaning == Meaning::SideLeft { Side::Left } else { Side::Right };
-        // LinuxCNC uses the tool's own diameter if there is no D
+        // without D, LinuxCNC uses the diameter of the tool in the spindle
         let register = match row.runs.by_diameter {
             true => None,
             _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
@@ -208,12 +208,12 @@ impl State {
     pub(super) fn length(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let row = match block.row(Group::Length) {
             Some(row) => row,
-            // on a Fanuc, H alone changes the offset in force; on a FADAL, H alone turns it on
+            // on a Fanuc, H alone changes the active offset; on a FADAL, H alone turns an offset on
             None => {
                 let by_register = matches!(self.control.traits().tool_length, ToolLength::Register | ToolLength::Tool);
                 let counts = self.tool.length_on || by_register;
                 if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
-                    // register 0 has no length
+                    // register 0 means no length
                     self.tool.length_on = register != 0.0 || !by_register;
                     out.push(Action::Length(Some(register).filter(|register| *register != 0.0)));
                 }
@@ -236,7 +236,7 @@ impl State {
                 out.push(Action::Length(Some(0.0)));
             }
             _ => {
-                // without H, some controls use the length of the tool in the spindle, even after another T
+                // without H, some controls use the length of the tool in the spindle, even if a T word has named another tool since
                 let register = block.get(b'H').or(self.tool.loaded);
                 if block.get(b'H').is_none() && self.control.traits().tool_length != ToolLength::Code {
                     let help = "write H with the tool's register: G43 H1";
@@ -251,9 +251,9 @@ impl State {
                     );
                 }
                 if !adds {
-                    self.place.frames.tool = [0.0; 3]; // the offset of G43.1 ends
+                    self.place.frames.tool = [0.0; 3]; // ends the offset of G43.1
                 }
-                // the length is not in any tool table, so it counts as zero; G44 subtracts it
+                // the simulator has no tool table, so the length counts as zero; G44 subtracts it
                 let register = register.unwrap_or(0.0);
                 out.push(Action::Length(Some(if row.meaning == Meaning::LengthMinus { -register } else { register })));
             }

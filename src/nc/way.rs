@@ -1,29 +1,30 @@
-//! Positions, frames and jumps of a program's text.
+//! Positions in the text of a program, program parts that are being run, and jumps.
 
 use super::action::Position;
 use super::profiled::Profiled;
 
-/// A position in the program's text: its byte, and the number of lines before it.
+/// A position in the text of a program: its byte, and the number of lines before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spot {
     pub byte: u64,
     pub line: u64,
 }
 
-/// A part that runs inside the main program.
+/// A part of the program that is being run: a subprogram, a loop or a branch.
 #[derive(Debug)]
 pub(super) enum Frame {
-    /// A subprogram: the position of its call, its start, and the number of runs left.
+    /// A subprogram: the position after its call, its start, and the number of runs that are left.
     Call { label: String, back: Spot, start: Spot, times: u32, arguments: bool },
-    /// A `while`, with the position of its line.
+    /// A `while` loop, with the position of its first line.
     While { label: String, start: Spot },
-    /// A `do`, with the position of its line.
+    /// A `do` loop, with the position of its first line.
     Do { label: String, start: Spot },
-    /// A `repeat`, with the position after its line.
+    /// A `repeat` loop, with the position after its first line.
     Repeat { label: String, start: Spot, left: u32 },
-    /// The profile of a cycle: the end of the cycle's block, the end of the profile, and the start position of the cycle.
+    /// The profile of a cycle: the position after the block of the cycle, the end of the profile, and the position of
+    /// the tool at the start of the cycle.
     Profile { back: Spot, end: Spot, start: Position },
-    /// An `if` with one of its branches running.
+    /// An `if`, one of whose branches is being run.
     If { label: String },
 }
 
@@ -41,7 +42,7 @@ impl Frame {
     }
 }
 
-/// The end of a part that is skipped.
+/// The end up to which lines are skipped.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Ends {
     Sub,
@@ -50,7 +51,7 @@ pub(super) enum Ends {
     Repeat,
     If,
     Branch,
-    /// The condition of a `do`. The condition is run.
+    /// The condition of a `do`. This condition is then evaluated.
     Test,
 }
 
@@ -61,19 +62,19 @@ pub(super) enum Jump {
     To(Spot),
     Find(String, u32),
     Skip(String, Ends),
-    /// Continue at the profile of a cycle.
+    /// Continue with the profile of a cycle.
     Profile(Profiled),
-    /// Continue at a target that must be searched first.
+    /// Continue at a target that has to be searched first.
     Search(Search),
 }
 
-/// A search target of a program in another language.
+/// The target of a search, in a program that is not in G code with O words.
 #[derive(Debug)]
 pub(super) enum Search {
-    /// A label: `true` forwards, `false` backwards, `None` either.
+    /// A label. `true`: search forwards, `false`: backwards, `None`: in both directions.
     Label(String, Option<bool>),
-    /// The end of the part that this line opens; `true`: the part is entered.
+    /// The end of the part that this line opens. `true`: the part is being run.
     Part(bool),
-    /// A subprogram with its arguments and the number of calls.
+    /// A subprogram: its name, the arguments, and the number of calls.
     Call(String, Vec<Option<f64>>, u32),
 }

@@ -11,12 +11,12 @@ use crate::toolpath::{Event, Hold, Place, ReadError, Side, Sink, Start, Stop, Un
 
 pub(super) type Done<T = ()> = Result<T, ReadError>;
 
-/// How far a matrix may be from the identity.
+/// How far the elements of a matrix may differ from the identity.
 const STRAIGHT: f64 = 1e-6;
-/// Maximum number of facts that are kept.
+/// Maximum number of facts in the report.
 const MOST_FACTS: usize = 20;
 
-/// Converts the records one after the other.
+/// Converts the records to events, one after the other.
 pub struct Convert<'r, 's> {
     hold: Hold<'s>,
     report: &'r mut Remarks,
@@ -50,12 +50,12 @@ impl<'r, 's> Convert<'r, 's> {
         }
     }
 
-    /// Has the last record of the file been read?
+    /// Whether the last record of the file was read.
     pub fn is_over(&self) -> bool {
         self.over
     }
 
-    /// The file ends at this line.
+    /// Handles the end of the file. `line`: its last line.
     pub fn end(&self, line: u64) -> Done {
         match (line, self.over) {
             (0, _) => Err(wrong(Code::PI001, "the file is empty", "let Mastercam write it again", 1)),
@@ -69,7 +69,7 @@ impl<'r, 's> Convert<'r, 's> {
         }
     }
 
-    /// Takes a record.
+    /// Handles one record.
     pub fn take(&mut self, record: &Record) -> Done {
         self.place.line = record.line;
         self.place.column = 1;
@@ -132,7 +132,7 @@ impl<'r, 's> Convert<'r, 's> {
                 let help = "remove the canned text from the operation: its output depends on Mastercam's post";
                 Err(wrong(Code::PI003, "canned text (1025)", help, record.line))
             }
-            // ignored: the construction plane, the stock, an empty canned text, data of tools and operations
+            // ignored: the construction plane, the stock, empty canned text, and data of tools and operations
             1016 | 1017 | 1020 | 1025 | 10_000.. => Ok(()),
             other => {
                 let what = match other {
@@ -157,7 +157,7 @@ impl<'r, 's> Convert<'r, 's> {
         }
     }
 
-    /// Checks that there has been a tool change.
+    /// Checks that a tool change came before this record.
     pub(super) fn begun(&self, record: &Record) -> Done {
         match self.started {
             true => Ok(()),
@@ -196,7 +196,7 @@ impl<'r, 's> Convert<'r, 's> {
         self.place.item = 0;
         self.ahead.comment = None;
         self.coolant = change.coolant;
-        // the position after a tool change is unknown; after record 1000 it stays
+        // after a tool change the position is unknown; record 1000 does not change it
         if record.code != 1000 {
             self.position = None;
         }
@@ -251,7 +251,7 @@ impl<'r, 's> Convert<'r, 's> {
         self.push(Event::Text(text))
     }
 
-    /// The plane of the tool, or of the work: as the machine has it, or the file is for five axes or for several setups.
+    /// Handles the plane of the tool or of the work. A plane that is turned or moved is refused.
     fn plane(&self, record: &Record) -> Done {
         let values = record.values(9)?;
         let straight = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];

@@ -1,43 +1,43 @@
-//! Canned cycles: record 81 begins a cycle with its first hole, record 100 is a further hole.
+//! Canned cycles. Record 81 begins a cycle with its first hole, and each record 100 is another hole.
 
 use super::records::Record;
 use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Axes, CycleKind, CycleSpec, Hole};
 
-/// How far a hole may be from its upper point, measured across the tool.
+/// Tolerance for the distance between a hole's bottom and its upper point, measured across the tool.
 const STRAIGHT: f64 = 1e-6;
 
-/// A hole with its cycle. Heights are absolute.
+/// A hole with the data of its cycle. Heights are absolute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drilling {
     kind: CycleKind,
     /// Position in X and Y.
     pub at: [f64; 2],
     bottom: f64,
-    /// Height before and after the hole.
+    /// Height of the tool before and after the hole.
     pub initial: f64,
-    /// Height at which the feed begins.
+    /// Height where the feed begins.
     r: f64,
     /// Top of the stock.
     top: f64,
     dwell: f64,
-    /// The feed; 0 or less: the previous feed stays.
+    /// The feed. If it is 0 or less, the previous feed stays active.
     pub feed: f64,
     first_peck: f64,
     peck: f64,
-    /// The control flag, if it has one.
+    /// The control flag, if the hole has one.
     pub flag: Option<f64>,
 }
 
-/// The open cycle, by its last hole.
+/// The open cycle, represented by its last hole.
 pub struct Open(pub Drilling);
 
 impl Open {
-    /// Reads a further hole (100).
+    /// Reads another hole of the cycle (record 100).
     ///
     /// # Errors
-    /// A value is missing or makes no sense.
+    /// A value is missing or invalid.
     pub fn next(&self, record: &Record) -> Result<Drilling, Box<Diag>> {
         let values = record.values(11)?;
         let (lower, upper) = ends(&values[1..4], &values[8..11], values.get(12), record)?;
@@ -55,7 +55,7 @@ impl Open {
         own.checked(upper, record)
     }
 
-    /// Does a hole belong to the same cycle? Its depth may differ.
+    /// Whether a hole belongs to the same cycle. Its depth may be different.
     pub fn takes(&self, hole: &Drilling) -> bool {
         let without = |hole: &Drilling| Drilling { at: [0.0; 2], bottom: 0.0, flag: None, ..*hole };
         let feed = if hole.feed > 0.0 { hole.feed } else { self.0.feed };
@@ -64,10 +64,10 @@ impl Open {
 }
 
 impl Drilling {
-    /// Reads a first hole (81).
+    /// Reads the first hole of a cycle (record 81).
     ///
     /// # Errors
-    /// A value is missing, makes no sense, or belongs to a cycle that is not supported.
+    /// A value is missing or invalid, or belongs to a cycle that is not supported.
     pub fn read(record: &Record) -> Result<Drilling, Box<Diag>> {
         let values = record.values(17)?;
         let kind = match values[0] {
@@ -105,7 +105,7 @@ impl Drilling {
         drilling.checked(upper, record)
     }
 
-    /// Checks that the heights are in their order.
+    /// Checks the order of the heights.
     fn checked(self, upper: [f64; 3], record: &Record) -> Result<Drilling, Box<Diag>> {
         let is_right = self.bottom < self.top && self.top <= self.r && self.r <= self.initial;
         if !is_right || (upper[2] - self.initial).abs() > STRAIGHT {
@@ -119,7 +119,7 @@ impl Drilling {
         Ok(self)
     }
 
-    /// The cycle that begins with this hole; `feed` is the feed in force before it.
+    /// The cycle that begins with this hole. `feed` is the active feed before it.
     ///
     /// # Errors
     /// The feed or the peck is missing.
@@ -155,7 +155,7 @@ impl Drilling {
     }
 }
 
-/// Bottom and upper point of a hole, which is along Z.
+/// The bottom and the upper point of a hole. The hole must be parallel to Z.
 fn ends(
     lower: &[f64],
     upper: &[f64],

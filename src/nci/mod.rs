@@ -1,9 +1,9 @@
-//! Mastercam NCI files as toolpaths.
+//! Reads NCI files of Mastercam as toolpaths.
 //!
-//! An NCI file is pairs of lines: the number of a record, then its values. Positions are absolute, in the units of the part; no
-//! record contains the units. The meanings of the numbers are taken from the sources of NCCS PostWorks (`ncilod.f`,
-//! `ncimot.f`). They were compared with programs that Mastercam's own posts printed (docs/sources/mastercam.md). Disputed or
-//! unknown records are refused.
+//! A record of an NCI file is two lines: the number of the record, and its values. Positions are absolute, in the units of the
+//! part; no record contains the units. The meanings of the numbers come from the sources of NCCS PostWorks (`ncilod.f`,
+//! `ncimot.f`). They were compared with programs that Mastercam's own posts printed (docs/sources/mastercam.md). Records whose
+//! meaning is disputed or unknown are refused.
 
 mod convert;
 mod drilling;
@@ -19,18 +19,18 @@ use crate::toolpath::{ReadError, Sink, Units};
 use convert::Convert;
 use records::Records;
 
-/// Information that the file lacks.
+/// Information that an NCI file does not contain.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// The units of the file.
+    /// The units of the lengths in the file.
     pub units: Option<Units>,
 }
 
 /// Reads a file and pushes its events.
 ///
 /// # Errors
-/// The input fails or is no NCI file, its units are missing, a record is cut off, or a record contains something that no job
-/// can contain.
+/// The input can't be read or is not an NCI file, its units are not given, a record is incomplete, or a record contains
+/// something that a job can't contain.
 pub fn read_nci(
     input: impl Read,
     options: &Options,
@@ -53,7 +53,7 @@ pub fn read_nci(
     convert.end(records.line())
 }
 
-/// An error at a line.
+/// The error for a line of the file.
 fn wrong<E: From<Box<Diag>>>(code: Code, message: impl Into<String>, help: impl Into<String>, line: u64) -> E {
     let place = crate::diag::Location::line(line);
     Box::new(Diag::new(code, message).help(help).place(place)).into()

@@ -1,4 +1,4 @@
-//! Lines, arcs and rapids: their feeds, compensation and coolant.
+//! Lines, arcs and rapids, with their feeds, cutter compensation and coolant.
 
 use super::convert::{Convert, Done};
 use super::records::Record;
@@ -7,13 +7,14 @@ use super::wrong;
 use crate::diag::Code;
 use crate::toolpath::{Arc, Axes, Direction, Event, Infeed, Plane, Side};
 
-/// The feed value of a rapid.
+/// The value that a rapid has as its feed.
 const RAPID: f64 = -2.0;
-/// The feed value of a move that keeps the previous feed.
+/// The value of a move that uses the previous feed.
 const UNCHANGED: f64 = -1.0;
-/// How far a tool axis may be from Z.
+/// How far the components of a tool axis may differ from those of Z.
 const UPRIGHT: f64 = 1e-6;
-/// How far the end of an arc may be off the circle, as a fraction of the radius; files have six decimals, often of single precision.
+/// How far the end of an arc may be away from the circle, as a fraction of the radius. Files have six decimals, often in single
+/// precision.
 const ROUND: f64 = 1e-3;
 
 /// The kind of a move: feed or rapid.
@@ -33,7 +34,7 @@ impl Pace {
 }
 
 impl Convert<'_, '_> {
-    /// The kind of a move, by its feed value.
+    /// The kind of a move, which depends on its feed value.
     fn pace(&mut self, value: f64, record: &Record) -> Done<Pace> {
         if value == RAPID {
             return Ok(Pace::Rapid);
@@ -53,7 +54,7 @@ impl Convert<'_, '_> {
         }
     }
 
-    /// The change of compensation in a move. `None`: no change.
+    /// How a move changes compensation. `None`: it does not change.
     fn turns(&mut self, value: f64, record: &Record) -> Done<Option<Option<Side>>> {
         let to = match value {
             0.0 => return Ok(None),
@@ -81,7 +82,7 @@ impl Convert<'_, '_> {
         Ok(Some(to))
     }
 
-    /// The control flag of a move: its sixth digit is the coolant.
+    /// Reads the control flag of a move. Its sixth digit is the coolant.
     pub(super) fn flag(&mut self, value: Option<&f64>, record: &Record) -> Done {
         let digit = (value.copied().unwrap_or(0.0).abs() / 100_000.0).trunc() % 10.0;
         if digit < 1.0 {
@@ -104,7 +105,7 @@ impl Convert<'_, '_> {
         self.moves([values[1], values[2], values[3]], values[4], turns, record)
     }
 
-    /// A straight move whose tool axis is given by a second point.
+    /// Handles a straight move whose tool axis is given by a second point.
     pub(super) fn with_axis(&mut self, record: &Record) -> Done {
         self.begun(record)?;
         self.end_cycle()?;

@@ -1,4 +1,4 @@
-//! Records of an NCI file: one line with a number, then one line with values, which may be empty.
+//! The records of an NCI file. Each is one line with a number and one line with values, which may be empty.
 
 use std::io::{BufRead as _, BufReader, Read};
 
@@ -6,32 +6,32 @@ use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::ReadError;
 
-/// Longest line, in bytes.
+/// Maximum length of a line, in bytes.
 const LONGEST: u64 = 1 << 20;
 
 /// A record.
 pub struct Record {
-    /// The line of its number, from 1.
+    /// The line of the record's number, from 1.
     pub line: u64,
-    /// Its number.
+    /// The number of the record.
     pub code: u32,
     /// The line of its values.
     pub text: String,
 }
 
 impl Record {
-    /// Its values; there must be at least `least` of them.
+    /// The values of the record. There must be at least `least` of them.
     ///
     /// # Errors
-    /// A value is not a number, or there are too few.
+    /// A value is not a number, or there are too few values.
     pub fn values(&self, least: usize) -> Result<Vec<f64>, Box<Diag>> {
         self.numbers(self.text.split_whitespace(), least)
     }
 
-    /// The first values; any words may follow them.
+    /// The first `count` values. Any words may follow them.
     ///
     /// # Errors
-    /// As [`Record::values`].
+    /// The same as for [`Record::values`].
     pub fn first_values(&self, count: usize) -> Result<Vec<f64>, Box<Diag>> {
         self.numbers(self.text.split_whitespace().take(count), count)
     }
@@ -48,7 +48,7 @@ impl Record {
     }
 }
 
-/// Reads one record after the other.
+/// Reads the records one after the other.
 pub struct Records<R> {
     input: BufReader<R>,
     line: u64,
@@ -64,14 +64,14 @@ impl<R: Read> Records<R> {
         self.line
     }
 
-    /// The next record; `None` at the end.
+    /// The next record; `None` at the end of the file.
     ///
     /// # Errors
-    /// The input fails or ends inside a record, or the first line of a record is not a number.
+    /// The input can't be read, ends inside a record, or has a record whose first line is not a number.
     pub fn next(&mut self) -> Result<Option<Record>, ReadError> {
         let Some(number) = self.next_line()? else { return Ok(None) };
         let line = self.line;
-        // lines after the last record
+        // after the last record, only empty lines are allowed
         if number.trim().is_empty() {
             while let Some(text) = self.next_line()? {
                 if !text.trim().is_empty() {

@@ -6,20 +6,20 @@ use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
 use crate::toolpath::{FeedMode, Spindle, SpindleTurn, Tool, ToolChange};
 
-/// Values of the tool from the records before a tool change.
+/// The values of the tool from the records before its tool change.
 #[derive(Clone, Debug, Default)]
 pub struct Ahead {
     /// The diameter of the tool.
     pub diameter: Option<f64>,
-    /// Its corner radius.
+    /// The corner radius of the tool.
     pub corner: Option<f64>,
-    /// Its name.
+    /// The name of the tool.
     pub name: Option<String>,
     /// The comment of the operation.
     pub comment: Option<String>,
 }
 
-/// The coolant by its number.
+/// The coolant for a number in the file.
 ///
 /// # Errors
 /// The number is unknown.
@@ -36,10 +36,10 @@ pub fn coolant(number: f64, line: u64) -> Result<Coolant, Box<Diag>> {
     }
 }
 
-/// A tool change, or the same tool again for another operation: 1000, 1001, 1002.
+/// A tool change (record 1001 or 1002), or another operation with the same tool (record 1000).
 ///
 /// # Errors
-/// A value is missing, or makes no sense on a mill.
+/// A value is missing, or is invalid on a mill.
 pub fn change(record: &Record, values: &[f64], ahead: &Ahead) -> Result<ToolChange, Box<Diag>> {
     let whole = |at: usize, what: &str| -> Result<f64, Box<Diag>> {
         let value = values[at - 1];

@@ -5,11 +5,11 @@ use super::quantise::MAX_DECIMALS;
 /// The sign before the digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Space: a negative value is an error.
+    /// Written as a space: no sign is printed, and a negative value is an error.
     Unsigned,
-    /// `-`: a minus for negative values only.
+    /// `-`: only negative values have a sign.
     Minus,
-    /// `+`: always a sign.
+    /// `+`: every value has a sign.
     Always,
 }
 
@@ -18,22 +18,22 @@ pub enum Sign {
 pub struct Digits {
     /// Number of digits.
     pub count: u8,
-    /// Exactly this number of digits; otherwise up to this number.
+    /// Whether exactly this number of digits is printed. Otherwise it is the maximum.
     pub fixed: bool,
 }
 
 /// The decimal point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Point {
-    /// `.`: printed whenever the value is not zero.
+    /// `.`: printed for every value except zero.
     Always,
-    /// `~`: printed before a fraction only.
+    /// `~`: printed only if a fraction follows.
     BeforeFraction,
-    /// Left out: the control places it by the number of decimals.
+    /// Not printed. The control knows its position from the number of decimals.
     Implied,
 }
 
-/// The number format of one letter (language.md section 2).
+/// The number format of one letter (docs/language.md, "Letter formats").
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LetterFormat {
     /// Sign rule.
@@ -46,11 +46,11 @@ pub struct LetterFormat {
     pub dec: Digits,
 }
 
-/// The reason why a format can't be used, in words that follow "the format ...".
+/// The reason why a format is invalid. It continues a sentence that begins with "the format".
 pub type BadFormat = &'static str;
 
 impl LetterFormat {
-    /// Reads `->3.>4`, `>6`, `34`, `2`; one space may precede.
+    /// Reads a format, such as `->3.>4`, `>6`, `34` or `2`. It may begin with one space.
     pub fn parse(text: &str) -> Result<LetterFormat, BadFormat> {
         let mut rest = text.strip_prefix(' ').unwrap_or(text).as_bytes();
         let sign = match rest.first() {
@@ -90,7 +90,7 @@ impl LetterFormat {
         Ok(LetterFormat { sign, int, point, dec })
     }
 
-    /// A format in this source code; the tests of the tables that use it detect wrong text.
+    /// A format that is written in the source code. Tests of the tables detect invalid formats.
     pub(crate) fn built_in(text: &str) -> LetterFormat {
         Self::parse(text).unwrap_or(LetterFormat {
             sign: Sign::Minus,
@@ -100,13 +100,13 @@ impl LetterFormat {
         })
     }
 
-    /// Does the format have an implied decimal point?
+    /// Whether the format has an implied decimal point.
     pub fn is_implied(&self) -> bool {
         self.point == Point::Implied && self.dec.count > 0
     }
 }
 
-/// Reads one `>n` or `n` from the front.
+/// Reads `>n` or `n` from the beginning of the text.
 fn digits(rest: &mut &[u8]) -> Result<Option<Digits>, BadFormat> {
     let fixed = rest.first() != Some(&b'>');
     let text = if fixed { *rest } else { &rest[1..] };

@@ -1,7 +1,7 @@
-//! Numbers as a machine control reads them.
+//! Numbers as a control reads them.
 //!
-//! A value is quantised once to whole units of the last decimal of its letter. Rounding is half away from zero of the shortest
-//! decimal that denotes the value. The quantised value is then compared and printed.
+//! A value is converted once to a whole number of units of the last decimal of its letter (quantised). Rounding uses the
+//! shortest decimal of the value, and halves are rounded away from zero. The result is used for comparing and for printing.
 
 mod format;
 mod quantise;

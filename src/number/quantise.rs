@@ -1,9 +1,9 @@
-//! Conversion of a double to whole units of the last decimal.
+//! Converts a double to a whole number of units of the last decimal.
 
-/// The most decimals a letter format can have.
+/// The largest number of decimals in a letter format.
 pub const MAX_DECIMALS: u8 = 9;
 
-/// Powers of ten up to [`MAX_DECIMALS`] and beyond, for digits.
+/// Powers of ten for the digits of a number. They go beyond [`MAX_DECIMALS`].
 pub const POWERS: [i64; 19] = {
     let mut powers = [1; 19];
     let mut i = 1;
@@ -14,20 +14,20 @@ pub const POWERS: [i64; 19] = {
     powers
 };
 
-/// The powers of ten as doubles, for decimals.
+/// Powers of ten as doubles, for the decimals of a number.
 const SCALES: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// One and a half times 2^52: a double of this size has no bits for a fraction, so adding it rounds to a whole number, which is
-/// then in the lowest bits.
+/// One and a half times 2^52. A double of this magnitude has no bits for a fraction. Adding this value therefore rounds to a
+/// whole number, which is then in the lowest bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Below this magnitude, adding [`ROUNDER`] gives every whole number exactly.
+/// For values below this magnitude, adding [`ROUNDER`] gives the whole number exactly.
 const EXACT: f64 = 2_251_799_813_685_248.0;
 
-/// `value` in units of 10^-`decimals`, rounded half away from zero of the shortest decimal that denotes it.
+/// `value` in units of 10^-`decimals`. Its shortest decimal is rounded, with halves away from zero.
 ///
-/// `1.00005` at four places is 10001 although the double is below the tie. `None` if the value is not finite or has more than
-/// 18 digits.
+/// `1.00005` with four decimals is 10001, although the double is a little less than that. `None` if the value is not finite
+/// or has more than 18 digits.
 ///
 /// ```
 /// use postform::internals::number::quantise;
@@ -40,26 +40,26 @@ pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
     nearest(value * SCALES[decimals as usize]).or_else(|| by_digits(value, decimals))
 }
 
-/// The whole number nearest to a value times a power of ten. `None`: the value is not finite, or huge, or so near to a tie that
-/// only its decimal decides, as [`quantise`] does.
+/// The whole number nearest to `scaled`, a value times a power of ten. `None`: the value is not finite, is very large, or is so
+/// near to a half that only its decimal digits can decide. Use [`quantise`] then.
 #[inline(always)]
 pub(crate) fn nearest(scaled: f64) -> Option<i64> {
     let rounded = scaled + ROUNDER;
     let rest = (scaled - (rounded - ROUNDER)).abs();
-    // a value is within half a unit in the last place of its shortest decimal, and the product rounds once more; closer to a tie
-    // than that, the decimal decides. NaN and infinity fail the comparisons
+    // a value differs from its shortest decimal by at most half a unit in the last place, and the product is rounded once more;
+    // nearer to a half than that, the decimal digits decide. NaN and infinity make both comparisons false
     (0.5 - rest > scaled.abs() * (4.0 * f64::EPSILON) && scaled.abs() < EXACT)
         .then(|| (rounded.to_bits() as i64).wrapping_sub(ROUNDER.to_bits() as i64))
 }
 
-/// The value in whole units of the last decimal, from the digits of its shortest decimal.
+/// The value in whole units of the last decimal, calculated from the digits of its shortest decimal.
 #[cold]
 fn by_digits(value: f64, decimals: u8) -> Option<i64> {
     if !value.is_finite() {
         return None;
     }
     let (digits, exponent) = shortest(value.abs());
-    // digits x 10^exponent; in units: digits x 10^(exponent + decimals)
+    // the value is digits x 10^exponent; in units it is digits x 10^(exponent + decimals)
     let shift = exponent + i32::from(decimals);
     let units = if shift >= 0 {
         let power = POWERS.get(shift as usize)?;
@@ -76,10 +76,10 @@ fn by_digits(value: f64, decimals: u8) -> Option<i64> {
     Some(if value < 0.0 { -units } else { units })
 }
 
-/// The shortest decimal of a finite double that is not negative, as digits (at most 17) and an exponent of ten.
+/// The shortest decimal of a finite double that is not negative: its digits (at most 17) and the exponent of ten.
 fn shortest(value: f64) -> (i64, i32) {
     let mut text = Text { bytes: [0; 32], len: 0 };
-    // std prints the shortest digits that read back as the same double; a fixed buffer avoids allocation
+    // std prints the shortest digits that give the same double again; the buffer has a fixed size, so nothing is allocated
     if std::fmt::Write::write_fmt(&mut text, format_args!("{value:e}")).is_err() {
         return (0, 0);
     }

@@ -1,6 +1,6 @@
 //! Reads short decimal numbers eight bytes at a time.
 
-/// A decimal number without sign and exponent, of at most seven digits on each side of the point and eight in all.
+/// A decimal number without sign and exponent. It has at most seven digits on each side of the point and at most eight in all.
 #[derive(Clone, Copy, Debug)]
 pub struct Short {
     /// The digits as a whole number.
@@ -9,14 +9,14 @@ pub struct Short {
     pub whole: usize,
     /// Number of digits after the point.
     pub decimals: usize,
-    /// Whether it is written with a point.
+    /// Whether the number has a point.
     pub point: bool,
-    /// Number of bytes.
+    /// Length of the number in bytes.
     pub length: usize,
 }
 
 impl Short {
-    /// The nearest double: both numbers are exact, and a division rounds once.
+    /// The nearest double. Both operands are exact, so the division rounds only once.
     #[inline(always)]
     pub fn value(&self) -> f64 {
         const POWERS: [f64; 8] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7];
@@ -24,8 +24,8 @@ impl Short {
     }
 }
 
-/// The number that begins at a byte of the text. `None`: there is no digit, there are too many digits, or the text is shorter
-/// than eight bytes; a general reader must read it.
+/// Reads the number that begins at byte `at` of the text. `None`: there is no digit, there are too many digits, or the text
+/// is too short. A general reader must then read the number.
 ///
 /// ```
 /// use postform::internals::number::short_decimal;
@@ -53,16 +53,16 @@ pub fn short_decimal(text: &[u8], at: usize) -> Option<Short> {
     if count == 0 || count > 8 || decimals == 8 {
         return None;
     }
-    // bytes after the digits are shifted out, zeros come in before the first one
+    // bytes after the digits are shifted out, and zeros come in before the first digit
     let digits = (digits << (64 - 8 * count)) & 0x0f0f_0f0f_0f0f_0f0f;
-    // neighbours are joined: digits to pairs, pairs to fours, fours to the number
+    // join neighbours: digits to pairs, pairs to groups of four, these to the number
     let pairs = (digits.wrapping_mul(10 << 8 | 1) >> 8) & 0x00ff_00ff_00ff_00ff;
     let fours = (pairs.wrapping_mul(100 << 16 | 1) >> 16) & 0x0000_ffff_0000_ffff;
     let digits = (fours.wrapping_mul(10_000 << 32 | 1) >> 32) as u32;
     Some(Short { digits, whole, decimals, point, length: whole + usize::from(point) + decimals })
 }
 
-/// Eight bytes of the text, the first one lowest; after the end of the text they are zero.
+/// Eight bytes of the text; the first byte is the lowest. After the end of the text, the bytes are zero.
 #[inline(always)]
 fn eight_bytes(text: &[u8], at: usize) -> Option<u64> {
     let rest = text.get(at..)?;
@@ -76,7 +76,7 @@ fn eight_bytes(text: &[u8], at: usize) -> Option<u64> {
 /// The number of digits at the beginning of eight bytes.
 #[inline(always)]
 fn run_length(bytes: u64) -> usize {
-    // a digit is 0 to 9 after this, and stays below 128 when 118 is added
+    // this changes digits to 0 to 9; adding 118 to them gives less than 128
     let bytes = bytes ^ 0x3030_3030_3030_3030;
     let others = (bytes.wrapping_add(0x7676_7676_7676_7676) | bytes) & 0x8080_8080_8080_8080;
     others.trailing_zeros() as usize / 8
@@ -110,7 +110,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// Values are those of the standard library, wherever the number stands in the text.
+        /// The values are equal to those of the standard library, wherever the number is in the text.
         #[test]
         fn values_are_the_nearest_doubles(number in "[0-9]{0,7}(\\.[0-9]{0,7})?", before in "[ -~]{0,9}", after in "([ -/:-~][ -~]{0,9})?") {
             let text = format!("{before}{number}{after}");

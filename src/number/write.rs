@@ -6,15 +6,15 @@ use super::quantise::POWERS;
 /// The reason why a quantised value can't be printed in a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unprintable {
-    /// It has more digits before the point than the format.
+    /// The value has more digits before the point than the format allows.
     Overflow,
-    /// It is negative, and the format has no sign.
+    /// The value is negative, and the format has no sign.
     Negative,
 }
 
-/// Appends `units` (of the format's last decimal) to `out`; `leading_zero` prints `0.5` for `.5`.
+/// Appends a number to `out`. `units` is the number in units of the format's last decimal. `leading_zero` prints `0.5` instead of `.5`.
 ///
-/// Zero is a bare `0`, never `-0` or `0.`; fixed digits pad it. On an error nothing is appended.
+/// Zero is printed as `0`, never as `-0` or `0.`, and with more zeros if the format has fixed digits. After an error, `out` is unchanged.
 pub fn write_number(
     out: &mut Vec<u8>,
     units: i64,
@@ -24,17 +24,17 @@ pub fn write_number(
     Printing::new(*format).write(out, Lead::default(), units, leading_zero)
 }
 
-/// A format prepared for printing: the flags and limits of a [`LetterFormat`], computed once.
+/// A format prepared for printing: flags and limits of a [`LetterFormat`] that are calculated once.
 #[derive(Clone, Copy, Debug)]
 pub struct Printing {
     format: LetterFormat,
-    /// Magnitudes below it are printed by the short way; 0 if the format never is.
+    /// Smaller magnitudes are printed by the fast method. 0 if the fast method does not support the format.
     short_below: u64,
     /// Digits after the point.
     decimals: u32,
-    /// Digits after the point that are printed even if they are zeros.
+    /// Number of digits after the point that are printed even if they are zeros.
     fixed: u32,
-    /// The point is printed even if no fraction follows.
+    /// Whether the point is printed even if no fraction follows.
     always_point: bool,
 }
 
@@ -61,7 +61,7 @@ impl Printing {
 
     /// Appends `lead` and then the number.
     ///
-    /// As [`write_number`].
+    /// The arguments are those of [`write_number`].
     #[inline]
     pub fn write(&self, out: &mut Vec<u8>, lead: Lead, units: i64, leading_zero: bool) -> Result<(), Unprintable> {
         let magnitude = units.unsigned_abs();
@@ -90,7 +90,7 @@ impl Printing {
         let has_point = always_point || fraction > 0;
         let text = (u128::from(before | point) | after) << (8 * lead.length) | u128::from(lead.bytes);
         let length = lead.length + whole + u32::from(has_point) + fraction;
-        // a copy of fixed length is two instructions; the excess is cut off afterwards
+        // copying a fixed length takes two instructions; the excess is then cut off
         let start = out.len();
         out.extend_from_slice(&text.to_le_bytes());
         out.truncate(start + length as usize);
@@ -98,7 +98,7 @@ impl Printing {
     }
 }
 
-/// Text before a number, such as a blank and a letter.
+/// Text before a number, such as a space and a letter.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lead {
     bytes: u32,
@@ -106,7 +106,7 @@ pub struct Lead {
 }
 
 impl Lead {
-    /// Appends a character. There is room for three.
+    /// Appends a character. There is space for three.
     #[inline(always)]
     pub fn push(&mut self, byte: u8) {
         debug_assert!(self.length < 3, "the sign needs the last byte");
@@ -115,18 +115,18 @@ impl Lead {
     }
 }
 
-/// Digits of the short way: they fit one register.
+/// Maximum number of digits for the fast method: they fit into one register.
 const SHORT_DIGITS: u8 = 8;
 
 /// The character `0` in each byte.
 const ASCII: u64 = 0x3030_3030_3030_3030;
 
-/// The eight digits of a number below 100,000,000, one in each byte, the first digit in the lowest one.
+/// The eight digits of a number below 100,000,000, one in each byte. The first digit is in the lowest byte.
 ///
-/// Each step divides all parts of the register at once, by a multiplication and a shift that are exact in their range.
+/// Each step divides all parts of the register at the same time, by a multiplication and a shift that are exact for such values.
 #[inline(always)]
 fn eight_digits(value: u32) -> u64 {
-    // two parts of four digits, in the halves of the register
+    // two groups of four digits, one in each half of the register
     let fours = u64::from(value / 10_000) | u64::from(value % 10_000) << 32;
     // x / 100 for x < 10,000
     let hundreds = ((fours * 5_243) >> 19) & 0x0000_007f_0000_007f;
@@ -136,7 +136,7 @@ fn eight_digits(value: u32) -> u64 {
     tens | (twos - tens * 10) << 8
 }
 
-/// As [`Printing::write`], for all formats and numbers.
+/// Like [`Printing::write`], but for all formats and numbers.
 #[cold]
 fn write_any(
     out: &mut Vec<u8>,
@@ -153,7 +153,7 @@ fn write_any(
     if units < 0 && format.sign == Sign::Unsigned {
         return Err(Unprintable::Negative);
     }
-    // from the last digit to the sign, then copied as one piece
+    // write from the last digit to the sign, then copy the text at once
     let mut text = Backwards { bytes: [b'0'; ROOM], at: ROOM };
     let mut end = ROOM;
     if format.is_implied() {
@@ -192,9 +192,9 @@ fn write_any(
     Ok(())
 }
 
-/// Room for the longest number: sign, 18 digits, point, a leading zero.
+/// Space for the longest number: sign, 18 digits, point, and a leading zero.
 const ROOM: usize = 24;
-/// Text that grows to the front.
+/// A text that is written from its end to its beginning.
 struct Backwards {
     bytes: [u8; ROOM],
     at: usize,

@@ -1,8 +1,8 @@
 //! The backplot: the motions of a program, as lines that can be drawn.
 //!
-//! A program is run by the rules of its control. The result is a [`Picture`]: the moves in their order, each with its block,
-//! and the modal state after each block. [`strips`](Picture::strips) converts it to points, including the arcs, and [`svg`]
-//! draws a still picture.
+//! A program is run by the rules of its control. The result is a [`Picture`]: the moves in their order, the block of
+//! each move, and the modal state after each block. [`strips`](Picture::strips) converts the picture to points,
+//! including the arcs, and [`svg`] draws a still picture.
 
 mod frame;
 mod run;
@@ -31,25 +31,25 @@ pub enum Kind {
     Feed = 1,
     /// An arc or helix.
     Arc = 2,
-    /// Nothing is drawn: the frame was moved, or the position before was unknown.
+    /// Nothing is drawn: the coordinate frame was moved, or the position before the move was unknown.
     Jump = 3,
 }
 
 /// A move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// End of the move, X Y Z in program coordinates and the picture's units; NaN if unknown. For a wire, each move of the
-    /// program becomes two moves: one of the lower guide at Z 0, and one of the upper guide, whose height is NaN.
+    /// End of the move, X Y Z in program coordinates and the picture's units; NaN if unknown. On a wire EDM machine, each
+    /// move of the program becomes two moves: one of the lower guide at Z 0, and one of the upper guide, whose Z is NaN.
     pub to: [f64; 3],
     /// Line of the program, from 1.
     pub line: u32,
-    /// Index of the arc in [`Picture::arcs`].
+    /// If the move is an arc, its index in [`Picture::arcs`].
     pub arc: u32,
     /// The tool, as an index into [`Picture::tools`].
     pub tool: u16,
     /// The kind of the move.
     pub kind: Kind,
-    /// The move is part of a canned cycle.
+    /// Whether the move is part of a canned cycle.
     pub by_cycle: bool,
 }
 
@@ -58,7 +58,7 @@ pub struct Move {
 pub struct Hole {
     /// Line of the program, from 1.
     pub line: u32,
-    /// Point at which the feed begins, X Y Z in the picture's units.
+    /// Position at which the feed begins, X Y Z in the picture's units.
     pub top: [f64; 3],
     /// Bottom of the hole, X Y Z in the picture's units.
     pub bottom: [f64; 3],
@@ -69,16 +69,16 @@ pub struct Hole {
 }
 
 impl Hole {
-    /// Top and bottom on the part, X Y Z, turned by the rotary axes.
+    /// Top and bottom of the hole as positions on the part, X Y Z: the rotary axes have turned the part.
     pub fn on_part(&self) -> [[f64; 3]; 2] {
         [self.top, self.bottom].map(|at| frame::on_part(at, self.turned))
     }
 }
 
-/// New positions of the rotary axes, valid from a move on.
+/// New positions of the rotary axes. They are valid from a certain move on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
-    /// First move that ends at these positions, as an index into [`Picture::moves`].
+    /// The first move that ends at these positions, as an index into [`Picture::moves`].
     pub from: u32,
     /// Positions of A B C in degrees.
     pub to: [f64; 3],
@@ -87,21 +87,21 @@ pub struct Turned {
 /// The motions of a program.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Units of all lengths: those of the first move.
+    /// Units of all lengths: the units of the first move.
     pub units: Units,
     /// Moves, in their order.
     pub moves: Vec<Move>,
-    /// Minutes from the beginning of the program to the end of each move, as [`Tally::minutes`] counts them.
+    /// Minutes from the beginning of the program to the end of each move, calculated as in [`Tally::minutes`].
     pub minutes: Vec<f32>,
-    /// The rotary axes: a row for each move that turns them, in the order of the moves. Empty: no axis turns.
+    /// Positions of the rotary axes: a row for each move that turns them, in the order of the moves. Empty: no axis turns.
     pub turned: Vec<Turned>,
-    /// Letters of the axes in `Move::to`: `XYZ`, or `XY` for a wire.
+    /// Letters of the axes in `Move::to`: `XYZ`, or `XY` on a wire EDM machine.
     pub letters: &'static str,
-    /// Arcs of the moves, in the picture's units; each `to` is the end of the move.
+    /// Arcs of the moves, in the picture's units. The field `to` of each arc is the end of its move.
     pub arcs: Vec<Turn>,
     /// Holes, in their order.
     pub holes: Vec<Hole>,
-    /// Numbers of the tools, in the order of their first use; the first is 0 and means no tool yet.
+    /// Numbers of the tools in the order of their first use. The first number is 0: no tool is active yet.
     pub tools: Vec<f64>,
     /// Changes of the modal state, in the order of the run.
     pub changes: Vec<Change>,
@@ -111,6 +111,7 @@ pub struct Picture {
     pub blocks: u64,
     /// Warnings of the run, at most one hundred; their locations are lines of the program.
     pub warnings: Vec<Diag>,
-    /// The error with which the control refused a block, and its line; the run ended before the program did.
+    /// The error with which the control refused a block, and the line of this block. The run ended there, before the
+    /// end of the program.
     pub refused: Option<(Box<Diag>, u64)>,
 }

@@ -9,15 +9,16 @@ use crate::toolpath::Units;
 
 /// Maximum number of warnings that are kept.
 const MOST_WARNINGS: usize = 100;
-/// Positions farther away are drawn at this distance.
+/// A position farther away than this is drawn at this distance.
 const FARTHEST: f64 = 1e9;
-/// Maximum number of moves: a longer program is drawn up to this number.
+/// Maximum number of moves: further moves are not drawn.
 const MOST_MOVES: usize = 20_000_000;
 
 /// Runs a program from an unknown machine position and records its motions.
 ///
 /// # Errors
-/// The input fails. If the control refuses a block, the picture contains the error and ends at that block.
+/// The input can't be read. If the control refuses a block, the result is not an error: the picture contains the
+/// refusal and ends at that block.
 pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Picture> {
     let simulator = Simulator::new(input, RunSettings { places_unknown: true, ..settings });
     let mut pen = Pen::new(&settings);
@@ -26,7 +27,7 @@ pub fn draw(input: impl Read + Seek, settings: RunSettings) -> io::Result<Pictur
     if known || pen.picture.moves.is_empty() {
         return Ok(pen.picture);
     }
-    // a program with only incremental moves: it is drawn from zero
+    // the program has only incremental moves: it is drawn with zero as its start
     let again = simulator.again_with(RunSettings { places_unknown: false, ..settings })?;
     let mut pen = Pen::new(&settings);
     pen.at = [0.0; 3];
@@ -41,7 +42,7 @@ struct Pen {
     registers: Registers,
     /// Position of the tool, in the picture's units; NaN if unknown.
     at: [f64; 3],
-    /// Position of the upper guide of a wire: X, Y, and its unknown height.
+    /// Position of the upper guide of a wire EDM machine: X, Y, and a Z that is unknown.
     upper: Option<[f64; 3]>,
     /// Positions of the rotary axes, in degrees.
     angles: [f64; 3],
@@ -157,7 +158,7 @@ impl Pen {
         }
     }
 
-    /// The units of the picture are those of its first move.
+    /// Sets the current units. The units of the picture are those of its first move.
     fn count_in(&mut self, units: Units) {
         self.units = units;
         if self.picture.moves.is_empty() {
@@ -179,14 +180,14 @@ impl Pen {
         })
     }
 
-    /// The upper guide of a wire: U and V are its own positions; its height is unknown.
+    /// The position of the upper guide. U and V are its X and Y; its height is unknown.
     fn guide(&self, to: &Position, machine: u8) -> [f64; 3] {
         let place = |axis: usize| (to[axis] * self.factor).clamp(-FARTHEST, FARTHEST);
         let [u, v] = [2, 3].map(|axis| if machine & 1 << axis == 0 { place(axis) } else { f64::NAN });
         [u, v, f64::NAN]
     }
 
-    /// A straight move, and the move of the upper guide if there is one.
+    /// Adds a straight move, and the move of the upper guide if there is one.
     fn go_to(&mut self, item: &Item, kind: Kind, to: &Position, machine: u8) {
         self.turn(to);
         self.go(item, kind, self.place(to, machine), u32::MAX);
@@ -196,7 +197,8 @@ impl Pen {
         }
     }
 
-    /// The upper guide makes the same arc if its offset from the lower guide is the same at both ends; otherwise it moves straight.
+    /// Adds the move of the upper guide during an arc. It is the same arc if the offset between the guides is the same
+    /// at both ends; otherwise it is a straight move.
     fn guide_round(&mut self, item: &Item, from: [f64; 3], turn: &Turn) {
         let Some(above) = self.upper else { return };
         let upper = self.guide(&turn.to, turn.machine);
@@ -213,7 +215,7 @@ impl Pen {
         }
     }
 
-    /// A move of the upper guide, drawn between jumps from the lower guide and back.
+    /// Adds a move of the upper guide, between a jump from the lower guide and a jump back.
     fn go_above(&mut self, item: &Item, kind: Kind, from: [f64; 3], to: [f64; 3], arc: u32) {
         let below = self.at;
         self.upper = Some(to);
@@ -225,7 +227,7 @@ impl Pen {
         }
     }
 
-    /// Turns the rotary axes with the next move.
+    /// Turns the rotary axes. The new angles are valid from the next move on.
     fn turn(&mut self, to: &Position) {
         let [.., a, b, c] = *to;
         if self.upper.is_none() && self.angles != [a, b, c] && [a, b, c].iter().all(|angle| angle.is_finite()) {
@@ -246,7 +248,7 @@ impl Pen {
         self.picture.minutes.push(self.picture.tally.minutes() as f32);
     }
 
-    /// After a block: a moved frame changes the position of the tool without a move.
+    /// Updates the position after a block: if the frame was moved, the coordinates of the tool change without a move.
     fn stands(&mut self, line: u32, position: &Position, machine: u8) {
         if self.upper.is_some() {
             self.upper = Some(self.guide(position, machine));

@@ -38,18 +38,19 @@ pub enum Register {
 /// The number of registers.
 const COUNT: usize = Register::V as usize + 1;
 
-/// A register with a new value from a block on.
+/// A register that gets a new value in a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
-    /// Line of the program, from 1; 0: at the start.
+    /// Line of the program, from 1; 0 for values at the start.
     pub line: u32,
     /// The register.
     pub register: Register,
-    /// The value of the register: the number of a code, or another value; NaN: none. The spindle and coolant are numbers of M codes.
+    /// The value of the register: the number of a code, or another value; NaN: none. For the spindle and the coolant it
+    /// is the number of an M code.
     pub value: f64,
 }
 
-/// The registers between two blocks.
+/// The values of the registers between two blocks.
 #[derive(Clone, Debug)]
 pub(super) struct Registers {
     held: [f64; COUNT],
@@ -70,8 +71,8 @@ impl Registers {
         }
     }
 
-    /// Positions of the axes besides X Y Z: A B C in degrees after their first turn, U V of a wire in the program's units. The
-    /// bits of `machine` are axes whose position is unknown.
+    /// Updates the registers for axes other than X Y Z: A B C in degrees after their first turn, U V of a wire EDM
+    /// machine in the program's units. Each bit of `machine` marks an axis whose position is unknown.
     pub fn axes(&mut self, line: u32, letters: &[u8; 6], position: &Position, machine: u8, changes: &mut Vec<Change>) {
         for (axis, letter) in letters.iter().enumerate().skip(2) {
             let register = match letter {
@@ -112,7 +113,7 @@ impl Registers {
 
     /// Updates the registers with the modal state after a block.
     pub fn after(&mut self, line: u32, modal: Modal, changes: &mut Vec<Change>) {
-        // most blocks contain only moves
+        // most blocks contain only moves and don't change the modal state
         if self.modal.replace(modal) == Some(modal) {
             return;
         }
@@ -147,7 +148,7 @@ impl Registers {
     }
 }
 
-/// A value of 0 means none.
+/// Converts a value of 0 to NaN, which means none.
 fn some(value: f64) -> f64 {
     if value == 0.0 { f64::NAN } else { value }
 }

@@ -1,43 +1,43 @@
-//! Moves as points of a continuous line; arcs become straight pieces.
+//! Converts moves to points of a continuous line. Arcs become straight pieces.
 
 use super::frame::on_part;
 use super::{Kind, Picture};
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::Direction;
 
-/// Largest angle of a piece of an arc, in radians: 3 degrees, an error of 1/3000 of the radius.
+/// Largest angle of a piece of an arc, in radians: 3 degrees. A piece then deviates from the arc by 1/3000 of the radius.
 const FINEST: f64 = std::f64::consts::PI / 60.0;
-/// Largest angle of a piece of an arc that is small in the picture.
+/// Largest angle of a piece, in radians, if the arc is small in the picture.
 const COARSEST: f64 = std::f64::consts::PI / 6.0;
-/// Greatest deviation of a piece from its arc, relative to the size of the picture.
+/// Greatest deviation of a piece from the arc, as a fraction of the size of the picture.
 const ERROR: f64 = 1.0 / 4000.0;
-/// Maximum number of pieces of one arc, such as a helix of a million turns.
+/// Maximum number of pieces of one arc. A helix may have a million turns.
 const MOST_PIECES: f64 = 20_000.0;
 
-/// A straight piece of a move; it begins at the point before.
+/// A straight piece of a move. It begins at the end of the piece before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// End of the piece, X Y Z in the picture's units.
     pub to: [f64; 3],
-    /// Move of the piece, as an index into [`Picture::moves`].
+    /// The move that contains the piece, as an index into [`Picture::moves`].
     pub of: u32,
 }
 
-/// A picture as points.
+/// The moves of a picture as points.
 #[derive(Clone, Debug, Default)]
 pub struct Strips {
     /// Start of the first piece.
     pub start: [f64; 3],
     /// The pieces, in the order of the run.
     pub pieces: Vec<Piece>,
-    /// Least and greatest X Y Z of the known positions.
+    /// Least and greatest X Y Z of all known positions.
     pub extents: [[f64; 3]; 2],
-    /// The height at which moves are drawn whose Z is unknown.
+    /// The height at which moves with an unknown Z are drawn.
     pub ceiling: f64,
 }
 
 impl Strips {
-    /// The longest side of the box around everything; 1 for an empty picture.
+    /// The longest side of the box around all points; 1 for an empty picture.
     pub fn size(&self) -> f64 {
         let [least, greatest] = self.extents;
         let size = (0..3).map(|axis| greatest[axis] - least[axis]).fold(0.0, f64::max);
@@ -46,8 +46,8 @@ impl Strips {
 }
 
 impl Picture {
-    /// The moves as points. An unknown Z is drawn above everything. A move along an axis with an unknown X or Y is not drawn
-    /// along that axis.
+    /// Converts the moves to points. A move with an unknown Z is drawn above everything else. If X or Y of the end of a
+    /// move is unknown, the point does not move along that axis.
     pub fn strips(&self) -> Strips {
         let [least, greatest] = self.ends();
         let size = (0..3).map(|axis| greatest[axis] - least[axis]).fold(0.0, f64::max);
@@ -102,7 +102,7 @@ impl Picture {
         }
         for piece in &strips.pieces {
             let known = &self.moves[piece.of as usize].to;
-            // if rotary axes turn, one unknown coordinate makes all three unknown
+            // if rotary axes turn, a position on the part is unknown as soon as one coordinate is unknown
             let all = self.turned.is_empty() || known.iter().all(|value| value.is_finite());
             for axis in (0..3).filter(|&axis| all && known[axis].is_finite()) {
                 strips.extents[0][axis] = strips.extents[0][axis].min(piece.to[axis]);
@@ -134,7 +134,7 @@ fn between<const N: usize>(from: [f64; N], to: [f64; N], share: f64) -> [f64; N]
     std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * share)
 }
 
-/// The points of a straight move between its ends while rotary axes turn: on the part it is a curve.
+/// Adds the points of a straight move during which rotary axes turn. On the part, this move is a curve.
 fn turning(from: [f64; 3], to: [f64; 3], angles: [f64; 3], turned: [f64; 3], push: &mut impl FnMut([f64; 3])) {
     let most = (0..3).map(|axis| (turned[axis] - angles[axis]).abs()).fold(0.0, f64::max).to_radians();
     let pieces = (most / FINEST).ceil().clamp(1.0, MOST_PIECES);
@@ -143,7 +143,7 @@ fn turning(from: [f64; 3], to: [f64; 3], angles: [f64; 3], turned: [f64; 3], pus
     }
 }
 
-/// The points of an arc between its ends, except its end.
+/// Adds the points of an arc between its ends, without the end.
 pub fn round(from: [f64; 3], to: [f64; 3], turn: &Turn, error: f64, push: &mut impl FnMut([f64; 3])) {
     let [first, second, across] = axes_of(turn.plane);
     let wide = |at: [f64; 3]| [at[0], at[1], at[2], 0.0, 0.0, 0.0];
@@ -158,7 +158,7 @@ pub fn round(from: [f64; 3], to: [f64; 3], turn: &Turn, error: f64, push: &mut i
     for i in 1..pieces as u32 {
         let share = f64::from(i) / pieces;
         let angle = begin + sign * swept * share;
-        // the radii of both ends differ within a tolerance
+        // the radii at the two ends may differ within a tolerance
         let radius = radius + (end - radius) * share;
         let mut at = from;
         at[first] = turn.center[first] + radius * angle.cos();

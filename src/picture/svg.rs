@@ -1,4 +1,4 @@
-//! A still picture: lines by tool, dashed rapids, holes, and a legend.
+//! Draws a still picture: lines in a colour for each tool, dashed rapids, holes, and a legend.
 
 use std::fmt::Write as _;
 
@@ -16,10 +16,10 @@ pub struct Sheet {
     pub width: f64,
 }
 
-/// The style class of an old program below another one.
+/// The style class of the old program, which is drawn below the new one.
 const OLD: &str = "was";
 
-/// Colours of the tools, each on white and on black.
+/// Colours of the tools: the first is for a white background, the second for a black one.
 const COLOURS: [[&str; 2]; 8] = [
     ["#0b63ce", "#78b1ff"],
     ["#c2410c", "#ff9d66"],
@@ -41,11 +41,11 @@ svg{background:#1b1e22}text{fill:#a0a7b0}.h{fill:#e6e7e9}.floor{fill:#23272c;str
 
 /// Margin around the picture, in pixels.
 const MARGIN: f64 = 28.0;
-/// Heights of the head and of the legend.
+/// Height of the title and height of the legend, in pixels.
 const BANDS: [f64; 2] = [40.0, 58.0];
-/// The least and the greatest height of the picture itself.
+/// The least and the greatest height of the drawing without title and legend, in pixels.
 const HEIGHTS: [f64; 2] = [160.0, 900.0];
-/// Distance in pixels; a point nearer than this to the point before is left out.
+/// A point that is nearer to the last drawn point than this distance in pixels is left out.
 const NEAREST: f64 = 0.1;
 
 /// The picture as SVG text.
@@ -53,7 +53,7 @@ pub fn svg(picture: &Picture, sheet: &Sheet) -> String {
     svg_over(None, picture, sheet)
 }
 
-/// A picture over that of another program, which is drawn with wide grey lines.
+/// Draws a picture over the picture of an old program, which has wide grey lines.
 pub fn svg_over(old: Option<&Picture>, picture: &Picture, sheet: &Sheet) -> String {
     let strips = picture.strips();
     let old = old.map(|old| (old, old.strips()));
@@ -99,7 +99,7 @@ pub fn svg_over(old: Option<&Picture>, picture: &Picture, sheet: &Sheet) -> Stri
     out
 }
 
-/// Conversion of positions to pixels.
+/// Converts positions to pixels.
 struct Scale {
     view: View,
     factor: f64,
@@ -141,7 +141,7 @@ impl Scale {
     }
 }
 
-/// A number with at most two decimals.
+/// A number that is written with at most two decimals.
 struct Short(f64);
 
 impl std::fmt::Display for Short {
@@ -158,7 +158,7 @@ fn style(out: &mut String) {
     _ = writeln!(out, "<style>{STYLE}{}@media(prefers-color-scheme:dark){{{DARK}{}}}</style>", rules(0), rules(1));
 }
 
-/// Corners of the box around the cuts, at its bottom, for views that show it.
+/// Corners of the bottom of the box around the cuts, for views that show this bottom.
 fn floor(picture: &Picture, strips: &Strips, view: View) -> Vec<[f64; 3]> {
     let plain = picture.turned.is_empty() && picture.letters == "XYZ";
     let shown = matches!(view, View::Iso | View::Top) && picture.tally.units == picture.units && plain;
@@ -172,7 +172,7 @@ fn point(out: &mut String, command: char, at: [f64; 2]) {
     _ = write!(out, "{command}{} {}", Short(at[0]), Short(at[1]));
 }
 
-/// A path for the rapids, and one for the cuts of each tool.
+/// Writes one path for the rapids, and one path for the cuts of each tool.
 fn paths(picture: &Picture, strips: &Strips, scale: &Scale, out: &mut String) {
     path(picture, strips, scale, "r", &|kind, _| kind == Kind::Rapid, out);
     for tool in 0..picture.tools.len() {
@@ -191,7 +191,7 @@ fn path(
 ) {
     let mut text = String::new();
     let mut from = scale.at(strips.start);
-    // the last point written to the path, and a point that was left out
+    // the last point written to the path, and the last point that was left out
     let (mut at, mut left): (Option<[f64; 2]>, Option<[f64; 2]>) = (None, None);
     for piece in &strips.pieces {
         let of = &picture.moves[piece.of as usize];
@@ -231,7 +231,7 @@ fn holes(picture: &Picture, scale: &Scale, out: &mut String) {
     let mut last = None;
     for hole in &picture.holes {
         let at = scale.at(hole.on_part()[0]);
-        // holes at the same pixel are drawn once
+        // holes at the same pixels are drawn once
         if last.is_some_and(|last: [f64; 2]| (at[0] - last[0]).hypot(at[1] - last[1]) < 1.0) {
             continue;
         }
@@ -241,7 +241,7 @@ fn holes(picture: &Picture, scale: &Scale, out: &mut String) {
     }
 }
 
-/// The directions of the axes.
+/// Draws the directions of the axes.
 fn axes(scale: &Scale, bottom: f64, out: &mut String) {
     let length = 26.0;
     let origin = [MARGIN + 14.0, bottom - 22.0];
@@ -304,7 +304,7 @@ fn legend(picture: &Picture, strips: &Strips, over_old: bool, [width, height]: [
     );
 }
 
-/// The text with blocks, time and extents.
+/// The line of text with number of blocks, time and extents.
 fn measured(picture: &Picture, strips: &Strips) -> String {
     let [least, greatest] = strips.extents;
     let mut text = format!("{} blocks, {}", picture.blocks, crate::nc::clock(picture.tally.minutes()));
@@ -331,7 +331,7 @@ fn described(picture: &Picture, strips: &Strips) -> String {
     format!("Backplot: {}; {}", counts.join(", "), measured(picture, strips))
 }
 
-/// Text in a picture, escaped so that it contains no markup.
+/// A text for use in a picture, escaped so that it contains no markup.
 fn safe(text: &str) -> String {
     let mut out = String::new();
     for c in escaped(text).chars() {

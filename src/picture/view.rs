@@ -1,8 +1,8 @@
-//! The view of a picture.
+//! The views in which a picture can be drawn.
 
 use super::{Picture, Register};
 
-/// The view of a picture.
+/// The direction from which a picture is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
     /// From above: X to the right, Y up.
@@ -27,7 +27,7 @@ impl View {
         View::ALL.iter().find(|(view, _)| *view == self).map_or("", |(_, name)| name)
     }
 
-    /// Projects a position: first to the right, then up.
+    /// Projects a position to the drawing: the first coordinate is to the right, the second up.
     pub fn project(self, at: [f64; 3]) -> [f64; 2] {
         const SQRT_6: f64 = 2.449_489_742_783_178;
         let [x, y, z] = at;
@@ -42,7 +42,7 @@ impl View {
 }
 
 impl Picture {
-    /// The usual view: a lathe in its own view, all others from the corner.
+    /// The default view: lathe programs in the lathe view, all others in the isometric view.
     pub fn usual_view(&self) -> View {
         let still = self.moves.iter().all(|found| found.to[1].is_nan() || found.to[1] == 0.0);
         let plane = self.changes.iter().rev().find(|change| change.register == Register::Plane);

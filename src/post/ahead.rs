@@ -1,4 +1,4 @@
-//! Jobs that are read twice, because the form needs values from the rest of the job.
+//! Reads a job twice if the form needs values from the rest of the job.
 
 use std::sync::Arc;
 
@@ -13,28 +13,29 @@ use crate::sema::{PropertyKind, PropertyValue};
 use crate::survey::{Survey, Surveyor};
 
 impl Post {
-    /// Does the form need values that are known only at the end of a job: tools, operations or extents, as `@for tool` and
-    /// `[hmin]`? Then a job is read twice, and one from a stream is held in memory. Parts of the form that the properties in the
-    /// options disable are not considered.
+    /// Whether the form needs values that are known only at the end of a job: tools, operations or extents, as `@for tool` and
+    /// `[hmin]`. A job is then read twice, and a job from a stream is kept in memory. Parts of the form that the properties in
+    /// the options switch off are not considered.
     ///
     /// # Errors
-    /// The form has no such property, or the property does not accept the value.
+    /// The form does not have one of the properties, or a property does not accept its value.
     #[doc(hidden)]
     pub fn reads_ahead(&self, options: &Options) -> Result<bool, Error> {
         Ok(self.asks(options)?.all)
     }
 
-    /// Is a job read twice, even if only for the next tool? Some jobs list their tools in the head.
+    /// Whether a job is read twice, even if the form only needs the next tool. Some jobs list their tools in the head and need not be
+    /// read twice.
     ///
     /// # Errors
-    /// As [`Post::reads_ahead`].
+    /// The same as for [`Post::reads_ahead`].
     #[doc(hidden)]
     pub fn may_read_twice(&self, options: &Options) -> Result<bool, Error> {
         let Asks { all, tools } = self.asks(options)?;
         Ok(all || tools)
     }
 
-    /// A property and a value with which a job is read only once, as `header=no`; `None` if there is none.
+    /// A property and a value with which a job is read only once, such as `header=no`; `None` if there is none.
     #[doc(hidden)]
     pub fn reads_once_with(&self) -> Option<String> {
         let settings = &self.0.program.settings;
@@ -54,7 +55,7 @@ impl Post {
         Ok(self.0.program.asks_ahead(&options.fixed_properties(&self.0.program.settings)?))
     }
 
-    /// Reads the job ahead, if the form needs values from its rest.
+    /// Reads the whole job first if the form needs values from the rest of the job.
     pub(super) fn survey(&self, job: &mut Job<'_>, options: &Options) -> Result<Option<Arc<Survey>>, Error> {
         let Asks { all, tools } = self.asks(options)?;
         if options.one_pass && all {
@@ -69,7 +70,7 @@ impl Post {
         read.map(|()| Some(Arc::new(survey)))
     }
 
-    /// Reads as much as possible of a job that may be incomplete.
+    /// Reads a job as far as possible. The job may be incomplete.
     pub(super) fn surveyed(
         &self,
         job: &mut Job<'_>,

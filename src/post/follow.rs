@@ -1,4 +1,4 @@
-//! Prints a job and records the output of each line of the form, for editors.
+//! Prints a job and records what each line of the form prints. Editors use it.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -15,32 +15,32 @@ use crate::span::Span;
 use crate::toolpath::{Event, Flow, Place, Sink};
 use crate::verify::Verdict;
 
-/// A program with the output of each line of the form.
+/// A program, and what each line of the form printed.
 #[derive(Debug)]
 pub struct Followed {
     /// The program as far as it was printed, with its source map.
     pub program: Program,
     /// The lines of the form that printed, in the order of the program.
     pub seen: Vec<Seen>,
-    /// The error that stopped the program before the end of the job, if any.
+    /// The error that ended the program before the end of the job, if any.
     pub stopped: Option<Error>,
 }
 
-/// A line of the form with its first block.
+/// A line of the form and the first block that it printed.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// The line of the form.
     pub form: Span,
     /// The line of the program, from 1.
     pub line: u64,
-    /// Output of its words, in order.
+    /// What the words of the line printed, in their order.
     pub words: Vec<TraceWord>,
-    /// Values of the variables, in the program's units. Variables without a value are left out.
+    /// The values of variables in the program's units. Variables without a value are not in the list.
     pub values: Vec<(VarId, f64)>,
 }
 
 impl Post {
-    /// Prints a job and records the output of each line of the form. If an error stops the program, the output before it is kept,
+    /// Prints a job and records what each line of the form prints. If an error ends the program, the part before it is kept,
     /// because the author of a form needs it.
     ///
     /// # Errors
@@ -76,12 +76,12 @@ struct Follower<'p> {
     text: Vec<u8>,
     trace: Vec<TraceLine>,
     seen: Vec<Seen>,
-    /// Index in `seen` of each line of the form.
+    /// For each line of the form, its index in `seen`.
     known: HashMap<Span, usize>,
 }
 
 impl Follower<'_> {
-    /// Records what was printed since the last call.
+    /// Records what was printed since the last call of this function.
     fn look(&mut self) {
         if self.renderer.text().is_empty() {
             return;
@@ -94,7 +94,7 @@ impl Follower<'_> {
             let own = |word: &TraceWord| word.line == line.line && within(word.form, form);
             let (mut own, rest): (Vec<_>, Vec<_>) = words.into_iter().partition(own);
             words = rest;
-            // a run of the line without output left its words before those of this block
+            // if the line ran before without printing a block, its words from that run come first and are removed
             own.reverse();
             own.sort_by_key(|word| word.form.start);
             own.dedup_by_key(|word| word.form);

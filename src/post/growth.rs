@@ -1,4 +1,4 @@
-//! Check for programs that are far longer than their job. The cause is usually a wrong step or count; the caller may allow it.
+//! Stops programs that are far longer than their job. The usual cause is a wrong step or count. The caller may allow such programs.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -6,21 +6,21 @@ use std::rc::Rc;
 use crate::diag::{Code, Diag};
 use crate::toolpath::Place;
 
-/// Programs up to this size in bytes are always accepted.
+/// Size in bytes up to which programs are always accepted.
 const LARGE: u64 = 100_000_000;
-/// Maximum size of a larger program, as a multiple of the job's size.
+/// For larger programs, the maximum size as a multiple of the job's size.
 const TIMES: u64 = 1000;
 
-/// Compares the size of the program with that of the job.
+/// Compares the size of a program with the size of its job.
 pub struct Growth {
-    /// Bytes of the job read so far; `None`: any length is accepted, or the job has no size.
+    /// Number of bytes of the job that were read so far; `None`: any size is accepted, or the size of the job is unknown.
     pub read: Option<Rc<Cell<u64>>>,
-    /// Bytes printed so far.
+    /// Number of bytes that were printed so far.
     pub printed: u64,
 }
 
 impl Growth {
-    /// Counts printed bytes. `place` is the current location in the job.
+    /// Adds printed bytes. `place`: the current location in the job.
     ///
     /// # Errors
     /// The program is too long for this job.

@@ -1,4 +1,4 @@
-//! The main API: a compiled form, the printed job, and the verified program.
+//! The main API: compiles a form, prints jobs with it, and verifies the programs.
 
 mod ahead;
 mod follow;
@@ -31,16 +31,16 @@ use crate::lint::{Levels, ready};
 use crate::sema::{Limits, Property, analyse};
 use crate::source::Source;
 
-/// Source of the forms that a form includes with `Call`.
+/// Supplies the forms that a form includes with `Call`.
 pub trait Files {
-    /// Returns a form by the name in `Call`, relative to the form that calls.
+    /// Returns the form with this name. The name is the one in `Call`, relative to the calling form.
     ///
     /// # Errors
-    /// The form can't be read. The text of the error continues a sentence that begins with its name: `can't be found`.
+    /// The form can't be read. The error continues a sentence that begins with its name, such as `can't be found`.
     fn read(&self, name: &str) -> Result<Source, String>;
 }
 
-/// A source without forms: every `Call` is an error.
+/// Supplies no forms: every `Call` is an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFiles;
 
@@ -56,7 +56,7 @@ impl<F: Fn(&str) -> Result<Source, String>> Files for F {
     }
 }
 
-/// A prompt of a form.
+/// A prompt of a form: a question to the user.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prompt<'a> {
@@ -64,11 +64,11 @@ pub struct Prompt<'a> {
     pub variable: &'static str,
     /// Text of the prompt.
     pub text: &'a str,
-    /// Value without an answer.
+    /// The value if there is no answer.
     pub default: Option<f64>,
 }
 
-/// A form that prints programs: checked, compiled and immutable. Clones share it, also between threads.
+/// A compiled form, which prints programs. It is checked and immutable. Clones share the same data, also between threads.
 #[derive(Clone, Debug)]
 pub struct Post(Arc<Compiled>);
 
@@ -82,15 +82,15 @@ impl Post {
     /// Checks and compiles a form with the default limits and levels.
     ///
     /// # Errors
-    /// The form has errors. The findings of the error are the errors and warnings of the form.
+    /// The form has errors. The returned error contains the errors and warnings of the form.
     pub fn compile(form: Source, files: &dyn Files) -> Result<Post, Error> {
         Post::compile_with(form, files, Limits::default(), &Levels::default())
     }
 
-    /// Checks and compiles a form with a shop's own limits and levels.
+    /// Checks and compiles a form with limits and levels that a shop sets.
     ///
     /// # Errors
-    /// The form has errors, or findings that are errors at these levels.
+    /// The form has errors, or findings that these levels make errors.
     pub fn compile_with(form: Source, files: &dyn Files, limits: Limits, levels: &Levels) -> Result<Post, Error> {
         let checked = analyse(form, limits, &mut |name| files.read(name));
         let found = ready(&checked, levels);
@@ -100,7 +100,7 @@ impl Post {
         }
     }
 
-    /// A post from a compiled form, with its warnings and notes.
+    /// Creates a post from a compiled form and the warnings and notes about it.
     pub(crate) fn of(program: compile::Program, diags: Vec<Diag>, files: &[Source]) -> Post {
         let program = program.identified(files);
         let findings = Findings { diags, files: files.to_vec(), suppressed: 0 };
@@ -112,36 +112,36 @@ impl Post {
         self.0.program.settings.control
     }
 
-    /// The machine's file named in the form, relative to the form's folder.
+    /// The machine file that the form names, relative to the form's folder.
     pub fn machine_file(&self) -> Option<&str> {
         self.0.program.settings.machine_file.as_deref()
     }
 
-    /// Prompts of the form. The answers are set in [`Options::set`].
+    /// The prompts of the form. Their answers go into [`Options::set`].
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();
         prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
     }
 
-    /// Properties of the form. Their values are set in [`Options::properties`].
+    /// The properties of the form. Their values go into [`Options::properties`].
     pub fn properties(&self) -> &[Property] {
         let all = &self.0.program.settings.properties;
-        // fields of tools come first; the job sets them
+        // the fields of tools come first; their values come from the job
         &all[all.iter().take_while(|property| property.of_tool().is_some()).count()..]
     }
 
-    /// Does the form print the date or time of printing? If so, set [`Options::clock`].
+    /// Whether the form prints the date or time of printing. If so, set [`Options::clock`].
     pub fn says_time(&self) -> bool {
         let texts = self.0.program.texts_printed;
         texts.has(TextId::Date) || texts.has(TextId::Time)
     }
 
-    /// The form's warnings and notes, with its text. There are no errors, because a form with errors makes no post.
+    /// The form's warnings and notes, with its text. They contain no errors, because a form with errors is never compiled.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }
 
-    /// Files of the form: the form itself, then those that it calls. Spans refer to them.
+    /// The files of the form: the main file first, then those that it calls. The file numbers in spans are indices of this list.
     pub fn files(&self) -> &[Source] {
         &self.0.findings.files
     }

@@ -1,4 +1,4 @@
-//! The file name of a program, known before the program is printed.
+//! The file name of a program. It is known before the program is printed.
 
 use super::Post;
 use super::options::Options;
@@ -7,7 +7,7 @@ use crate::job::Job;
 use crate::render::file_name_of;
 use crate::toolpath::{Event, Flow, Place, Sink, Start, Stop};
 
-/// Takes the head of a job. Reading stops after it.
+/// A sink that keeps the head of a job and then stops the reader.
 #[derive(Default)]
 struct Head(Option<Start>);
 
@@ -21,10 +21,10 @@ impl Sink for Head {
 }
 
 impl Post {
-    /// The file name of the program from form and job, and the program's number. The job is read only up to the end of its head.
+    /// The file name of the program, and its number. The name depends on the form and on the head of the job; no more of the job is read.
     ///
     /// # Errors
-    /// The job ends before its head is complete, or contains an error there.
+    /// The job ends before its head is complete, or its head contains an error.
     #[doc(hidden)]
     pub fn file_name(&self, mut job: Job<'_>, options: &Options) -> Result<(String, Option<f64>), Error> {
         let mut head = Head::default();

@@ -1,4 +1,4 @@
-//! Options that a caller may set.
+//! The options that a caller can set.
 
 use crate::control::Control;
 use crate::error::Error;
@@ -9,47 +9,48 @@ use crate::sema::{Property, PropertyValue, Settings};
 use crate::times::Rates;
 use crate::toolpath::Units;
 
-/// Options for printing a job. All have defaults.
+/// Options for printing a job. Each has a default.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Options {
-    /// Number of the program; default: the job's.
+    /// Number of the program; default: the number in the job.
     pub program: Option<u32>,
-    /// Units of the program; default: those of the job.
+    /// Units of the program; default: the units of the job.
     pub units: Option<Units>,
-    /// How canned cycles are printed: by the form's sequences, or as single moves.
+    /// How canned cycles are printed: by the sequences of the form, or as single moves.
     pub cycles: Cycles,
-    /// Values of variables and answers to prompts, by the variable's name (`val1`). They override the job's.
+    /// Values of variables and answers to prompts, by the name of the variable (such as `val1`). They have priority over values in the
+    /// job.
     pub set: Vec<(String, f64)>,
-    /// Values of the form's properties by name, as typed by a user. They override all others.
+    /// Values of the form's properties by name, as a user writes them. They have priority over all other values.
     pub properties: Vec<(String, String)>,
-    /// Values of properties that a shop sets for all its forms. They override only the forms' defaults. Names that a form lacks
-    /// are ignored.
+    /// Values of properties that a shop sets for all its forms. They have priority only over the defaults of the forms. Names
+    /// that a form does not have are ignored.
     pub shop_properties: Vec<(String, String)>,
-    /// Compute the depth of a countersink from diameter and angle by the formula printed in GENER's manual, which is correct only
-    /// at 90 degrees; default: by geometry.
+    /// Whether the depth of a countersink is calculated from diameter and angle by the formula in GENER's manual, which is
+    /// correct only at 90 degrees. Default: the depth is calculated by geometry.
     pub sink_as_printed: bool,
-    /// Accept a program of over 100 MB that is over 1,000 times as long as its job.
+    /// Whether to accept a program of more than 100 MB that is more than 1,000 times as long as its job.
     pub huge: bool,
-    /// Date and time of printing, for forms that print them: see [`Post::says_time`](super::Post::says_time).
+    /// Date and time of printing, for forms that print them. See [`Post::says_time`](super::Post::says_time).
     pub clock: Option<Clock>,
-    /// Name of the job's file, for forms that print it.
+    /// Name of the job's file, for forms that print this name.
     pub job_file: Option<String>,
-    /// Read the job only once. A form that needs values from the rest of the job is then an error, and `[nexttool]` has a value
-    /// only if the job gives its `tool_order`.
+    /// Whether to read the job only once. If the form needs values from the rest of the job, this is an error. `[nexttool]`
+    /// then has a value only if the job gives its `tool_order`.
     pub one_pass: bool,
-    /// Record which form line and which item of the job printed each line of the program.
+    /// Whether to record the form line and the job item that printed each line of the program.
     pub trace: bool,
-    /// Speeds and accelerations of the machine's axes; with them, `[cuttime]` includes accelerations. For the command line, which
-    /// reads machine files.
+    /// Speeds and accelerations of the machine's axes. If they are set, `[cuttime]` includes accelerations. Only the command line
+    /// sets them, because it reads machine files.
     #[doc(hidden)]
     pub rates: Option<Rates>,
-    /// How [`Post::render`](super::Post::render) verifies the program; `None`: it does not.
+    /// How [`Post::render`](super::Post::render) verifies the program. `None`: the program is not verified.
     pub proof: Option<Proof>,
 }
 
 impl Default for Options {
-    /// All values from the form and the job, and the program verified.
+    /// All values come from the form and the job, and the program is verified.
     fn default() -> Options {
         Options {
             program: None,
@@ -71,22 +72,22 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Sets a variable or answers a prompt, by the variable's name: `val1` or `[val1]`.
+    /// Sets a variable or answers a prompt. `name` is the name of the variable, as `val1` or `[val1]`.
     ///
     /// # Errors
-    /// There is no such variable, or its value comes from the toolpath.
+    /// There is no such variable, or its value is calculated from the toolpath.
     pub fn set_value(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let var = variable(name).map_err(Error::usage)?;
         self.set.push((var.row().name.to_owned(), value));
         Ok(())
     }
 
-    /// The properties whose values are final, by row.
+    /// The properties whose values nothing else changes, by row.
     pub(super) fn fixed_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
         properties(&self.properties, settings, true)
     }
 
-    /// The properties that are not set by the job, by row. The last value of a row applies.
+    /// The values of properties that do not come from the job, by row. If a row occurs several times, the last value applies.
     pub(super) fn given_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
         let mut given = properties(&self.shop_properties, settings, false)?;
         given.extend(self.fixed_properties(settings)?);
@@ -113,7 +114,7 @@ impl Options {
     }
 }
 
-/// Values of properties, by row. An unknown name is an error only if `must` is true.
+/// The values of properties, by row. `must`: an unknown name is an error.
 fn properties(given: &[(String, String)], settings: &Settings, must: bool) -> Result<Vec<(u16, PropertyValue)>, Error> {
     let mut values = Vec::new();
     for (name, value) in given {
@@ -130,7 +131,7 @@ fn properties(given: &[(String, String)], settings: &Settings, must: bool) -> Re
     Ok(values)
 }
 
-/// A variable that can be set, from its name with or without brackets.
+/// Finds a variable that can be set. Its name may be in brackets.
 fn variable(name: &str) -> Result<VarId, String> {
     let name = name.trim().trim_matches(['[', ']']);
     let Some(var) = VarId::parse(name) else {
@@ -144,23 +145,23 @@ fn variable(name: &str) -> Result<VarId, String> {
     }
 }
 
-/// Options for verifying a program. All have defaults.
+/// Options for verifying a program. Each has a default.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Proof {
-    /// The control whose rules apply; `None`: the form's `Control`, else Fanuc.
+    /// The control whose rules apply. `None`: the control that the form names, or otherwise Fanuc.
     pub control: Option<&'static Control>,
-    /// Leave out blocks with a slash.
+    /// Whether to skip blocks that begin with a slash.
     pub block_delete: bool,
-    /// The retract distance of G73, and the distance of G83 above the last depth, in the program's units; default: those of the
-    /// control.
+    /// The retract distance of G73, and the distance above the last depth in G83, in the program's units. Default: the values
+    /// of the control.
     pub back_off: Option<f64>,
-    /// Meaning of a length without a point on a Fanuc.
+    /// What a length without a decimal point means on a Fanuc.
     pub unpointed: Unpointed,
-    /// Tolerance for positions, in the job's units; default: 0.0001 inch or 0.002 mm.
+    /// Tolerance of positions in the job's units. Default: 0.0001 inch or 0.002 mm.
     pub tolerance: Option<f64>,
-    /// Units of a program before its first unit code, if no form printed it; `None`: the program must contain one.
+    /// Units of a program before its first unit code, if no form printed it. `None`: the program must contain a unit code.
     pub units: Option<Units>,
-    /// Fail with an error if the program is not proven.
+    /// Whether a program that is not proven is an error.
     pub required: bool,
 }

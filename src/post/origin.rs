@@ -1,4 +1,4 @@
-//! The form line and the item of the job that printed a block.
+//! Finds the form line and the job item that printed a block.
 
 use super::Post;
 use super::options::Options;
@@ -9,8 +9,8 @@ use crate::render::{Renderer, TraceLine};
 use crate::toolpath::{Event, Flow, Place, Sink, Stop};
 
 impl Post {
-    /// Finds the origins of program lines by printing the program again. `lines` count from 1; `None` means that the program has
-    /// no such line. The job is read only as far as needed.
+    /// Finds what printed the given lines of the program, by printing the program again. `lines` are counted from 1. A result of
+    /// `None` means that the program does not have the line. The job is read only as far as needed.
     ///
     /// # Errors
     /// The job can't be read, or an option is invalid.
@@ -22,7 +22,7 @@ impl Post {
         let renderer = Renderer::new(&self.0.program, for_renderer);
         let found = vec![None; lines.len()];
         let mut finder = Finder { renderer, lines, missing: lines.len(), found };
-        // an event that can't be printed ends the search; the origins found so far are returned
+        // an event that can't be printed ends the search, and the origins found so far are returned
         let _ = taken(Some(&self.0.program.settings), &mut finder, |sink| job.read(sink));
         finder.look();
         Ok(finder.found)

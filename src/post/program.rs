@@ -1,4 +1,4 @@
-//! Printed programs.
+//! Printed programs, and the results of printing.
 
 use crate::diag::Diag;
 use crate::render::TraceLine;
@@ -19,35 +19,35 @@ impl Program {
         &self.text
     }
 
-    /// Converts the program into its text.
+    /// Returns the text of the program without copying it.
     pub fn into_text(self) -> String {
         self.text
     }
 
-    /// The verdict on the program. It is never [`Verdict::Different`]: such a program is an error.
+    /// The verdict on the program. It is never [`Verdict::Different`], because such a program is returned as an error.
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
     }
 
-    /// Warnings and notes of the job and of printing it, each kind once.
+    /// Warnings and notes about the job and about printing it. Each kind occurs only once.
     pub fn notes(&self) -> &[Diag] {
         &self.rendered.notes
     }
 
-    /// The notes, and the findings of the verdict: differences, or parts that are not proven.
+    /// The notes and the findings of the verdict. These are differences, or parts that are not proven.
     #[doc(hidden)]
     pub fn findings(&self) -> Vec<Diag> {
         [self.rendered.notes.clone(), self.verdict.diags("the program")].concat()
     }
 
-    /// The file name from form and job.
+    /// The file name that form and job give the program.
     #[doc(hidden)]
     pub fn file_name(&self) -> &str {
         &self.rendered.file_name
     }
 
-    /// The form line and the item of the job that printed each line. Empty unless [`Options::trace`](super::Options::trace) is
-    /// set.
+    /// For each line, the form line and the job item that printed it. Empty if [`Options::trace`](super::Options::trace) is
+    /// not set.
     pub fn trace(&self) -> &[TraceLine] {
         &self.trace
     }
@@ -59,26 +59,26 @@ impl AsRef<str> for Program {
     }
 }
 
-/// Result of printing a program to an output.
+/// The result of printing a program to an output.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Rendered {
-    /// Warnings and notes of the job and of printing it, each kind once.
+    /// Warnings and notes about the job and about printing it. Each kind occurs only once.
     pub notes: Vec<Diag>,
-    /// Lines of the program.
+    /// Number of lines in the program.
     pub lines: u64,
-    /// The file name, from the form's ProgramName and Extension.
+    /// The file name, which the form determines by ProgramName and Extension.
     pub file_name: String,
 }
 
-/// A part of a program: some of its lines.
+/// A part of a program, which consists of some of its lines.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Part<'a> {
-    /// The text of these blocks.
+    /// The text of the part.
     pub text: &'a [u8],
-    /// Origin of each line, if requested.
+    /// The origin of each line in the part, if requested.
     pub trace: &'a [TraceLine],
-    /// Number of program lines so far.
+    /// Number of program lines up to the end of the part.
     pub lines: u64,
 }

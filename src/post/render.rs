@@ -1,4 +1,4 @@
-//! Printing of jobs.
+//! Prints jobs.
 
 use std::io::{self, Write};
 
@@ -14,18 +14,19 @@ use crate::render::Renderer;
 use crate::toolpath::{Event, Flow, Kept, Place, Sink, Stop, flow};
 use crate::verify::{Batch, Verdict};
 
-/// Size of the text in bytes after which it is passed on.
+/// Number of bytes of text after which the text is passed on.
 const CHUNK: usize = 64 * 1024;
-/// Number of events after which they are passed on. Together with their text they stay in the processor's cache.
+/// Number of events after which they are passed on. This many events and their text fit into the processor's cache.
 const EVENTS: usize = 1024;
 
 impl Post {
-    /// Prints a job: the whole program, or nothing. Unless the options disable it, the program is verified: it is run by the
-    /// rules of its control and compared with the job, which is read a second time. A job from a stream is held in memory.
+    /// Prints a job: either the whole program or nothing. Unless the options disable it, the program is also verified: it is
+    /// simulated by the rules of its control and compared with the job. For this the job is read a second time, and a job
+    /// from a stream is kept in memory.
     ///
     /// # Errors
-    /// The job can't be read, contains an error, or requests what the form can't print. By the rules of the control named in the
-    /// form, the program differs from the job: [`ErrorKind::Proof`].
+    /// The job can't be read, contains an error, or requests something that the form can't print. The error is
+    /// [`ErrorKind::Proof`] if the form names its control and the program differs from the job by the rules of this control.
     pub fn render(&self, job: Job<'_>, options: &Options) -> Result<Program, Error> {
         let program = self.tried(job, options)?;
         match &options.proof {
@@ -34,10 +35,10 @@ impl Post {
         }
     }
 
-    /// Like [`Post::render`], but a program that differs from its job is returned too, with its verdict.
+    /// Like [`Post::render`], but also returns a program that differs from its job, with the verdict.
     ///
     /// # Errors
-    /// As [`Post::render`], except [`ErrorKind::Proof`].
+    /// The same as for [`Post::render`], except [`ErrorKind::Proof`].
     #[doc(hidden)]
     pub fn tried(&self, mut job: Job<'_>, options: &Options) -> Result<Program, Error> {
         let (mut text, mut trace) = (Vec::new(), Vec::new());
@@ -57,19 +58,19 @@ impl Post {
         Ok(Program { text, rendered, trace, verdict })
     }
 
-    /// Prints a job while it is read. Memory use does not grow with the job. The program is not verified.
+    /// Prints a job while the job is read. Memory use does not grow with the job. The program is not verified.
     ///
     /// # Errors
-    /// As [`Post::render`], or the output fails. The output is then incomplete and must be discarded.
+    /// The same as for [`Post::render`], or the output fails. The output is then incomplete and must be deleted.
     pub fn render_to(&self, job: Job<'_>, options: &Options, out: &mut impl Write) -> Result<Rendered, Error> {
         self.render_parts(job, options, &mut |part| out.write_all(part.text))
     }
 
-    /// Prints a job while it is read, with its source map. `take` receives the parts in order, about 64 KB each. The program is
-    /// not verified.
+    /// Prints a job while the job is read, with its source map. `take` receives the parts of the program in their order, each
+    /// about 64 KB long. The program is not verified.
     ///
     /// # Errors
-    /// As [`Post::render`], or `take` fails. The parts are then incomplete and must be discarded.
+    /// The same as for [`Post::render`], or `take` fails. The parts are then incomplete and must be deleted.
     #[doc(hidden)]
     pub fn render_parts(
         &self,
@@ -80,12 +81,12 @@ impl Post {
         self.print(job, options, take, None)
     }
 
-    /// Like [`Post::render_parts`], with the data for a verification. `prove` receives events and text in order, for
-    /// [`Post::prove`] on another thread. It returns a batch to be filled next, empty or already used, or `None` if it needs no
-    /// more data.
+    /// Like [`Post::render_parts`], and also passes on the data for a verification. `prove` receives events and text in their
+    /// order, for [`Post::prove`] on another thread. It returns a batch to be filled next, which may be empty or used before.
+    /// It returns `None` if no more data is needed.
     ///
     /// # Errors
-    /// As [`Post::render_parts`].
+    /// The same as for [`Post::render_parts`].
     #[doc(hidden)]
     pub fn render_beside(
         &self,
@@ -143,21 +144,21 @@ fn fault(what: &str) -> Box<Diag> {
     Box::new(Diag::new(Code::PX001, what).help("this is an error in postform: please report it"))
 }
 
-/// A sink between reader and output: prints events and passes the text on.
+/// A sink between a reader and an output. It prints the events and passes the text on.
 struct Printer<'p, 't, 's> {
     renderer: Renderer<'p>,
     growth: Growth,
     take: &'t mut dyn FnMut(Part<'_>) -> io::Result<()>,
-    /// The receiver of the parts needs the source map.
+    /// Whether the receiver of the parts needs the source map.
     traced: bool,
-    /// Data to pass on: text and source map, and for a verification the events.
+    /// The data to pass on: text, source map, and the events if the program is verified.
     batch: Batch,
     prove: Option<&'s mut dyn FnMut(Batch) -> Option<Batch>>,
     failure: Option<io::Error>,
 }
 
 impl Printer<'_, '_, '_> {
-    /// Passes the waiting data on.
+    /// Passes on the data that was collected.
     fn drain(&mut self) {
         let lines = self.renderer.lines();
         self.swap();
@@ -172,12 +173,12 @@ impl Printer<'_, '_, '_> {
             }
             self.batch = next.unwrap_or_default();
         }
-        // the next part reuses the same memory
+        // the next part uses the same memory again
         self.batch.clear();
         self.swap();
     }
 
-    /// Swaps the renderer's output with that in the batch.
+    /// Exchanges the output of the renderer and that of the batch.
     fn swap(&mut self) {
         std::mem::swap(self.renderer.text(), &mut self.batch.text);
         if let Some(trace) = self.renderer.trace() {
@@ -185,7 +186,7 @@ impl Printer<'_, '_, '_> {
         }
     }
 
-    /// Is there enough data to pass on?
+    /// Whether there is enough data to pass on.
     #[inline]
     fn is_full(&mut self) -> bool {
         self.renderer.text().len() >= CHUNK || self.batch.events.len() >= EVENTS

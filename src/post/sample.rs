@@ -1,4 +1,4 @@
-//! Effect of fixes on a program: the program of a job before and after them.
+//! Prints a sample job with a form. The result shows how a fix of the form changes a program.
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use crate::job::Job;
 use crate::lang::{Machine, UnitChoice};
 use crate::sema::{Checked, Settings};
 
-/// A complete part for each type of machine, in units that the form accepts. It uses most sequences.
+/// A job with a complete part for the type of machine, in units that the form accepts. It uses most sequences.
 pub fn sample_job(settings: &Settings) -> &'static str {
     let (text, inch) = match settings.machine {
         Machine::Mill => (include_str!("../../samples/bracket/job.json"), true),
@@ -24,15 +24,15 @@ pub fn sample_job(settings: &Settings) -> &'static str {
     if wanted == inch {
         return text;
     }
-    // the numbers stay the same, so the part is smaller or larger
+    // only the name of the unit changes and the numbers stay, so the part becomes smaller or larger
     static OTHERS: [OnceLock<String>; 3] = [const { OnceLock::new() }; 3];
     let units = [r#""units": "mm""#, r#""units": "inch""#];
     OTHERS[settings.machine as usize]
         .get_or_init(|| text.replacen(units[usize::from(inch)], units[usize::from(!inch)], 1))
 }
 
-/// The program of a form for a job, or for the built-in job if none is given. The inner `Err` is the reason why nothing is
-/// printed. Blocks have no numbers, so that an additional block does not change all later ones.
+/// The program that a form prints for a job, or for the built-in job if none is given. The inner `Err` is the reason why
+/// nothing can be printed. Blocks have no numbers, so an additional block does not change all later blocks.
 ///
 /// # Errors
 /// The job can't be read.
@@ -44,7 +44,7 @@ pub fn sample_program(checked: &Checked, job: Option<Job<'_>>) -> Result<Result<
     form.settings.numbers.letter = None;
     let sample = sample_job(&form.settings);
     let post = Post::of(compile(&form), Vec::new(), &checked.files);
-    // prompts get answers so that a program is printed
+    // prompts are answered, so that a program can be printed
     let mut options = Options { program: Some(1), proof: None, ..Options::default() };
     options.set = post.prompts().map(|ask| (ask.variable.to_owned(), ask.default.unwrap_or(1.0))).collect();
     match post.render(job.unwrap_or_else(|| Job::json(sample)), &options) {

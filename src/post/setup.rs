@@ -1,4 +1,4 @@
-//! The setup sheet of a job.
+//! The data of a setup sheet for a job.
 
 use super::Post;
 use super::options::Options;
@@ -9,7 +9,7 @@ use crate::job::Job;
 use crate::setup::{SetupSheet, Stops, of_job};
 
 impl Post {
-    /// The content of a setup sheet for a job that this form prints. The caller adds the program's verdict, pictures and hashes.
+    /// The data of a setup sheet for a job that this form prints. The caller adds the program's verdict, pictures and hashes.
     ///
     /// # Errors
     /// The job can't be read twice, or contains an error.
@@ -20,7 +20,7 @@ impl Post {
         read?;
         let mut stops = Stops::default();
         taken(Some(&self.0.program.settings), &mut stops, |sink| job.read(sink))?;
-        // the number of a fixture, or the code itself
+        // the number of the fixture, or the code
         let name = |work: f64| if work < 50.0 { format!("{work}") } else { format!("G{work}") };
         let mut sheet = of_job(&survey, stops, self.turns(), &name);
         let settings = &self.0.program.settings;

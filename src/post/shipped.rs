@@ -1,12 +1,12 @@
-//! The forms that ship, as text.
+//! The forms that are shipped with postform, as text.
 
-/// A form of `postforms/`.
+/// A form in the folder `postforms/`.
 pub struct Shipped {
-    /// Name of its file, without the extension.
+    /// Name of the form's file, without the extension.
     pub name: &'static str,
-    /// Machine of the form.
+    /// The machine that the form is for.
     pub about: &'static str,
-    /// Other accepted names.
+    /// Other names under which the form is found.
     pub also: &'static [&'static str],
     /// Text of the form.
     pub text: &'static str,

@@ -1,4 +1,4 @@
-//! Verification of programs: a program is run as by the control and compared with its job.
+//! Verifies programs: simulates a program by the rules of its control and compares it with its job.
 
 use std::io::{Cursor, Read, Seek};
 use std::path::Path;
@@ -16,33 +16,33 @@ use crate::preflight::JobTool;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Batch, Comparer, Counts, Expectation, Finding, Outcome, Verdict, prove_beside};
 
-/// Result of a verification.
+/// The result of a verification.
 #[derive(Clone, Debug)]
 #[must_use = "a program may be proven to be wrong"]
 #[non_exhaustive]
 pub struct Proven {
     /// Verdict on the motions.
     pub verdict: Verdict,
-    /// Extent of the comparison.
+    /// How many cuts and holes were compared.
     pub counts: Counts,
-    /// Warnings from running the program; their locations are lines of the program.
+    /// Warnings about the program from its simulation. Their locations are lines of the program.
     pub warnings: Vec<Diag>,
 }
 
 impl Post {
-    /// Verifies that a program makes the motions of its job. The program is run by the rules of the form's `Control`.
+    /// Verifies that a program makes the motions of its job. The program is simulated by the rules of the control that the form names.
     ///
     /// # Errors
-    /// The job can't be read or contains an error. Faults of the program are in the verdict.
+    /// The job can't be read or contains an error. Errors in the program are part of the verdict.
     pub fn verify(&self, job: Job<'_>, program: impl AsRef<[u8]>) -> Result<Verdict, Error> {
         let proven = self.verify_with(job, Cursor::new(program.as_ref()), &Options::default(), &Proof::default())?;
         Ok(proven.verdict)
     }
 
-    /// Verifies that a program makes the motions of its job. `options` are those with which it was printed.
+    /// Verifies that a program makes the motions of its job. `options` are the options with which it was printed.
     ///
     /// # Errors
-    /// The job or the program can't be read, or the job contains an error. Faults of the program are in the verdict.
+    /// The job or the program can't be read, or the job contains an error. Errors in the program are part of the verdict.
     pub fn verify_with(
         &self,
         job: Job<'_>,
@@ -53,20 +53,20 @@ impl Post {
         prove(Some(&self.0.program), job, program, options, proof)
     }
 
-    /// Settings for running a program that this form printed. `units` apply until the program selects others.
+    /// Settings for simulating a program that this form printed. `units` apply until the program sets its own.
     #[doc(hidden)]
     pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
         proof.settings(Some(&self.0.program), units)
     }
 
-    /// For a form of a lathe: does X of its programs count diameters? `None` for other forms.
+    /// If the form is for a lathe, whether X in its programs is a diameter. `None` for other forms.
     #[doc(hidden)]
     pub fn turns(&self) -> Option<bool> {
         let settings = &self.0.program.settings;
         (settings.machine == crate::lang::Machine::Lathe).then_some(settings.by_diameter)
     }
 
-    /// The tools of a job, with their diameters in millimetres.
+    /// The tools of a job. Their diameters are in millimetres.
     ///
     /// # Errors
     /// The job can't be read.
@@ -75,7 +75,7 @@ impl Post {
         tools_of(Some(&self.0.program), job)
     }
 
-    /// Adds the form lines and job items to machine findings, from the blocks that caused them.
+    /// Adds to findings about the machine the form lines and job items that printed their blocks.
     ///
     /// # Errors
     /// The job can't be read again, or an option is invalid.
@@ -93,13 +93,13 @@ impl Post {
         Ok(())
     }
 
-    /// Verifies that the program from [`Post::render_beside`] makes the motions of its job. `batches` may be the end of a channel
-    /// on another thread. Only the next batch to compare is requested, and none after the verdict is known. Each batch is dropped
-    /// after its comparison; a type that wraps a batch may return it then to be filled again. Whether the job can be printed to
-    /// its end is checked by the other side.
+    /// Verifies that the program from [`Post::render_beside`] makes the motions of its job. `batches` may be the receiving end of
+    /// a channel. A batch is requested only when it is compared next, and none is requested after the verdict is known. Each
+    /// batch is dropped after its comparison; a type that wraps a batch may then return it to be filled again. This function does
+    /// not check whether the job can be printed to its end.
     ///
     /// # Errors
-    /// None is expected, because a printed program can be read.
+    /// None is expected, because a printed program can always be read.
     #[doc(hidden)]
     pub fn prove<B: AsRef<Batch>>(
         &self,
@@ -117,7 +117,7 @@ impl Post {
         })
     }
 
-    /// The verdict on a program that was printed just before.
+    /// The verdict on a program that was printed immediately before.
     pub(super) fn proven(
         &self,
         mut job: Job<'_>,
@@ -129,7 +129,7 @@ impl Post {
         Ok(self.located(proven, job, options)?.verdict)
     }
 
-    /// The error for a verdict with which a program must not run; `None` if it may run.
+    /// The error for a verdict with which a program must not be used; `None` if it may be used.
     pub(super) fn refused(&self, verdict: &Verdict, proof: &Proof) -> Option<Error> {
         let diags = match verdict {
             Verdict::Different(_) => verdict.diags("the program"),
@@ -141,8 +141,8 @@ impl Post {
         Some(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
     }
 
-    /// Adds form lines to the findings of a verification. If there are any findings, the job is printed again. `options` are
-    /// those with which the program was printed.
+    /// Adds to the findings of a verification the form lines that printed their blocks. If there are findings, the job is
+    /// printed again. `options` are the options with which the program was printed.
     ///
     /// # Errors
     /// The job can't be read again, or an option is invalid.
@@ -160,7 +160,7 @@ impl Post {
 
 /// A sink that collects the tools of a job.
 struct Tools {
-    /// Length of the job's unit in millimetres.
+    /// Number of millimetres in a unit of the job.
     scale: f64,
     tools: Vec<JobTool>,
 }
@@ -191,16 +191,16 @@ impl Sink for Tools {
 }
 
 impl Proof {
-    /// Verifies that a program makes the motions of its job. Without a form, no defaults are added to the job.
+    /// Verifies that a program makes the motions of its job. There is no form, so the job gets no defaults.
     ///
     /// # Errors
-    /// The job or the program can't be read, or the job contains an error. Faults of the program are in the verdict.
+    /// The job or the program can't be read, or the job contains an error. Errors in the program are part of the verdict.
     pub fn verify(&self, job: Job<'_>, program: impl Read + Seek) -> Result<Proven, Error> {
         let options = Options { units: self.units, ..Options::default() };
         prove(None, job, program, &options, self)
     }
 
-    /// The tools of a job without a form, with their diameters in millimetres.
+    /// The tools of a job if there is no form. Their diameters are in millimetres.
     ///
     /// # Errors
     /// The job can't be read.
@@ -209,7 +209,7 @@ impl Proof {
         tools_of(None, job)
     }
 
-    /// Settings of the control for a program that this form printed.
+    /// The settings for simulating a program. `form`: the form that printed it, if any.
     fn settings(&self, form: Option<&compile::Program>, units: Units) -> RunSettings {
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
@@ -233,13 +233,13 @@ impl Proof {
     }
 }
 
-/// Settings and expectations of a verification.
+/// The settings of a simulation, and the values with which its motions are compared.
 struct Plan {
     settings: RunSettings,
     expectation: Expectation,
-    /// Until the program selects its units, those of the job apply.
+    /// Whether the program begins in the units of the job.
     of_job: bool,
-    /// Neither the caller nor the form names the control.
+    /// Whether the control is assumed, because neither the caller nor the form names it.
     assumed: bool,
 }
 
@@ -255,7 +255,7 @@ impl Plan {
             expectation: form.map_or_else(
                 || Expectation::of_control(settings.control),
                 |form| {
-                    // an invalid value is an error where the program is printed
+                    // an invalid value is reported as an error when the program is printed
                     let given = options.given_properties(&form.settings).unwrap_or_default();
                     Expectation::of_form(&form.settings, options.sink_as_printed).typed(form).given(&given)
                 },
@@ -277,7 +277,7 @@ fn prove(
     let settings =
         settings_for(&mut program, Path::new(""), settings).map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let Plan { settings, mut expectation, of_job, assumed } = Plan::of(form, options, proof, settings);
-    // if the job is an NC program, it selects its own length registers, if it has any
+    // if the job is itself an NC program, it has its own length registers, or none
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
     expectation.units_due &= form.is_some() || options.units.is_none();
     let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
@@ -289,12 +289,12 @@ fn prove(
     let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };
     match read {
         Err(error) if !decided => Err(job.names(error).after(warnings, &[])),
-        // the comparison stopped the reader: the rest of the job is not checked
+        // the comparison stopped the reader, so the rest of the job is not checked
         _ => Ok(Proven { verdict, counts, warnings }),
     }
 }
 
-/// A sink that sets the program's units before the first event: those of the job, unless the program was printed in others.
+/// A sink that sets the program's units at the first event. They are those of the job, unless the program was printed in other units.
 struct Started<'a> {
     comparer: Comparer<'a>,
     of_job: bool,

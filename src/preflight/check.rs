@@ -26,12 +26,12 @@ pub(super) struct Check<'m> {
     tools: Vec<u32>,
     pace: Pace,
     clock: Result<Clock, String>,
-    /// Findings by their subject: one finding for each.
+    /// The findings by code and subject. Several findings about one subject become one.
     found: BTreeMap<(Code, String), Finding>,
-    /// The program moved to a reference point that is missing in the machine's file.
+    /// For each of the two reference points: the program moved there, but the machine's file does not contain its position.
     no_reference: [bool; 2],
     was_compensated: bool,
-    /// Axes at a machine position that the program contains, after the last block.
+    /// After the last block: the axes that are at a machine position which the program contains, as bits.
     said: u8,
 }
 
@@ -54,7 +54,7 @@ impl<'m> Check<'m> {
         }
     }
 
-    /// Keeps the times of blocks.
+    /// Turns on the recording of the time of each block.
     pub fn keep_blocks(&mut self) {
         if let Ok(clock) = &mut self.clock {
             clock.keep_blocks();
@@ -68,10 +68,10 @@ impl<'m> Check<'m> {
         let last = items.iter().rposition(is_move);
         let reference = run.reference_point().filter(|point| self.machine.references[*point].is_none());
         for (at, item) in items.iter().enumerate() {
-            // the machine positions in a block are those of its last move
+            // the machine positions in a block belong to the last move of the block
             let is_last = last == Some(at);
             let said = if is_last { self.said } else { before & self.said };
-            // the position of a reference point that is missing in the file is unknown
+            // the machine's file does not contain this reference point, so its position is unknown
             let hidden = match reference {
                 Some(point) if is_last => {
                     self.no_reference[point] = true;
@@ -177,7 +177,7 @@ impl<'m> Check<'m> {
         }
     }
 
-    /// Position of the tip in a work offset, in millimetres. `None` unless the position is known or relative to that same offset.
+    /// Position of the tip in a work offset, in millimetres. `None`: the position is unknown, or it is relative to another offset.
     fn in_fixture(&self, at: &[At; 6], work: usize) -> Option<[f64; 3]> {
         let mut tip = [0.0; 3];
         for (axis, value) in tip.iter_mut().enumerate() {
@@ -196,7 +196,8 @@ impl<'m> Check<'m> {
         Some(tip)
     }
 
-    /// Distance from the gauge line to the tip; machine coordinates are those of the gauge line.
+    /// Distance along an axis from the gauge line to the tip of the tool. Machine coordinates are the coordinates of
+    /// the gauge line.
     fn spindle_to_tip(&self, axis: usize) -> Option<f64> {
         if axis != 2 {
             return Some(0.0);
@@ -204,21 +205,21 @@ impl<'m> Check<'m> {
         self.machine.tools.as_ref()?.0.get(&self.tool?)?.length
     }
 
-    /// The length that a position of an axis includes.
+    /// The tool length that is included in a position of an axis.
     fn added(&self, axis: usize, register: Option<i32>) -> f64 {
         let length = |register: i32| self.machine.tools.as_ref()?.length(register);
         register.filter(|_| axis == 2).and_then(length).unwrap_or(0.0)
     }
 
-    /// Calls the clock with the current positions of the axes.
+    /// Calls `count` with the clock and the current positions of the axes, if there is a clock.
     fn clocks(&mut self, count: impl FnOnce(&mut Clock, &[At; 6])) {
         if let Ok(clock) = &mut self.clock {
             count(clock, &self.places.at);
         }
     }
 
-    /// Checks the feed of a straight cut, which depends on the spindle speed if it has a lead. Returns the feed in millimetres
-    /// per minute, or degrees if only rotary axes move.
+    /// Checks the feed of a straight cut. If the feed is per revolution, it depends on the spindle speed. Returns the
+    /// feed in millimetres per minute, or in degrees per minute if only rotary axes move.
     fn straight_feed(
         &mut self,
         from: &Position,
@@ -243,8 +244,8 @@ impl<'m> Check<'m> {
         feed
     }
 
-    /// The arc for the clock, and its feed in millimetres per minute. At some point of an arc an axis has the whole feed; on a
-    /// short arc it may have less.
+    /// Returns the arc for the clock, and its feed in millimetres per minute. On a full arc each axis reaches the whole
+    /// feed at some point; on a short arc the fastest feed of an axis may be less.
     fn arc_feed(&mut self, from: &Position, turn: &Turn, run: &Simulator<'_>, line: (u64, &[u8])) -> (Curve, f64) {
         let scale = run.state().units().in_mm();
         let [first, second, _] = axes_of(turn.plane);
@@ -387,7 +388,7 @@ impl<'m> Check<'m> {
         finding.times += 1;
     }
 
-    /// The result. `refused`: the line of a refused block, and the reason.
+    /// Ends the check and returns the result. `refused`: the line of a refused block, and the reason.
     pub fn finish(self, refused: Option<(u64, String)>) -> Fitted {
         let mut fit = Fit::of(self.machine, &self.travels);
         let mut findings = self.travels.findings(self.control);

@@ -1,4 +1,4 @@
-//! The time of a program on its machine, with the accelerations of its axes.
+//! Computes the time of a program on its machine, with the accelerations of the axes.
 
 use super::place::{At, Base};
 use crate::control::Code;
@@ -6,24 +6,24 @@ use crate::machine::Machine;
 use crate::nc::Rotation;
 use crate::times::{BlockTime, Curve, PathMode, Planner, Way};
 
-/// The time of a program, in seconds. Stops are not counted, because the operator ends them.
+/// The times of a program, in seconds. Program stops are not counted, because the operator ends them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Times {
-    /// Cuts.
+    /// Time of cuts.
     pub cutting: f64,
-    /// Rapids.
+    /// Time of rapids.
     pub rapid: f64,
-    /// Dwells.
+    /// Time of dwells.
     pub dwells: f64,
-    /// Tool changes, from chip to chip as in the machine's file; this includes the next spindle start.
+    /// Time of tool changes, chip to chip, as given in the machine's file. It includes the spindle start after the change.
     pub changes: f64,
-    /// Spindle speed changes; a control does not wait while the spindle stops.
+    /// Time of spindle speed changes. A control does not wait while the spindle stops.
     pub spindle: f64,
-    /// Number of moves from or to an unknown position: their travel along the unknown axes is not counted.
+    /// Number of moves from or to an unknown position. The times do not include their travel along the unknown axes.
     pub unplaced: u64,
-    /// Number of cuts without a time: their feed depends on a spindle without a speed.
+    /// Number of cuts whose time is unknown, because the feed depends on a spindle speed that is not set.
     pub timeless: u64,
-    /// Each tool's own time, in the order of first use; `None` before the first change.
+    /// Time of each tool, in the order of first use. The tool is `None` before the first tool change.
     pub tools: Vec<(Option<u32>, f64)>,
 }
 
@@ -33,7 +33,7 @@ impl Times {
         self.cutting + self.rapid + self.dwells + self.changes + self.spindle
     }
 
-    /// The total and its parts in a sentence, with everything that is not counted.
+    /// A sentence with the total, its parts, and everything that is not counted.
     pub fn sentence(&self) -> String {
         let time = |seconds: f64| crate::nc::clock(seconds / 60.0);
         let mut text = format!(
@@ -54,7 +54,7 @@ impl Times {
         text
     }
 
-    /// The same times as JSON for other programs, in seconds.
+    /// The times as JSON, in seconds.
     pub fn json(&self) -> serde_json::Value {
         let tools: Vec<_> =
             self.tools.iter().map(|(tool, seconds)| serde_json::json!({ "tool": tool, "seconds": seconds })).collect();
@@ -71,22 +71,24 @@ impl Times {
 pub(super) struct Clock {
     planner: Planner,
     times: Times,
-    /// The total time before the tool in use.
+    /// The total time up to the change to the current tool.
     before: f64,
     tool: Option<u32>,
-    /// Seconds of a tool change.
+    /// Duration of a tool change, in seconds.
     change: f64,
-    /// Seconds per revolution per minute.
+    /// Time in seconds by which the spindle speed changes by one revolution per minute.
     spin_up: f64,
-    /// Revolutions per minute; negative in the other direction.
+    /// Spindle speed in revolutions per minute; negative counterclockwise.
     turning: f64,
-    /// The time of the tool change includes the next spindle start.
+    /// Whether a tool was just changed. The time of a tool change includes the next spindle start.
     is_fresh: bool,
 }
 
 impl Clock {
+    /// Creates a clock for a machine.
+    ///
     /// # Errors
-    /// The missing values of the machine's file, in words.
+    /// The machine's file lacks values that the clock needs. The text names them.
     pub fn of(machine: &Machine) -> Result<Clock, String> {
         let fastest = machine.speeds.map_or(f64::INFINITY, |[_, fastest]| fastest);
         Ok(Clock {
@@ -101,23 +103,23 @@ impl Clock {
         })
     }
 
-    /// Keeps the times of blocks.
+    /// Turns on the recording of the time of each block.
     pub fn keep_blocks(&mut self) {
         self.planner.keep_blocks();
     }
 
-    /// What follows belongs to the block in this line of the program.
+    /// Sets the line of the program to which the following moves belong.
     pub fn at_line(&mut self, line: u64) {
         self.planner.at_line(line);
     }
 
-    /// A rapid between two positions.
+    /// Adds a rapid between two positions.
     pub fn rapid(&mut self, before: &[At; 6], after: &[At; 6]) {
         let way = self.way(before, after);
         self.planner.rapid(&way);
     }
 
-    /// A straight cut at a feed in millimetres per minute, or degrees if only rotary axes move.
+    /// Adds a straight cut. `feed` is in millimetres per minute, or in degrees per minute if only rotary axes move.
     pub fn cut(&mut self, before: &[At; 6], after: &[At; 6], feed: f64) {
         let way = self.way(before, after);
         if feed.is_finite() && feed > 0.0 {
@@ -127,7 +129,7 @@ impl Clock {
         }
     }
 
-    /// An arc at a feed in millimetres per minute; motion outside its plane is in the positions.
+    /// Adds an arc at a feed in millimetres per minute. Motion outside of the plane of the arc comes from the two positions.
     pub fn arc(&mut self, mut curve: Curve, before: &[At; 6], after: &[At; 6], feed: f64) {
         curve.rise = self.way(before, after);
         curve.plane.iter().for_each(|&axis| curve.rise[axis] = 0.0);
@@ -138,19 +140,19 @@ impl Clock {
         }
     }
 
-    /// A dwell.
+    /// Adds a dwell.
     pub fn dwell(&mut self, seconds: f64) {
         self.planner.stop();
         self.times.dwells += seconds;
         self.planner.waits(seconds);
     }
 
-    /// The axes stop: for a program stop, a coolant command or an exact stop.
+    /// Stops the axes, for example at a program stop, a coolant command or an exact stop.
     pub fn stop(&mut self) {
         self.planner.stop();
     }
 
-    /// G61, G61.1 or G64 with its P in millimetres: the accuracy of the path.
+    /// Sets the accuracy of the path: G61, G61.1, or G64 with its P in millimetres.
     pub fn follows(&mut self, code: Code, tolerance: Option<f64>) {
         let mode = match code.tenths {
             610 => PathMode::Exact,
@@ -161,7 +163,7 @@ impl Clock {
         self.planner.path_mode(mode);
     }
 
-    /// The spindle turns at a speed in revolutions per minute.
+    /// Sets the direction and the speed of the spindle, in revolutions per minute.
     pub fn spindle(&mut self, rotation: Rotation, speed: f64) {
         self.planner.stop();
         let turning = match rotation {
@@ -177,7 +179,7 @@ impl Clock {
         self.turning = turning;
     }
 
-    /// A tool is changed.
+    /// Changes the tool.
     pub fn change(&mut self, tool: Option<u32>) {
         self.end_tool();
         self.tool = tool;
@@ -186,7 +188,7 @@ impl Clock {
         (self.turning, self.is_fresh) = (0.0, self.change > 0.0);
     }
 
-    /// The times, and those of the blocks, if they were kept.
+    /// Ends the clock. Returns the times, and the times of the blocks if they were recorded.
     pub fn finish(mut self) -> (Times, Vec<BlockTime>) {
         self.end_tool();
         (self.times, self.planner.take_blocks())
@@ -205,7 +207,7 @@ impl Clock {
         }
     }
 
-    /// The travel of each axis, if it is known.
+    /// The travel of each axis; 0 for an axis whose travel is unknown.
     fn way(&mut self, before: &[At; 6], after: &[At; 6]) -> Way {
         let mut is_whole = true;
         let way = std::array::from_fn(|axis| {

@@ -1,6 +1,6 @@
-//! The range of a program along an axis.
+//! The range of positions that a program uses on an axis.
 
-/// Least and greatest position, with the lines that move to them.
+/// Least and greatest position, each with the line of the program that moves there.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     pub least: (f64, u64),

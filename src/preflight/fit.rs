@@ -1,4 +1,5 @@
-//! The values with which a program fits: a range for each axis, offset and length that is missing in the machine's file.
+//! The values with which a program fits into a machine: an allowed range for each offset and length that the machine's
+//! file does not contain.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +11,7 @@ use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
 use crate::verify::Finding;
 
-/// The unknown value of a row, which may be a sum.
+/// The unknown value of a row. It may be the sum of an offset and a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Unknown {
     Offset(usize),
@@ -23,13 +24,13 @@ enum Unknown {
 struct Row {
     axis: usize,
     unknown: Unknown,
-    /// Its least and greatest allowed value; if the first is greater, no value is allowed.
+    /// The least and the greatest allowed value. If the least is above the greatest, no value is allowed.
     between: [f64; 2],
-    /// Lines of the extreme positions that bound it.
+    /// Lines of the program with the extreme positions that limit the range.
     lines: [u64; 2],
 }
 
-/// The fit of a program in its machine.
+/// The values with which a program fits into its machine.
 #[derive(Clone, Debug)]
 pub struct Fit {
     name: String,
@@ -70,7 +71,7 @@ impl Fit {
         Fit { name: machine.name.clone(), rows: rows.into_values().collect(), extents, not_checked: Vec::new() }
     }
 
-    /// Findings for rows without an allowed value.
+    /// The findings for rows in which no value is allowed.
     pub(super) fn findings(&self, machine: &Machine, control: &Control) -> Vec<Finding> {
         let impossible = self.rows.iter().filter(|row| row.between[0] > row.between[1] + 1e-4);
         impossible
@@ -126,7 +127,7 @@ impl Fit {
         }
     }
 
-    /// The table as text.
+    /// The extents of the program as a table in text.
     pub fn table(&self, machine: &Machine, control: &Control) -> String {
         let mut lines = vec![["axis", "offset", "tool", "from", "to", "travel"].map(str::to_owned)];
         for (axis, needs, tool, extent) in &self.extents {
@@ -154,7 +155,7 @@ impl Fit {
         text
     }
 
-    /// The table as JSON: lengths in the units of the machine's file, `null` for a side without a limit.
+    /// The same table as JSON. Lengths are in the units of the machine's file; a side without a limit is `null`.
     pub fn json(&self, machine: &Machine, control: &Control) -> serde_json::Value {
         let value = |axis: usize, value: f64| machine.at(axis, value).parse::<f64>().ok();
         let limits = |axis: usize| {

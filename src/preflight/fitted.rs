@@ -1,4 +1,4 @@
-//! The result of a check, and the tools of a job.
+//! The result of a preflight check, and the tools of a job.
 
 use super::clock::Times;
 use super::fit::Fit;
@@ -6,28 +6,28 @@ use crate::diag::Severity;
 use crate::times::BlockTime;
 use crate::verify::Finding;
 
-/// The findings, and the fit of the program in the machine.
+/// The result of a check of a program on a machine.
 #[derive(Debug)]
 pub struct Fitted {
     /// The findings, in the order of the program.
     pub findings: Vec<Finding>,
-    /// The extents, and the allowed values of unknown offsets or lengths.
+    /// The extents, and the allowed values of unknown offsets and lengths.
     pub fit: Fit,
-    /// Its time, or the missing accelerations of the machine.
+    /// The times of the program. If the machine's file lacks accelerations, the error names them.
     pub times: Result<Times, String>,
-    /// The times of blocks in the order in which they ran, if they were asked for and the machine has accelerations.
+    /// The times of the blocks in the order in which they ran, if they were requested and the machine has accelerations.
     pub block_times: Vec<BlockTime>,
     /// The line of a refused block, and the reason. Everything after that block is unknown.
     pub refused: Option<(u64, String)>,
 }
 
 impl Fitted {
-    /// Was the program run to its end without findings?
+    /// Whether the program ran to its end without findings.
     pub fn fits(&self) -> bool {
         self.findings.is_empty() && self.refused.is_none()
     }
 
-    /// Are there errors, so that the program must not run on this machine?
+    /// Whether there are errors. With errors, the program must not run on this machine.
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|finding| finding.code.row().severity == Severity::Error)
     }
@@ -36,10 +36,10 @@ impl Fitted {
 /// A tool of the job.
 #[derive(Clone, Debug)]
 pub struct JobTool {
-    /// Its number.
+    /// The number of the tool.
     pub number: u32,
-    /// Its diameter in millimetres.
+    /// The diameter of the tool in millimetres.
     pub diameter: Option<f64>,
-    /// The radius of its corner in millimetres.
+    /// The radius of the corner of the tool, in millimetres.
     pub corner_radius: Option<f64>,
 }

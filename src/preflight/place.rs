@@ -1,86 +1,87 @@
-//! Machine positions: program positions with the known offsets, lengths and frames.
+//! Machine positions, calculated from program positions with the known offsets, lengths and frames.
 
 use crate::machine::Machine;
 use crate::nc::{Position, Simulator, Turn, axes_of, sweep};
 use crate::toolpath::Direction;
 
-/// The values besides the program on which a machine position depends.
+/// The values outside the program on which a machine position depends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Base {
-    /// The position is unknown: the axis was not moved yet, or its frame was moved from an unknown position.
+    /// The position is unknown: the axis has not moved yet, or its frame was moved from an unknown position.
     Unknown,
-    /// No other value: the program contains the position in machine coordinates.
+    /// The position does not depend on other values: the program contains it in machine coordinates.
     Machine,
-    /// A work offset and a tool length.
+    /// The position depends on a work offset and a tool length.
     Work(Needs),
 }
 
-/// The offset and the length on which a position depends.
+/// The work offset and the tool length on which a position depends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Needs {
     /// Number of the work offset.
     pub work: usize,
-    /// The offset is unknown: the position is relative to it.
+    /// The offset is unknown, so the position is relative to it.
     pub offset_unknown: bool,
-    /// The tool's length register, if a length is active; negative if it is subtracted.
+    /// The length register of the tool if a tool length is active; negative if the length is subtracted.
     pub register: Option<i32>,
-    /// The length is unknown: the position does not include it.
+    /// The length is unknown, so the position does not include it.
     pub length_unknown: bool,
 }
 
 impl Needs {
-    /// Is the position unknown in machine coordinates?
+    /// Whether the position is unknown in machine coordinates.
     pub fn is_open(self) -> bool {
         self.offset_unknown || self.length_unknown
     }
 }
 
-/// An axis.
+/// The position of an axis.
 #[derive(Clone, Copy, Debug)]
 pub struct At {
-    /// Position in millimetres or degrees: in machine coordinates if its base is known, otherwise relative to the base.
+    /// Position in millimetres or degrees. It is in machine coordinates if the offset and the length of its base are
+    /// known; otherwise it is relative to the unknown one.
     pub value: f64,
     pub base: Base,
 }
 
-/// The axes of a machine while a program runs.
+/// The positions of the axes of a machine while a program runs.
 #[derive(Clone, Debug)]
 pub struct Places<'m> {
     machine: &'m Machine,
     /// Position of each axis.
     pub at: [At; 6],
-    /// Machine coordinates in the simulator's frames, in millimetres; unknown frames are zero.
+    /// The position in machine coordinates as the simulator calculates it, in millimetres. Unknown frames count as zero.
     known: Position,
-    /// The active length register; negative if it is subtracted.
+    /// The active length register; negative if the length is subtracted.
     pub register: Option<i32>,
-    /// Lengths of a lathe's tools lie along X and Z.
+    /// Whether the machine is a lathe. On a lathe, tool lengths are along X and Z.
     is_lathe: bool,
-    /// Lengths are added to one another: the active one is not tracked.
+    /// Whether a tool length was added to an active one. The sum is not tracked.
     pub adds: bool,
-    /// A tool was changed, and no Z position was programmed since.
+    /// Whether a tool was changed and no Z position has been programmed since.
     changed: bool,
-    /// Axes without a programmed position since the length last changed, as bits.
+    /// Axes for which no position has been programmed since the tool length last changed, as bits.
     lengthened: u8,
-    /// Axes whose frame was moved in that state: positions in this frame are unknown here.
+    /// Axes whose frame was moved while they were in `lengthened`, as bits. Positions in this frame are unknown.
     lost: u8,
-    /// Axes that were programmed to positions in such a frame.
+    /// Axes for which a position was programmed in an unknown frame, as bits.
     pub unframed: u8,
-    /// An axis moved on from an unknown position.
+    /// Whether an axis made an incremental move from an unknown position.
     pub astray: bool,
 }
 
-/// The words of a block that moves; axes as bits.
+/// The axis words of a block that moves. Axes are stored as bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Going {
-    /// Axes that are at a machine position.
+    /// Axes that are at a machine position after the move.
     pub in_machine: u8,
     /// Axes whose machine position the program contains.
     pub said: u8,
-    /// Axes that move to a machine position that the machine's file does not contain.
+    /// Axes that move to a machine position which the machine's file does not contain.
     pub hidden: u8,
-    /// Axes with a position in the block.
+    /// Axes for which the block contains a position.
     pub says: u8,
-    /// Every axis that moves counts as programmed: the block is a cycle whose words contain the positions.
+    /// Whether every axis that moves counts as programmed. True for a cycle, because its words contain the positions.
     pub all_said: bool,
 }
 
@@ -102,8 +103,8 @@ impl<'m> Places<'m> {
         }
     }
 
-    /// A move to a program position. An axis to which the block gives a position goes to that position in the work offset and
-    /// with the tool length in force. Every other axis keeps its machine position, plus its increment.
+    /// Moves to a program position. If the block contains a position for an axis, the axis goes to that position in the
+    /// active work offset and with the active tool length. Every other axis keeps its machine position, plus its increment.
     pub fn goes(&mut self, to: &Position, going: Going, run: &Simulator<'_>) {
         let known = run.state().in_machine_coordinates(to);
         let known: Position = std::array::from_fn(|axis| self.scaled(axis, known[axis], run));
@@ -133,23 +134,24 @@ impl<'m> Places<'m> {
         self.known = known;
     }
 
-    /// Turns a length on or off. Until the next programmed position, the coordinates differ from those of the simulator.
+    /// Turns a tool length on or off. Until a position is programmed, the coordinates differ from those of the simulator.
     pub fn takes_length(&mut self, register: Option<f64>) {
         self.register = register.map(|register| register as i32);
         self.lengthened = 0b111;
     }
 
-    /// A frame is moved so that the tool has a given position in it.
+    /// Notes that a frame was moved so that the tool has a given position in the frame.
     pub fn reframed(&mut self) {
         self.lost |= self.lengthened;
     }
 
-    /// Changes a tool. The Z position is then unknown until the program contains one.
+    /// Changes the tool. The Z position is then unknown until the program contains one.
     pub fn changes_tool(&mut self) {
         self.changed = !self.is_lathe;
     }
 
-    /// Least and greatest position of each axis on an arc that begins at the current position; to be called after [`Places::goes`].
+    /// Least and greatest position of X, Y and Z on an arc that ends at the current position. Call [`Places::goes`]
+    /// with the end of the arc first.
     pub fn extremes(&self, from: &Position, turn: &Turn, run: &Simulator<'_>) -> [[f64; 2]; 3] {
         let end: [f64; 3] = std::array::from_fn(|axis| self.at[axis].value);
         let machine = |at: &Position| {
@@ -179,7 +181,7 @@ impl<'m> Places<'m> {
             std::array::from_fn::<f64, 3, _>(|axis| at[axis] - centre[axis])
         };
         let (middle, u, v) = (machine(&centre), along(first), along(second));
-        // a helix: the additional travel of each axis per radian
+        // on a helix: the additional travel of each axis per radian
         let rise: [f64; 3] = {
             let mut raised = centre;
             raised[across] = turn.to[across];
@@ -196,13 +198,13 @@ impl<'m> Places<'m> {
             if size <= rise[axis].abs() {
                 continue;
             }
-            // the angles at which circle plus rise has an extreme
+            // the angles at which the sum of circle and rise has an extreme value
             let peak = v[axis].atan2(u[axis]);
             let aside = (rise[axis] / size).asin();
             for angle in [peak + aside, peak + std::f64::consts::PI - aside] {
                 let first = (sign * (angle - begin)).rem_euclid(std::f64::consts::TAU);
                 let turns = ((swept - first) / std::f64::consts::TAU).floor();
-                // only the first and the last turn matter: the values of all others lie between these two
+                // only the first and the last turn matter: the extreme values of all other turns are between those of these two
                 for ahead in [first, std::f64::consts::TAU.mul_add(turns, first)] {
                     if turns >= 0.0 && ahead < swept {
                         let at = begin + sign * ahead;
@@ -232,7 +234,7 @@ impl<'m> Places<'m> {
         let work = run.state().work_number();
         let of_file = self.machine.offset(work).and_then(|offset| offset[axis]).is_some();
         let given = run.state().offset_given() & 1 << axis != 0;
-        // rotary axes without an offset count from machine zero
+        // rotary axes without an offset are measured from machine zero
         let offset_unknown = axis < 3 && !of_file && !given;
         let takes = if self.is_lathe { axis == 0 || axis == 2 } else { axis == 2 };
         if self.adds && takes {
@@ -246,13 +248,13 @@ impl<'m> Places<'m> {
         At { value: value + length.unwrap_or(0.0), base: Base::Work(needs) }
     }
 
-    /// Offset of a tool from the spindle, from LinuxCNC's table.
+    /// Offset of a tool in X and Y from the spindle axis, from LinuxCNC's tool table.
     fn aside(&self, register: i32) -> Option<[f64; 2]> {
         Some(self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.0.get(&u32::try_from(register).ok()?)?.aside)
     }
 
-    /// The length in a register, with its sign. Mills only: for a lathe, the machine's file does not contain the position of
-    /// the cutting edge.
+    /// The tool length in a register, with its sign. For mills only: the machine's file does not contain the position
+    /// of a lathe tool's cutting edge.
     fn length(&self, register: i32) -> Option<f64> {
         self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.length(register)
     }

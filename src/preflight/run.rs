@@ -1,4 +1,4 @@
-//! Runs a program on a machine: with the machine's own offsets, from an unknown position.
+//! Runs a program on a machine, with the machine's offsets and from an unknown position.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -20,7 +20,7 @@ pub fn preflight(
     run(program, settings, machine, job, false)
 }
 
-/// Runs a program on a machine, and keeps the time of each of its blocks.
+/// Runs a program on a machine, and records the time of each block.
 ///
 /// # Errors
 /// The program can't be read.

@@ -1,4 +1,4 @@
-//! PM001: axes beyond their travel. Positions that depend on an unknown offset or length are kept as extents.
+//! PM001: axes beyond their travel. For positions that depend on an unknown offset or length, the extents are recorded.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,18 @@ use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
 use crate::verify::Finding;
 
-/// How far an axis may be beyond its travel, in millimetres: less than the resolution of a control's display.
+/// An axis may be this far beyond its travel, in millimetres: it is less than the resolution of a control's display.
 const OVER: f64 = 1e-4;
 
-/// The travels that a running program has used so far.
+/// The ranges of the axes that a running program has used so far.
 #[derive(Debug)]
 pub struct Travels<'m> {
     machine: &'m Machine,
     limits: [Option<[f64; 2]>; 6],
-    /// The range of each axis, by the offset and the length on which it depends, and by the tool in the spindle.
+    /// The range of each axis. The key also contains the offset and the length on which the range depends, and the tool
+    /// in the spindle.
     pub extents: BTreeMap<(usize, Needs, Option<u32>), Extent>,
-    /// Axes beyond their travel: by axis, end of the travel, base of the position, and tool.
+    /// Axes beyond their travel. The key is the axis, the end of the travel, the base of the position, and the tool.
     beyond: BTreeMap<(usize, bool, Base, Option<u32>), Beyond>,
 }
 
@@ -41,7 +42,7 @@ impl<'m> Travels<'m> {
         Travels { machine, limits, extents: BTreeMap::new(), beyond: BTreeMap::new() }
     }
 
-    /// A move to the current positions; `ranges`: the extent of an arc in X, Y and Z.
+    /// Adds a move to the current positions. `ranges`: the least and the greatest X, Y and Z of an arc.
     pub fn moved(
         &mut self,
         places: &Places<'_>,

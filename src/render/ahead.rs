@@ -122,7 +122,8 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));
 }
 
-/// Sets whether the tool is the first or the last one, and its neighbours. After the last tool comes the first one again.
+/// Sets whether the tool is the first or the last one, and the tools before and after it. The first tool comes after
+/// the last one again.
 fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>, want: &mut Want) {
     want.set(VarId::Isfirsttool, f64::from(u8::from(at == 0)));
     want.set(VarId::Islasttool, f64::from(u8::from(at + 1 == count)));

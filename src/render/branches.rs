@@ -106,8 +106,8 @@ fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
     }
 }
 
-/// Does a condition depend on the order of tools while that order is unknown? If properties alone decide the condition, it does
-/// not.
+/// Does a condition depend on the order of tools while that order is unknown? A condition that properties alone decide
+/// does not depend on the order.
 fn asks_unknown_order(condition: &Formula, now: &Now) -> bool {
     now.want.tool_order.is_none()
         && now.want.tool_changes > 0

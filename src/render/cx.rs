@@ -18,7 +18,7 @@ pub struct Cx<'a> {
 }
 
 impl Cx<'_> {
-    /// The same state, borrowed for printing words and blocks.
+    /// The state of the renderer, borrowed for printing words and blocks.
     #[inline]
     pub fn writer(&mut self) -> Writer<'_> {
         Writer { shape: self.shape, want: self.want, said: self.said, out: self.out }

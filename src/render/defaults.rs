@@ -32,7 +32,8 @@ pub fn no_defaults() -> Defaults {
 pub fn cycle_defaults(settings: &Settings, job: Units, into: Units, sink_as_printed: bool) -> Defaults {
     let scale = factor(form_units(settings).unwrap_or(Units::Inch), into);
     let length = |value: f64| value * scale;
-    // lengths of a form for both units are inches; for values that it lacks, the defaults of a form in the job's units apply
+    // lengths in a form for both units are inches; for a value that the form lacks, the default of a form in the job's
+    // units applies
     let of_job = if job == Units::Mm { UnitChoice::Mm } else { UnitChoice::Inch };
     let usual = Settings::new(settings.machine, of_job);
     let usual_scale = factor(job, into);

@@ -12,9 +12,9 @@ pub const LONGEST: usize = 4096;
 pub struct Layout {
     /// Words are separated by a blank.
     pub blanks: bool,
-    /// `0.5` for `.5`.
+    /// Numbers below one print as `0.5`, not as `.5`.
     pub leading_zeros: bool,
-    /// Columns of the words; one: the width of each.
+    /// Columns of the words. A single value is the width of every column.
     pub columns: Vec<usize>,
     /// Texts to be replaced, their replacements, and the lines of the form.
     pub replace: Vec<(Vec<u8>, Vec<u8>, Span)>,
@@ -45,7 +45,7 @@ impl Layout {
         let format = letters[own.unwrap_or(b'N')].format;
         let width = format.int.count;
         let bytes = |row: &Replacement| (row.old.clone().into_bytes(), row.new.clone().into_bytes(), row.span);
-        // if the sender only truncates long blocks, they are no reason for an error
+        // if the control only truncates long blocks, a long block is no error
         let control = settings.control().traits();
         Layout {
             blanks: settings.blanks,

@@ -1,5 +1,6 @@
-//! Converts toolpath events to NC blocks (render.md). The parts are the form (`shape`), the values that the job requests
-//! (`want`), the known state of the control (`said`), the output (`printer`), and the functions that connect them.
+//! Converts toolpath events to NC blocks (docs/rendering.md). The parts are the form (`shape`), the values that the job
+//! requests (`want`), the known state of the control (`said`), the output (`printer`), and the functions that connect
+//! them.
 
 mod ahead;
 mod ascii;

@@ -1,4 +1,4 @@
-//! Several coolants at once: `[cool]` prints the first kind of a list, the others print in blocks of their own.
+//! Several coolants at once: `[cool]` prints the first kind of a list, and separate blocks print the others.
 
 use super::coolant::{codes, codes_of};
 use super::cx::Writer;

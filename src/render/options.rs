@@ -10,10 +10,10 @@ use crate::toolpath::Units;
 /// How canned cycles are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Cycles {
-    /// The form's sequences; moves where it has none.
+    /// By the form's sequences, or as single moves if the form has none.
     #[default]
     Form,
-    /// Always moves.
+    /// Always as single moves.
     Emulated,
 }
 

@@ -76,7 +76,7 @@ pub fn feed_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>)
         let message = "in inverse time each move needs its feed, but the sequence does not print [frate]";
         return fault_at(diag::Code::PR017, message, "add `F[frate]` to the sequence", Some(routine.span));
     }
-    // a Grbl refuses G1 if no feed was set before
+    // Grbl refuses G1 if no feed was set before
     if !says_feed || begun && !writer.want.inverse_time() {
         feed_word(writer)?;
     }

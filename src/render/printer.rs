@@ -30,7 +30,7 @@ pub struct TraceWord {
     pub line: u64,
     /// The word of the form.
     pub form: Span,
-    /// As printed; empty if the word was left out because the control already had its value.
+    /// The text of the word; empty if the word was left out because the control already had its value.
     pub text: String,
 }
 
@@ -413,7 +413,7 @@ impl Printer {
                 self.page.text.extend_from_slice(&block[from..at]);
                 self.page.text.extend_from_slice(new);
                 from = at + old.len();
-                // each row may double the block, so stop at the first one that makes it too long
+                // each row may double the block, so postform stops at the first row that makes the block too long
                 if !self.fits(Some(*span)) {
                     return None;
                 }

@@ -10,7 +10,7 @@ use crate::toolpath::Given;
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     value: PropertyValue,
-    /// A length is in the form's units; otherwise in those of the program.
+    /// True: a length is in the form's units. False: in those of the program.
     in_forms_units: bool,
 }
 

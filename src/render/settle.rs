@@ -108,7 +108,8 @@ fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Pr
     out.note_at(Code::PR056, message, help, line);
 }
 
-/// Runs the form's own sequence for a change that no other sequence printed. What it does not print is generated afterwards.
+/// Runs the form's own sequence for a change that no other sequence printed. A part of the change that the sequence
+/// does not print is generated afterwards.
 fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     match shape.program.routine(id) {
@@ -211,7 +212,7 @@ pub fn only_work_waits(shape: &Shape, want: &Want, said: &Said) -> bool {
     said.lacks(want, shape).without(VarSet::of(&[VarId::Work])).is_empty()
 }
 
-/// Checks that a subprogram knows its spindle and coolant after a stop, because its callers may have set any.
+/// Checks that spindle and coolant are known in a subprogram after a stop, because its callers may have set any values.
 pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
     let unknown = |var: VarId| want.get(var).is_none();
     let by_form = shape.program.switches_spindle; // then nothing is printed again

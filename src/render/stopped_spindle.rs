@@ -1,4 +1,4 @@
-//! Warns of cuts on a mill while the job has turned the spindle off.
+//! Warns of cuts on a mill after the job turned the spindle off.
 
 use super::printer::Printer;
 use super::shape::Shape;

@@ -8,7 +8,7 @@ use crate::source::Source;
 /// A finding with its position as values.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Its code: `PF101`.
+    /// The code of the finding: `PF101`.
     pub code: &'static str,
     /// `error`, `warning` or `note`.
     pub severity: &'static str,

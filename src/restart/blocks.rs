@@ -1,4 +1,4 @@
-//! The blocks of the new program: the head, the blocks that restore the modal state, the approach, the rest.
+//! Writes the blocks of the new program: the head, the blocks that restore the modal state, the approach, and the rest.
 
 use super::entry::{Entry, Found};
 use super::{Asked, Refused, Way, refuse};
@@ -7,7 +7,7 @@ use crate::machine::offsets;
 use crate::nc::Rotation;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// Returns the text, the number of lines before the first line of the old program, and the notes for the operator.
+/// Returns the text, the number of lines before the first line that is copied from the old program, and the notes for the operator.
 pub fn program(
     text: &[u8],
     control: &Control,
@@ -33,7 +33,7 @@ pub fn program(
     Ok((new, (head + own.len()) as u64, notes))
 }
 
-/// The blocks that restore the modal state, and the approach.
+/// Returns the blocks that restore the modal state and make the approach, and the notes for the operator.
 fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(Vec<String>, Vec<String>), Refused> {
     let Entry { line, standing, switches, said, height, depth } = &found.entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
@@ -55,8 +55,8 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
     };
     let modes = [units, plane, Meaning::SideOff, Meaning::CycleEnd, Meaning::LengthOff, Meaning::Absolute, feed_mode];
     for group in modes.chunks(4) {
-        // on a lathe the turret position selects the length
-        // modes that the program never sets depend on the machine
+        // on a lathe, the turret position selects the length: no code is needed
+        // a mode that the program never sets is left out, because its value depends on the machine
         let is_said = |meaning: &&Meaning| match **meaning {
             Meaning::LengthOff => !control.is_lathe(),
             own if own == units => said.units,
@@ -127,7 +127,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
             notes.push(format!("put T{tool} into the spindle first: the control has no tool change code"));
         }
     }
-    // a tool that an earlier block has preselected
+    // the tool that an earlier block has preselected
     if let Some(next) = standing.named_tool.filter(|next| Some(*next) != standing.tool && *next != 0.0)
         && !control.is_lathe()
     {
@@ -148,7 +148,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
             blocks.push(word);
         }
     }
-    // the head may have turned the coolant on
+    // the blocks of the head may have turned the coolant on
     if !(switches.flood || switches.mist || switches.through) {
         blocks.extend(code(Meaning::CoolantOff));
     }
@@ -183,7 +183,7 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
     Ok((blocks, notes))
 }
 
-/// The blocks that start the spindle.
+/// Adds the blocks that start the spindle.
 fn spindle(control: &Control, found: &Found, blocks: &mut Vec<String>) {
     let Entry { standing, switches, .. } = &found.entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
@@ -204,7 +204,7 @@ fn spindle(control: &Control, found: &Found, blocks: &mut Vec<String>) {
     }
 }
 
-/// The move across, the tool length, and the move down to the height of the entry.
+/// Adds the move in X and Y, the tool length, and the move down to the height of the entry.
 fn way_in(control: &Control, entry: &Entry, blocks: &mut Vec<String>) -> Result<(), Refused> {
     let Entry { standing, switches, height, .. } = entry;
     let code = |meaning: Meaning| control.first(meaning).map(|row| row.code.to_string());
@@ -241,12 +241,12 @@ fn way_in(control: &Control, entry: &Entry, blocks: &mut Vec<String>) -> Result<
     Ok(())
 }
 
-/// Is a comment written as on Grbl, with a semicolon?
+/// Whether comments of the control begin with a semicolon, as on Grbl.
 fn is_bare(control: &Control) -> bool {
     control.rules() == crate::control::Rules::Grbl
 }
 
-/// A number as in programs: with its point and without trailing zeros.
+/// A number as in programs: with a decimal point and without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{:.6}", value);
     let text = text.trim_end_matches('0');

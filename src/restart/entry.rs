@@ -1,4 +1,4 @@
-//! Finds the line where a program can be begun: the last safe location before the requested one.
+//! Finds the entry: the last line, up to the requested one, at which a program can safely begin.
 
 use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
@@ -19,39 +19,39 @@ pub enum Target {
     Operation(String),
 }
 
-/// A location where a program can be begun.
+/// A line at which a program can begin.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its line: the first block that is run.
+    /// The line of the first block that is run.
     pub line: u64,
-    /// The modal state before it.
+    /// The modal state before this line.
     pub standing: Standing,
-    /// Further values in force.
+    /// Further values that are active before this line.
     pub switches: Switches,
     pub said: Said,
-    /// The height from which the tool comes down; `None`: it comes from the tool change position.
+    /// The height from which the tool moves down; `None`: it moves from the tool change position.
     pub height: Option<f64>,
-    /// The depth to which it then feeds down, into a cut that continues.
+    /// The depth to which the tool then moves at feed, if a cut continues there.
     pub depth: Option<f64>,
 }
 
-/// Values that a program has switched on, in addition to its modal state.
+/// Values that a program has switched on, besides the modal state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Switches {
     /// Coolant: flood, through the spindle, mist.
     pub flood: bool,
     pub mist: bool,
     pub through: bool,
-    /// The register of the active length; negative if it is subtracted.
+    /// The register of the active tool length offset; negative if the length is subtracted.
     pub length: Option<f64>,
-    /// Surface speed, with its limit.
+    /// The surface speed, and the limit of the spindle speed.
     pub surface: Option<f64>,
     pub limit: Option<f64>,
-    /// A work offset has been programmed.
+    /// Whether the program has selected a work offset.
     pub work: bool,
 }
 
-/// Modes that the program has set, even to the value in force.
+/// Whether the program has set these modes, even to the value that was active already.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Said {
     pub units: bool,
@@ -81,9 +81,9 @@ pub struct Found {
     pub entry: Entry,
     /// The requested line.
     pub asked: u64,
-    /// The head: lines before the first block that moves or changes a tool.
+    /// Number of lines in the head, which ends before the first block that moves, starts the spindle or coolant, or changes a tool.
     pub head: u64,
-    /// Codes between head and entry that are not part of the modal state, with their lines.
+    /// Codes between the head and the entry that are not part of the modal state, with their lines.
     pub codes: Vec<(u64, String)>,
 }
 
@@ -126,29 +126,30 @@ struct Search<'t> {
     target: &'t Target,
     exactly: bool,
     said: Said,
-    /// Comments in the head are not searched for the operation.
+    /// Whether comments in the head are ignored in the search for an operation.
     past_head: bool,
     switches: Switches,
-    /// The last possible entry, up to the requested location.
+    /// The last possible entry that was found up to the requested line.
     entry: Option<Entry>,
-    /// The first possible entry after it.
+    /// The first possible entry after the requested line.
     next: Option<u64>,
     asked: Option<u64>,
     head: Option<u64>,
     codes: Vec<(u64, String)>,
-    /// Number of codes up to the entry.
+    /// Number of codes before the entry.
     kept: usize,
-    /// The reason why no location after the head is possible.
+    /// The reason why no entry after the head is possible.
     never: Option<String>,
-    /// The last block was a move.
+    /// Whether the last block was a move.
     moved: bool,
-    /// The highest Z of a move across since the tool change.
+    /// The highest Z of the moves in X or Y since the tool change.
     way: Option<f64>,
-    /// The last move was a rapid.
+    /// Whether the last move was a rapid.
     came_at_rapid: bool,
-    /// The active tool length is not the one with which the Z position was programmed: the position depends on both.
+    /// Whether the tool length has changed since the last programmed Z position. The height of the tool then depends on
+    /// both lengths.
     height_by_other: bool,
-    /// The possible entry with the T word of a pending tool change, if the tool is clear there.
+    /// A possible entry at a T word whose tool change has not come yet. At this entry the tool is clear of the part.
     tool_line: Option<Entry>,
 }
 
@@ -196,12 +197,12 @@ impl<'t> Search<'t> {
             Action::Coolant(cooling) => *cooling != Cooling::Off,
             _ => false,
         };
-        // blocks that move or start something are not run again before the retract
+        // the head ends before the first block that moves or starts something: such blocks must not run before the retract
         let begins = |item: &crate::nc::Item| moves(&item.action) || switches(&item.action);
         if self.head.is_none() && (changes || items.iter().any(begins)) {
             self.head = Some(line - 1);
         }
-        // the location before this block
+        // checks whether the program can begin before this block
         if self.exactly {
             if is_asked && depth == 0 && self.never.is_none() {
                 (self.entry, self.kept) = (self.exact_entry(before, line, changes, run), self.codes.len());
@@ -260,7 +261,7 @@ impl<'t> Search<'t> {
                 let station = if run.control().is_lathe() && *number > 99 { number / 100 } else { *number };
                 items.iter().any(|item| matches!(item.action, Action::Tool(tool) if tool == f64::from(station)))
             }
-            // a line of a subprogram does not come after the lines of the main program
+            // a line of a subprogram may have a higher number, but does not come after the lines of the main program
             Target::Line(asked) => line == *asked || depth == 0 && line > *asked,
             Target::Block(number) => block_number(run.text()) == Some(*number),
             // comments in the header only list the operations
@@ -275,7 +276,8 @@ impl<'t> Search<'t> {
         }
     }
 
-    /// Can the program be begun with this block? It must change the tool, or the tool must be at the height of its moves across.
+    /// The entry before this block, if one is possible. The block must change the tool, or the tool must be at the
+    /// height of its rapids.
     fn entry_before(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         let control = run.control();
         let is_free = !before.compensated && !before.has_cycle && !before.is_shifted;
@@ -292,7 +294,7 @@ impl<'t> Search<'t> {
         };
         let names_tool = run.names_tool();
         if changes {
-            // starts at its T word, if the T word is in an earlier block
+            // the entry is at the T word of the tool change, if this is in an earlier block
             let first = self.tool_line.take().filter(|_| !names_tool);
             return first.or_else(|| is_free.then(|| entry(None)));
         }
@@ -305,12 +307,12 @@ impl<'t> Search<'t> {
         }
         let height = before.position[2];
         let is_high = self.way.is_none_or(|way| height >= way - 1e-9);
-        // a block that moves without a motion code would use the last motion of the old program
+        // without a motion code, a moving block would depend on the last motion of the old program
         let goes_on = before.is_rapid || run.names_motion() || !run.has_axes();
         (is_high && goes_on).then(|| entry(Some(height)))
     }
 
-    /// The entry at the requested block itself: down from the height of the moves across, and at feed into the cut.
+    /// The entry at the requested block itself. The tool moves down from the height of its rapids, and at feed into the cut.
     fn exact_entry(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         if changes {
             return self.entry_before(before, line, changes, run);
@@ -375,7 +377,7 @@ fn block_number(text: &[u8]) -> Option<u64> {
     digits.get(..end)?.parse().ok()
 }
 
-/// Does a block assign a value to a parameter?
+/// Whether a block assigns a value to a parameter.
 fn computes(text: &[u8]) -> bool {
     let mut symbols =
         tokens(text).filter_map(|token| if let Kind::Symbol(symbol) = token.kind { Some(symbol) } else { None });

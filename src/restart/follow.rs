@@ -1,4 +1,4 @@
-//! The proof: from the entry on, the new program makes the same motions as the old one.
+//! Proves a restart: after the entry, the new program must make the same motions as the old one.
 
 use std::fmt::Write as _;
 
@@ -7,11 +7,12 @@ use super::{Refused, refuse};
 use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
 use crate::toolpath::Plane;
 
-/// Greatest difference of positions that counts as equal, in the program's units. The written positions have six decimals.
+/// If positions differ by at most this value, they are equal. The value is in the program's units; positions are
+/// written with six decimals.
 const SAME: f64 = 2e-6;
 
-/// Runs both programs side by side and returns the number of common moves. `across`: the new program has moved to the position
-/// at the entry, as far as it is known.
+/// Runs both programs in parallel and returns the number of equal moves. `across`: the new program has moved to the X
+/// and Y of the entry, as far as they are known.
 pub fn same(
     old: &[u8],
     new: &[u8],
@@ -21,11 +22,11 @@ pub fn same(
 ) -> Result<u64, Refused> {
     let mut old = Side::new(super::run(old, settings), found.entry.line);
     let mut new = Side::new(super::run(new, settings), head_lines + 1);
-    // run both up to the entry
+    // run both programs up to the entry
     old.reach("the program")?;
     new.reach("the new program")?;
     let mut moves = 0;
-    // if the program does not repeat its X and Y, both programs must be at the same X and Y at the entry
+    // if the program does not repeat X and Y after the entry, both programs must be at the same X and Y there
     let placed = across && found.entry.standing.unknown & 0b11 == 0;
     loop {
         let (one, other) = (old.next("the program")?, new.next("the new program")?);
@@ -59,7 +60,7 @@ pub fn same(
     Ok(moves)
 }
 
-/// A move or a stop, with the modal state at that point.
+/// A move or a stop, with the modal state when it is made.
 #[derive(Debug)]
 struct Seen {
     action: Action,
@@ -116,13 +117,13 @@ impl Seen {
             (one, two) => one == two,
         };
         let (one, two) = (&self.standing, &other.standing);
-        // before the first cut the spindle may be off
+        // the spindle may be off before the first cut
         let cuts = matches!(self.action, Action::Feed { .. } | Action::Arc(_) | Action::Hole(_));
         let turns = !cuts || (one.rotation, one.speed) == (two.rotation, two.speed);
         let stands = (one.tool, one.work, one.units, one.plane, one.feed_mode, one.compensated)
             == (two.tool, two.work, two.units, two.plane, two.feed_mode, two.compensated)
             && turns;
-        // at a machine height the tool length does not matter
+        // at a machine height the tool length has no effect
         let (mut on, own) = (self.switches.clone(), &other.switches);
         if self.is_at_machine_height() {
             on.length = own.length;
@@ -130,7 +131,7 @@ impl Seen {
         same && stands && on == *own
     }
 
-    /// Does it go down or cut at an X or Y (X or Z on a lathe) from an earlier block, measured from an unknown position?
+    /// Whether the move goes down or cuts while X or Y (X or Z on a lathe) is at an unknown machine position.
     fn goes_down_unsaid(&self) -> bool {
         let across = |machine: u8| machine & if self.standing.plane == Plane::Xz { 0b101 } else { 0b011 } != 0;
         match &self.action {
@@ -174,7 +175,7 @@ fn at(to: &[f64; 6]) -> String {
     format!("X{} Y{} Z{}", to[0], to[1], to[2])
 }
 
-/// Compares only the axes whose position the program contains.
+/// Whether two positions are equal. Axes whose position the program does not contain are not compared.
 fn near_known(one: &[f64; 6], two: &[f64; 6], machine: u8) -> bool {
     (0..6).all(|axis| machine & 1 << axis != 0 || (one[axis] - two[axis]).abs() <= SAME)
 }

@@ -1,8 +1,8 @@
-//! A program that begins in the middle of another one, with the same modal state.
+//! Makes a program that begins in the middle of another program, with the same modal state.
 //!
-//! The new program has the head of the old one up to its first move or tool change. Blocks that restore the modal state at the
-//! entry follow, then an approach from above, then the unchanged rest of the old program. It is then run beside the old
-//! program. If the two differ anywhere after the entry, there is no new program.
+//! The new program has four parts: the head of the old program, blocks that restore the modal state at the entry, an
+//! approach from above, and the unchanged rest of the old program. Both programs are then run and compared. If their
+//! motions differ anywhere after the entry, no new program is returned.
 
 mod blocks;
 mod entry;
@@ -15,23 +15,23 @@ pub use entry::Target;
 use crate::control::Rules;
 use crate::nc::RunSettings;
 
-/// The request.
+/// The request for a restart.
 #[derive(Clone, Debug)]
 pub struct Asked {
-    /// Where to begin.
+    /// The location at which the program should begin.
     pub target: Target,
     /// A height above all obstacles, in the program's units, for a control that can't retract to machine zero.
     pub clear: Option<f64>,
-    /// Begin at the requested block itself, even in the middle of a cut: the tool goes down at feed.
+    /// Whether the program must begin at the requested block itself, even in the middle of a cut. The tool then moves down at feed.
     pub exactly: bool,
 }
 
-/// The new program.
+/// The new program, and how it was made.
 #[derive(Debug)]
 pub struct Restarted {
-    /// Its text.
+    /// The text of the new program.
     pub text: Vec<u8>,
-    /// The line of the old program at which it continues.
+    /// The line of the old program at which the new program continues.
     pub line: u64,
     /// The requested line.
     pub asked: u64,
@@ -89,7 +89,7 @@ pub fn restart(mut program: impl Read + Seek, settings: RunSettings, asked: &Ask
         let moves = follow::same(&text, &new, settings, &found, (head_lines, way.across))?;
         Ok(Restarted { text: new, line: found.entry.line, asked: found.asked, notes, moves })
     };
-    // before a tool change, the first attempt leaves the tool in position with the spindle off; later ones move it or start the spindle
+    // before a tool change, four approaches are tried: no move and no spindle start, a move, a spindle start, both
     match found.entry.height {
         None => {
             let [first, ways @ ..] = [[false, false], [true, false], [false, true], [true, true]];

@@ -1,4 +1,4 @@
-//! Two lists of changes of the program: from an old program, and from the program that the last saved form prints.
+//! Compares the program with an old program, and with the program that the last saved form prints.
 
 use std::io::Cursor;
 
@@ -11,10 +11,10 @@ use crate::nc::RunSettings;
 use crate::picture::draw;
 use crate::terminal::escaped;
 
-/// Maximum number of hunks shown.
+/// Maximum number of hunks that are shown.
 const MOST: usize = 10_000;
 
-/// An old program: its text and its path.
+/// Adds the text and the motions of an old program to the scene.
 pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
     program::text(scene, "old/", old);
     if let Ok(picture) = draw(Cursor::new(old), settings) {
@@ -22,14 +22,14 @@ pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
     }
 }
 
-/// The lines that differ from an old program.
+/// The lines that differ from an old program. `None`: one of the programs is too long to compare.
 pub fn against(name: &str, old: &[u8], new: &str, options: &Options) -> Option<Value> {
     let mut value = hunks(&compared(old, new, options)?);
     value["name"] = json!(escaped(name));
     Some(value)
 }
 
-/// The lines that differ from the program of the form as last saved; there may be no such program.
+/// The lines that differ from the program that the last saved form prints. `before` is `None` if that form prints no program.
 pub fn saved(before: Option<&str>, new: &str, options: &Options) -> Option<Value> {
     match before {
         Some(before) => Some(hunks(&compared(before.as_bytes(), new, options)?)),
@@ -42,7 +42,7 @@ fn compared(old: &[u8], new: &str, options: &Options) -> Option<Comparison> {
     Some(compare(&old?, &new?, options))
 }
 
-/// Ranges of lines from 0: of the old program, and of the new one.
+/// The differences as ranges of lines, counted from 0: lines of the old program, then lines of the new one.
 fn hunks(found: &Comparison) -> Value {
     let rows = found.hunks.iter().take(MOST);
     let rows: Vec<[usize; 4]> = rows.map(|hunk| [hunk.old.start, hunk.old.end, hunk.new.start, hunk.new.end]).collect();

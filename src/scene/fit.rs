@@ -1,4 +1,4 @@
-//! Checks whether the program fits into its machine, and computes its time there.
+//! The result of the check whether the program fits into its machine, and the times of its blocks there.
 
 use serde_json::{Value, json};
 
@@ -15,7 +15,8 @@ use crate::source::Source;
 use crate::terminal::escaped;
 use crate::times::BlockTime;
 
-/// The result in a few words, the allowed values of unknown offsets or lengths, everything that is not checked, and each finding.
+/// The result of the check as a short text, the allowed values of unknown offsets and lengths, the checks that were
+/// left out, and the findings.
 pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[TraceLine], files: &[Source]) -> Value {
     let name = escaped(&machine.name);
     let is_error = |severity: Severity| severity == Severity::Error;
@@ -47,7 +48,8 @@ pub fn fit(fitted: &Fitted, machine: &Machine, control: &Control, trace: &[Trace
     json!({ "kind": kind, "text": text, "more": more, "findings": findings })
 }
 
-/// The lines of the blocks in the order in which they ran, and the seconds from the beginning to the end of each on the machine.
+/// The lines of the blocks in the order in which they ran. For each block, the seconds from the beginning of the
+/// program to the end of the block on the machine.
 pub fn times(scene: &mut Scene, blocks: &[BlockTime]) {
     let mut end = 0.0;
     let ends = blocks.iter().map(|block| {
@@ -58,7 +60,7 @@ pub fn times(scene: &mut Scene, blocks: &[BlockTime]) {
     scene.section("timedEnd".into(), ends);
 }
 
-/// The machine's file can't be read.
+/// A scene that reports that the machine's file can't be read.
 pub fn no_machine(why: &str) -> Scene {
     behind("fit", json!({ "kind": "bad", "text": why, "more": [], "findings": [] }))
 }

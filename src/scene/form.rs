@@ -8,11 +8,11 @@ use crate::sema::{Checked, Property, PropertyKind};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Maximum number of findings shown: nobody reads more at once.
+/// Maximum number of findings that are shown: no reader needs more at once.
 const MOST: usize = 500;
 
-/// The files of a form, the findings of lint, the lines of its letter formats, and its properties. A form without text also has the
-/// posts of the kit, one of which a new form may begin with.
+/// The files of a form, the findings of lint, the lines of the letter formats, and the properties. For a form without
+/// text it also contains the posts that come with postform: a new form may begin with one of them.
 pub fn form(checked: &Checked, diags: &[Diag], suppressed: usize) -> Value {
     let files = checked.files.as_slice();
     let count = |severity| diags.iter().filter(|diag| diag.severity == severity).count();
@@ -76,7 +76,8 @@ pub fn finding(diag: &Diag, files: &[Source]) -> Value {
     })
 }
 
-/// File, first and last line and column: lines from 0, columns in UTF-16 units, as an editor in a browser counts.
+/// A span as file, first line and column, last line and column. Lines are counted from 0, columns in UTF-16 units, as
+/// by the editor in the browser.
 pub fn place(span: Span, files: &[Source]) -> Option<Value> {
     let source = files.get(span.file as usize)?;
     let at = |byte: u32| {

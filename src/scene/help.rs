@@ -1,4 +1,4 @@
-//! Answers for the form editor of the page: the meaning of a word, and the possible words at a location.
+//! Answers requests of the form editor in the page: the meaning of a word, and the words that are possible at a location.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -15,9 +15,9 @@ use crate::source::Source;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Ask {
-    /// The possible words at the location.
+    /// The words that are possible at the location.
     Complete,
-    /// The meaning of the word there, and the text that its line printed.
+    /// The meaning of the word at the location, and the text that its line printed.
     Hover,
     /// The explanation of a code, whose name is in `file`.
     Explain,
@@ -25,7 +25,7 @@ pub enum Ask {
     Format,
 }
 
-/// A location in a form, counted as an editor in a browser counts.
+/// A location in a form, with the request about it. Lines and columns are counted as by the editor in the browser.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct At {
@@ -33,14 +33,14 @@ pub struct At {
     pub file: String,
     /// Line, from 0.
     pub line: u32,
-    /// Number of UTF-16 code units before it in that line.
+    /// Number of UTF-16 code units before the location in that line.
     pub column: u32,
     /// The kind of the request.
     pub ask: Ask,
 }
 
-/// The answer: either `list`, the possible words with the text that each replaces, or `at` and `text`, which is Markdown. Null:
-/// there is no answer.
+/// Answers a request. The answer contains either `list`, the possible words with the text that each of them replaces,
+/// or `text`, which is Markdown, with its location `at`. Null: there is no answer.
 pub fn help(request: Request<'_>, at: &At) -> Value {
     if at.ask == Ask::Explain {
         return explain(&at.file).map_or(Value::Null, |text| json!({ "text": text }));
@@ -61,7 +61,7 @@ pub fn help(request: Request<'_>, at: &At) -> Value {
         let Some(hover) = document.hover(file, place, current.as_ref()) else { return Value::Null };
         return json!({ "at": form::place(hover.span, document.files()), "text": hover.text });
     }
-    // a form with an incomplete word prints nothing: the values are taken from the form without that word
+    // a form with an incomplete word prints no program: the values are taken from the form without that word
     if let Some(job) = job.filter(|_| current.is_none() && file == 0) {
         let form = Source::from_text(form.name.clone(), without_word(&source.text, place as usize));
         current = Document::new(form, files, limits, levels).print(short(job_name), job);
@@ -78,7 +78,7 @@ fn list(document: &Document, file: u32, place: u32, current: Option<&Current>) -
     let found = document.complete(file, place, current);
     let rows = found.into_iter().map(|found| {
         let info = match found.kind {
-            // each needs the search for an example, which is fast for a few items but slow for all commands
+            // an explanation needs a search for an example: this is fast for a few variables, but too slow for all commands
             CompletionKind::Variable => about(found.kind, &found.label, document.control()),
             _ => None,
         };
@@ -107,7 +107,7 @@ fn kind(kind: CompletionKind) -> &'static str {
     }
 }
 
-/// The text without the word before a location, and without the space before that word: two spaces would begin a comment.
+/// The text without the word at a location, and without the spaces before that word, because two spaces would begin a comment.
 fn without_word(text: &str, place: usize) -> String {
     let start = text[..place].rfind(char::is_whitespace).map_or(0, |at| at + 1);
     let end = text[place..].find(char::is_whitespace).map_or(text.len(), |at| place + at);

@@ -1,8 +1,8 @@
-//! The data that the page shows of a form and a job, as one run of bytes.
+//! The data that the page shows about a form and a job, as one sequence of bytes.
 //!
-//! A [`Scene`] is a JSON head followed by named sections of numbers. Long data (points, blocks, their origins) is not JSON, so
-//! that a program of a million moves loads at once. `page/src/scene.ts` reads it. `postform watch` sends the same bytes, a page
-//! of `postform plot` contains them, and the playground makes them in the browser.
+//! A [`Scene`] is a JSON head followed by named sections of numbers. Long data (points, blocks, their origins) are
+//! sections, so that a program with a million moves loads fast. `page/src/scene.ts` reads these bytes. `postform watch`
+//! sends them, a page of `postform plot` contains them, and the playground makes them in the browser.
 
 mod compare;
 mod fit;
@@ -37,34 +37,35 @@ use crate::toolpath::Units;
 
 /// The page of `postform watch`, as `page/` builds it.
 pub const WATCH_PAGE: &str = include_str!("../../page/dist/watch.html");
-/// The page of `postform plot` without a scene, as `page/` builds it.
+/// The page of `postform plot`, as `page/` builds it. It does not contain a scene yet.
 pub const PLOT_PAGE: &str = include_str!("../../page/dist/plot.html");
 
 /// The input of a scene.
 pub struct Request<'a> {
     /// The form.
     pub form: Source,
-    /// The forms that it calls.
+    /// The forms that the form calls.
     pub files: &'a dyn Files,
-    /// Limits of the form.
+    /// Limits for the form.
     pub limits: Limits,
-    /// Severities of rules.
+    /// Severities of the lint rules.
     pub levels: &'a Levels,
-    /// The job, or the reason why it can't be read; the scene then shows this reason in place of the program.
+    /// The job, or the reason why it can't be read. The scene then shows the reason and no program.
     pub job: Result<Job<'a>, String>,
     /// The name of the job.
     pub job_name: &'a str,
     /// Options for printing the job.
     pub options: Options,
-    /// Values of the form's properties that the page sets: names and texts. They override those of the options.
+    /// Values of the form's properties that were set in the page: names and texts. They replace the values in `options`.
     pub properties: Vec<(String, String)>,
     /// Settings for running the program.
     pub proof: Proof,
 }
 
-/// Checks a form and prints a job with it. The returned [`Printed`] draws, proves and compares the program; these may run in parallel.
+/// Checks a form and prints a job with it. The caller uses the returned [`Printed`] to draw, verify and compare the
+/// program; these steps may run in parallel.
 ///
-/// Errors are in the scene: the scene of a form with errors has findings and no program.
+/// Errors are part of the scene: if the form has errors, the scene contains the findings and no program.
 pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
     let mut scene = Scene::new();
     scene.say("job", json!({ "name": escaped(request.job_name) }));
@@ -112,7 +113,7 @@ pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     scene
 }
 
-/// A small scene with one value, sent after the main scene or absorbed by it.
+/// A small scene with one value. It is sent after the main scene, or absorbed by it.
 pub fn behind(name: &str, value: Value) -> Scene {
     let mut scene = Scene::new();
     scene.say(name, value);
@@ -140,12 +141,13 @@ impl Printed {
         Ok(Printed { post: post.clone(), program, options, proof, settings })
     }
 
-    /// The program.
+    /// The text of the program.
     pub fn text(&self) -> &str {
         self.program.text()
     }
 
-    /// An identifier of the drawing: it changes with the blocks, their form lines and job items, the run settings, and the old program.
+    /// A hash of everything that affects the drawing: the blocks, their form lines and job items, the run settings, and
+    /// the old program.
     pub fn fingerprint(&self, scene: &Scene, old: &[u8]) -> String {
         scene.fingerprint(&format!("{:?}", self.settings), old)
     }
@@ -158,13 +160,13 @@ impl Printed {
         }
     }
 
-    /// Proves the program against its job, for display in the page.
+    /// The result of verifying the program against the job, for display in the page.
     pub fn verdict(&self, job: Job<'_>) -> Value {
         let proven = self.post.verify_with(job, Cursor::new(self.text()), &self.options, &self.proof);
         verdict::verdict(proven, self.program.trace(), self.post.files())
     }
 
-    /// Checks whether the program fits into a machine, and how long each block takes there, for display in the page.
+    /// The check whether the program fits into a machine, and the time of each block there, for display in the page.
     pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Scene {
         let tools = self.post.job_tools(job).unwrap_or_default();
         match preflight_by_block(Cursor::new(self.text()), self.settings, machine, &tools) {
@@ -189,23 +191,24 @@ impl Printed {
         rows.collect()
     }
 
-    /// Adds the motions of another program of the job to the scene.
+    /// Adds the motions of an old program of the job to the scene.
     pub fn draw_old(&self, scene: &mut Scene, old: &[u8]) {
         compare::draw_old(scene, old, self.settings);
     }
 
-    /// The blocks that differ from the old program, for display in the page. `None`: one of the programs is too long to compare.
+    /// The blocks that differ from an old program, for display in the page. `None`: one of the programs is too long to compare.
     pub fn against(&self, name: &str, old: &[u8], options: &diff::Options) -> Option<Value> {
         compare::against(name, old, self.text(), options)
     }
 
-    /// The blocks that differ from the program of the form as it was last saved. If `before` is `None`, that form printed no program.
+    /// The blocks that differ from the program that the last saved form prints. `before` is `None` if that form printed no program.
     pub fn since_saved(&self, before: Option<&str>, options: &diff::Options) -> Option<Value> {
         compare::saved(before, self.text(), options)
     }
 }
 
-/// The program that a form prints for a job, with the options of the page. `None`: it can't be printed; [`scene`] reports the reason.
+/// The program that a form prints for a job, with the options of the page. `None`: no program can be printed; [`scene`]
+/// reports the reason.
 pub fn program_of(request: Request<'_>) -> Option<String> {
     let post = Post::compile_with(request.form, request.files, request.limits, request.levels).ok()?;
     let options = with_properties(&post, request.options, request.properties);
@@ -213,7 +216,7 @@ pub fn program_of(request: Request<'_>) -> Option<String> {
     Some(post.render(request.job.ok()?, &options).ok()?.into_text())
 }
 
-/// Sets properties. One that the form lost while it was typed is not set.
+/// Sets properties. A property that the form does not have any more is ignored: the user may be editing the form.
 fn with_properties(post: &Post, mut options: Options, properties: Vec<(String, String)>) -> Options {
     for (name, value) in properties {
         if post.properties().iter().any(|property| property.name == name) {
@@ -224,9 +227,9 @@ fn with_properties(post: &Post, mut options: Options, properties: Vec<(String, S
     options
 }
 
-/// Options with the source map on, and with a default for each unanswered prompt.
+/// Returns options that record the source map, and that contain the default of each prompt without an answer.
 fn answered(post: &Post, options: &Options) -> Options {
-    // the scene also shows a program that is different, and proves it separately
+    // no verification here: the scene also shows a program that differs from its job, and verifies it separately
     let mut options = Options { trace: true, proof: None, ..options.clone() };
     for prompt in post.prompts() {
         if !options.set.iter().any(|(name, _)| name == prompt.variable) {
@@ -236,7 +239,7 @@ fn answered(post: &Post, options: &Options) -> Options {
     options
 }
 
-/// Why there is no program or no picture: `form`, `job` or `input`, the message in one line, and the errors.
+/// Adds the reason why there is no program or no picture: `form`, `job` or `input`, the message in one line, and the errors.
 fn stopped(scene: &mut Scene, error: Error, files: &[Source]) {
     let by = match error.kind() {
         ErrorKind::Form => "form",

@@ -1,4 +1,4 @@
-//! A head in JSON, and sections of numbers.
+//! Packs a JSON head and sections of numbers into one sequence of bytes.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -9,24 +9,24 @@ use serde_json::{Map, Value, json};
 /// The first bytes of a scene.
 const MAGIC: &[u8; 4] = b"PFS2";
 
-/// The contents of the page in packed form.
+/// The contents of the page in packed form: the head and the sections.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     head: Map<String, Value>,
     sections: Vec<Section>,
 }
 
-/// Numbers or text, by a name.
+/// Numbers or text with a name.
 #[derive(Clone, Debug)]
 struct Section {
     name: String,
     bytes: Vec<u8>,
-    /// The hash of the bytes, from its first use on.
+    /// The hash of the bytes. It is calculated when it is first needed.
     hash: OnceCell<u64>,
 }
 
 impl Section {
-    /// Equal bytes have the same hash; other bytes almost never have it.
+    /// A hash of the bytes. Sections with different bytes almost never have the same hash.
     fn hash(&self) -> u64 {
         *self.hash.get_or_init(|| {
             let mut hasher = DefaultHasher::new();
@@ -47,7 +47,7 @@ impl Scene {
         self.head.insert(name.to_owned(), value);
     }
 
-    /// A value of the head.
+    /// The value of the head with this name.
     pub fn said(&self, name: &str) -> Option<&Value> {
         self.head.get(name)
     }
@@ -65,13 +65,13 @@ impl Scene {
         self.sections.push(Section { name, bytes, hash: OnceCell::new() });
     }
 
-    /// Adds what another scene contains.
+    /// Adds the head values and the sections of another scene.
     pub fn absorb(&mut self, other: Scene) {
         self.head.extend(other.head);
         self.sections.extend(other.sections);
     }
 
-    /// A hash of the sections and the other inputs: equal inputs have the same one, other inputs almost never.
+    /// A hash of the sections and of the two arguments. Different inputs almost never have the same hash.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
         let mut hasher = DefaultHasher::new();
         self.sections.iter().for_each(|section| section.hash().hash(&mut hasher));
@@ -79,13 +79,13 @@ impl Scene {
         format!("{:016x}", hasher.finish())
     }
 
-    /// Removes the sections, for a client that already has them.
+    /// Removes all sections, for a client that already has them.
     pub fn without_sections(&mut self) {
         self.sections.clear();
     }
 
-    /// Removes each section that the client has: `known` contains their hashes by name, as the head of an earlier scene named
-    /// them. The head then lists the removed ones as `kept`.
+    /// Removes each section that the client already has. `known` contains the hashes of the client's sections by name,
+    /// as in the head of an earlier scene. The head then lists the names of the removed sections as `kept`.
     pub fn without_known(&mut self, known: &HashMap<String, String>) {
         let mut hashes = Map::new();
         let mut kept = Vec::new();
@@ -102,9 +102,9 @@ impl Scene {
         self.say("kept", Value::Array(kept));
     }
 
-    /// The whole scene: `PFS2`, the lengths of the head and of the sections, the head, spaces up to a multiple of eight, the
-    /// sections. Numbers are little-endian. Offsets of sections are relative to the first section; each is a multiple of eight.
-    /// Several scenes may follow each other.
+    /// The scene as bytes: `PFS2`, the length of the head, the length of the sections, the head, spaces up to a
+    /// multiple of eight, the sections. Numbers are little-endian. The offset of each section is relative to the first
+    /// section and a multiple of eight. Several scenes may follow one another.
     pub fn into_bytes(mut self) -> Vec<u8> {
         let mut places = Map::new();
         let mut length = 0;

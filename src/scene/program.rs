@@ -1,4 +1,4 @@
-//! The program, the origin of its lines, and its motions.
+//! Adds the program, the origins of its lines and its motions to a scene.
 
 use serde_json::{Value, json};
 
@@ -9,18 +9,18 @@ use crate::picture::Picture;
 use crate::render::TraceLine;
 use crate::source::Source;
 
-/// The origin of a line that no form line printed.
+/// The value for a line that was not printed by a line of the form.
 const GENERATED: i32 = -1;
-/// Number of bits for the line in an origin; the bits above are the file.
+/// An origin stores the line in this number of bits, and the file in the bits above.
 const LINE_BITS: u32 = 20;
 
-/// The program's text.
+/// Adds the text of the program.
 pub fn text(scene: &mut Scene, of: &str, text: &[u8]) {
     scene.bytes(format!("{of}text"), String::from_utf8_lossy(text).into_owned().into_bytes());
 }
 
-/// For each line its form line and its job item: operation, item, point, line of the job. A subprogram is an operation with the
-/// highest bit set.
+/// Adds the origin of each line: its form line and its job item. A job item consists of operation, item, point and line
+/// of the job. A subprogram is stored as an operation with the highest bit set.
 pub fn origins(scene: &mut Scene, trace: &[TraceLine], files: &[Source], text: &str) {
     let lines = memchr::memchr_iter(b'\n', text.as_bytes()).count();
     let mut forms = vec![GENERATED; lines];
@@ -38,7 +38,8 @@ pub fn origins(scene: &mut Scene, trace: &[TraceLine], files: &[Source], text: &
     scene.section("lineItem".into(), items.into_iter().flatten().map(u32::to_le_bytes));
 }
 
-/// The motions of the program. Coordinates are relative to the middle of the picture, because small numbers stay exact.
+/// Adds the motions of the program. Coordinates are relative to the middle of the picture, because small numbers keep
+/// more decimals in 32 bits.
 pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     let strips = picture.strips();
     let [least, greatest] = strips.extents;
@@ -47,7 +48,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     let points = std::iter::once(strips.start).chain(strips.pieces.iter().map(|piece| piece.to));
     scene.section(format!("{of}points"), points.flat_map(near).map(f32::to_le_bytes));
     let moves = &picture.moves;
-    // the index of the first piece of each move, then the total number of pieces
+    // the index of the first piece of each move; after the last move, the total number of pieces
     let mut first = Vec::with_capacity(moves.len() + 1);
     for (at, piece) in strips.pieces.iter().enumerate() {
         if first.len() <= piece.of as usize {
@@ -57,7 +58,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     first.push(strips.pieces.len() as u32);
     scene.section(format!("{of}first"), first.into_iter().map(u32::to_le_bytes));
     scene.section(format!("{of}moveLine"), moves.iter().map(|found| found.line.to_le_bytes()));
-    // the kind of the move, whether a cycle makes it, and its axes with positions that are not in the program
+    // one byte for each move: its kind, whether a cycle makes it, and the axes whose position the program does not contain
     let kind = |found: &crate::picture::Move| {
         let unknown = (0..3).filter(|&axis| found.to[axis].is_nan()).map(|axis| 32 << axis).sum::<u8>();
         [found.kind as u8 | u8::from(found.by_cycle) << 4 | unknown]
@@ -65,7 +66,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     scene.section(format!("{of}moveKind"), moves.iter().map(kind));
     scene.section(format!("{of}moveTool"), moves.iter().map(|found| [found.tool.min(255) as u8]));
     if !picture.turned.is_empty() {
-        // the points are positions on the part; here the positions of the axes are stored
+        // the points above are positions on the part; these are the positions of the axes
         let ends = moves.iter().flat_map(|found| found.to).map(f64::to_le_bytes);
         scene.section(format!("{of}ends"), ends);
     }

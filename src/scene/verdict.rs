@@ -1,4 +1,4 @@
-//! Compares the program with its job.
+//! The result of verifying the program against its job.
 
 use serde_json::{Value, json};
 
@@ -9,7 +9,7 @@ use crate::render::TraceLine;
 use crate::source::Source;
 use crate::verify::{Finding, Verdict};
 
-/// The verdict in a few words, and each finding with its block, its job item and its form line.
+/// The verdict as a short text, and the findings, each with its block, its job item and its form line.
 pub fn verdict(proven: Result<Proven, Error>, trace: &[TraceLine], files: &[Source]) -> Value {
     let proven = match proven {
         Ok(proven) => proven,
@@ -52,7 +52,7 @@ pub fn finding(found: &Finding, trace: &[TraceLine], files: &[Source]) -> Value 
     })
 }
 
-/// `1 cut`, `2 cuts`.
+/// A number with its noun: `1 cut`, `2 cuts`.
 fn count(number: u64, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }

@@ -6,15 +6,15 @@ use crate::lang::{Args, CommandId};
 use crate::span::Span;
 use crate::syntax::Spanned;
 
-/// An argument that can't be read: its location, if the fault is in one argument, and a message.
+/// An error in an argument: a message, and the location if a single argument is wrong.
 pub struct BadArg {
     /// The argument.
     pub span: Option<Span>,
-    /// A sentence.
+    /// The message, which is a whole sentence.
     pub message: String,
 }
 
-/// Result of reading an argument.
+/// Result of reading arguments.
 pub type Read<T> = Result<T, BadArg>;
 
 /// Returns the error of an argument that can't be read.
@@ -28,7 +28,7 @@ pub struct Arguments<'a> {
     pub all: &'a [Spanned],
     /// The whole command.
     pub span: Span,
-    /// The user typed the arguments (they are no defaults), so that codes print as typed.
+    /// Whether the arguments are written in the form and are not defaults. Codes in them are then printed as written.
     pub typed: bool,
 }
 
@@ -67,7 +67,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads codes. The first code of a motion word must be a G code, because no M code moves the tool.
+    /// Reads codes. The first code of a motion command must be a G code, because no M code moves the tool.
     pub fn codes(&self) -> Read<Vec<Code>> {
         let takes = self.id.row().args;
         let letter = if let Args::Codes(letter, ..) = takes { letter } else { 'G' };
@@ -80,7 +80,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads one code, with its letter or without: `G0`, `0`, `M19`.
+    /// Reads one code, with or without its letter: `G0`, `0`, `M19`.
     pub fn code(&self, arg: &Spanned, letter: char) -> Read<Code> {
         let first = arg.text.bytes().next().unwrap_or(b' ');
         let (given, digits) =
@@ -96,7 +96,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads letters, apart or together: `X Y Z` or `XYZ`.
+    /// Reads letters, separate or joined: `X Y Z` or `XYZ`.
     pub fn letters(&self) -> Read<Vec<u8>> {
         let mut letters = Vec::new();
         for arg in self.all {
@@ -117,7 +117,7 @@ impl Arguments<'_> {
         Ok(letters)
     }
 
-    /// Reads one letter among other words.
+    /// Reads an argument that must be one letter.
     pub fn letter(&self, arg: &Spanned) -> Read<u8> {
         match arg.text.as_bytes() {
             [letter] if letter.is_ascii_alphabetic() => Ok(*letter),
@@ -125,7 +125,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads a number that the command accepts.
+    /// Reads a number and checks that the command accepts it.
     pub fn number(&self) -> Read<f64> {
         let takes = self.id.row().args;
         match takes {
@@ -137,7 +137,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads a length that is not negative.
+    /// Reads a length, which must not be negative.
     pub fn length(&self, arg: &Spanned) -> Read<f64> {
         match number(arg)? {
             value if value < 0.0 => bad(Some(arg), format!("{} can't be negative", self.name())),
@@ -145,7 +145,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads the word of a choice; returns it in the spelling of the table.
+    /// Reads the word of a choice. Returns it in the spelling of the command table.
     pub fn choice(&self) -> Read<&'static str> {
         match choice_of(self.id, &self.all[0].text) {
             Some(word) => Ok(word),
@@ -158,7 +158,7 @@ impl Arguments<'_> {
     }
 }
 
-/// Reads a decimal number, without exponent or infinity.
+/// Reads a decimal number. Exponents and infinity are not allowed.
 pub fn number(arg: &Spanned) -> Read<f64> {
     match arg.text.parse::<f64>() {
         Ok(value) if value.is_finite() && arg.text.bytes().all(|b| !b.is_ascii_alphabetic()) => Ok(value),
@@ -177,7 +177,7 @@ fn range(least: usize, most: usize) -> String {
     if least == most { least.to_string() } else { format!("{least} to {most}") }
 }
 
-/// The arguments that a command needs, for a message.
+/// The number and kind of arguments that a command needs, for a message.
 fn wants(id: CommandId) -> String {
     let many = |least: u8, most: u8, one: &str, many: &str| match (least, most) {
         (1, 1) => one.to_owned(),
@@ -195,7 +195,7 @@ fn wants(id: CommandId) -> String {
     }
 }
 
-/// The word of a choice in the spelling of the table.
+/// Finds the word of a choice. Returns it in the spelling of the command table.
 pub fn choice_of(id: CommandId, text: &str) -> Option<&'static str> {
     match id.row().args {
         Args::Choice(words) => words.iter().find(|w| w.eq_ignore_ascii_case(text)).copied(),

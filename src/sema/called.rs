@@ -1,4 +1,4 @@
-//! `Call`: the other files of a form.
+//! Reads the other files of a form: those of `Call`, `Control` and `MachineFile`.
 
 use super::check::Analysis;
 use super::limits::MOST_TEXT;
@@ -10,19 +10,19 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{self, Head, Spanned, Statement};
 
-/// Maximum nesting depth of `Call`.
+/// Maximum nesting depth of files that call each other.
 const MOST_CALLS: usize = 8;
 
-/// Maximum size of a control's file, in bytes.
+/// Maximum size of a file that describes a control, in bytes.
 const LARGEST_CONTROL: usize = 1 << 20;
 
-/// Does a name lead out of the form's folder?
+/// Whether a file name leads out of the form's folder.
 fn is_outside(name: &str) -> bool {
     name.starts_with(['/', '\\']) || name.contains(':') || name.split(['/', '\\']).any(|part| part == "..")
 }
 
 impl Analysis {
-    /// Parses a file and, at each `Call`, the file that it names.
+    /// Parses a file. At each `Call`, also parses the file that it names.
     pub(super) fn add_file(
         &mut self,
         source: Source,
@@ -62,7 +62,7 @@ impl Analysis {
         }
     }
 
-    /// Reads the file of a command like `Control my.toml`.
+    /// Reads the file of a control, as in `Control my.toml`.
     fn control_file(&mut self, statement: &Statement, load: &mut dyn FnMut(&str) -> Result<Source, String>) {
         let [arg] = &statement.args[..] else { return };
         if !control::is_file(&arg.text) {
@@ -75,7 +75,7 @@ impl Analysis {
         }
     }
 
-    /// Reads the file of a command like `MachineFile vf2.toml`, and the files that it names.
+    /// Reads the file of a machine, as in `MachineFile vf2.toml`, and the files that this file names.
     fn machine_file(&mut self, statement: &Statement, load: &mut dyn FnMut(&str) -> Result<Source, String>) {
         let [arg] = &statement.args[..] else { return };
         let Some(source) = self.beside(arg, Code::PF021, "a machine's file", load) else { return };
@@ -89,7 +89,7 @@ impl Analysis {
         }
     }
 
-    /// The text of a file in the form's folder. Reports an error if it can't be read.
+    /// The text of a file in the form's folder. Reports an error if the file can't be read.
     fn beside(
         &mut self,
         arg: &Spanned,
@@ -109,7 +109,7 @@ impl Analysis {
         }
     }
 
-    /// Reports an error in a file that the form names.
+    /// Reports an error inside a file that the form names.
     fn wrong_file(&mut self, code: Code, source: Source, wrong: WrongFile, (arg, of): (&Spanned, &str)) {
         let number = self.files.len() as u32;
         let rest = source.text.get(wrong.start..).unwrap_or_default();
@@ -131,7 +131,7 @@ impl Analysis {
     ) {
         let name = statement.args.iter().map(|a| a.text.as_str()).collect::<Vec<_>>().join(" ");
         let problem = if name.is_empty() {
-            return; // reported as a missing argument
+            return; // another finding reports a missing argument
         } else if is_outside(&name) {
             Some("is outside the form's folder".to_owned())
         } else if open.contains(&name) || self.called.contains(&name) {

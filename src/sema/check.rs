@@ -1,4 +1,4 @@
-//! Analyses the whole form: each item once, and all findings of the file in one run.
+//! Analyses a whole form. Each item is read once, and all findings are collected in one run.
 
 use std::collections::HashSet;
 
@@ -18,24 +18,24 @@ use crate::syntax::{self, Head};
 /// An analysed form.
 #[derive(Debug)]
 pub struct Checked {
-    /// The files: the form itself first, then those that it calls.
+    /// The files of the form: the main file first, then the files that it calls.
     pub files: Vec<Source>,
-    /// Trees of the files.
+    /// The syntax trees of the files.
     pub trees: Vec<syntax::Form>,
-    /// The meaning of all files together.
+    /// The analysed form, from all files together.
     pub form: Form,
-    /// All findings so far, unsorted.
+    /// The findings so far, unsorted.
     pub diags: Vec<Diag>,
 }
 
 impl Checked {
-    /// Can it be rendered?
+    /// Whether the form has errors. Such a form can't be rendered.
     pub fn has_errors(&self) -> bool {
         self.diags.iter().any(Diag::is_error)
     }
 }
 
-/// Analyses a form. `load` returns a file that `Call` names, relative to the form's folder, or the reason why it can't.
+/// Analyses a form. `load` returns a file that the form names (relative to the form's folder) or the reason why it can't be read.
 pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Result<Source, String>) -> Checked {
     let mut analysis = Analysis { limits, ..Analysis::default() };
     analysis.add_file(main, &mut vec![], load);
@@ -57,14 +57,14 @@ pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Resul
 pub(super) struct Analysis {
     pub(super) limits: Limits,
     pub(super) files: Vec<Source>,
-    /// Names of the forms that were called.
+    /// Names of the files that were called.
     pub(super) called: HashSet<String>,
     /// Total size of all files in bytes.
     pub(super) size: usize,
     pub(super) trees: Vec<syntax::Form>,
     /// The items of all files in reading order: number of the file, and index of the item in its tree.
     pub(super) order: Vec<(u32, u32)>,
-    /// The control of the form, if a file describes it.
+    /// The control of the form, if a file describes this control.
     pub(super) control: Option<&'static Control>,
     pub(super) form: Form,
     pub(super) diags: Vec<Diag>,
@@ -79,7 +79,7 @@ impl Analysis {
         self.diags.push(diag);
     }
 
-    /// Reads machine and units first, because the defaults of the other commands depend on them.
+    /// Reads machine and units before all other commands, because the defaults of the others depend on them.
     fn settings(&mut self, items: &[&Head]) {
         let find = |id: CommandId| {
             items.iter().find_map(|item| match item {
@@ -104,7 +104,7 @@ impl Analysis {
             }
             Head::Statement(statement) => self.statement(statement),
             Head::StrayEnd(line) => {
-                // `End Code` is a misspelling of `EndCode`
+                // words like `End Code` are probably a misspelling of `EndCode`
                 let text = self.files[line.span.file as usize].slice(line.span);
                 let joined: String = text.split_whitespace().take(2).collect();
                 let help = match SequenceId::parse(&joined) {
@@ -127,7 +127,7 @@ impl Analysis {
         }
     }
 
-    /// Checks that need the whole form.
+    /// Makes the checks that need the whole form.
     fn whole(&mut self) {
         self.line_limit();
         // a `Between` sequence without `SubsFirst` implies that subprograms come first

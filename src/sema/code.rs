@@ -1,18 +1,19 @@
-//! A code in a command of a form.
+//! A G or M code in a command of a form.
 
 use crate::control;
 
-/// A code in a command: if its letter was typed, it prints as typed, otherwise in its letter's format.
+/// A code in a command. A code written with its letter is printed as written. A code written without it is printed in the format of its
+/// letter.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Code {
-    /// The letter, typed or implied, and the number.
+    /// The letter (written or implied) and the number.
     pub code: control::Code,
-    /// The code as typed, `G00`.
+    /// The code as written, such as `G00`; `None` if it was written without its letter.
     pub text: Option<String>,
 }
 
 impl Code {
-    /// A code that is not typed in the form.
+    /// A code that is not written with its letter in the form.
     pub fn plain(code: control::Code) -> Code {
         Code { code, text: None }
     }

@@ -1,4 +1,4 @@
-//! Expressions of a form: resolves names, checks types and reports errors.
+//! Reads the expressions of a form: resolves names, checks types and reports errors.
 
 use super::formula::{Formula, Function, NoValues};
 use super::names::{Context, property, variable};
@@ -10,7 +10,7 @@ use crate::lang::{Coolant, TextVar, VarId, VarSet, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{Arithmetic, Comparison, Expr, ExprKind, Operator, Spanned, Unread};
 
-/// Variables that are 1 or 0. A condition may use them without a comparison.
+/// Variables whose value is 1 or 0. A condition may use such a variable without a comparison.
 const YES_OR_NO: VarSet =
     VarSet::of(&[VarId::Lasthole, VarId::Isfirsthole, VarId::Rigid, VarId::Isfirsttool, VarId::Islasttool]);
 
@@ -35,7 +35,7 @@ impl Kind {
     }
 }
 
-/// An expression that must be a number, as between the brackets of a word.
+/// Reads an expression that must be a number, as in the brackets of a word.
 pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let expr = read(expr, diags)?;
     let (formula, kind) = typed(expr, context, diags)?;
@@ -43,12 +43,12 @@ pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Di
     Some(formula)
 }
 
-/// A condition. A variable alone is true if it has a value.
+/// Reads a condition. A variable without a comparison is true if it has a value; a variable that is 1 or 0 is true if it is 1.
 pub fn condition(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     asked(read(expr, diags)?, context, diags)
 }
 
-/// A yes-or-no value for a property: a condition, or one of the words for yes and no.
+/// Reads a value for a yes-or-no property: a condition, or one of the words for yes and no.
 pub fn yes_or_no(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let expr = read(expr, diags)?;
     if let ExprKind::Word(word) = &expr.kind
@@ -59,7 +59,7 @@ pub fn yes_or_no(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec
     asked(expr, context, diags)
 }
 
-/// A text value for the property of this row.
+/// Reads a text value for the property with this row.
 pub fn text(expr: &Result<Expr, Unread>, row: u16, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let expr = read(expr, diags)?;
     let property = &context.settings.properties[usize::from(row)];
@@ -82,7 +82,7 @@ pub fn text(expr: &Result<Expr, Unread>, row: u16, context: &Context, diags: &mu
     Some(formula)
 }
 
-/// Is the expression a text literal?
+/// Whether the expression is a text in quotes.
 pub fn says_text(expr: &Result<Expr, Unread>) -> bool {
     matches!(expr, Ok(Expr { kind: ExprKind::Text(_), .. }))
 }
@@ -124,7 +124,7 @@ fn wants(kind: Kind, wanted: Kind, span: Span, diags: &mut Vec<Diag>) -> Option<
     None
 }
 
-/// An expression that is used as a condition.
+/// Reads an expression that is used as a condition.
 fn asked(expr: &Expr, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     let (formula, kind) = typed(expr, context, diags)?;
     match (formula, kind) {
@@ -260,7 +260,7 @@ fn compared(
         return Some(cools);
     }
     let word = |side: &Expr| if let ExprKind::Word(word) = &side.kind { Some(word.clone()) } else { None };
-    // the meaning of a bare name depends on the other operand
+    // the meaning of a name without brackets depends on the other operand
     let both = match (word(left), word(right)) {
         (None, Some(word)) => {
             let (formula, kind) = typed(left, context, diags)?;
@@ -295,7 +295,8 @@ fn compared(
     Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
 }
 
-/// Checks a comparison of a choice with a text in quotes: the text must be one of its words, and words have no order.
+/// Checks a comparison of a choice property with a text in quotes. The text must be one of the choice's words, and only `=`, `<>` and
+/// `like` are allowed, because the words have no order.
 fn chosen(
     operator: Operator,
     sides: [(Formula, Kind); 2],
@@ -333,7 +334,7 @@ fn chosen(
     }
 }
 
-/// `[cool] = through`: kinds of coolant are compared by name, not by code.
+/// Reads comparisons like `[cool] = through`. Kinds of coolant are compared by name, because codes may differ.
 fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Option<Formula> {
     let (ExprKind::Variable(name), ExprKind::Word(word)) = (&left.kind, &right.kind) else { return None };
     let kind = Coolant::parse(word).filter(|_| VarId::parse(name) == Some(VarId::Cool))?;
@@ -348,7 +349,7 @@ fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Op
     }
 }
 
-/// The meaning of a bare name, from the other operand.
+/// Resolves a name without brackets. Its meaning depends on the other operand.
 fn named(
     word: &str,
     span: Span,

@@ -7,18 +7,18 @@ use crate::lang::{TextId, TextVar, VarId};
 /// Maximum length of an extension.
 const LONGEST_EXTENSION: usize = 8;
 
-/// A part of the name.
+/// A part of the file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NamePart {
-    /// Text as typed.
+    /// Text as written in the form.
     Typed(String),
-    /// Number of the program.
+    /// The number of the program.
     Number,
-    /// Text of the job's head.
+    /// A text from the head of the job.
     Text(TextId),
 }
 
-/// The file name of a program, without its extension. Empty: the name of the job's file.
+/// The file name of a program, without its extension. If empty, the program has the name of the job's file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ProgramName(pub Vec<NamePart>);
 
@@ -26,7 +26,7 @@ pub struct ProgramName(pub Vec<NamePart>);
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Extension(pub String);
 
-/// May the file name contain this character? Controls, networks and memory cards accept no others.
+/// Whether a file name may contain this character. Some controls, networks and memory cards accept no other characters.
 pub fn is_of_file_names(c: char) -> bool {
     c.is_ascii_alphanumeric() || "_-.".contains(c)
 }

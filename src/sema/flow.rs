@@ -1,4 +1,4 @@
-//! Directives of a sequence: they select the lines that print.
+//! The directives of a sequence, such as `@if`, which select the lines that print.
 
 use super::expression::{condition, number, says_text, text, yes_or_no};
 use super::formula::{Formula, NoValues};
@@ -12,25 +12,25 @@ use crate::syntax::{Directive, DirectiveKind, Spanned};
 
 /// Maximum nesting depth of directives.
 pub const DEEPEST: usize = 8;
-/// Maximum number of branches in a sequence: each needs one bit.
+/// Maximum number of branches in a sequence. Each branch needs one bit.
 pub const MOST_ARMS: usize = 128;
 
 /// Combines the lines of a sequence with its directives.
 #[derive(Default)]
 pub struct Flow {
-    /// Finished steps of each open level.
+    /// The open levels, each with its finished steps.
     levels: Vec<Level>,
-    /// Number of directives beyond the maximum depth that wait for their `@end`. They open no level, so that the tree has a
-    /// maximum depth.
+    /// Number of directives beyond the maximum depth that are not yet closed by `@end`. They open no level, which limits
+    /// the depth of the tree.
     too_deep: usize,
     /// Steps of the outermost level.
     steps: Vec<Step>,
     arms: usize,
-    /// The sequence has a directive.
+    /// Whether the sequence has a directive.
     any: bool,
 }
 
-/// An `@if` or `@for` without its `@end` so far.
+/// An `@if` or `@for` that is not yet closed by `@end`.
 struct Level {
     /// The directive.
     span: Span,
@@ -141,7 +141,7 @@ impl Flow {
                     }
                 };
                 wrong(format!("`{name}` is not a directive"), "unknown", &help);
-                // treat it as the directive that was meant, to avoid errors that only follow from this one
+                // treat it as the intended directive, which avoids errors that would only follow from this one
                 match meant {
                     Some("@if" | "@for") if self.levels.len() == DEEPEST => self.too_deep += 1,
                     Some("@if") => {
@@ -156,7 +156,7 @@ impl Flow {
         }
     }
 
-    /// The finished steps; `None` if the sequence has no directives. An `@if` or `@for` without `@end` is reported.
+    /// Returns the finished steps; `None` if the sequence has no directives. Reports an `@if` or `@for` without `@end`.
     pub fn finish(mut self, diags: &mut Vec<Diag>) -> Option<Vec<Step>> {
         if let Some(level) = self.levels.last() {
             diags.push(
@@ -207,12 +207,13 @@ impl Flow {
         }
     }
 
-    /// Is `@if` the innermost open directive?
+    /// Whether the innermost open directive is an `@if`.
     fn in_condition(&self) -> bool {
         self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { .. }))
     }
 
-    /// Is a directive beyond the maximum depth, or does it belong to such a directive? Its lines then belong to the level above.
+    /// Whether a directive is beyond the maximum depth, or belongs to such a directive. The lines of such a directive are added to the
+    /// level above.
     fn lies_too_deep(&mut self, directive: &Directive, diags: &mut Vec<Diag>) -> bool {
         if directive.kind.opens() && self.levels.len() == DEEPEST {
             if self.too_deep == 0 {
@@ -232,7 +233,7 @@ impl Flow {
         inside
     }
 
-    /// The kind of items of an `@for`.
+    /// Reads the kind of items of an `@for`.
     fn list(&self, directive: &Directive, diags: &mut Vec<Diag>) -> Each {
         let rest = &directive.rest;
         let mut wrong = |message: String, label: &str, help: String| {
@@ -289,7 +290,7 @@ impl Flow {
         context: &Context,
         diags: &mut Vec<Diag>,
     ) -> Option<Formula> {
-        // the placeholder does not matter: a form with an unreadable condition never prints
+        // the value of this placeholder does not matter, because a form with an unreadable condition is never printed
         let formula = condition(asked, context, diags).unwrap_or(Formula::Has(VarId::H));
         if let Some(holds) = formula.decided(&NoValues, &|_| false) {
             let what = if holds { "always true" } else { "never true" };
@@ -304,7 +305,7 @@ impl Flow {
     }
 }
 
-/// The target of `@set`.
+/// Reads the target of `@set`.
 fn settable(target: &Spanned, context: &Context, diags: &mut Vec<Diag>) -> Option<Target> {
     if let Some((row, _)) = property(&target.text, context) {
         return Some(Target::Property(row));
@@ -314,7 +315,7 @@ fn settable(target: &Spanned, context: &Context, diags: &mut Vec<Diag>) -> Optio
     };
     let var = VarId::parse(&target.text).filter(free);
     if var.is_none() {
-        // `@set val1 2`, `@set val1 := 2`
+        // as in `@set val1 2` and `@set val1 := 2`
         let name = target.text.split([' ', ':', '+', '-']).next().unwrap_or_default().trim_matches(['[', ']']);
         let known = VarId::parse(name).filter(free).is_some() || property(name, context).is_some();
         let (message, help) = if known && name.len() < target.text.len() {

@@ -1,4 +1,4 @@
-//! Expressions with resolved names and checked types, and their evaluation.
+//! Formulas: expressions whose names are resolved and whose types are checked. A formula can be evaluated.
 
 use std::borrow::Cow;
 
@@ -15,29 +15,29 @@ pub enum Formula {
     Number(f64),
     /// A text.
     Text(String),
-    /// A yes-or-no constant.
+    /// The constant yes or no.
     Yes(bool),
-    /// Value of a variable.
+    /// The value of a variable.
     Var(VarId),
     /// A text of the job.
     TextVar(TextId),
     /// True if the coolant includes this kind.
     Cools(Coolant),
-    /// A property that is a number, by its row.
+    /// A property with a numeric value, by its row.
     Property(u16),
-    /// A property that is a text.
+    /// A property with a text value, by its row.
     PropertyText(u16),
     /// True if the yes-or-no property is yes.
     PropertyHolds(u16),
     /// True if the variable has a value.
     Has(VarId),
-    /// True if the variable, which is 1 or 0, is 1.
+    /// True if the variable is 1. The variable is always 1 or 0.
     True(VarId),
     /// True if the text is not empty.
     HasText(TextId),
-    /// Number with its sign reversed.
+    /// A number with reversed sign.
     Negative(Box<Formula>),
-    /// Operation on two numbers; the span is that of the second number.
+    /// An operation on two numbers. The span is the location of the second number.
     Arithmetic(Arithmetic, Box<[Formula; 2]>, Span),
     /// A function of numbers.
     Call(Function, Vec<Formula>),
@@ -62,11 +62,11 @@ pub enum Function {
     Min,
     /// Maximum.
     Max,
-    /// Nearest whole number; halves are rounded away from zero.
+    /// The nearest whole number. Halves are rounded away from zero.
     Round,
-    /// Next whole number below.
+    /// The next lower whole number.
     Floor,
-    /// Next whole number above.
+    /// The next higher whole number.
     Ceil,
 }
 
@@ -81,12 +81,12 @@ impl Function {
         ("ceil", Function::Ceil),
     ];
 
-    /// Finds a function by its name, in upper or lower case.
+    /// Finds a function by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<Function> {
         Function::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, function)| *function)
     }
 
-    /// Does it take several numbers?
+    /// Whether the function takes several numbers.
     pub fn takes_several(self) -> bool {
         matches!(self, Function::Min | Function::Max)
     }
@@ -104,21 +104,21 @@ impl Function {
     }
 }
 
-/// Source of the values in a formula.
+/// The source of the values for a formula.
 pub trait Values {
     /// The current value of a variable; `None` if it has none.
     fn number(&self, var: VarId) -> Option<f64>;
-    /// A text; empty where the job has none.
+    /// A text; empty if the job has none.
     fn text(&self, id: TextId) -> &str;
     /// The coolant that the job currently requests.
     fn coolant(&self) -> Coolant;
-    /// A property as a number, by its row; yes is 1.
+    /// A property as a number, by its row. Yes is 1.
     fn property(&self, row: u16) -> f64;
     /// A property as a text.
     fn property_text(&self, row: u16) -> &str;
 }
 
-/// No values: a formula that can be calculated with this source is constant.
+/// A source without values. A formula that can be calculated with it is constant.
 pub struct NoValues;
 
 impl Values for NoValues {
@@ -155,7 +155,7 @@ pub enum Value<'a> {
 }
 
 impl Value<'_> {
-    /// The value with its own copy of a text.
+    /// The value with an owned copy of its text.
     pub fn into_owned(self) -> Value<'static> {
         match self {
             Value::Number(number) => Value::Number(number),
@@ -165,12 +165,12 @@ impl Value<'_> {
     }
 }
 
-/// Reason why a formula has no result.
+/// The reason why a formula has no result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Without {
     /// A variable has no value.
     Value(VarId),
-    /// A division by zero; the span is that of the divisor.
+    /// A division by zero. The span is the location of the divisor.
     Divisor(Span),
 }
 
@@ -223,12 +223,12 @@ impl Formula {
                 let args: Result<Vec<f64>, Without> = args.iter().map(|arg| arg.number(values)).collect();
                 Ok(function.of(&args?))
             }
-            // not reached: sema checked the types
+            // not reached, because sema checked the types
             _ => Ok(f64::from(u8::from(self.holds(values)?))),
         }
     }
 
-    /// Evaluates a condition. A comparison with a variable that has no value is false.
+    /// Evaluates a condition. A comparison is false if one of its variables has no value.
     ///
     /// # Errors
     /// A divisor is zero.
@@ -256,12 +256,12 @@ impl Formula {
             Formula::Not(of) => Ok(!of.holds(values)?),
             Formula::And(both) => Ok(both[0].holds(values)? && both[1].holds(values)?),
             Formula::Or(both) => Ok(both[0].holds(values)? || both[1].holds(values)?),
-            // not reached: sema checked the types
+            // not reached, because sema checked the types
             _ => Ok(false),
         }
     }
 
-    /// Calls `take` for the formula and each of its parts; the whole comes first.
+    /// Calls `take` for the formula and then for each of its parts.
     pub fn each(&self, take: &mut dyn FnMut(&Formula)) {
         take(self);
         match self {
@@ -285,7 +285,7 @@ impl Formula {
         vars
     }
 
-    /// Does the formula use the target of this `@set`?
+    /// Whether the formula uses the target of this `@set`.
     pub fn asks(&self, target: Target) -> bool {
         let mut asks = false;
         self.each(&mut |part| {
@@ -312,12 +312,12 @@ impl Formula {
         texts
     }
 
-    /// Is the value constant?
+    /// Whether the value is constant.
     pub fn is_constant(&self) -> bool {
         self.asks_only(&|_| false)
     }
 
-    /// Does the formula depend only on properties for which `known` is true?
+    /// Whether the formula depends only on properties for which `known` is true.
     fn asks_only(&self, known: &dyn Fn(u16) -> bool) -> bool {
         let mut only = self.vars().is_empty() && self.texts() == TextSet::default();
         self.each(&mut |part| {
@@ -328,7 +328,7 @@ impl Formula {
         only
     }
 
-    /// Evaluates a condition as far as the known properties decide it. `None`: the job decides.
+    /// Evaluates a condition if the known properties decide its result. `None`: the result depends on the job.
     pub fn decided(&self, values: &dyn Values, known: &dyn Fn(u16) -> bool) -> Option<bool> {
         let both = |both: &[Formula; 2]| both.each_ref().map(|side| side.decided(values, known));
         match self {
@@ -349,7 +349,7 @@ impl Formula {
     }
 }
 
-/// Evaluates a comparison of two values. Values of different types are neither equal nor unequal.
+/// Evaluates a comparison. Values of different types are neither equal nor different, so every comparison of them is false.
 fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
     use std::cmp::Ordering::{Equal, Greater, Less};
     let order = match (left, right) {
@@ -369,12 +369,12 @@ fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
     }
 }
 
-/// Does a text match a pattern? `*` matches any text, `?` one character; upper and lower case are equal.
+/// Whether a text matches a pattern. `*` matches any text, `?` one character; upper and lower case are equal.
 fn is_like(text: &str, pattern: &str) -> bool {
     let text: Vec<char> = text.chars().flat_map(char::to_lowercase).collect();
     let pattern: Vec<char> = pattern.chars().flat_map(char::to_lowercase).collect();
     let (mut at, mut asked) = (0, 0);
-    // position of the last `*`, and how much of the text it matches so far
+    // the position of the last `*`, and where in the text its match ends so far
     let mut star: Option<(usize, usize)> = None;
     while at < text.len() {
         match pattern.get(asked) {

@@ -7,14 +7,14 @@ use crate::source::Source;
 use crate::syntax::{self, Head, Statement};
 
 impl Analysis {
-    /// The index of the item at which a second post begins. Reports the second post; the items after it are not analysed.
+    /// The index of the item at which a second post begins. Reports this post as an error. The items after it are not analysed.
     pub(super) fn second_post(&mut self, items: &[&Head]) -> Option<usize> {
         let begun = items.iter().enumerate().filter_map(|(at, item)| Some((at, named(item)?)));
         let posts: Vec<(usize, &Statement)> = begun.collect();
         let (&(_, first), &(at, second)) = (posts.first()?, posts.get(1)?);
         let has_sequences = |items: &[&Head]| items.iter().any(|item| matches!(item, Head::Sequence(_)));
         if !has_sequences(&items[..at]) || !has_sequences(&items[at..]) {
-            return None; // one post with two names
+            return None; // a single post with two names
         }
         let names: Vec<String> = posts.iter().map(|(_, post)| format!("`{}`", text(post))).collect();
         self.report(
@@ -42,11 +42,11 @@ fn text(statement: &Statement) -> String {
     statement.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" ")
 }
 
-/// Extracts one post of a file by its name, in upper or lower case. The lines of other posts become empty, so that line numbers
-/// stay the same.
+/// Extracts one post of a file by its name; upper and lower case are equal. The lines of the other posts become empty, so line
+/// numbers do not change.
 ///
 /// # Errors
-/// The file has no such post. The error lists the names of its posts.
+/// The file has no post with this name. The error lists the names of its posts.
 pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
     let tree = syntax::parse(&file, 0);
     let posts: Vec<(String, usize)> = tree
@@ -58,7 +58,7 @@ pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
     let Some(row) = posts.iter().position(|(own, _)| own.eq_ignore_ascii_case(name)) else {
         return Err(posts.into_iter().map(|(name, _)| name).collect());
     };
-    // text before the first name belongs to the first post
+    // text before the first `Name` belongs to the first post
     let begin = if row == 0 { 0 } else { posts[row].1 };
     let end = posts.get(row + 1).map_or(file.text.len(), |(_, start)| *start);
     let kept = |(at, c): (usize, char)| if (begin..end).contains(&at) || c == '\n' { Some(c) } else { None };

@@ -1,16 +1,16 @@
-//! Limits from the manual: words on a line, and lines of sequences in a form.
+//! Limits from the manual: the number of words on a line, and the number of sequence lines in a form.
 
 use super::check::Analysis;
 use crate::diag::{Code, Diag, Severity};
 use crate::syntax::Body;
 
-/// How the classic limits are applied.
+/// How strictly the limits of the manual are applied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Limits {
-    /// 15 words per line, 150 lines: exceeding them is an error.
+    /// More than 15 words on a line or more than 150 lines are an error.
     #[default]
     Classic,
-    /// 15 words per line, 150 lines: exceeding them is a warning.
+    /// More than 15 words on a line or more than 150 lines are a warning.
     Extended,
 }
 
@@ -18,14 +18,14 @@ pub enum Limits {
 pub const MOST_WORDS: usize = 15;
 /// Maximum number of sequence lines in a form, from the manual.
 pub const MOST_LINES: usize = 150;
-/// Maximum size of a form in bytes, with all files that it calls. No known form has a tenth of that.
+/// Maximum size of a form in bytes, with all files that it calls. All known forms are smaller than a tenth of this size.
 pub const MOST_TEXT: usize = 512 << 10;
 
 impl Limits {
     /// Names of the limits.
     pub const NAMES: [&'static str; 2] = ["classic", "extended"];
 
-    /// Finds limits by name, in upper or lower case.
+    /// Finds limits by their name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<Limits> {
         let at = Limits::NAMES.iter().position(|known| known.eq_ignore_ascii_case(name))?;
         Some([Limits::Classic, Limits::Extended][at])

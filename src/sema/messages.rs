@@ -29,7 +29,7 @@ pub(super) fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
         .help("keep one of them")
 }
 
-/// Adds the advice to write the text in backquotes, because it is text of the control.
+/// Adds the advice to write the line in backquotes, because it is text for the control.
 pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
     let [begin, end] = [span.start, span.end].map(|at| (Span { start: at, end: at, ..span }, "`".to_owned()));
     diag.help("put text of the control in backquotes, from the beginning of the line to its end").fix(
@@ -42,10 +42,10 @@ pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
 pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
     let mut diag = Diag::new(Code::PF201, format!("`{}` is not a command or a sequence", name)).at(span, "unknown");
-    // an abbreviation is no misspelling, but the name that begins with it is meant
+    // an abbreviation is not a misspelling, but suggest the name that begins with it
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
     let begins = || names().find(|n| name.len() > 2 && begins_with(n));
-    // reserved for a later version
+    // names that are reserved for a later version
     if let Some(kept) = ["PlaneOn", "PlaneOff"].iter().find(|kept| kept.eq_ignore_ascii_case(name)) {
         return diag.help(format!("{kept} is reserved for tilted planes, which postform can't print yet: remove it"));
     }
@@ -55,13 +55,13 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     diag
 }
 
-/// Is the name a letter with a number, as `G80`? No valid name is.
+/// Whether the name is a letter with a number, as `G80`. No valid name has this form.
 pub fn is_word(name: &str) -> bool {
     let number = name.strip_prefix(|c: char| c.is_ascii_alphabetic());
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// Error: words of a sequence whose name line is missing.
+/// The error for words of a sequence whose name line is missing.
 pub fn no_name_line(span: Span) -> Diag {
     Diag::new(Code::PF001, "words to print are outside a sequence")
         .at(span, "this line belongs to no sequence")

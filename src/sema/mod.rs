@@ -1,4 +1,4 @@
-//! Converts the tree to a checked form: names, arguments, formats and limits.
+//! Converts the syntax tree of a form to a checked form: resolves names, reads arguments and formats, and checks limits.
 
 mod args;
 mod called;

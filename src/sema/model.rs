@@ -1,4 +1,4 @@
-//! A form with its names resolved.
+//! The analysed form, with resolved names.
 
 use indexmap::IndexMap;
 
@@ -15,9 +15,9 @@ use crate::span::Span;
 pub struct Form {
     /// Settings from the commands.
     pub settings: Settings,
-    /// Letter formats by letter, with the location of each.
+    /// The formats of letters, each with its location.
     pub formats: IndexMap<u8, (LetterFormat, Span)>,
-    /// Packed words, as `A010360`: the letter and its digits as typed.
+    /// Words without separators, as `A010360`: the letter and its digits as written.
     pub packed: IndexMap<u8, String>,
     /// The sequences in file order.
     pub sequences: IndexMap<SequenceId, Sequence>,
@@ -32,45 +32,45 @@ pub struct Sequence {
     pub id: SequenceId,
     /// The name line.
     pub span: Span,
-    /// The line count of an advanced cycle.
+    /// For an advanced cycle, the number of lines that print at the first hole only.
     pub count: Option<usize>,
-    /// The comment on the name line. For a Custom cycle it names the kind of cycle.
+    /// The comment after the name. For a Custom cycle it names the kind of cycle.
     pub remark: Option<String>,
-    /// The body consists of the word `None`.
+    /// Whether the body consists of the word `None`.
     pub is_none: bool,
-    /// `End Cancel`.
+    /// The location of `Cancel` in `End Cancel`.
     pub cancel: Option<Span>,
     /// The lines that print.
     pub lines: Vec<Line>,
-    /// Selection of the lines by directives, if there are any.
+    /// The directives that select the lines, if there are any.
     pub steps: Option<Vec<Step>>,
 }
 
 impl Sequence {
-    /// The kind of cycle that a Custom sequence prints: the first word of its comment.
+    /// The kind of cycle that a Custom sequence prints. It is the first word of the sequence's comment.
     pub fn custom_kind(&self) -> Option<&str> {
         let is_custom = matches!(self.id, SequenceId::Custom1 | SequenceId::Custom2 | SequenceId::Custom3);
         self.remark.as_deref().filter(|_| is_custom).and_then(kind_of_remark)
     }
 }
 
-/// The first word of a Custom cycle's comment: the kind of cycle that it prints.
+/// The first word of a comment. In a Custom cycle it names the kind of cycle.
 pub fn kind_of_remark(remark: &str) -> Option<&str> {
     remark.split([' ', '\t', ',', '(']).next().filter(|word| !word.is_empty())
 }
 
-/// A sequence printed when a variable changes, or whenever it is used.
+/// An Upon: a sequence that prints when a variable changes, or at each use of the variable.
 #[derive(Clone, Debug)]
 pub struct Upon {
-    /// The variable it watches.
+    /// The variable that triggers the sequence.
     pub var: VarId,
-    /// `Every`: at every use.
+    /// Whether the sequence prints at each use of the variable (`Every`).
     pub every: bool,
     /// The name line.
     pub span: Span,
     /// The lines that print.
     pub lines: Vec<Line>,
-    /// Selection of the lines by directives, if there are any.
+    /// The directives that select the lines, if there are any.
     pub steps: Option<Vec<Step>>,
 }
 
@@ -88,30 +88,30 @@ pub struct Line {
 pub struct Word {
     /// Location of the word.
     pub span: Span,
-    /// No space precedes it in the output.
+    /// Whether the word follows the previous word without a space.
     pub glued: bool,
     /// What the word prints.
     pub kind: WordKind,
 }
 
-/// What a word prints.
+/// The output of a word.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WordKind {
-    /// A letter with a variable's value.
+    /// A letter and the value of a variable.
     Var(u8, VarId),
-    /// A variable's value alone.
+    /// The value of a variable without a letter.
     Value(VarId),
-    /// A variable inside a comment of the program; the control does not read its value.
+    /// A variable inside a comment of the program. The control does not read its value.
     Remark(VarId),
-    /// A letter with a number, printed as typed.
+    /// A letter and a number, printed as written in the form.
     Literal(u8, String, f64),
-    /// Text as typed.
+    /// Text, printed as written in the form.
     Text(String),
     /// Text of a comment of the program.
     Note(String),
-    /// Text in backquotes: neither checked nor changed.
+    /// Text in backquotes, which is neither checked nor changed.
     Quote(String),
-    /// A calculated value, with its letter if it has one.
+    /// A calculated value, with or without a letter.
     Formula(Option<u8>, Box<Formula>),
     /// A calculated value inside a comment of the program.
     RemarkFormula(Box<Formula>),
@@ -119,16 +119,17 @@ pub enum WordKind {
     TextVar(TextVar),
     /// A text of the job inside a comment of the program.
     RemarkText(TextVar),
-    /// A property that is a text, by its row.
+    /// A property with a text value, by its row.
     PropertyText(u16),
-    /// A text property inside a comment of the program.
+    /// A property with a text value inside a comment of the program.
     RemarkProperty(u16),
-    /// A comment with texts of the job, made of this many following words. It is left out if all of its texts are empty.
+    /// A comment with texts of the job. The number is how many of the following words belong to it. It is not printed if all its texts
+    /// are empty.
     Comment(usize),
 }
 
 impl Word {
-    /// Letter of the word, unless the word is text.
+    /// The letter of the word; `None` if the word is text.
     pub fn letter(&self) -> Option<u8> {
         match self.kind {
             WordKind::Var(letter, _) | WordKind::Literal(letter, ..) => Some(letter),
@@ -137,7 +138,7 @@ impl Word {
         }
     }
 
-    /// Variable of the word, if it has one.
+    /// The variable of the word, if it has one.
     pub fn var(&self) -> Option<VarId> {
         match self.kind {
             WordKind::Var(_, var) | WordKind::Value(var) | WordKind::Remark(var) => Some(var),
@@ -145,7 +146,7 @@ impl Word {
         }
     }
 
-    /// Variable of the word, unless the word is in a comment.
+    /// The variable of the word; `None` if the word is in a comment.
     pub fn printed_var(&self) -> Option<VarId> {
         match self.kind {
             WordKind::Var(_, var) | WordKind::Value(var) => Some(var),
@@ -153,7 +154,7 @@ impl Word {
         }
     }
 
-    /// Variables whose values the word prints outside comments, directly or in a calculation.
+    /// The variables whose values the word prints outside comments, directly or in a calculation.
     pub fn printed_vars(&self) -> VarSet {
         match &self.kind {
             WordKind::Formula(_, formula) => formula.vars(),
@@ -161,7 +162,7 @@ impl Word {
         }
     }
 
-    /// Variables whose values the word prints, in comments too.
+    /// The variables whose values the word prints, in comments too.
     pub fn told_vars(&self) -> VarSet {
         match &self.kind {
             WordKind::Formula(_, formula) | WordKind::RemarkFormula(formula) => formula.vars(),
@@ -169,17 +170,17 @@ impl Word {
         }
     }
 
-    /// The typed G or M code of the word, also after the slash of block delete.
+    /// The G or M code of the word if it is a number in the form. A slash for block delete may precede the code.
     pub fn code(&self) -> Option<Code> {
         b"GM".iter().find_map(|&letter| Code::of(letter, self.typed(letter)?))
     }
 
-    /// Is the word one of these typed codes?
+    /// Whether the word is one of these codes.
     pub fn is_code(&self, letter: u8, codes: &[f64]) -> bool {
         self.typed(letter).is_some_and(|value| codes.contains(&value))
     }
 
-    /// The typed number of a word with this letter, also after the slash of block delete.
+    /// The number of a word with this letter if it is a number in the form. A slash for block delete may precede the word.
     pub fn typed(&self, letter: u8) -> Option<f64> {
         match &self.kind {
             WordKind::Literal(own, _, value) if *own == letter => Some(*value),

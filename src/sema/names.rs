@@ -1,4 +1,4 @@
-//! The context of words and conditions in a form, and the names of variables.
+//! Finds variables and properties of a form by their names.
 
 use super::property::Property;
 use super::settings::Settings;
@@ -6,15 +6,15 @@ use crate::diag::{Code, Diag};
 use crate::lang::{TEXTS, VARIABLES, VarId, did_you_mean};
 use crate::syntax::Spanned;
 
-/// The common context of all words in a form.
+/// The data that all words and conditions of a form need.
 pub struct Context<'a> {
-    /// The marks around comments. The second is empty if comments extend to the end of the block.
+    /// The marks around comments. The second mark is empty if comments extend to the end of the block.
     pub comment: &'a [String; 2],
     /// Settings from the form's commands.
     pub settings: &'a Settings,
 }
 
-/// Names of variables in other systems.
+/// Names of variables in other systems, each with the name of the same variable in postform.
 const OTHERS: [(&str, &str); 12] = [
     ("coolant", "cool"),
     ("feed", "frate"),
@@ -75,7 +75,7 @@ pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> O
     Some(var)
 }
 
-/// Advice for a name that resembles no known name.
+/// Advice for a name that is not similar to any known name.
 fn no_name(text: &str) -> String {
     let names = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     let help = match text.find(|c: char| !c.is_ascii_alphanumeric()).map(|at| &text[at..]) {

@@ -1,40 +1,40 @@
-//! Tolerance for comparing numbers in a form. Calculation leaves noise beyond the printed digits: 12.7 mm are 0.49999999999999994
-//! inches, and a form that compares with .5 must still be true.
+//! The tolerance for comparing numbers in a form. Calculations have rounding errors: 12.7 mm are 0.49999999999999994 inches. A
+//! form that compares this value with .5 must find them equal.
 
 use std::cmp::Ordering;
 
-/// Absolute tolerance: a thousandth of the finest digit that a control reads.
+/// Absolute tolerance. It is a thousandth of the finest digit that a control reads.
 const NEAR: f64 = 1e-9;
 
-/// Relative tolerance, for numbers so large that their own precision is coarser than the absolute tolerance.
+/// Relative tolerance. It applies to numbers so large that their binary precision is coarser than the absolute tolerance.
 const NEAR_OF_LARGE: f64 = 1e-12;
 
 fn is_near(left: f64, right: f64) -> bool {
     (left - right).abs() <= NEAR.max(NEAR_OF_LARGE * left.abs().max(right.abs()))
 }
 
-/// The order of two numbers; `None` if one of them is not a number.
+/// The order of two numbers within the tolerance; `None` if one of them is NaN.
 pub fn order(left: f64, right: f64) -> Option<Ordering> {
     if is_near(left, right) { Some(Ordering::Equal) } else { left.partial_cmp(&right) }
 }
 
-/// Is the divisor zero?
+/// Whether a divisor is zero within the tolerance.
 pub fn is_zero(value: f64) -> bool {
     is_near(value, 0.0)
 }
 
-/// The next whole number below.
+/// The next lower whole number. A number within the tolerance of a whole number is rounded to it.
 pub fn floor(value: f64) -> f64 {
     let nearest = value.round();
     if is_near(value, nearest) { nearest } else { value.floor() }
 }
 
-/// The next whole number above.
+/// The next higher whole number. A number within the tolerance of a whole number is rounded to it.
 pub fn ceil(value: f64) -> f64 {
     -floor(-value)
 }
 
-/// The nearest whole number; halves are rounded away from zero.
+/// The nearest whole number. Halves are rounded away from zero.
 pub fn round(value: f64) -> f64 {
     floor(value.abs() + 0.5).copysign(value)
 }

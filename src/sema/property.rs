@@ -1,4 +1,4 @@
-//! Properties: named values that the form declares and that a shop, a job or a user may set.
+//! Properties: named values that a form declares and that a shop, a job or a user can set.
 
 use std::collections::HashSet;
 
@@ -7,19 +7,19 @@ use super::store::Setting;
 use crate::lang::{TextVar, VarId, did_you_mean};
 use crate::span::Span;
 
-/// Maximum number of tool fields in a form.
+/// Maximum number of tool fields in a form. A tool field is a text that the job gives for each tool.
 const MOST_FIELDS: usize = 24;
 /// Prefix of a tool field's name.
 const OF_TOOL: &str = "tool.";
 
 impl Property {
-    /// The field of the job's tools that this property represents, as `holder`; `None` if the form declares the property.
+    /// The name of the tool field, such as `holder`; `None` if the form itself declares the property.
     pub fn of_tool(&self) -> Option<&str> {
         self.name.strip_prefix(OF_TOOL)
     }
 }
 
-/// The tool fields in the texts of a form, as `[tool.holder]`. Each tool of a job may give such a text under `data`.
+/// The tool fields that the texts of a form use, such as `[tool.holder]`. A job can give their values under `data` of each tool.
 pub(super) fn fields_of_tools<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<Property> {
     let mut fields: Vec<Property> = Vec::new();
     for text in texts {
@@ -68,18 +68,18 @@ pub enum PropertyKind {
     Choice(Vec<String>),
 }
 
-/// A value of a property.
+/// The value of a property.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PropertyValue {
     /// A number, length or angle.
     Number(f64),
     /// Yes or no.
     YesNo(bool),
-    /// A text, or the selected word.
+    /// A text, or one word of a choice.
     Text(String),
 }
 
-/// `Property through choice(off,on,high) off Coolant through the spindle`.
+/// A property, as declared by `Property through choice(off,on,high) off Coolant through the spindle`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Property {
     /// Name in lower case.
@@ -88,9 +88,9 @@ pub struct Property {
     pub kind: PropertyKind,
     /// Default value.
     pub default: PropertyValue,
-    /// Description, as a question.
+    /// Description of the property, as a question to the user.
     pub text: String,
-    /// The command.
+    /// Location of the command.
     pub span: Span,
 }
 
@@ -127,7 +127,7 @@ impl PropertyKind {
         })
     }
 
-    /// The accepted values, in words.
+    /// The accepted values in words, for a message.
     pub fn takes(&self) -> String {
         match self {
             PropertyKind::Number => "a number".into(),
@@ -139,7 +139,7 @@ impl PropertyKind {
         }
     }
 
-    /// The name of the type, as written in forms.
+    /// The name of the type as it is written in forms.
     pub fn name(&self) -> &'static str {
         match self {
             PropertyKind::Number => "number",
@@ -151,15 +151,15 @@ impl PropertyKind {
         }
     }
 
-    /// Is the value a text, printed and compared as such?
+    /// Whether values of this type are printed and compared as texts.
     pub fn is_text(&self) -> bool {
         matches!(self, PropertyKind::Text | PropertyKind::Choice(_))
     }
 
-    /// Reads a value as typed by a user.
+    /// Reads a value as a user writes it.
     ///
     /// # Errors
-    /// The text is no value of this type. The error describes the accepted values.
+    /// The text is not a value of this type. The error describes the accepted values.
     pub fn read(&self, text: &str) -> Result<PropertyValue, String> {
         let value = match self {
             PropertyKind::Number | PropertyKind::Length | PropertyKind::Angle => {
@@ -188,7 +188,7 @@ impl PropertyKind {
 }
 
 impl PropertyValue {
-    /// The value as a number; yes is 1.
+    /// The value as a number. Yes is 1.
     pub fn number(&self) -> f64 {
         match self {
             PropertyValue::Number(number) => *number,
@@ -197,7 +197,7 @@ impl PropertyValue {
         }
     }
 
-    /// The value as a text; empty for other types.
+    /// The value as a text; empty if the value is not a text.
     pub fn text(&self) -> &str {
         if let PropertyValue::Text(text) = self { text } else { "" }
     }
@@ -213,7 +213,7 @@ impl std::fmt::Display for PropertyValue {
     }
 }
 
-/// Checks the name of a new property.
+/// Checks whether a new property can have this name.
 ///
 /// # Errors
 /// The reason why a property can't have this name.

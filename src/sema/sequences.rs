@@ -1,4 +1,4 @@
-//! Sequences: their names, counts, ends and bodies.
+//! Analyses sequences: their names, counts, ends and lines.
 
 use indexmap::map::Entry;
 
@@ -138,7 +138,7 @@ impl Analysis {
         }
     }
 
-    /// Reads the line count of an advanced cycle.
+    /// Reads the count of an advanced cycle: the number of lines that print at the first hole only.
     fn count(&mut self, node: &SequenceNode, id: SequenceId, text: &str, lines: usize) -> Option<usize> {
         let at = node.name.args.last().map_or(node.name.line.span, |arg| arg.span);
         if !id.row().is_cycle {
@@ -171,7 +171,7 @@ impl Analysis {
         Some(count)
     }
 
-    /// Reads `End Cancel` of a canned cycle.
+    /// Reads the `End` of a canned cycle, which may be `End Cancel`.
     fn end_cancel(&mut self, end: Option<&End>) -> Option<Span> {
         let args = &end?.args;
         let cancel = args.first().filter(|word| word.text.eq_ignore_ascii_case("Cancel"));
@@ -185,12 +185,12 @@ impl Analysis {
         cancel.map(|word| word.span)
     }
 
-    /// Checks the `End` of a sequence that is no canned cycle.
+    /// Checks the `End` of a sequence that is not a canned cycle.
     fn plain_end(&mut self, end: Option<&End>) {
         let Some((end, word)) = end.and_then(|end| Some((end, end.args.first()?))) else { return };
         let diag =
             Diag::new(Code::PF405, format!("`{}` after the End of a sequence that is not a canned cycle", word.text));
-        // `END PGM` is the last line of a program in Klartext
+        // `END PGM` is the last line of a program in Klartext (Heidenhain)
         self.report(if word.text.eq_ignore_ascii_case("PGM") {
             let last = end.args.last().map_or(word.span, |last| last.span);
             in_backquotes(diag.at(word.span, "text of the control"), end.word.to(last))
@@ -210,7 +210,7 @@ impl Analysis {
         }
     }
 
-    /// Reports `EndCancel`, which would be printed like any other word.
+    /// Reports a line like `EndCancel`, which would be printed as a word.
     fn glued_end(&mut self, body: &Body) {
         if let Some((text, span, meant)) = torn_end(body) {
             let diag = Diag::new(Code::PF002, format!("`{text}` is not an End")).at(span, "words of the output");
@@ -218,8 +218,9 @@ impl Analysis {
         }
     }
 
-    /// Reports a command between a name and its End, where it would be printed. A line counts as a command if its arguments are
-    /// valid. Text commands are not checked: `CALL` and `NAME` are also words of conversational controls.
+    /// Reports a command between the name and the End of a sequence, where it would be printed. A line counts as a command only
+    /// if its arguments are valid. Commands with text arguments are not checked, because conversational controls use words such
+    /// as `CALL` and `NAME` too.
     fn command_inside(&mut self, body: &Body) {
         let Some((first, args)) = body.words.split_first().filter(|(_, args)| !args.is_empty()) else { return };
         let [Piece { kind: PieceKind::Stray(name), .. }] = first.pieces.as_slice() else { return };
@@ -230,7 +231,7 @@ impl Analysis {
         };
         let args: Vec<Spanned> = args.iter().map(spanned).collect();
         let span = args.iter().fold(first.span, |all, arg| all.to(arg.span));
-        // tried on separate settings, so that the form's settings do not change
+        // apply the command to other settings, so that the form's settings do not change
         if Settings::blank().apply(&Arguments { id, all: &args, span, typed: true }).is_ok() {
             let diag = Diag::new(Code::PF020, format!("the command {} is inside a sequence", id.name()));
             let help = "move it above the first sequence; put a word of the control in backquotes";
@@ -239,7 +240,7 @@ impl Analysis {
     }
 }
 
-/// Would an event of the job be lost if the sequence prints nothing?
+/// Whether an event of the job is lost if the sequence prints nothing.
 fn must_print(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed, S::Index, S::Unwind];
@@ -257,14 +258,14 @@ fn must_print(id: SequenceId) -> bool {
     id.row().is_cycle || moves.contains(&id) || changes.contains(&id)
 }
 
-/// Does a sequence print single moves or holes?
+/// Whether a sequence prints single moves or holes.
 fn is_often(id: SequenceId) -> bool {
     use SequenceId as S;
     let moves = [S::RapidCode, S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed];
     id.row().is_cycle || moves.contains(&id)
 }
 
-/// `EndCancel`, `End; Cancel`, `End;`: the typed text, and the intended one.
+/// Finds a misspelt End, such as `EndCancel`, `End; Cancel` or `End;`. Returns its text, location and correct spelling.
 fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
     let texts: Option<Vec<&str>> = body
         .words
@@ -284,11 +285,11 @@ fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
     Some((text, span, meant))
 }
 
-/// The lines of a sequence, and their selection by directives.
+/// The lines of a sequence, and the directives that select them.
 struct Lines {
     lines: Vec<Line>,
     steps: Option<Vec<Step>>,
-    /// A directive is wrong, so that the selected lines are unknown.
+    /// Whether a directive is wrong. It is then unknown which lines print.
     torn: bool,
 }
 

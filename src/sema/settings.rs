@@ -1,4 +1,4 @@
-//! Settings from the commands of a form. The rows of `lang` define the field of each command and its default.
+//! The settings of a form, made by its commands. A row of the table in `lang` defines the field and the default of each command.
 
 use super::args::{Arguments, Read};
 use super::code::Code;
@@ -10,30 +10,30 @@ use crate::lang::{Beam, COMMANDS, CommandId, Coolant, Machine, UnitChoice, VarId
 use crate::span::Span;
 use crate::syntax::Spanned;
 
-/// Format of an arc's centre.
+/// How the centre of an arc is printed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ArcCentre {
-    /// One letter for each axis, in the order of the axes. With fewer letters, fewer planes are possible.
+    /// One letter for each axis, in the order of the axes. With only two letters, arcs are possible in fewer planes.
     Letters(Vec<u8>),
-    /// The radius with this letter; negative for arcs over 180 degrees.
+    /// The radius, with this letter, instead of the centre. It is negative for arcs over 180 degrees.
     Radius(u8),
 }
 
-/// The generated dwell block.
+/// The dwell block that postform generates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DwellWord {
-    /// The code of a dwell, `G4`.
+    /// The code of a dwell, such as `G4`.
     pub code: Code,
     /// The letter of the time.
     pub letter: u8,
-    /// The time is in milliseconds.
+    /// Whether the time is in milliseconds.
     pub milliseconds: bool,
 }
 
-/// Block numbers.
+/// The settings of block numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SequenceNumbers {
-    /// The letter; a space for numbers without a letter. With `None`, only lines that print `[block]` have numbers.
+    /// The letter; a space for numbers without a letter. If `None`, only lines that print `[block]` have numbers.
     pub letter: Option<u8>,
     /// The first number.
     pub start: i64,
@@ -42,7 +42,7 @@ pub struct SequenceNumbers {
 }
 
 impl SequenceNumbers {
-    /// Placeholder letter for numbers without a letter.
+    /// The value of `letter` for numbers without a letter.
     pub const BARE: u8 = b' ';
 }
 
@@ -52,31 +52,31 @@ impl Default for ArcCentre {
     }
 }
 
-/// `CoolantKind through M88 M89`.
+/// A kind of coolant with its codes, as in `CoolantKind through M88 M89`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoolantKind {
     /// Kind of coolant.
     pub kind: Coolant,
     /// Code that turns it on.
     pub on: f64,
-    /// Code that turns it off; `None`: the code that turns off flood coolant.
+    /// Code that turns it off. If `None`, the code for flood coolant is used.
     pub off: Option<f64>,
 }
 
-/// `MoreWork 7 G54.1 P1`.
+/// Work offsets beyond the first ones, as in `MoreWork 7 G54.1 P1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoreWork {
-    /// The first fixture, counted from 1.
+    /// The first work offset to which the command applies, counted from 1.
     pub first: u16,
-    /// The code before its word, `G54.1`.
+    /// The code before the word that selects the offset, such as `G54.1`.
     pub code: Option<control::Code>,
-    /// The letter of its word.
+    /// The letter of the word that selects the offset.
     pub letter: u8,
-    /// The number in that word for the first fixture.
+    /// The number in that word for the first of these offsets.
     pub number: f64,
 }
 
-/// What ends a line.
+/// The characters at the end of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LineEnd {
     /// A line feed.
@@ -86,16 +86,16 @@ pub enum LineEnd {
     CrLf,
 }
 
-/// A prompted variable.
+/// A variable whose value the user is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prompt {
     /// The variable that the answer sets.
     pub var: VarId,
     /// Text of the question.
     pub text: String,
-    /// Value without an answer.
+    /// The value if the user gives no answer.
     pub default: Option<f64>,
-    /// The command.
+    /// Location of the command.
     pub span: Span,
 }
 
@@ -104,22 +104,22 @@ pub struct Prompt {
 pub struct TravelLimit {
     /// Letter of the axis.
     pub letter: u8,
-    /// Minimum position, in form units or degrees.
+    /// Minimum position, in the form's units or in degrees.
     pub least: f64,
     /// Maximum position.
     pub greatest: f64,
-    /// The command.
+    /// Location of the command.
     pub span: Span,
 }
 
-/// `Replace old new`.
+/// A replacement of text in the program, as in `Replace old new`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replacement {
     /// The text to be replaced.
     pub old: String,
     /// The replacement.
     pub new: String,
-    /// The command.
+    /// Location of the command.
     pub span: Span,
 }
 
@@ -134,40 +134,40 @@ macro_rules! settings {
             $($(#[doc = $meaning] pub $field: $type,)?)*
             /// Type of the machine.
             pub machine: Machine,
-            /// Type of the beam (torch or laser), which the program switches on and off.
+            /// The torch or laser that the program switches on and off, if any.
             pub beam: Option<Beam>,
-            /// The depth axis is neither printed nor compared.
+            /// Whether the depth axis is neither printed nor compared.
             pub is_flat: bool,
             /// Units of the form's own lengths.
             pub units: UnitChoice,
-            /// Motion word of generated clockwise arcs.
+            /// The code of generated clockwise arcs.
             pub cw: Code,
-            /// Motion word of generated counter-clockwise arcs.
+            /// The code of generated counter-clockwise arcs.
             pub ccw: Code,
-            /// Letters of the three axes in generated moves; the third is the depth's.
+            /// Letters of the three axes in generated moves. The third is the depth axis.
             pub axes: [u8; 3],
-            /// Letters of the upper guide's axes.
+            /// Letters of the axes of the upper wire guide.
             pub axes2: [u8; 3],
-            /// Format of the centre of full circles.
+            /// How the centre of full circles is printed, if differently.
             pub centre_full: Option<ArcCentre>,
             /// Prompts for variables.
             pub prompts: Vec<Prompt>,
-            /// Later passes of a thread print approach, cut, clear and return; otherwise only X.
+            /// Whether the later passes of a thread print approach, cut, clear and return, and not only X.
             pub thread_full: bool,
-            /// Secondary clearance of deep cycles without their own.
+            /// Secondary clearance of deep cycles for which the job gives none.
             pub cycle_back_deep: Option<f64>,
-            /// Secondary clearance of chip-breaking cycles without their own.
+            /// Secondary clearance of chip-breaking cycles for which the job gives none.
             pub cycle_back_chipbreak: Option<f64>,
-            /// Secondary clearance of cycles through webs without their own.
+            /// Secondary clearance of cycles through webs for which the job gives none.
             pub cycle_back_thru: Option<f64>,
-            /// A peck cycle dwells after each step.
+            /// Whether a peck cycle dwells after each step.
             pub cycle_dwell_steps: bool,
-            /// A peck cycle dwells after each retract.
+            /// Whether a peck cycle dwells after each retract.
             pub cycle_dwell_retracts: bool,
         }
 
         impl Settings {
-            /// Empty settings, without the defaults.
+            /// Empty settings. They do not have the defaults of the commands.
             pub(super) fn blank() -> Self {
                 Settings {
                     $($($field: <$type>::default(),)?)*
@@ -214,7 +214,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The defaults of a form for this machine and these units.
+    /// The default settings of a form for this machine and these units.
     pub fn new(machine: Machine, units: UnitChoice) -> Self {
         let mut settings = Settings { machine, units, ..Settings::blank() };
         for row in COMMANDS {
@@ -228,23 +228,23 @@ impl Settings {
         settings
     }
 
-    /// Checks and stores one command.
+    /// Checks one command and stores its setting.
     pub(super) fn apply(&mut self, args: &Arguments) -> Read<()> {
         args.check()?;
         self.store(args)
     }
 
-    /// The control of the form. If the form names none, a generic control that resembles a Fanuc.
+    /// The control of the form. If the form names none, this is a generic control similar to a Fanuc.
     pub fn control(&self) -> &'static Control {
         self.control.unwrap_or_else(Control::of_no_name)
     }
 
-    /// The control whose code table applies. Codes of lathes have other meanings, which the form's commands define.
+    /// The control whose code table applies. On lathes and wire EDM machines codes have other meanings, so the generic control is used.
     pub fn codes(&self) -> &'static Control {
         if self.machine == Machine::Mill { self.control() } else { Control::of_no_name() }
     }
 
-    /// Is this G code in a command of the form, so that its effect is known?
+    /// Whether a command of the form has this G code. The effect of the code is then known.
     pub fn names_code(&self, asked: control::Code) -> bool {
         let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];
         let more = [self.depth_rapid.as_ref(), self.thread.as_ref(), Some(&self.orient.0)];

@@ -1,4 +1,4 @@
-//! Commands with special arguments.
+//! Reads the arguments of commands that need special treatment.
 
 use super::args::{Arguments, Read, bad, number, whole};
 use super::code::Code;
@@ -8,7 +8,7 @@ use super::settings::{
 use super::store::Setting;
 use crate::lang::{Beam, Coolant, Origin, VarId};
 
-/// `G4 P s`.
+/// The arguments of `Dwell`, such as `G4 P s`.
 impl Setting for DwellWord {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let milliseconds = match args.all.get(2) {
@@ -22,7 +22,7 @@ impl Setting for DwellWord {
     }
 }
 
-/// `M19 R`.
+/// A code and a letter, such as `M19 R`.
 impl Setting for (Code, u8) {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = (args.code(&args.all[0], 'M')?, args.letter(&args.all[1])?);
@@ -30,7 +30,7 @@ impl Setting for (Code, u8) {
     }
 }
 
-/// `I J K`, `IJK`, `R`, `R-`.
+/// The arguments for the centre of arcs, such as `I J K`, `IJK`, `R` or `R-`.
 impl Setting for ArcCentre {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let given: String = args.all.iter().map(|a| a.text.trim_matches('-')).collect();
@@ -48,7 +48,7 @@ impl Setting for ArcCentre {
     }
 }
 
-/// `N 10 10`, `- 0 1`, `None`, `None 100 10`. With None, start and step apply to `[block]`.
+/// The arguments for block numbers, such as `N 10 10`, `- 0 1`, `None` or `None 100 10`. After `None`, the numbers apply to `[block]`.
 impl Setting for SequenceNumbers {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let letter = match &args.all[0].text {
@@ -69,7 +69,7 @@ impl Setting for SequenceNumbers {
     }
 }
 
-/// `7 G54.1 P1`, `5 G505`.
+/// The arguments of `MoreWork`, such as `7 G54.1 P1` or `5 G505`.
 impl Setting for Vec<MoreWork> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let first = whole(&args.all[0], 2, 999)? as u16;
@@ -93,7 +93,7 @@ impl Setting for Vec<MoreWork> {
     }
 }
 
-/// `through M88 M89`.
+/// The arguments of `CoolantKind`, such as `through M88 M89`.
 impl Setting for Vec<CoolantKind> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let kind = match Coolant::parse(&args.all[0].text) {
@@ -112,7 +112,7 @@ impl Setting for Vec<CoolantKind> {
     }
 }
 
-/// `lf`, `crlf`.
+/// The end of lines: `lf` or `crlf`.
 impl Setting for LineEnd {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = if args.choice()? == "crlf" { LineEnd::CrLf } else { LineEnd::Lf };
@@ -120,7 +120,7 @@ impl Setting for LineEnd {
     }
 }
 
-/// Two texts, of which the second may be empty.
+/// Two texts. The second may be empty.
 impl Setting for [String; 2] {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = [0, 1].map(|i| args.all.get(i).map_or_else(String::new, |arg| arg.text.clone()));
@@ -128,7 +128,7 @@ impl Setting for [String; 2] {
     }
 }
 
-/// `Replace old new`.
+/// The arguments of `Replace`: the old and the new text.
 impl Setting for Vec<Replacement> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         if args.all[0].text.is_empty() {
@@ -140,7 +140,7 @@ impl Setting for Vec<Replacement> {
     }
 }
 
-/// `X -20 20`.
+/// The travel of an axis, such as `X -20 20`.
 impl Setting for Vec<TravelLimit> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let letter = args.letter(&args.all[0])?;
@@ -153,7 +153,7 @@ impl Setting for Vec<TravelLimit> {
     }
 }
 
-/// `Ask val1 "Fixture height" 2.5`.
+/// The arguments of `Ask`, such as `val1 "Fixture height" 2.5`.
 impl Setting for Vec<Prompt> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let name = args.all[0].text.trim_matches(['[', ']', '<', '>']);
@@ -176,12 +176,12 @@ impl Setting for Vec<Prompt> {
 }
 
 impl Settings {
-    /// Checks `Machine` and `Units`. They were read before all other commands, whose defaults depend on them.
+    /// Checks the word of `Machine` or `Units`. Both were read before all other commands, whose defaults depend on them.
     pub(super) fn known_word(&mut self, args: &Arguments) -> Read<()> {
         args.choice().map(|_| ())
     }
 
-    /// Stores the beam of `Machine`. The machine itself was read before.
+    /// Stores the torch or laser of `Machine`. The type of machine was read before.
     pub(super) fn machine_word(&mut self, args: &Arguments) -> Read<()> {
         self.beam = Beam::parse(args.choice()?);
         Ok(())
@@ -251,7 +251,7 @@ impl Settings {
     }
 }
 
-/// Reads the G code of an arc and, if given, the M code for the same spindle direction.
+/// Reads the G code of an arc and, if present, the M code of the spindle in the same direction.
 fn turn(args: &Arguments, spindle: &mut f64) -> Read<Code> {
     let (arc, turn) = args.all.split_at(1);
     let code = Arguments { all: arc, ..*args }.codes()?.swap_remove(0);

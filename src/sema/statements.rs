@@ -1,4 +1,4 @@
-//! Statements above the sequences: letter formats and commands.
+//! Analyses the statements above the sequences: letter formats and commands.
 
 use indexmap::map::Entry;
 
@@ -93,7 +93,7 @@ impl Analysis {
         }
     }
 
-    /// Reports a line that begins with no command's name, with advice on what was probably meant.
+    /// Reports a line that begins with no command, with advice on what was probably intended.
     fn no_command(&mut self, statement: &Statement) {
         let (name, span) = (&statement.name.text, statement.name.span);
         let whole = statement.args.iter().fold(span, |all, arg| all.to(arg.span));
@@ -119,7 +119,8 @@ impl Analysis {
     }
 }
 
-/// Finds a control character in text for programs. Names are exempt: they are not printed, and old ones may contain such bytes.
+/// Finds a control character in a text that is printed. `Name` is not checked: it is not printed, and old forms may have such characters
+/// in it.
 fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> {
     use CommandId::{Comment, Eob, Mod, Replace};
     if !matches!(id, Comment | Eob | Mod | Replace) {
@@ -128,7 +129,7 @@ fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> 
     args.iter().find_map(|arg| Some((arg, arg.text.chars().find(|&c| c.is_control() && c != '\t')?)))
 }
 
-/// Does the name look like a letter format? A letter is followed by nothing that belongs to a name.
+/// Whether the name looks like a letter format: a letter that is not followed by another letter of a name.
 fn is_like_a_format(name: &str) -> bool {
     let mut bytes = name.bytes();
     bytes.next().is_some_and(|b| b.is_ascii_alphabetic())

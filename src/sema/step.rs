@@ -1,4 +1,4 @@
-//! Parts of a sequence: lines, and the directives that select them.
+//! The steps of a sequence: lines that print, and directives.
 
 use std::ops::Range;
 
@@ -7,23 +7,23 @@ use super::property::Target;
 use crate::lang::Each;
 use crate::span::Span;
 
-/// A part of a sequence.
+/// A step of a sequence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// Lines of the sequence that print.
     Lines(Range<usize>),
-    /// The first arm with a true condition prints; if there is none, nothing prints.
+    /// Branches. The steps of the first arm with a true condition print. If no condition is true, nothing prints.
     If(Vec<Arm>),
-    /// The steps print once for each item.
+    /// A list. The steps print once for each item.
     For(Each, Vec<Step>, Span),
-    /// Sets a variable or property for everything after it.
+    /// Sets a variable or property. The value applies to everything after it.
     Set(Target, Formula, Span),
 }
 
-/// A branch.
+/// A branch of an `@if`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arm {
-    /// The directive.
+    /// Location of the directive.
     pub span: Span,
     /// Condition of the arm; `None` for `@else`.
     pub condition: Option<Formula>,
@@ -51,7 +51,7 @@ pub fn line_counts(steps: &[Step]) -> (usize, usize) {
     both
 }
 
-/// Calls `take` for every step, and then for the steps inside it.
+/// Calls `take` for every step, each followed by the steps inside it.
 pub fn each_step<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Step)) {
     for step in steps {
         take(step);
@@ -63,7 +63,7 @@ pub fn each_step<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Step)) {
     }
 }
 
-/// Calls `take` for all formulas of the steps, with the location of the directive.
+/// Calls `take` for all formulas of the steps, each with the location of its directive.
 pub fn each_formula<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Formula, Span)) {
     each_step(steps, &mut |step| match step {
         Step::Lines(_) | Step::For(..) => {}
@@ -76,7 +76,7 @@ pub fn each_formula<'a>(steps: &'a [Step], take: &mut dyn FnMut(&'a Formula, Spa
     });
 }
 
-/// The first list in the steps, if there is one.
+/// The first `@for` in the steps, if there is one.
 pub fn first_list(steps: &[Step]) -> Option<(Each, Span)> {
     steps.iter().find_map(|step| match step {
         Step::For(each, _, span) => Some((*each, *span)),

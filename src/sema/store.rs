@@ -1,17 +1,17 @@
-//! Setting of fields by their type: how each type takes the arguments of its command.
+//! How a field of the settings is set from the arguments of a command, for each type of field.
 
 use super::args::{Arguments, Read, bad, whole};
 use super::code::Code;
 use crate::control::{self, Control};
 use crate::lang::Args;
 
-/// A field that a command sets.
+/// A field of the settings that a command sets.
 pub trait Setting {
-    /// Sets the field from the arguments. Their number was checked against the command's row.
+    /// Sets the field from the arguments. Their number is already checked.
     fn set(&mut self, args: &Arguments) -> Read<()>;
 }
 
-/// A field that has no value without its command.
+/// A field that has no value if its command is missing.
 impl<T: Setting + Default> Setting for Option<T> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let mut value = T::default();
@@ -28,7 +28,7 @@ impl Setting for bool {
     }
 }
 
-/// A control by its name. A control that a file describes is stored before the commands are read.
+/// A control, by its name. If a file describes the control, it is stored before the commands are read.
 impl Setting for Option<&'static Control> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let name = args.text().to_ascii_lowercase();
@@ -56,7 +56,7 @@ impl Setting for String {
     }
 }
 
-/// Texts of a command that repeats.
+/// The texts of a command that may be repeated.
 impl Setting for Vec<String> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         self.push(args.text());
@@ -75,7 +75,7 @@ impl Setting for f64 {
     }
 }
 
-/// Numbers of codes. If fewer codes are given, the last fields keep their values.
+/// Numbers of codes. If there are fewer codes than numbers, the last numbers keep their values.
 impl<const N: usize> Setting for [f64; N] {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         for (slot, code) in self.iter_mut().zip(args.codes()?) {
@@ -85,7 +85,7 @@ impl<const N: usize> Setting for [f64; N] {
     }
 }
 
-/// Codes, with or without their letters.
+/// Codes, which may be written with or without letters.
 impl Setting for Vec<control::Code> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = args.codes()?.iter().map(|code| code.code).collect();
@@ -114,7 +114,7 @@ impl Setting for u8 {
     }
 }
 
-/// Letters. A command that repeats adds letters.
+/// Letters. If the command is repeated, its letters are added.
 impl Setting for Vec<u8> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         self.extend(args.letters()?);
@@ -122,7 +122,7 @@ impl Setting for Vec<u8> {
     }
 }
 
-/// Pairs of letters of a command that repeats.
+/// A pair of letters. If the command is repeated, another pair is added.
 impl Setting for Vec<(u8, u8)> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let letters = args.letters()?;
@@ -131,7 +131,7 @@ impl Setting for Vec<(u8, u8)> {
     }
 }
 
-/// Columns.
+/// Columns of a line, in ascending order.
 impl Setting for Vec<usize> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = args.all.iter().map(|arg| whole(arg, 1, 200).map(|n| n as usize)).collect::<Read<_>>()?;

@@ -1,4 +1,4 @@
-//! Checks of `@set` in Upon sequences: conditions are evaluated before the Upon runs.
+//! Checks `@set` in Upon sequences.
 
 use super::model::Form;
 use super::property::Target;
@@ -6,8 +6,8 @@ use super::step::{Step, each_formula, each_step};
 use crate::diag::{Code, Diag};
 use crate::span::Span;
 
-/// Reports conditions of a sequence that depend on a value set in an Upon. A sequence selects its branches before the Upons in
-/// front of it run, so it would use the old value.
+/// Reports conditions of a sequence that depend on a value that an Upon sets. A sequence selects its branches before the Upons
+/// in front of it run, so the condition would use the old value.
 pub(super) fn check(form: &Form, diags: &mut Vec<Diag>) {
     let mut set: Vec<(Target, Span, &'static str)> = Vec::new();
     for upon in &form.upons {

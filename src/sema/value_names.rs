@@ -1,9 +1,9 @@
-//! Names of values in conditions: `through` of `[cool]`, `cw` of `[direct]`.
+//! The names of values in conditions, such as `through` for `[cool]` and `cw` for `[direct]`.
 
 use super::settings::Settings;
 use crate::lang::VarId;
 
-/// The names of a variable's values, with the number of each.
+/// The names of a variable's values, each with its number.
 pub fn names_of(var: VarId, settings: &Settings) -> Vec<(&'static str, f64)> {
     let table = |names: &[&'static str], values: &[f64]| names.iter().copied().zip(values.iter().copied()).collect();
     match var {

@@ -1,4 +1,4 @@
-//! Words of a line: resolves variables, joins texts and reports errors.
+//! Analyses the words of a line: resolves variables, joins texts and reports errors.
 
 use super::expression::number;
 use super::formula::Formula;
@@ -12,7 +12,7 @@ use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
 use crate::terminal::steers;
 
-/// Resolves the words of a body line.
+/// Analyses the words of one line of a sequence.
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     let (codes, remark) = body.words.split_at(before_remark(&body.words, context.comment));
     let mut words = Vec::new();
@@ -42,7 +42,7 @@ pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
     Line { span: body.line.span, words }
 }
 
-/// Finds a statement of the control's own language: `IF [#1 GT 2] GOTO 5`, `WHILE [#1 LT 5] DO1`.
+/// Finds a statement in the control's own language, such as `IF [#1 GT 2] GOTO 5` or `WHILE [#1 LT 5] DO1`.
 fn statement(words: &[syntax::Word]) -> Option<Span> {
     let text = |word: &syntax::Word| match word.pieces.first() {
         Some(Piece { kind: PieceKind::Stray(text), .. }) => text.to_ascii_uppercase(),
@@ -53,8 +53,8 @@ fn statement(words: &[syntax::Word]) -> Option<Span> {
     asks.then(|| first.span.to(last.span))
 }
 
-/// The number of words before a comment that extends to the end of the block. Words after its mark are comment text, like those
-/// in round brackets: they set nothing, and print whenever the block does.
+/// The number of words before a comment that extends to the end of the block. The words after its mark are text of the comment,
+/// as in round brackets. They set nothing and print whenever the block prints.
 pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
     let [open, close] = comment;
     let opens = |word: &syntax::Word| matches!(word.pieces.first(), Some(Piece { kind: PieceKind::Stray(text), .. }) if text.starts_with(open.as_str()));
@@ -63,7 +63,7 @@ pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
 }
 
 fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut Vec<Word>, diags: &mut Vec<Diag>) {
-    // a space is missing only between two words; texts may be joined to variables
+    // two words are printed with a space even if the form has none between them; a text may be joined to a variable without a space
     let glued = previous.is_some_and(|before| !piece.lacks_blank_after(before));
     let kind = match &piece.kind {
         PieceKind::Variable { letter, name } if let Some((row, property)) = property(&name.text, context) => {
@@ -77,7 +77,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
             letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var))
         }
         PieceKind::Expression { letter, expr, .. } => match number(expr, context, diags) {
-            // a name with spaces or in brackets is still only a name
+            // a name with spaces or in brackets is also a single variable
             Some(Formula::Var(var)) => letter.map_or(WordKind::Value(var), |letter| WordKind::Var(letter, var)),
             Some(formula) => WordKind::Formula(*letter, Box::new(formula)),
             None => return,
@@ -128,7 +128,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     words.push(Word { span: piece.span, glued, kind });
 }
 
-/// Resolves a word with a property.
+/// Makes a word that prints a property.
 fn property_word(
     letter: Option<u8>,
     row: u16,
@@ -150,7 +150,7 @@ fn property_word(
     }
 }
 
-/// Resolves a text with its width; reports an invalid width.
+/// Reads the name of a text of the job and its width. Reports an invalid width.
 fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     let var = TextVar::parse(&name.text);
     if var.is_none() {
@@ -164,8 +164,8 @@ fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     var
 }
 
-/// Checks that a text of the job outside comments follows text of the form. Otherwise a name like M30 would be read as a code. A
-/// space, a point or the slash of block delete before it is not sufficient.
+/// Checks that a text of the job outside a comment follows text of the form. Otherwise the control could read a name such as M30
+/// as a code. A space, a point or the slash of block delete is not sufficient.
 fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     let holds = |piece: &Piece| match &piece.kind {
         PieceKind::Stray(text) | PieceKind::Quote(text) => !text.trim_matches([' ', '/', '.']).is_empty(),
@@ -203,13 +203,13 @@ fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Builds a comment of the program: text and values.
+/// Builds a comment of the program from text and values.
 struct Note<'a> {
     span: Span,
     glued: bool,
     text: String,
     words: &'a mut Vec<Word>,
-    /// Index of its first word.
+    /// Index of the comment's first word.
     begin: usize,
 }
 
@@ -218,7 +218,7 @@ impl<'a> Note<'a> {
         Note { span, glued, text: String::new(), begin: words.len(), words }
     }
 
-    /// Adds a word of the comment that is not plain text.
+    /// Adds a word of the comment that is not literal text.
     fn push(&mut self, span: Span, kind: WordKind) {
         self.end();
         self.words.push(Word { span, glued: self.glued, kind });
@@ -276,14 +276,14 @@ impl<'a> Note<'a> {
         }
     }
 
-    /// Adds a comment in round brackets. If it is not closed, the form's mark closes it.
+    /// Adds a comment in round brackets. If the comment is not closed in the form, it ends with the form's closing mark.
     fn brackets(&mut self, parts: &[Piece], closed: bool, context: &Context, diags: &mut Vec<Diag>) {
         self.text.push('(');
         self.pieces(parts, context, diags);
         self.text.push_str(if closed { ")" } else { &context.comment[1] });
     }
 
-    /// Completes the comment.
+    /// Ends the comment.
     fn finish(mut self) {
         self.end();
         let words = &self.words[self.begin..];
@@ -293,7 +293,7 @@ impl<'a> Note<'a> {
         }
     }
 
-    /// Makes a word of the text so far.
+    /// Converts the text collected so far to a word.
     fn end(&mut self) {
         if !self.text.is_empty() {
             let text = WordKind::Note(std::mem::take(&mut self.text));
@@ -303,7 +303,7 @@ impl<'a> Note<'a> {
     }
 }
 
-/// Checks a text that is printed as typed: reports one that is certainly a mistake.
+/// Checks a text that is printed as written. Reports a text that is certainly a mistake.
 fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     if text.contains(['[', ']', '<', '>']) {
         diags.push(
@@ -328,14 +328,14 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Checks text in backquotes only for invisible characters.
+/// Checks text in backquotes. Only invisible characters are errors.
 fn check_quote(text: &str, span: Span, diags: &mut Vec<Diag>) {
     if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
         diags.push(invisible(c, span));
     }
 }
 
-/// Is a character invisible, or does it look like a space?
+/// Whether a character is invisible or looks like a space.
 fn is_invisible(c: char) -> bool {
     steers(c) || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
 }

@@ -1,13 +1,13 @@
-//! Collects the sheet of a job from its contents.
+//! Collects the data of the setup sheet from a job.
 
 use super::{OperationRow, SetupSheet, StopRow, ToolRow, Work};
 use crate::survey::{Reach, Survey, Totals};
 use crate::toolpath::{Event, FeedMode, Flow, Given, Place, Sink, Start, StopKind, Tool, Units};
 
-/// Collects the head of a job and its stops.
+/// Collects the head of a job and its program stops.
 #[derive(Debug, Default)]
 pub struct Stops {
-    /// The head.
+    /// The head of the job.
     pub start: Option<Start>,
     stops: Vec<StopRow>,
     tool: Option<f64>,
@@ -42,8 +42,8 @@ fn json(value: &Given) -> serde_json::Value {
     }
 }
 
-/// The rows from the job; the caller adds the data of program, machine and files. `by_diameter`: `None` for a mill; for a
-/// lathe, whether X of its programs is a diameter.
+/// The rows that come from the job. The caller adds the data of the program, the machine and the files.
+/// `by_diameter`: on a lathe, whether X of its programs is a diameter; `None` for a mill.
 pub fn of_job(
     survey: &Survey,
     stops: Stops,
@@ -54,7 +54,7 @@ pub fn of_job(
         let [first, second, third] = reach.0.map(|range| range.map(|(least, most)| [least, most]));
         match by_diameter {
             None => [first, second, third],
-            // in a lathe's job, Z is first and the radius second
+            // in a job for a lathe, the first axis is Z and the second is the radius
             Some(by_diameter) => {
                 let scale = if by_diameter { 2.0 } else { 1.0 };
                 [second.map(|ends| ends.map(|end| end * scale)), None, first]

@@ -1,4 +1,4 @@
-//! The sheet as a self-contained page: A4 and Letter, light and dark on the screen, black on paper.
+//! Writes the setup sheet as a self-contained HTML page for A4 and Letter paper: light or dark on the screen, black on paper.
 
 use super::{SetupSheet, facts, tables, title};
 
@@ -24,7 +24,7 @@ figure { margin: 0; } figcaption { color: var(--quiet); }
 }
 ";
 
-/// The sheet as HTML. It loads nothing from other sites, and text of the job is never executed.
+/// The setup sheet as HTML. The page loads nothing from other sites, and never executes text of the job.
 pub fn html(sheet: &SetupSheet) -> String {
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>{0}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<dl>\n",

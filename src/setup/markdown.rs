@@ -1,8 +1,8 @@
-//! The sheet as Markdown.
+//! Writes the setup sheet as Markdown.
 
 use super::{SetupSheet, facts, tables, title};
 
-/// The sheet as Markdown, without pictures.
+/// The setup sheet as Markdown, without pictures.
 pub fn markdown(sheet: &SetupSheet) -> String {
     let mut text = format!("# {}\n\n", cell(&title(sheet)));
     for [what, value] in facts(sheet) {
@@ -25,7 +25,7 @@ pub fn markdown(sheet: &SetupSheet) -> String {
     text
 }
 
-/// A text in a table, escaped so that it ends no cell and forms no markup.
+/// A text for a cell of a table. It is escaped so that it neither ends the cell nor forms Markdown.
 fn cell(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

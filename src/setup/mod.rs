@@ -1,4 +1,4 @@
-//! The setup sheet: everything that a machinist loads, touches off and checks before a job runs, on one page.
+//! The setup sheet: one page with everything that a machinist loads, touches off and checks before a job runs.
 
 mod collect;
 mod html;
@@ -14,14 +14,14 @@ use sha2::{Digest, Sha256};
 use crate::machine::Machine;
 use crate::preflight::Times;
 
-/// The contents of the page. Lengths are in `units`, feeds in units per minute or per revolution, as in the job.
+/// The contents of the sheet. As in the job, lengths are in `units`, and feeds are in units per minute or per revolution.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SetupSheet {
     /// Name of the job.
     pub name: Option<String>,
     /// Name or number of the part.
     pub part: Option<String>,
-    /// Its material.
+    /// Material of the part.
     pub material: Option<String>,
     /// Number of the program.
     pub program: Option<u32>,
@@ -29,32 +29,32 @@ pub struct SetupSheet {
     pub date: Option<String>,
     /// The control of the program.
     pub control: String,
-    /// The form that printed it.
+    /// The name of the form that printed the program.
     pub form: String,
     /// `mm` or `inch`.
     pub units: &'static str,
-    /// The meaning of X on a lathe: radius or diameter. `None`: the job is for a mill.
+    /// On a lathe, whether X of the program is a radius or a diameter. `None`: the job is for a mill.
     pub x: Option<&'static str>,
-    /// The verdict on the program.
+    /// The result of verifying the program against the job.
     pub verdict: String,
-    /// The machine, and whether the program fits into it, one sentence each.
+    /// The machine, and the results of the check whether the program fits into it, one sentence each.
     pub machine: Vec<String>,
-    /// Work offsets, with the extents of the cuts in them.
+    /// Work offsets, each with the extents of its cuts.
     pub works: Vec<Work>,
     /// Tools in the order of their first use.
     pub tools: Vec<ToolRow>,
-    /// Operations in their order.
+    /// Operations in the order of the job.
     pub operations: Vec<OperationRow>,
-    /// Stops of the program, with the comment before each in the job.
+    /// Program stops, each with the comment before it in the job.
     pub stops: Vec<StopRow>,
-    /// Minutes of all cuts; without rapids, dwells and tool changes.
+    /// Minutes of all cuts. Rapids, dwells and tool changes are not included.
     pub minutes: Option<f64>,
-    /// Time of the program on the machine with its accelerations, in seconds; `None`: the accelerations are unknown.
+    /// Times of the program on the machine, calculated with its accelerations; `None`: the accelerations are unknown.
     #[serde(serialize_with = "seconds")]
     pub times: Option<Times>,
-    /// SHA-256 of job, form, control, machine and program.
+    /// SHA-256 hashes of job, form, control, machine and program, each with the name of its file.
     pub hashes: Vec<[String; 2]>,
-    /// Pictures as SVG, each with its caption.
+    /// Pictures as SVG, each with a caption.
     #[serde(skip)]
     pub pictures: Vec<[String; 2]>,
 }
@@ -66,7 +66,7 @@ impl SetupSheet {
         self.hashes.push([name, digits]);
     }
 
-    /// Adds values of the tools from the machine's table: lengths, and names that the job lacks.
+    /// Adds values from the machine's tool table: lengths, and names of tools for which the job has no name.
     pub fn take_tools(&mut self, machine: &Machine) {
         let Some(table) = &machine.tools else { return };
         let scale = if self.units == "inch" { 25.4 } else { 1.0 };
@@ -95,47 +95,47 @@ fn seconds<S: serde::Serializer>(times: &Option<Times>, serializer: S) -> Result
 /// A work offset.
 #[derive(Clone, Debug, Serialize)]
 pub struct Work {
-    /// Its name in the program.
+    /// Name of the offset in the program.
     pub name: String,
-    /// Least and greatest X, Y, Z of the cuts; on a lathe, X as its programs write it, and no Y.
+    /// Least and greatest X, Y, Z of the cuts. On a lathe, X is a radius or a diameter as in the program, and Y is `None`.
     pub cuts: [Option<[f64; 2]>; 3],
-    /// The same for cuts and rapids.
+    /// Least and greatest X, Y, Z of cuts and rapids.
     pub moves: [Option<[f64; 2]>; 3],
 }
 
-/// A tool.
+/// A row of the tool list.
 #[derive(Clone, Debug, Serialize)]
 pub struct ToolRow {
-    /// Its number.
+    /// Number of the tool.
     pub number: f64,
-    /// Its name.
+    /// Name of the tool.
     pub name: Option<String>,
-    /// Its diameter.
+    /// Diameter of the tool.
     pub diameter: Option<f64>,
-    /// Its corner radius.
+    /// Corner radius of the tool.
     pub corner_radius: Option<f64>,
-    /// Its length register.
+    /// Length register of the tool.
     pub length_register: Option<f64>,
-    /// Its diameter register.
+    /// Diameter register of the tool.
     pub diameter_register: Option<f64>,
-    /// Its length in the machine, in the job's units.
+    /// Length of the tool in the machine, in the job's units.
     pub length: Option<f64>,
-    /// Its comment in the job.
+    /// Comment about the tool in the job.
     pub comment: Option<String>,
-    /// Further values in the job, under their own names.
+    /// Further values of the tool in the job, with the names that they have there.
     pub data: serde_json::Map<String, serde_json::Value>,
-    /// Names of its operations.
+    /// Names of the operations that use the tool.
     pub operations: Vec<String>,
-    /// The lowest Z of its cuts.
+    /// The lowest Z of the tool's cuts.
     pub lowest: Option<f64>,
-    /// Minutes of its cuts, with the machine's accelerations if they are known.
+    /// Minutes of the tool's cuts, calculated with the machine's accelerations if they are known.
     pub minutes: Option<f64>,
-    /// Seconds from its tool change to the next one, on the machine.
+    /// Seconds on the machine from the change to the tool until the next tool change.
     pub seconds: Option<f64>,
 }
 
 impl ToolRow {
-    /// Its registers, with its length in the machine.
+    /// The tool's registers as text, with the length of the tool in the machine.
     fn registers(&self) -> String {
         let length = self.length.map_or(String::new(), |length| format!(" = {}", short(length)));
         let of = |letter: char, register: Option<f64>| Some(format!("{letter}{}", short(register?)));
@@ -144,7 +144,7 @@ impl ToolRow {
         if both.is_empty() { "-".into() } else { both.join(", ") }
     }
 
-    /// Its comment and its data, as text for the reader.
+    /// The tool's comment and further values, as text.
     fn remark(&self) -> String {
         let data = self.data.iter().map(|(name, value)| {
             let text = value.as_str().map(str::to_owned).or_else(|| value.as_f64().map(short));
@@ -155,30 +155,30 @@ impl ToolRow {
     }
 }
 
-/// An operation.
+/// A row of the list of operations.
 #[derive(Clone, Debug, Serialize)]
 pub struct OperationRow {
-    /// Its name.
+    /// Name of the operation.
     pub name: Option<String>,
-    /// Its tool.
+    /// Tool of the operation.
     pub tool: Option<f64>,
-    /// Its work offset.
+    /// Work offset of the operation.
     pub work: String,
-    /// The spindle speed at its beginning: revolutions per minute, or a surface speed in its unit.
+    /// The spindle speed at the beginning of the operation: revolutions per minute, or a surface speed in its unit.
     pub speed: Option<f64>,
-    /// Set if the speed is a surface speed: the limit of the spindle speed, or 0 without a limit.
+    /// If the speed is a surface speed: the limit of the spindle speed, or 0 without a limit. Otherwise `None`.
     pub surface: Option<f64>,
-    /// The feed at its beginning.
+    /// The feed at the beginning of the operation.
     pub feed: Option<f64>,
     /// The unit of the feed: `per_minute`, `per_rev` or `inverse_time`.
     pub feed_mode: &'static str,
-    /// Holes of its cycles.
+    /// Number of holes made by canned cycles in the operation.
     pub holes: u64,
-    /// Length of its cuts.
+    /// Length of the cuts of the operation.
     pub length: f64,
-    /// The lowest Z of its cuts.
+    /// The lowest Z of the cuts of the operation.
     pub lowest: Option<f64>,
-    /// Minutes of its cuts, with the machine's accelerations if they are known.
+    /// Minutes of the cuts of the operation, calculated with the machine's accelerations if they are known.
     pub minutes: Option<f64>,
 }
 
@@ -203,18 +203,18 @@ impl OperationRow {
     }
 }
 
-/// A stop.
+/// A program stop.
 #[derive(Clone, Debug, Serialize)]
 pub struct StopRow {
-    /// `M0` always stops, `M1` stops only if the operator has switched it on.
+    /// Whether the stop is optional: `M0` always stops, `M1` stops only if the operator has switched optional stops on.
     pub optional: bool,
     /// The tool in the spindle.
     pub tool: Option<f64>,
-    /// The comment before it in the job.
+    /// The comment before the stop in the job.
     pub comment: Option<String>,
 }
 
-/// A number without needless zeros, for people.
+/// A number with at most four decimals and without trailing zeros.
 fn short(value: f64) -> String {
     format!("{}", (value * 1e4).round() / 1e4 + 0.0)
 }
@@ -227,19 +227,19 @@ fn maybe(value: Option<f64>) -> String {
     value.map_or("-".into(), short)
 }
 
-/// Minutes in a readable form.
+/// A time in minutes, as text.
 fn time(minutes: Option<f64>) -> String {
     minutes.map_or("not known".into(), crate::nc::clock)
 }
 
-/// A table with its head, for both kinds of page.
+/// A table with its column titles. The HTML page and the Markdown text both use it.
 struct Table {
     title: &'static str,
     head: Vec<&'static str>,
     rows: Vec<Vec<String>>,
 }
 
-/// The tables of the page.
+/// The tables of the sheet.
 fn tables(sheet: &SetupSheet) -> Vec<Table> {
     let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".into());
     let axes: &[usize] = if sheet.x.is_some() { &[0, 2] } else { &[0, 1, 2] };
@@ -303,7 +303,7 @@ fn tables(sheet: &SetupSheet) -> Vec<Table> {
     tables
 }
 
-/// The lines at the head of the page.
+/// The lines at the head of the sheet.
 fn facts(sheet: &SetupSheet) -> Vec<[String; 2]> {
     let mut facts = Vec::new();
     let mut say = |what: &str, value: Option<String>| {
@@ -337,7 +337,7 @@ fn facts(sheet: &SetupSheet) -> Vec<[String; 2]> {
     facts
 }
 
-/// The title of the page.
+/// The title of the sheet.
 fn title(sheet: &SetupSheet) -> String {
     sheet.name.clone().or_else(|| sheet.part.clone()).unwrap_or_else(|| "Setup sheet".into())
 }

@@ -1,27 +1,28 @@
-//! The path of the tool's centre while the control compensates its radius (G41, G42).
+//! Calculates the path of the tool's centre while the control compensates the tool radius (G41, G42).
 
 use crate::toolpath::Side;
 
 use super::sweep::Shape;
 
-/// At sharper corners (1 plus the cosine of the change of direction) the control moves around the corner and not to a point.
+/// If 1 plus the cosine of the change of direction is at most this value, the corner is sharp: the tool moves around
+/// it, and not to the point where the offset paths meet.
 const SHARP: f64 = 0.25;
 
-/// A straight piece of the path of a tool.
+/// A straight piece of the path of a tool, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// Start, X Y Z in millimetres.
     pub from: [f64; 3],
-    /// End.
+    /// End, X Y Z in millimetres.
     pub to: [f64; 3],
-    /// The tool.
+    /// The shape of the tool.
     pub shape: Shape,
-    /// The side on which the tool is beside the programmed path; `None`: its centre is on the path.
+    /// The side of the programmed path on which the tool is; `None`: the centre of the tool is on the path.
     pub side: Option<Side>,
 }
 
 impl Piece {
-    /// The unit vector to the left in X and Y; `None` for a piece without motion in X and Y.
+    /// The unit vector in X and Y that points to the left of the piece; `None`: the piece does not move in X or Y.
     fn left(&self) -> Option<[f64; 2]> {
         let [dx, dy] = [0, 1].map(|axis| self.to[axis] - self.from[axis]);
         let length = dx.hypot(dy);
@@ -29,22 +30,22 @@ impl Piece {
     }
 }
 
-/// Moves the path beside the program's. A compensated piece is passed on when the next one is known, because its end depends
-/// on both.
+/// Offsets the programmed path by the tool radius. A compensated piece is returned only after the next piece is known,
+/// because its end depends on both.
 #[derive(Clone, Debug, Default)]
 pub struct Centre {
-    /// The last compensated piece as programmed, and the start of its centre.
+    /// The last compensated piece as programmed, and the position of the tool's centre at its start.
     waits: Option<(Piece, [f64; 3])>,
 }
 
 impl Centre {
-    /// Takes the next piece and returns the pieces whose path is known, in their order.
+    /// Adds the next piece and returns the pieces whose path is known now, in their order.
     pub fn takes(&mut self, piece: Piece) -> [Option<Piece>; 2] {
         let begins_there = self.waits.is_some_and(|(last, _)| last.to == piece.from);
         let before = self.ends(Some(&piece).filter(|piece| begins_there && piece.side.is_some()));
         let from = before.filter(|_| begins_there).map_or(piece.from, |before| before.to);
         if piece.side.is_none() {
-            // a retract goes straight up from where the tool is
+            // a move along Z goes straight up or down from the current position of the tool
             let to = if piece.left().is_none() { [from[0], from[1], piece.to[2]] } else { piece.to };
             return [before, Some(Piece { from, to, ..piece })];
         }
@@ -52,7 +53,7 @@ impl Centre {
         [before, None]
     }
 
-    /// The piece that waits for the next one, which is `next` if it is compensated, too.
+    /// Ends the waiting piece and returns it. `next` is the piece after it, if that one is compensated, too.
     pub fn ends(&mut self, next: Option<&Piece>) -> Option<Piece> {
         let (piece, from) = self.waits.take()?;
         let sign = if piece.side == Some(Side::Left) { 1.0 } else { -1.0 };

@@ -1,4 +1,4 @@
-//! Runs a program in its stock.
+//! Checks a program against its stock.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Read, Seek};
@@ -14,33 +14,33 @@ use crate::preflight::JobTool;
 use crate::toolpath::{Side, Units};
 use crate::verify::Finding;
 
-/// Maximum number of findings; further rapids are only counted.
+/// Maximum number of findings. Further rapids through the stock are only counted.
 const MOST_FINDINGS: usize = 100;
-/// Greatest deviation of a piece from its arc, in millimetres.
+/// Greatest distance of a piece from the arc that it approximates, in millimetres.
 const ERROR: f64 = 0.02;
 
 /// The result of a check.
 #[derive(Clone, Debug, Default)]
 pub struct StockCheck {
-    /// Rapids through the stock, at most a hundred: one finding for each block.
+    /// Rapids through the stock: one finding for each block, at most one hundred.
     pub findings: Vec<Finding>,
     /// Number of blocks with a rapid through the stock.
     pub blocks: usize,
-    /// What was not checked, a sentence each. Empty: every move was checked.
+    /// What was not checked, one sentence for each reason. Empty: every move was checked.
     pub not_checked: Vec<String>,
-    /// The program uses cutter compensation: it is assumed to compensate the radius of the tool.
+    /// Whether the program uses cutter compensation. It is then assumed that the control compensates the whole radius of the tool.
     pub compensates: bool,
 }
 
 impl StockCheck {
-    /// Was every move checked, without a finding?
+    /// Whether every move was checked and no rapid goes through the stock.
     pub fn is_clean(&self) -> bool {
         self.blocks == 0 && self.not_checked.is_empty()
     }
 }
 
-/// Runs a program and looks for rapids through the stock. `block` is in millimetres; `tools` are those of the job. `units` are
-/// those of the messages.
+/// Runs a program and finds rapids through the stock. `block` is the stock in millimetres, `tools` are the tools of the
+/// job, `units` are the units of the messages.
 ///
 /// # Errors
 /// The program can't be read.
@@ -77,12 +77,12 @@ pub fn check_stock(
     Ok(check.finish())
 }
 
-/// What could not be checked.
+/// The reason why a move is not checked.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Missing {
-    /// A tool without a diameter.
+    /// The tool with this number has no diameter.
     Diameter(u32),
-    /// A tool that is thinner than the cells.
+    /// The tool with this number is thinner than the cells of the stock.
     Thin(u32),
     /// The tool in the spindle is unknown.
     Tool,
@@ -90,39 +90,40 @@ enum Missing {
     Position,
     /// A rotary axis is not at zero.
     Rotary,
-    /// The spindle is stopped at an angle: a bar may be moved away from its wall.
+    /// The spindle is stopped at an angle: a boring bar may be moved away from the wall of its hole.
     Oriented,
-    /// The program was refused at a line.
+    /// The moves after a block that the control refuses: the line of the block, and the reason.
     After(u64, String),
 }
 
-/// The state of a check while the program runs. Lengths are millimetres.
+/// The state of the check while the program runs. Lengths are in millimetres.
 struct Check<'a> {
     stock: &'a Stock,
     tools: &'a [JobTool],
     units: Units,
-    /// The stock in each work offset, from the first move below its top.
+    /// The stock in each work offset. It is added at the first move below its top.
     fields: BTreeMap<usize, Field>,
     /// Position of the tip in its work offset; NaN if unknown.
     at: [f64; 3],
-    /// The same position as the program counts it, in its units.
+    /// The same position in program coordinates and the program's units.
     from: Position,
     tool: Option<u32>,
     side: Option<Side>,
     is_oriented: bool,
-    /// The height is unknown, but it is not the machine's own: the work offset was changed below the top of the stock.
+    /// Whether the tool may be below the top of the stock at an unknown height. True after a change of the work offset
+    /// below the top.
     may_be_low: bool,
     centre: Centre,
-    /// Number of the work offset in force.
+    /// Number of the active work offset.
     work: usize,
     checked: StockCheck,
-    /// What was not checked, with the first line and the number of moves.
+    /// What was not checked: the line of the first such move, and the number of moves.
     missing: BTreeMap<Missing, (u64, u64)>,
     /// Lines of the blocks with a finding.
     lines: BTreeSet<u64>,
 }
 
-/// How a move is made.
+/// The kind of a move.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Rapid,
@@ -138,7 +139,7 @@ impl<'a> Check<'a> {
             fields: BTreeMap::new(),
             at: [f64::NAN; 3],
             from: Position::default(),
-            // a program without tool changes uses the only tool of its job
+            // a program without tool changes is checked with the only tool of its job
             tool: match tools {
                 [tool] => Some(tool.number),
                 _ => None,
@@ -159,7 +160,7 @@ impl<'a> Check<'a> {
             let line = (item.line, run.text());
             match &item.action {
                 Action::Rapid { to, machine, placed, .. } => {
-                    // G28 and G53 lift the tool; after a change of the work offset it may still be low
+                    // G28 and G53 lift the tool; without them, the tool may still be low after a change of the work offset
                     self.may_be_low &= placed & 0b100 == 0;
                     self.goes(Kind::Rapid, to, *machine, None, line, run);
                 }
@@ -180,7 +181,7 @@ impl<'a> Check<'a> {
                 _ => {}
             }
         }
-        // frames and lengths move the tip's coordinates without a move
+        // a changed frame or tool length changes the coordinates of the tip without a move
         self.at = in_stock(run.state().position(), run.state().at_machine(), run);
     }
 
@@ -209,7 +210,7 @@ impl<'a> Check<'a> {
         } else if self.may_be_low {
             return self.not_checked(Missing::Position, line.0);
         }
-        // an unknown height is over everything, because it is the machine's own
+        // an unknown height counts as above the stock, because it is a position of the machine
         let heights = [from[2], to_stock[2]].into_iter().chain(points.iter().map(|at| at[2]));
         let low = heights.filter(|z| z.is_finite()).fold(f64::INFINITY, f64::min);
         if low >= self.stock.top {
@@ -232,7 +233,7 @@ impl<'a> Check<'a> {
         if self.is_oriented && kind == Kind::Rapid {
             return self.not_checked(Missing::Oriented, line.0);
         }
-        // from an unknown height, the tool comes down on a vertical line
+        // from an unknown height, the tool moves straight down
         let above = if from[2].is_finite() { from[2] } else { to_stock[2].max(self.stock.top) };
         let from = [from[0], from[1], above];
         let side = self.side.filter(|_| kind == Kind::Cut);
@@ -241,7 +242,7 @@ impl<'a> Check<'a> {
             let piece = Piece { from: std::mem::replace(&mut begin, to), to, shape, side };
             let ready = check.centre.takes(piece);
             ready.into_iter().flatten().enumerate().for_each(|(at, piece)| {
-                // a piece that waited is a cut
+                // a piece that was waiting for the next one is a cut
                 let kind = if at == 0 && piece.side.is_some() { Kind::Cut } else { kind };
                 check.makes(kind, &piece, line);
             });
@@ -250,7 +251,7 @@ impl<'a> Check<'a> {
         piece(self, to_stock);
     }
 
-    /// A piece whose path is known: a cut changes the stock, a rapid is compared with it.
+    /// Handles a piece whose path is known: a cut removes material from the stock, a rapid is checked against the stock.
     fn makes(&mut self, kind: Kind, piece: &Piece, (line, block): (u64, &[u8])) {
         let field = self.fields.entry(self.work).or_insert_with(|| Field::new(self.stock));
         if kind == Kind::Cut {
@@ -258,7 +259,7 @@ impl<'a> Check<'a> {
         }
         let Some(hit) = field.hit(piece.shape, piece.from, piece.to) else { return };
         if !self.lines.insert(line) {
-            // the block runs again, in a subprogram or a loop
+            // the block is run again, in a subprogram or in a loop
             if let Some(known) = self.checked.findings.iter_mut().find(|known| known.line == line) {
                 known.times += 1;
             }
@@ -289,7 +290,7 @@ impl<'a> Check<'a> {
         });
     }
 
-    /// The shape of the tool in the spindle.
+    /// The shape of the tool in the spindle. If it can't be checked, records the reason.
     fn shape(&mut self, line: u64) -> Option<Shape> {
         let Some(number) = self.tool else {
             self.missing(Missing::Tool, line);
@@ -309,7 +310,7 @@ impl<'a> Check<'a> {
         Some(shape)
     }
 
-    /// A move is left out.
+    /// Records that a move was not checked.
     fn not_checked(&mut self, what: Missing, line: u64) {
         self.missing(what, line);
         self.breaks();
@@ -319,7 +320,7 @@ impl<'a> Check<'a> {
         self.missing.entry(what).or_insert((line, 0)).1 += 1;
     }
 
-    /// The next move does not continue the path: the piece that waits for it is cut.
+    /// The next move does not continue the path: ends the piece that is waiting for it, and cuts this piece.
     fn breaks(&mut self) {
         if let Some(piece) = self.centre.ends(None) {
             self.makes(Kind::Cut, &piece, (0, b""));
@@ -356,7 +357,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// A position in its work offset in millimetres; NaN where only the machine has it.
+/// A position in its work offset, in millimetres. NaN for axes whose position is known only at the machine.
 fn in_stock(at: &Position, machine: u8, run: &Simulator<'_>) -> [f64; 3] {
     let scale = run.state().units().in_mm();
     let place = run.state().in_work_offset(at);

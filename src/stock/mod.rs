@@ -1,8 +1,8 @@
-//! The stock: a block of material that the tools of a program cut. A rapid through it is a finding.
+//! Checks rapids against the stock: a block of material that the tools of a program cut. A rapid through the stock is a finding.
 //!
-//! The stock is a height field: each cell of a grid in X and Y has one height. This describes everything that a mill with
-//! three axes cuts from above. A program is run by the rules of its control, and the moves in each work offset cut their own
-//! block: the same stock is expected in each of them.
+//! The stock is a height field: a grid of cells in X and Y, each with one height. Such a grid can represent every shape
+//! that a mill with three axes cuts from above. A program is run by the rules of its control. Each work offset has its
+//! own copy of the stock, which the moves in this offset cut.
 
 mod centre;
 mod check;

@@ -1,22 +1,22 @@
-//! The size of a stock, as people write it.
+//! Reads the size of a stock from text.
 
 use std::str::FromStr;
 
-/// A block of material in a work offset. Lengths are in the unit of the text until [`Stock::scaled`].
+/// A block of material in a work offset. Lengths are in the unit of the text until [`Stock::scaled`] converts them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stock {
     /// Least X and Y.
     pub least: [f64; 2],
     /// Greatest X and Y.
     pub greatest: [f64; 2],
-    /// Height of the bottom; minus infinity if it is not given.
+    /// Z of the bottom; minus infinity if the text does not contain it.
     pub bottom: f64,
-    /// Height of the top.
+    /// Z of the top.
     pub top: f64,
 }
 
 impl Stock {
-    /// The block in another unit.
+    /// The block with all lengths multiplied by a factor, for another unit.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Stock {
         let Stock { least, greatest, bottom, top } = self;
@@ -34,7 +34,7 @@ const SHAPE: &str = "write the lowest and the highest position of each axis: \"X
 impl FromStr for Stock {
     type Err = String;
 
-    /// Reads `X0..100 Y0..60 Z-20..0`, with spaces or commas between the axes. `Z0` gives only the top.
+    /// Reads `X0..100 Y0..60 Z-20..0`, with spaces or commas between the axes. `Z0` sets only the top.
     fn from_str(text: &str) -> Result<Stock, String> {
         let mut ranges: [Option<[f64; 2]>; 3] = [None; 3];
         for part in text.split([' ', ',']).filter(|part| !part.is_empty()) {
@@ -68,10 +68,10 @@ impl FromStr for Stock {
     }
 }
 
-/// A finite number of a position that a machine can have.
+/// A number that is finite and not farther from zero than `FARTHEST`.
 fn number(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.abs() <= FARTHEST)
 }
 
-/// Farther positions, in any unit, are typing errors.
+/// A position farther from zero than this is a typing error, in any unit.
 const FARTHEST: f64 = 1e6;

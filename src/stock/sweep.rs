@@ -1,23 +1,23 @@
-//! The lowest height of a moving tool over a point.
+//! Calculates the lowest height of a moving tool over a point.
 
-/// A tool that turns about a vertical axis: flat at the bottom, with a rounded corner.
+/// The shape of a rotating tool with a vertical axis: its bottom is flat, with a rounded corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// Radius of the tool in millimetres.
     pub radius: f64,
-    /// Radius of its corner, at most the radius; equal to it: a ball.
+    /// Corner radius of the tool in millimetres. If it equals the radius of the tool, the tool is a ball end mill.
     pub corner: f64,
 }
 
 impl Shape {
-    /// Height of the tool's surface above its tip, at a distance from its axis of at most its radius.
+    /// Height of the tool's surface above its tip at a distance from the axis. The distance is at most the radius of the tool.
     fn rise(self, away: f64) -> f64 {
         let beyond = away - (self.radius - self.corner);
         if beyond <= 0.0 { 0.0 } else { self.corner - (self.corner * self.corner - beyond * beyond).max(0.0).sqrt() }
     }
 
-    /// The lowest height of the tool over a point, while its tip moves straight by `way` from the height `from`; `None` if it
-    /// is never over the point. `x` and `y`: position of the point relative to the start of the tip.
+    /// The lowest height of the tool over a point while its tip moves straight by `way` from the height `from`. `None`:
+    /// the tool is never over the point. `x` and `y` are the position of the point relative to the start of the tip.
     pub fn lowest(self, [x, y]: [f64; 2], from: f64, [dx, dy, dz]: [f64; 3]) -> Option<f64> {
         let length = dx * dx + dy * dy;
         if length == 0.0 {
@@ -30,7 +30,7 @@ impl Shape {
         if room < 0.0 {
             return None;
         }
-        // the part of the way on which the tool is over the point
+        // the part of the move during which the tool is over the point
         let reach = (room / length).sqrt();
         let (first, last) = ((nearest - reach).max(0.0), (nearest + reach).min(1.0));
         if first > last {
@@ -43,7 +43,7 @@ impl Shape {
         if dz == 0.0 {
             return Some(height(nearest.clamp(first, last)));
         }
-        // the height is a convex function of the part: a sum of a line and a rounded corner
+        // as a function of the part of the move, the height is convex: it is the sum of a line and a rounded corner
         let (mut low, mut high) = (first, last);
         for _ in 0..NARROWINGS {
             let third = (high - low) / 3.0;
@@ -57,5 +57,5 @@ impl Shape {
     }
 }
 
-/// Each makes the interval a third shorter: 20 leave a 3000th of the way over a point.
+/// Each step makes the interval a third shorter: after 20 steps, a 3000th of the move over the point is left.
 const NARROWINGS: u32 = 20;

@@ -1,5 +1,5 @@
-//! The contents of a job before it is printed: its tools, operations and work offsets, the extents and the length of its cuts.
-//! Some forms print these before the first move. The job is then read twice, and the first reading makes the survey.
+//! Collects the contents of a job before it is printed: tools, operations and work offsets, the extents and the length of the
+//! cuts. Some forms print these before the first move. The job is then read twice, and the first reading makes the survey.
 
 mod motion;
 mod subprograms;
@@ -18,35 +18,35 @@ use crate::toolpath::{Call, Event, First, Flow, Place, Sink, Spindle, Stop, Tool
 use motion::Motion;
 use subprograms::Subprograms;
 
-/// Values of the form for jobs that lack them.
+/// Values of the form that are used if a job lacks them.
 #[derive(Clone, Debug)]
 pub struct Terms {
-    /// Default values of cycles, for jobs in inches and in millimetres.
+    /// Default values of cycles: the first for jobs in inches, the second for jobs in millimetres.
     pub defaults: [Defaults; 2],
-    /// The work offset of a job without one, as the form numbers it.
+    /// The work offset of a job that names none, in the numbering of the form.
     pub work: f64,
-    /// The number of the first work offset in the form.
+    /// The number that the form uses for the first work offset.
     pub first_work: f64,
-    /// Only the order of the tools is needed; some jobs contain it in their head.
+    /// Whether only the order of the tools is needed. Some jobs contain this order in their head.
     pub only_order: bool,
-    /// The speeds of the machine, for times with its accelerations.
+    /// The speeds of the machine, for calculating times with its accelerations.
     pub rates: Option<Rates>,
 }
 
 /// An operation of the job.
 #[derive(Clone, Debug)]
 pub struct Operation {
-    /// Its tool change; the first move is left out.
+    /// The tool change at the beginning of the operation, without the first move.
     pub begins: ToolChange,
-    /// Its tool: a row of [`Survey::tools`].
+    /// The tool of the operation: an index into [`Survey::tools`].
     pub tool: Option<usize>,
-    /// The tool change before it: a row of [`Survey::changes`].
+    /// The last tool change before the operation: an index into [`Survey::changes`].
     pub change: usize,
-    /// The spindle at its beginning.
+    /// The state of the spindle at the beginning of the operation.
     pub spindle: Spindle,
-    /// The work offset in which it begins.
+    /// The work offset in which the operation begins.
     pub work: f64,
-    /// Sums of its moves.
+    /// Sums of the moves of the operation.
     pub totals: Totals,
 }
 
@@ -55,22 +55,22 @@ pub struct Operation {
 pub struct ToolUse {
     /// The tool.
     pub tool: Tool,
-    /// The operation that uses it first: a row of [`Survey::operations`].
+    /// The operation that uses the tool first: an index into [`Survey::operations`].
     pub first: usize,
-    /// Sums of the moves made with it.
+    /// Sums of the moves with the tool.
     pub totals: Totals,
-    /// Its operations: rows of [`Survey::operations`].
+    /// The operations that use the tool: indexes into [`Survey::operations`].
     pub operations: Vec<usize>,
 }
 
 /// A work offset of the job.
 #[derive(Clone, Debug)]
 pub struct WorkUse {
-    /// The offset, as the form numbers it.
+    /// The offset, in the numbering of the form.
     pub work: f64,
-    /// Sums of the moves made in it.
+    /// Sums of the moves in the offset.
     pub totals: Totals,
-    /// Its operations: rows of [`Survey::operations`].
+    /// The operations in the offset: indexes into [`Survey::operations`].
     pub operations: Vec<usize>,
 }
 
@@ -81,21 +81,21 @@ pub struct Survey {
     pub whole: Totals,
     /// The operations in their order.
     pub operations: Vec<Operation>,
-    /// The tools in the order of their first use, each once.
+    /// The tools in the order of their first use. Each tool is contained once.
     pub tools: Vec<ToolUse>,
-    /// The work offsets in the order of their first use, each once.
+    /// The work offsets in the order of their first use. Each offset is contained once.
     pub works: Vec<WorkUse>,
-    /// The tool numbers in the order of the tool changes, one per change.
+    /// The tool numbers in the order of the tool changes: one number for each change.
     pub changes: Vec<f64>,
 }
 
-/// Makes a survey of the events of a job.
+/// Makes a survey from the events of a job.
 #[derive(Debug)]
 pub struct Surveyor {
     terms: Terms,
     survey: Survey,
     motion: Motion,
-    /// Sums since the operation or the work offset changed.
+    /// Sums since the last change of the operation or the work offset.
     now: Totals,
     work: f64,
     tool_rows: HashMap<u64, usize>,
@@ -104,7 +104,7 @@ pub struct Surveyor {
 }
 
 impl Surveyor {
-    /// A surveyor that has read nothing.
+    /// A surveyor before the first event.
     pub fn new(terms: Terms) -> Surveyor {
         let (defaults, work) = (terms.defaults[0], terms.work);
         Surveyor {
@@ -119,7 +119,7 @@ impl Surveyor {
         }
     }
 
-    /// The survey, after the job has been read.
+    /// Returns the survey. To be called after the last event of the job.
     pub fn finish(mut self) -> Survey {
         self.flush();
         let Survey { operations, works, .. } = &mut self.survey;
@@ -135,7 +135,7 @@ impl Surveyor {
         self.survey.operations.last().and_then(|operation| operation.tool)
     }
 
-    /// Adds the current sums to the job, the operation, the tool and the work offset.
+    /// Adds the current sums to the sums of the job, the operation, the tool and the work offset.
     fn flush(&mut self) {
         self.motion.stop(&mut self.now);
         let now = std::mem::take(&mut self.now);
@@ -145,7 +145,7 @@ impl Surveyor {
         }
     }
 
-    /// Adds moves of the main program in a work offset.
+    /// Adds moves of the main program that are made in a work offset.
     fn add(&mut self, work: f64, mut moves: Totals) {
         if moves.is_still() {
             return;
@@ -196,7 +196,7 @@ impl Surveyor {
             }
         };
         if self.terms.only_order {
-            // nothing else is needed
+            // the order of the tools is all that is needed
             self.survey.operations.clear();
         }
         let begins = ToolChange { first: First::Nothing, ..change.clone() };
@@ -222,7 +222,7 @@ impl Surveyor {
         self.row_of(self.work);
     }
 
-    /// The row of a work offset; a new row at its first use.
+    /// The index of a work offset. A new row is added at its first use.
     fn row_of(&mut self, work: f64) -> usize {
         let works = &mut self.survey.works;
         *self.work_rows.entry(key(work)).or_insert_with(|| {
@@ -231,7 +231,7 @@ impl Surveyor {
         })
     }
 
-    /// Adds the moves of a subprogram; its work offset is that of the call, unless it sets one itself.
+    /// Adds the moves of a subprogram. They are in the work offset of the call, unless the subprogram selects one itself.
     fn call(&mut self, call: &Call) {
         self.flush();
         self.motion.forget_place();

@@ -1,4 +1,4 @@
-//! Measures moves: their extents, their length, their time.
+//! Measures moves: extents, lengths and times.
 
 use super::totals::Totals;
 use crate::cycle::{Defaults, Plan, Step, Steps, plan, thread_passes};
@@ -8,7 +8,7 @@ use crate::toolpath::{
     Arc, Axes, CycleSpec, Direction, Event, FeedMode, Hole, PlaneArc, Spindle, Thread, ToolChange, Units,
 };
 
-/// The position of the tool, and its feed.
+/// The current position of the tool, feed and spindle, from which moves are measured.
 #[derive(Debug)]
 pub struct Motion {
     defaults: Defaults,
@@ -18,24 +18,24 @@ pub struct Motion {
     mode: FeedMode,
     spindle: Spindle,
     cycle: Option<CycleSpec>,
-    /// Height of the cycle's last point.
+    /// Height of the last point of the cycle.
     point: Option<f64>,
-    /// The height to which the cycle returns: its return height above its first point.
+    /// The height to which the cycle returns: the return height of the cycle above its first point.
     return_plane: Option<f64>,
     steps: Steps,
-    /// Quarter parts of an arc.
+    /// The parts of an arc between its quadrant points.
     parts: Vec<f64>,
-    /// Plans the times on axes that accelerate, if the machine is known.
+    /// Calculates times with the accelerations of the axes, if the machine is known.
     planner: Option<Planner>,
-    /// Number of millimetres in a unit of the job.
+    /// Number of millimetres per length unit of the job.
     scale: f64,
 }
 
 impl Motion {
-    /// A motion at an unknown position. `rates`: the speeds of the machine, if known.
+    /// Begins at an unknown position. `rates`: the speeds of the machine, if they are known.
     pub fn new(defaults: Defaults, machine: Machine, units: Units, rates: Option<&Rates>) -> Motion {
         Motion {
-            // a rigid tap goes in and out at its feed, whether a cycle or single moves make it
+            // a rigid tap moves in and out at its feed, in a cycle or in single moves
             defaults: Defaults { rigid: true, ..defaults },
             is_lathe: machine == Machine::Lathe,
             at: Axes::default(),
@@ -52,7 +52,7 @@ impl Motion {
         }
     }
 
-    /// The axes stop: the time of the cuts so far is added.
+    /// Stops the axes, and adds the time of the cuts up to here.
     pub fn stop(&mut self, sums: &mut Totals) {
         if let Some(planner) = &mut self.planner {
             sums.cut(0.0, Some(planner.take().cutting / 60.0));
@@ -64,14 +64,14 @@ impl Motion {
         self.at = Axes::default();
     }
 
-    /// Begins a subprogram: only values that it sets itself are known in it.
+    /// Begins a subprogram. In a subprogram, only the values that it sets itself are known.
     pub fn begin_subprogram(&mut self) {
         self.forget_place();
         self.spindle = Spindle::default();
         (self.feed, self.mode) = (None, FeedMode::PerMinute);
     }
 
-    /// Begins an operation; `fresh`: the tool is another one.
+    /// Begins an operation. `fresh`: the operation has another tool than the one before.
     pub fn operation(&mut self, change: &ToolChange, fresh: bool) {
         if fresh {
             self.spindle = Spindle::default();
@@ -92,7 +92,7 @@ impl Motion {
         };
     }
 
-    /// The spindle, with the values that the job has set so far.
+    /// The state of the spindle, as the job has set it so far.
     pub fn spindle(&self) -> Spindle {
         self.spindle
     }
@@ -102,8 +102,8 @@ impl Motion {
         self.spindle.speed.filter(|_| self.spindle.css != Some(true))
     }
 
-    /// Spindle revolutions per minute over a cut that begins at `from`. At a constant surface speed (metres or feet per minute)
-    /// they are those at the middle of the cut, which is exact for a straight cut.
+    /// Spindle revolutions per minute during a cut that begins at `from`. At a constant surface speed (in metres or feet per
+    /// minute), they are those at the middle of the cut. For a straight cut, this gives the exact time.
     fn rpm_from(&self, from: &Axes) -> Option<f64> {
         let (Some(speed), Some(true)) = (self.spindle.speed, self.spindle.css) else { return self.rpm() };
         let radius = (from.get(1)? + self.at.get(1)?).abs() / 2.0;
@@ -138,7 +138,7 @@ impl Motion {
         }
     }
 
-    /// Moves to a position; axes that it does not contain stay.
+    /// Moves to a position. Axes without a value in `to` do not move.
     fn go(&mut self, to: &Axes) {
         for axis in 0..6 {
             if let Some(value) = to.get(axis) {
@@ -163,7 +163,7 @@ impl Motion {
         }
     }
 
-    /// The distance from `from`, in millimetres and degrees, for axes with both positions known.
+    /// The travel from `from`, in millimetres and degrees. It is 0 for an axis of which one position is unknown.
     fn way(&self, from: &Axes) -> Way {
         let between = |axis| Some(self.at.get(axis)? - from.get(axis)?);
         let way = |axis| between(axis).map_or(0.0, |way| if axis < 3 { way * self.scale } else { way });
@@ -172,7 +172,7 @@ impl Motion {
         whole
     }
 
-    /// The machine axis for an axis of the job: in a lathe's job, Z is first and the radius second.
+    /// The machine axis that belongs to an axis of the job: in a job for a lathe, the first axis is Z and the second is the radius.
     fn machine_axis(&self, axis: usize) -> usize {
         match (self.is_lathe, axis) {
             (true, 0) => 2,
@@ -196,7 +196,7 @@ impl Motion {
         self.cut((&from, square.sqrt()), self.feed, sums, |planner, feed| planner.cut(&way, feed));
     }
 
-    /// A cut of this length from `from`; `plan` gets its feed in millimetres per second.
+    /// Adds a cut of this length that begins at `from`. `plan` is called with the feed of the cut in millimetres per second.
     fn cut(
         &mut self,
         (from, length): (&Axes, f64),
@@ -214,7 +214,7 @@ impl Motion {
         }
     }
 
-    /// The time of a cut, if it is known.
+    /// The time of a cut in minutes, if it is known.
     fn minutes(&self, length: f64, feed: f64, from: &Axes) -> Option<f64> {
         let minutes = match self.mode {
             FeedMode::InverseTime => 1.0 / feed,
@@ -240,12 +240,12 @@ impl Motion {
             Some(PlaneArc::new(from, to, centre, ccw, arc.turns))
         };
         let Some(curve) = curve() else {
-            // the render reports the error
+            // printing the job reports the error
             return sums.cuts.moves_to(&self.at);
         };
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
-        // after a full turn the quarters repeat
+        // after a full turn, the quadrant points are the same again
         let turn = PlaneArc { sweep: curve.sweep.clamp(-std::f64::consts::TAU, std::f64::consts::TAU), ..curve };
         turn.quadrant_parts(&mut parts);
         for part in &parts {
@@ -295,9 +295,9 @@ impl Motion {
         sums.holes += 1;
         self.rapid(&hole.at, &mut Totals::default());
         sums.moves.moves_to(&self.at);
-        // the axis of the hole
+        // the axis along which the hole is drilled
         let depth_axis = if self.is_lathe { 0 } else { 2 };
-        // a point without a height has the height of the point before it
+        // a point without a height is at the height of the point before it
         let (Some(spec), Some(point)) = (&self.cycle, hole.at.get(depth_axis).or(self.point)) else { return };
         self.point = Some(point);
         let Ok(planes) = Plan::of(spec, hole.depth, &self.defaults, self.rpm()) else { return };
@@ -312,7 +312,7 @@ impl Motion {
         sums.moves.to(depth_axis, point + top);
         self.at.set(depth_axis, point + top);
         if planned.is_err() {
-            // a cycle that only the form defines
+            // the moves of this cycle are known only to the form
             sums.cut(0.0, None);
             for height in [0.0, planes.bottom] {
                 sums.cuts.to(depth_axis, point + height);

@@ -1,4 +1,4 @@
-//! Subprograms: the sums that each adds where it is called. They are computed once, for any number of calls.
+//! The sums of subprograms, which are added wherever a subprogram is called. They are computed once, even if there are many calls.
 
 use std::collections::HashMap;
 
@@ -8,13 +8,13 @@ use crate::toolpath::{Call, key};
 /// The sums of a subprogram in one work offset.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// The offset that it sets itself; `None`: that of its caller.
+    /// The offset that the subprogram selects itself; `None`: the offset of the caller.
     pub work: Option<f64>,
-    /// Sums of its moves.
+    /// Sums of the moves in this offset.
     pub totals: Totals,
 }
 
-/// The sums of a subprogram, for each of its work offsets.
+/// The sums of a subprogram: one entry for each work offset that it uses.
 #[derive(Clone, Debug, Default)]
 pub struct Parts(Vec<Part>);
 
@@ -28,23 +28,23 @@ impl Parts {
     }
 }
 
-/// The progress in the sums of a subprogram.
+/// How far the sums of a subprogram are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum State {
-    /// Only its own moves are included.
+    /// Only the subprogram's own moves are included.
     #[default]
     Own,
-    /// The subprograms that it calls are being added.
+    /// The sums of the subprograms that it calls are being added.
     Adding,
-    /// Everything is included.
+    /// The sums are complete.
     Known,
 }
 
-/// A subprogram.
+/// A subprogram, its calls, and its sums.
 #[derive(Clone, Debug, Default)]
 struct Sub {
     parts: Parts,
-    /// The work offset that it has set last.
+    /// The work offset that the subprogram has selected last.
     work: Option<f64>,
     calls: Vec<Call>,
     state: State,
@@ -69,19 +69,19 @@ impl Subprograms {
         self.by_number.extend(self.open.take());
     }
 
-    /// Is a subprogram open?
+    /// Whether a subprogram is open.
     pub fn is_open(&self) -> bool {
         self.open.is_some()
     }
 
-    /// The open subprogram sets its work offset.
+    /// Records that the open subprogram selects a work offset.
     pub fn change_work(&mut self, work: f64) {
         if let Some((_, sub)) = &mut self.open {
             sub.work = Some(work);
         }
     }
 
-    /// Adds moves of the open subprogram.
+    /// Adds moves to the open subprogram.
     pub fn add(&mut self, totals: &Totals) {
         if let Some((_, sub)) = &mut self.open
             && !totals.is_still()
@@ -90,7 +90,8 @@ impl Subprograms {
         }
     }
 
-    /// The open subprogram calls another one, after a rapid to it. The call's offset is numbered as in the form.
+    /// Adds a call in the open subprogram. `way` contains the rapid before the call. The work offset of the call is in
+    /// the numbering of the form.
     pub fn call(&mut self, call: &Call, way: &Totals) {
         if let Some((_, sub)) = &mut self.open {
             let call = Call { work: call.work.or(sub.work), ..*call };
@@ -101,11 +102,11 @@ impl Subprograms {
         }
     }
 
-    /// The sums of a subprogram, with all subprograms that it calls. A missing subprogram adds nothing, and neither does a
-    /// recursive call: both are refused when the job is printed.
+    /// The sums of a subprogram, including all subprograms that it calls. A missing subprogram and a recursive call add
+    /// nothing; printing the job refuses both.
     pub fn parts_of(&mut self, number: f64) -> &[Part] {
         let called = key(number);
-        // the next call to follow, for each open subprogram
+        // the open subprograms, each with the index of the next call to follow
         let mut open = vec![(called, 0)];
         while let Some((number, next)) = open.pop() {
             let Some(sub) = self.by_number.get_mut(&number) else { continue };
@@ -123,7 +124,7 @@ impl Subprograms {
         self.by_number.get(&called).map_or(&[], |sub| &sub.parts.0)
     }
 
-    /// Adds the sums of the called subprograms; all of them are complete.
+    /// Adds the sums of the called subprograms, which are all complete.
     fn add_called(&mut self, number: u64) {
         let Some(sub) = self.by_number.get_mut(&number) else { return };
         let (mut parts, calls) = (std::mem::take(&mut sub.parts), std::mem::take(&mut sub.calls));

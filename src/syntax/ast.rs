@@ -1,26 +1,26 @@
-//! The syntax tree: every name, letter, variable, number, comment and lost tail with its span.
+//! The syntax tree. It contains each name, letter, variable, number, comment and ignored rest of a line with its location.
 
 use super::expression::{Expr, Unread};
 use crate::span::Span;
 
-/// Text of the form with its location.
+/// Text of a form with its location.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spanned {
-    /// Text as typed.
+    /// The text as written.
     pub text: String,
     /// Location.
     pub span: Span,
 }
 
-/// One file.
+/// The tree of one file.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Form {
-    /// Lines outside sequences, and sequences, in file order.
+    /// The lines outside sequences, and the sequences, in the order of the file.
     pub items: Vec<Head>,
 }
 
 impl Form {
-    /// Commands, and lines that look like one.
+    /// The commands, and lines that look like a command.
     pub fn statements(&self) -> impl Iterator<Item = &Statement> {
         self.items.iter().filter_map(|item| if let Head::Statement(statement) = item { Some(statement) } else { None })
     }
@@ -64,12 +64,12 @@ pub enum Head {
         line: Line,
         /// The letter.
         letter: Spanned,
-        /// The text after it, `->3.>4`.
+        /// The text after the letter, such as `->3.>4`.
         spec: Spanned,
     },
     /// A command, or a line that looks like one.
     Statement(Statement),
-    /// `End` while no sequence is open.
+    /// An `End` outside a sequence.
     StrayEnd(Line),
     /// A sequence.
     Sequence(Box<SequenceNode>),
@@ -91,34 +91,34 @@ pub enum Tail {
     None,
     /// A comment that begins with `#`.
     Comment(Span),
-    /// Text after two spaces or a tab, which is not printed.
+    /// Text after two spaces or a tab. It is not printed.
     Lost(Spanned),
 }
 
-/// `Rapid G0`, `Custom1   Face`.
+/// A command or a name line, such as `Rapid G0` or `Custom1   Face`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Statement {
     /// The line.
     pub line: Line,
-    /// First word.
+    /// The first word of the line.
     pub name: Spanned,
     /// The words after it, without quotes.
     pub args: Vec<Spanned>,
 }
 
-/// From a name line to `End`.
+/// A sequence, from its name line to its `End`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SequenceNode {
     /// The name line.
     pub name: Statement,
     /// The lines between name and end.
     pub body: Vec<Body>,
-    /// The end; `None` if the file ends or the next sequence begins before it.
+    /// The end. `None` if the file ends or another sequence begins before an `End`.
     pub end: Option<End>,
 }
 
 impl SequenceNode {
-    /// From the name line to the end, or to the last line if the end is missing.
+    /// The location from the name line to the end. If the end is missing, to the last line.
     pub fn span(&self) -> Span {
         let end = self.end.as_ref().map(|end| end.line.span);
         let last = end.or(self.body.last().map(|body| body.line.span));
@@ -131,18 +131,18 @@ impl SequenceNode {
 pub struct Body {
     /// The line.
     pub line: Line,
-    /// Words of the line; none on an empty line, a comment or a directive.
+    /// The words of the line. Empty on an empty line, and for a comment or a directive.
     pub words: Vec<Word>,
-    /// The directive, on a line with one instead of words.
+    /// The directive, if the line is a directive instead of words.
     pub directive: Option<Box<Directive>>,
 }
 
-/// `@if [cool] = through`: selects the lines that print.
+/// A directive, such as `@if [cool] = through`. It selects the lines that print.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Directive {
-    /// `@if`, as typed.
+    /// The name as written, such as `@if`.
     pub name: Spanned,
-    /// The text after the name, without a comment.
+    /// The text after the name, without the comment.
     pub rest: Spanned,
     /// Kind of the directive.
     pub kind: DirectiveKind,
@@ -151,51 +151,51 @@ pub struct Directive {
 /// The kinds of directives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DirectiveKind {
-    /// `@if`: the lines after it print if the condition is true.
+    /// `@if`: the lines after it print if its condition is true.
     If(Result<Expr, Unread>),
-    /// `@elif`: otherwise these lines, if that condition is true.
+    /// `@elif`: the lines after it print if its condition is true and no earlier condition is true.
     Elif(Result<Expr, Unread>),
-    /// `@else`: otherwise these lines.
+    /// `@else`: the lines after it print if no earlier condition is true.
     Else,
-    /// `@end` of `@if` or `@for`.
+    /// `@end`, which ends the lines of `@if` or `@for`.
     End,
-    /// `@for`: the lines after it print once for each item.
+    /// `@for`: the lines after it print once for each item of a list.
     For,
-    /// `@set NAME = value`.
+    /// `@set NAME = value`, which sets a variable or property.
     Set(Spanned, Result<Expr, Unread>),
-    /// Any other text.
+    /// `@` with any other name.
     Unknown,
 }
 
 impl DirectiveKind {
-    /// Does the directive begin lines that `@end` closes?
+    /// Whether the directive begins lines that end with an `@end`.
     pub fn opens(&self) -> bool {
         matches!(self, DirectiveKind::If(_) | DirectiveKind::For)
     }
 
-    /// Does the directive end the lines of a branch?
+    /// Whether the directive ends the lines of a branch.
     pub fn closes(&self) -> bool {
         matches!(self, DirectiveKind::Elif(_) | DirectiveKind::Else | DirectiveKind::End)
     }
 }
 
-/// `End`, `End Cancel`.
+/// The end of a sequence: `End` or `End Cancel`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct End {
     /// The line.
     pub line: Line,
-    /// Span of the word `End`.
+    /// Location of the word `End`.
     pub word: Span,
     /// The words after `End`.
     pub args: Vec<Spanned>,
 }
 
-/// The text between two spaces.
+/// A word: the text between two spaces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Word {
     /// Location.
     pub span: Span,
-    /// Its parts. There are several if a space is missing, or in a text with variables.
+    /// The parts of the word. It has several parts if a space is missing, or if it is a text with variables.
     pub pieces: Vec<Piece>,
 }
 
@@ -211,21 +211,21 @@ pub struct Piece {
 /// The kinds of parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PieceKind {
-    /// `X[h]`, `<work>`.
+    /// A variable with or without a letter, such as `X[h]` or `<work>`.
     Variable {
         /// The letter, if any.
         letter: Option<u8>,
         /// The name between the brackets.
         name: Spanned,
     },
-    /// `G0`, `P.5`, `%0`.
+    /// A letter with a number, such as `G0`, `P.5` or `%0`.
     Literal {
         /// The letter.
         letter: u8,
-        /// The number as typed.
+        /// The number as written.
         number: Spanned,
     },
-    /// `[h+1]`: a calculated value.
+    /// A calculated value, such as `[h+1]`.
     Expression {
         /// The letter, if any.
         letter: Option<u8>,
@@ -234,28 +234,28 @@ pub enum PieceKind {
         /// The expression as a tree.
         expr: Box<Result<Expr, Unread>>,
     },
-    /// `[toolname]`, `[toolname:12]`: a variable with a text value.
+    /// A variable with a text value, such as `[toolname]` or `[toolname:12]`.
     TextVariable {
-        /// A letter before it, which is an error.
+        /// The letter before it. Such a letter is an error.
         letter: Option<u8>,
         /// The name between the brackets, with its width.
         name: Spanned,
     },
-    /// Text in backquotes, without them. It prints as typed.
+    /// The text in backquotes. It is printed as written.
     Quote(String),
-    /// Any other text, as typed.
+    /// Any other text, as written.
     Stray(String),
-    /// A comment of the program, `(TOOL [tool])`.
+    /// A comment of the program, such as `(TOOL [tool])`.
     Note {
-        /// Text and variables in order, without the comment marks.
+        /// The text and variables of the comment in their order, without the comment marks.
         parts: Vec<Piece>,
-        /// The closing mark exists.
+        /// Whether the comment has its closing mark.
         closed: bool,
     },
 }
 
 impl Body {
-    /// The first part of each printed word. Text in backquotes and the parts joined to it are one word.
+    /// The first part of each printed word. Text in backquotes and the parts joined to it count as one word.
     pub fn begins(&self) -> impl Iterator<Item = &Piece> {
         self.words.iter().flat_map(|word| {
             let is_first = move |at: usize| at == 0 || word.pieces[at].lacks_blank_after(&word.pieces[at - 1]);
@@ -265,13 +265,13 @@ impl Body {
 }
 
 impl Piece {
-    /// Is the part a complete word, with a letter and a value?
+    /// Whether the part is a complete word with a value.
     pub fn is_word(&self) -> bool {
         matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Expression { .. } | PieceKind::Literal { .. })
     }
 
-    /// Is a space missing between the previous part and this one? Both still print as separate words. A value without a letter is
-    /// never separated, because it could belong to either word.
+    /// Whether a space is missing between the previous part and this one. Both are then still printed as separate words. Before a
+    /// value without a letter, a space never counts as missing, because the value may belong to the word before it.
     pub fn lacks_blank_after(&self, before: &Piece) -> bool {
         let begins = match self.kind {
             PieceKind::Variable { letter, .. } | PieceKind::Expression { letter, .. } => letter.is_some(),

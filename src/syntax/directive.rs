@@ -1,10 +1,10 @@
-//! Directives: lines that begin with `@`.
+//! Directives: the lines that begin with `@`.
 
 use super::ast::{Directive, DirectiveKind, Spanned};
 use super::expression::expression;
 use crate::span::Span;
 
-/// The directive with this name and the text after it.
+/// The directive with this name and this text after it.
 pub fn directive(name: Spanned, rest: Spanned) -> Directive {
     let asked = || expression(&rest.text, rest.span, false);
     let kind = match name.text[1..].to_ascii_lowercase().as_str() {

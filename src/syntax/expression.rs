@@ -1,4 +1,4 @@
-//! Expressions: text between brackets that is no plain name, and conditions of directives.
+//! Expressions: text in brackets that is more than a name, and conditions of directives.
 
 use std::sync::LazyLock;
 
@@ -14,7 +14,7 @@ use crate::span::Span;
 
 /// Maximum nesting depth of brackets.
 pub const DEEPEST: usize = 32;
-/// Maximum length of an expression in characters; a longer one is unreadable.
+/// Maximum length of an expression in bytes. A longer expression is hard to read.
 pub const LONGEST: usize = 500;
 
 /// An expression.
@@ -29,24 +29,24 @@ pub struct Expr {
 /// The kinds of expressions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ExprKind {
-    /// A number as typed.
+    /// A number as written.
     Number(String),
     /// Text between quotes.
     Text(String),
-    /// A name between brackets: a variable.
+    /// A name in brackets. It is a variable.
     Variable(String),
-    /// A name outside brackets: a value of a variable, as `through`.
+    /// A name outside brackets. It is the name of a value, such as `through`.
     Word(String),
-    /// `max(h, 0)`.
+    /// A function with its arguments, such as `max(h, 0)`.
     Call(Spanned, Vec<Expr>),
-    /// `-h`, `not [lasthole]`.
+    /// An operator with one operand, such as `-h` or `not [lasthole]`.
     Unary(Operator, Box<Expr>),
-    /// `h+1`, `[cool] = through`.
+    /// An operator with two operands, such as `h+1` or `[cool] = through`.
     Binary(Operator, Box<[Expr; 2]>),
 }
 
 impl Expr {
-    /// Calls `take` with the name and location of each variable.
+    /// Calls `take` with the name and the location of each variable.
     pub fn variables(&self, take: &mut dyn FnMut(&str, Span)) {
         match &self.kind {
             ExprKind::Variable(name) => take(name, self.span),
@@ -58,18 +58,18 @@ impl Expr {
     }
 }
 
-/// An expression that can't be read.
+/// An error in an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unread {
-    /// Location where reading stopped.
+    /// The location where reading stopped.
     pub span: Span,
-    /// Reason.
+    /// The reason.
     pub why: String,
-    /// Advice for a correction, if known.
+    /// How to correct it, if known.
     pub help: Option<String>,
 }
 
-/// In order of precedence, lowest first.
+/// The operators in the order of their precedence, lowest first.
 static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
     let infix = |rule| Op::infix(rule, Assoc::Left);
     PrattParser::new()
@@ -88,7 +88,7 @@ static OPERATORS: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
         .op(Op::prefix(Rule::negative))
 });
 
-/// Are brackets in the line nested too deeply for an expression? The recursion of the grammar grows with their depth.
+/// Whether the brackets in the line are nested too deeply for an expression. The parser calls itself for each level of brackets.
 pub fn is_too_deep(line: &str) -> bool {
     let mut depth = 0_usize;
     line.bytes().any(|c| {
@@ -102,10 +102,10 @@ pub fn is_too_deep(line: &str) -> bool {
     })
 }
 
-/// Parses an expression at `span`; `in_brackets`: names are variables.
+/// Parses an expression whose text is at `span`. `in_brackets`: names are variables.
 ///
 /// # Errors
-/// The expression can't be read. The error contains the location and the reason.
+/// The expression has an error. The error has its location and reason.
 pub fn expression(text: &str, span: Span, in_brackets: bool) -> Result<Expr, Unread> {
     if text.len() > LONGEST {
         return Err(Unread { span, why: format!("it has more than {LONGEST} characters"), help: None });
@@ -163,9 +163,9 @@ fn unread(text: &str, at: usize, span: Span) -> Unread {
     }
 }
 
-/// Advice for syntax of other languages.
+/// A correction for syntax of other languages.
 fn instead(read: &str, rest: &str) -> Option<String> {
-    /// Text at the point where reading stopped, with the advice for it.
+    /// Text at the point where reading stopped, each with its correction.
     const OTHERS: [(&str, &str); 8] = [
         ("!=", "write `<>` for not equal"),
         ("!", "write `not`"),
@@ -201,7 +201,7 @@ fn instead(read: &str, rest: &str) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// Location of an expression's text.
+/// Where the text of an expression is in its file.
 #[derive(Clone, Copy)]
 struct Reading {
     file: u32,
@@ -283,7 +283,7 @@ fn operator(rule: Rule) -> Operator {
 mod tests {
     use super::*;
 
-    /// The expression with brackets around each part.
+    /// The expression as text, with brackets around each part.
     fn shown(text: &str) -> String {
         fn show(expr: &Expr) -> String {
             match &expr.kind {

@@ -1,4 +1,4 @@
-//! The grammar of forms. Only the files of `syntax` use pest.
+//! The grammar of forms. Only the files of `syntax` use the crate pest.
 #![allow(missing_docs)]
 
 /// The parser that pest generates from the grammar.

@@ -1,4 +1,4 @@
-//! Parses form text to a tree of spans. Parsing cannot fail: the tree also contains unreadable parts.
+//! Parses the text of a form to a syntax tree. Parsing never fails, because the tree may also contain text with errors.
 
 mod ast;
 mod directive;

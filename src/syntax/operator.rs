@@ -33,7 +33,7 @@ pub enum Comparison {
 /// All operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operator {
-    /// An operation on two numbers; `-` also negates one number.
+    /// An operation on two numbers. `-` also reverses the sign of one number.
     Arithmetic(Arithmetic),
     /// A comparison of two values.
     Comparison(Comparison),
@@ -48,7 +48,7 @@ pub enum Operator {
 }
 
 impl Operator {
-    /// The operator as written.
+    /// The operator as it is written.
     pub fn name(self) -> &'static str {
         match self {
             Operator::Arithmetic(Arithmetic::Add) => "+",

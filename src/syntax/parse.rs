@@ -1,4 +1,4 @@
-//! Parses lines with the grammar. Only this file and that of expressions use pest.
+//! Parses the lines of a form with the grammar. Only this file and the one for expressions use the crate pest.
 
 use pest::Parser;
 use pest::iterators::Pair;
@@ -11,12 +11,12 @@ use crate::lang::{CommandId, SequenceId, SequenceName, TextVar};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Minimum free stack in bytes: with less than 64 KB left, pest refuses its input.
+/// Minimum of free stack in bytes. If less than 64 KB are left, pest refuses its input.
 const LEAST_STACK: usize = 128 << 10;
-/// Size of a new stack, allocated if less than the minimum is free.
+/// Size of the new stack that is allocated if less than the minimum is free.
 const STACK: usize = 1 << 20;
 
-/// Parses file number `file`. Every byte of the text is in some line of the result.
+/// Parses a file. `file`: its number. Each byte of the text belongs to some line of the result.
 pub fn parse(source: &Source, file: u32) -> Form {
     stacker::maybe_grow(LEAST_STACK, STACK, || lines(source, file))
 }
@@ -26,12 +26,12 @@ fn lines(source: &Source, file: u32) -> Form {
     let mut around = Around { lines: &lines, marks: vec![None; lines.len()], has_sequence: false };
     let mut form = Form::default();
     let mut open: Option<SequenceNode> = None;
-    // number of directives in the open sequence that wait for their @end
+    // number of directives in the current sequence that are not yet closed by `@end`
     let mut depth = 0_usize;
     for (index, &(start, text)) in lines.iter().enumerate() {
         let at = At { file, start };
         if let Some(sequence) = &mut open {
-            // between a directive and its @end, leading spaces do not make a line a comment
+            // between a directive and its `@end`, a line with leading spaces is not a comment
             let inner = if depth > 0 { text.trim_start_matches([' ', '\t']) } else { text };
             let inner_start = start + text.len() - inner.len();
             match body_line(At { file, start: inner_start }, inner) {
@@ -46,7 +46,7 @@ fn lines(source: &Source, file: u32) -> Form {
                 }
                 Ok(_) => {
                     depth = 0;
-                    // the name of a sequence on its own line: the End before it is missing
+                    // the name of a sequence on a line of its own: the `End` of the previous sequence is missing
                     form.items.extend(open.take().map(boxed));
                     open = head(at, text, index, &mut around, &mut form);
                 }
@@ -64,12 +64,12 @@ fn lines(source: &Source, file: u32) -> Form {
     form
 }
 
-/// Boxed, because most items are lines and much smaller than a sequence.
+/// Adds a sequence as an item. It is boxed, because most items are lines and much smaller.
 fn boxed(node: SequenceNode) -> Head {
     Head::Sequence(Box::new(node))
 }
 
-/// Location of a line in its file.
+/// Where a line is in its file.
 #[derive(Clone, Copy)]
 struct At {
     file: u32,
@@ -91,13 +91,13 @@ impl At {
     }
 }
 
-/// The pairs of one line. The grammar accepts every line; if it still fails (a bug that the property tests would find), the line
-/// counts as empty.
+/// The pairs of one line. The grammar accepts every line. If it fails because of a bug (property tests look for such bugs), the
+/// line counts as empty.
 fn pairs(rule: Rule, text: &str) -> impl Iterator<Item = Pair<'_, Rule>> {
     FormGrammar::parse(rule, text).into_iter().flatten().flat_map(Pair::into_inner)
 }
 
-/// Parses a line outside sequences; returns the sequence that it opens.
+/// Parses a line outside sequences. If it begins a sequence, returns this sequence.
 fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
     for pair in pairs(Rule::head_line, text) {
         let mut line = at.line(text);
@@ -106,7 +106,7 @@ fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Fo
                 let mut parts = pair.into_inner();
                 let (Some(letter), Some(spec)) = (parts.next(), parts.next()) else { continue };
                 line.tail = parts.next().map_or(Tail::None, |pair| tail(at, &pair));
-                // after a sequence, `G80` is a word without a name line, not a letter format
+                // after a sequence, `G80` is a word whose name line is missing, and not a letter format
                 if spec.as_str().bytes().all(|b| b.is_ascii_digit()) && around.has_sequence {
                     let span = at.span(&letter).to(at.span(&spec));
                     let name = Spanned { text: format!("{}{}", letter.as_str(), spec.as_str()), span };
@@ -133,7 +133,7 @@ fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Fo
     None
 }
 
-/// Returns the sequence that a statement opens; adds any other statement to the form.
+/// If the statement begins a sequence, returns this sequence. Adds any other statement to the form.
 fn opened(statement: Statement, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
     if opens_sequence(&statement, index, around) {
         around.has_sequence = true;
@@ -143,7 +143,7 @@ fn opened(statement: Statement, index: usize, around: &mut Around<'_>, form: &mu
     None
 }
 
-/// The tail of a line that is only a comment: with `#`, or indented.
+/// The tail of a line that is only a comment: a comment that begins with `#`, or an indented line.
 fn remark(at: At, pair: &Pair<Rule>) -> Tail {
     let text = pair.as_str();
     let inner = text.trim_start_matches([' ', '\t']);
@@ -173,15 +173,15 @@ fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
     Statement { line, name, args }
 }
 
-/// Maximum number of lines from an unknown name to its `End`, including empty lines and comments. No known form has half as many.
+/// Maximum number of lines from an unknown name to its `End`, with empty lines and comments. In known forms it is less than half of that.
 const LONGEST_SEQUENCE: usize = 400;
 
-/// Information about the lines around the current one.
+/// The lines around the current one.
 struct Around<'a> {
     lines: &'a [(usize, &'a str)],
-    /// Classification of each line, computed when needed.
+    /// The kind of each line, determined when it is needed.
     marks: Vec<Option<Mark>>,
-    /// There is a sequence above.
+    /// Whether there is a sequence above the current line.
     has_sequence: bool,
 }
 
@@ -192,12 +192,12 @@ impl Around<'_> {
     }
 }
 
-/// Classification of a line, for an unknown name above it.
+/// The kind of a line, as far as it matters for an unknown name above it.
 #[derive(Clone, Copy)]
 enum Mark {
-    /// `End`.
+    /// The line is an `End`.
     End,
-    /// A name: an `End` after it does not belong to the unknown name.
+    /// The line is a known name. An `End` after it does not belong to the unknown name above.
     Name,
     /// Any other line.
     Other,
@@ -205,7 +205,7 @@ enum Mark {
 
 impl Mark {
     fn of(text: &str) -> Mark {
-        // the layout must not matter: neither empty lines nor the separators of words
+        // empty lines and the separators between words must make no difference
         let all: Vec<&str> = text.split([' ', '\t', ';']).filter(|word| !word.is_empty()).collect();
         let Some(first) = all.first().copied().filter(|word| !word.starts_with('#')) else { return Mark::Other };
         if first.eq_ignore_ascii_case("End") {
@@ -219,8 +219,8 @@ impl Mark {
     }
 }
 
-/// Does this line open a sequence? A known name does. An unknown name does if an `End` comes before the next known name, so that
-/// a misspelt name causes one message instead of one for each line.
+/// Whether this line begins a sequence. A known name does. An unknown name does if an `End` follows before the next known name.
+/// A misspelt name then causes one error, and not one for each line.
 fn opens_sequence(statement: &Statement, index: usize, around: &mut Around<'_>) -> bool {
     if names_sequence(statement) {
         return true;
@@ -243,23 +243,23 @@ fn opens_sequence(statement: &Statement, index: usize, around: &mut Around<'_>) 
 fn names_sequence(statement: &Statement) -> bool {
     let mut words = vec![statement.name.text.as_str()];
     words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
-    // `Thread G33` is a command line: it has no End
+    // `Thread G33` is a command and has no End
     SequenceName::parse(&words).is_some()
 }
 
-/// Is this line inside a sequence the name line of the next one? It is if its words are a name and at most a count.
+/// Whether a line inside a sequence is the name line of the next one: its words are a name and at most a count.
 fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
     let Some(last) = body.words.last() else { return false };
     let words: Vec<&str> = text[..last.span.end as usize - start].split_whitespace().collect();
     match SequenceName::parse(&words) {
-        Some(SequenceName::Plain(SequenceId::Stop, _)) => false, // it is also a word of conversational controls
+        Some(SequenceName::Plain(SequenceId::Stop, _)) => false, // Stop is also a word of conversational controls
         Some(SequenceName::Plain(_, count)) => count.is_none_or(|c| c.bytes().all(|b| b.is_ascii_digit())),
         Some(SequenceName::Upon(name) | SequenceName::UponEvery(name)) => name.starts_with(['[', '<']),
         None => false,
     }
 }
 
-/// Parses a line inside a sequence, or its end.
+/// Parses a line inside a sequence. `Err`: the line is its end.
 fn body_line(at: At, text: &str) -> Result<Body, End> {
     let mut body = Body { line: at.line(text), words: Vec::new(), directive: None };
     if is_too_deep(text) {
@@ -292,7 +292,7 @@ fn body_line(at: At, text: &str) -> Result<Body, End> {
                         _ => body.line.tail = tail(at, &part),
                     }
                 }
-                body.words.shrink_to_fit(); // `push` reserves space for four
+                body.words.shrink_to_fit(); // `push` has reserved space for four words
             }
             Rule::directive => {
                 let (mut name, mut rest) = (None, Spanned { text: String::new(), span: at.span(&pair) });
@@ -325,7 +325,7 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
                 }
             }
             match letter {
-                // in the first forms, every number is in brackets
+                // in the oldest forms, every number is in brackets
                 Some(letter) if old && is_number(&name.text) => PieceKind::Literal { letter, number: name },
                 _ if !old && is_calculated(&name.text) => {
                     let expr = Box::new(expression(&name.text, name.span, true));
@@ -355,17 +355,17 @@ fn piece(at: At, pair: Pair<Rule>) -> Piece {
     Piece { span, kind }
 }
 
-/// Is the text more than a name? A text variable may have a width.
+/// Whether the text between brackets is more than a name. A text variable may have a width.
 fn is_calculated(text: &str) -> bool {
     text.contains(['+', '*', '/', '(', ' ', '\t']) || text.contains('-') && !TextVar::is_text(text)
 }
 
-/// Is the text a number: digits, with a sign and a point?
+/// Whether the text is a number: digits, possibly with a sign and a point.
 fn is_number(text: &str) -> bool {
     text.parse::<f64>().is_ok() && text.bytes().all(|b| b.is_ascii_digit() || b"+-.".contains(&b))
 }
 
-/// Converts `G<0>` to `G0`, for arguments of the first forms. The span stays the same.
+/// Converts `G<0>` to `G0` in arguments of the oldest forms. The location stays the same.
 fn without_brackets(mut arg: Spanned) -> Spanned {
     let inner = arg.text.strip_suffix('>').and_then(|text| text.split_once('<'));
     if let Some((letter, number)) = inner
@@ -479,7 +479,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
-        /// The grammar is total: every line matches, and words, comment and lost tail cover everything except spaces.
+        /// The grammar accepts every line. Its words, comment and ignored rest cover everything except spaces.
         #[test]
         fn every_line_matches(text in "[ \\tA-Za-z0-9#;%:()\\[\\]<>.+~\"/é\u{0}-]{0,24}") {
             for rule in [Rule::head_line, Rule::body_line] {

@@ -1,15 +1,15 @@
-//! The behaviour of controls in corners.
+//! How controls move through corners between blocks.
 
 /// The rule of a control for corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Corner {
-    /// As on an arc around the corner whose distance from the corner is this value, in millimetres: Grbl's `$11`.
+    /// The speed in a corner is that on an arc at this distance from the corner, in millimetres: `$11` of Grbl.
     Deviation(f64),
-    /// As in LinuxCNC's trajectory planner, which begins in this mode.
+    /// The rule of LinuxCNC's trajectory planner, with this path mode at the beginning.
     Linuxcnc(PathMode),
 }
 
-/// The accuracy of the path, by the codes of LinuxCNC.
+/// The accuracy of the path, named by the codes of LinuxCNC.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathMode {
     /// G61: the path passes exactly through the corners.

@@ -5,17 +5,17 @@ use super::rates::Way;
 /// An arc from the current position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
-    /// The axes of its plane.
+    /// The two axes of the plane of the arc.
     pub plane: [usize; 2],
-    /// From its centre to its beginning, along those axes, in millimetres.
+    /// The vector from the centre of the arc to its beginning, along these axes, in millimetres.
     pub from: [f64; 2],
-    /// The angle that it turns, in radians, positive from the first axis to the second.
+    /// The angle of the arc in radians, positive from the first axis to the second.
     pub sweep: f64,
-    /// The travel of the axes outside of the plane.
+    /// The travel of the axes outside the plane of the arc.
     pub rise: Way,
 }
 
-/// How far chords may deviate from an arc: Grbl's `$12`, in millimetres.
+/// Greatest distance of a chord from its arc, in millimetres: `$12` of Grbl.
 const CHORD: f64 = 0.002;
 
 impl Curve {
@@ -23,23 +23,23 @@ impl Curve {
         self.from[0].hypot(self.from[1])
     }
 
-    /// Its length including its rise.
+    /// The length of the arc, including its rise.
     pub fn length(&self) -> f64 {
         let rise: f64 = self.rise[..3].iter().map(|part| part * part).sum();
         (self.radius() * self.sweep).hypot(rise.sqrt())
     }
 
-    /// The chords into which Grbl divides it: `mc_arc` in its motion_control.c.
+    /// The chords into which Grbl divides the arc: see `mc_arc` in Grbl's motion_control.c.
     pub(super) fn chords(self) -> impl Iterator<Item = Way> {
         let radius = self.radius();
         let per_chord = (CHORD * (2.0 * radius - CHORD)).max(0.0).sqrt();
         let count = (0.5 * self.sweep.abs() * radius / per_chord).floor();
-        // an arc smaller than the chord error is a line to its end
+        // if the arc is smaller than the chord error, it becomes one line to its end
         let count = if count.is_finite() { count.max(1.0) } else { 1.0 };
         self.parts(count as u64)
     }
 
-    /// A number of chords of the same length.
+    /// Divides the arc into chords of the same length.
     pub(super) fn parts(self, count: u64) -> impl Iterator<Item = Way> {
         let share = 1.0 / count as f64;
         let at = move |part: f64| {

@@ -1,17 +1,17 @@
-//! Corners with a junction deviation, as in Grbl: `plan_buffer_line` and `plan_compute_profile_parameters` in its planner.c.
-//! Grbl treats the chords of an arc as lines.
+//! Speeds in corners by junction deviation, as in Grbl: see `plan_buffer_line` and `plan_compute_profile_parameters` in
+//! Grbl's planner.c. Grbl treats the chords of an arc as lines.
 
 use super::leg::Leg;
 use super::queue::Queue;
 use super::rates::{Rates, Way, size};
 
-/// From this cosine on, two directions are the same or opposite: Grbl's own value.
+/// From this cosine on, two directions count as the same or as opposite. The value is Grbl's.
 const SAME: f64 = 0.999_999;
 
-/// The state from one leg to the next.
+/// The state between two legs.
 #[derive(Clone, Debug)]
 pub(super) struct Deviation {
-    /// How far the path may leave a corner, in millimetres.
+    /// Greatest distance of the path from a corner, in millimetres.
     deviation: f64,
     /// Direction of the last leg; `None`: the tool is at rest.
     direction: Option<Way>,
@@ -26,7 +26,7 @@ impl Deviation {
         self.direction = None;
     }
 
-    /// A line; `feed` is that of a cut, in millimetres per second.
+    /// Adds a line. `feed` is the feed of a cut in millimetres per second; `None`: a rapid.
     pub fn line(&mut self, way: &Way, feed: Option<f64>, rates: &Rates, queue: &mut Queue) {
         let all = size(way);
         if all == 0.0 {
@@ -36,7 +36,7 @@ impl Deviation {
         let along = way.map(|part| part / length);
         let speed = rates.speed(&along, feed);
         if !(speed > 0.0 && speed.is_finite()) {
-            // its speed is unknown
+            // the speed of the line is unknown
             self.stop();
             return queue.stop();
         }
@@ -59,7 +59,7 @@ impl Deviation {
         });
     }
 
-    /// The square of the greatest speed from one direction into another; infinite if they are the same.
+    /// The square of the greatest speed at a corner between two directions; infinite if the directions are the same.
     fn corner(&self, rates: &Rates, before: &Way, after: &Way) -> f64 {
         let cosine: f64 = before.iter().zip(after).map(|(before, after)| -before * after).sum();
         if cosine > SAME {

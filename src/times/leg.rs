@@ -3,34 +3,34 @@
 /// A leg of the path. Speeds are stored as squares, because a leg of length `s` at acceleration `a` changes the square by `2 a s`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leg {
-    /// Millimetres, or degrees if only rotary axes move.
+    /// Length in millimetres, or in degrees if only rotary axes move.
     pub length: f64,
-    /// Square of its speed without the adjacent legs.
+    /// Square of the speed that the leg would have without the adjacent legs.
     pub speed: f64,
     pub acceleration: f64,
-    /// Square of the greatest speed at its beginning, which the corner there limits.
+    /// Square of the greatest speed at the beginning of the leg. The corner there limits this speed.
     pub most_entry: f64,
-    /// Square of the speed at its beginning, as planned so far.
+    /// Square of the speed at the beginning of the leg, as planned so far.
     pub entry: f64,
     pub is_cut: bool,
-    /// Its row in the times of blocks.
+    /// The row of the leg in the times of blocks.
     pub row: usize,
 }
 
 impl Leg {
-    /// The square of the speed that it reaches at one end from `speed` at the other.
+    /// The square of the speed that the leg reaches at one end if the square is `speed` at the other end.
     pub fn reached_from(&self, speed: f64) -> f64 {
         2.0f64.mul_add(self.acceleration * self.length, speed)
     }
 
-    /// Its time in seconds, if the speed at its end has the square `exit`.
+    /// The time of the leg in seconds, if `exit` is the square of the speed at its end.
     pub fn seconds(&self, exit: f64) -> f64 {
         let (entry, exit) = (self.entry.min(self.speed), exit.min(self.speed));
         if self.acceleration.is_infinite() {
             return self.length / self.speed.sqrt();
         }
         let change = 2.0 * self.acceleration;
-        // without a speed limit it would accelerate to the middle
+        // without a speed limit, the leg would accelerate up to its middle
         let peak = ((change * self.length + entry + exit) / 2.0).min(self.speed).max(entry).max(exit);
         let ramps = (2.0 * peak - entry - exit) / change;
         let steady = (self.length - ramps).max(0.0);

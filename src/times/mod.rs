@@ -1,6 +1,7 @@
-//! The time of moves on axes that accelerate: trapezoids of speed along the path, planned ahead over the next blocks.
+//! The time of moves on axes that accelerate. The speed along the path has a trapezoidal profile and is planned ahead
+//! over the next blocks.
 //!
-//! Lengths are millimetres and degrees, times are seconds.
+//! Lengths are in millimetres or degrees, times in seconds.
 
 mod corner;
 mod curve;

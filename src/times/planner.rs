@@ -1,4 +1,4 @@
-//! Plans the speeds of moves and counts their time, by the corner rules of a control.
+//! Plans the speeds of moves by the corner rule of a control, and adds up their times.
 
 use super::corner::{Corner, PathMode};
 use super::curve::Curve;
@@ -7,7 +7,7 @@ use super::linuxcnc::Linuxcnc;
 use super::queue::{BlockTime, Queue, Spent};
 use super::rates::{Rates, Way};
 
-/// Plans the speeds of moves and counts their time.
+/// Plans the speeds of moves and adds up their times.
 #[derive(Clone, Debug)]
 pub struct Planner {
     rates: Rates,
@@ -23,7 +23,7 @@ enum Rule {
 }
 
 impl Planner {
-    /// A planner with the tool at rest.
+    /// A planner whose tool is at rest.
     pub fn new(rates: Rates) -> Planner {
         let rule = match rates.corner {
             Corner::Deviation(deviation) => Rule::Deviation(Deviation::new(deviation)),
@@ -32,12 +32,12 @@ impl Planner {
         Planner { queue: Queue::new(rates.ahead.max(1)), rates, rule }
     }
 
-    /// Keeps the times of blocks.
+    /// Turns on the recording of the time of each block.
     pub fn keep_blocks(&mut self) {
         self.queue.blocks = Some(Vec::new());
     }
 
-    /// The next moves are those of the block in this line of the program.
+    /// Sets the line of the program to which the following moves belong.
     pub fn at_line(&mut self, line: u64) {
         if let Some(blocks) = &mut self.queue.blocks
             && blocks.last().is_none_or(|block| u64::from(block.line) != line)
@@ -46,27 +46,27 @@ impl Planner {
         }
     }
 
-    /// Time of the block besides its moves.
+    /// Adds time to the current block that is not the time of a move, in seconds.
     pub fn waits(&mut self, seconds: f64) {
         self.queue.adds(self.queue.row(), seconds);
     }
 
-    /// The times of blocks in the order in which they ran; empty if they were not kept.
+    /// The times of the blocks in the order in which they ran; empty if they were not recorded.
     pub fn take_blocks(&mut self) -> Vec<BlockTime> {
         self.queue.blocks.take().unwrap_or_default()
     }
 
-    /// A rapid.
+    /// Adds a rapid.
     pub fn rapid(&mut self, way: &Way) {
         self.line(way, None);
     }
 
-    /// A straight cut at a feed in millimetres per second, or degrees if only rotary axes move.
+    /// Adds a straight cut. `feed` is in millimetres per second, or in degrees per second if only rotary axes move.
     pub fn cut(&mut self, way: &Way, feed: f64) {
         self.line(way, Some(feed));
     }
 
-    /// An arc at a feed in millimetres per second.
+    /// Adds an arc at a feed in millimetres per second.
     pub fn arc(&mut self, curve: &Curve, feed: f64) {
         match &mut self.rule {
             Rule::Deviation(rule) => {
@@ -85,7 +85,7 @@ impl Planner {
         }
     }
 
-    /// The tool stops: the next move waits for all moves before it.
+    /// Stops the tool: the next move begins only after all moves before it have ended.
     pub fn stop(&mut self) {
         match &mut self.rule {
             Rule::Deviation(rule) => rule.stop(),
@@ -94,7 +94,7 @@ impl Planner {
         self.queue.stop();
     }
 
-    /// Stops, and returns the time since the last call.
+    /// Stops the tool, and returns the time since the last call.
     pub fn take(&mut self) -> Spent {
         self.stop();
         self.queue.take()

@@ -1,15 +1,15 @@
-//! Speeds over the known legs: each starts only as fast as all legs after it allow.
+//! Plans the speeds over the known legs: each leg starts only as fast as the legs after it allow.
 
 use std::collections::VecDeque;
 
 use super::leg::Leg;
 
-/// Seconds of moves.
+/// The time of moves, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spent {
-    /// Of cuts.
+    /// Seconds of cuts.
     pub cutting: f64,
-    /// Of rapids.
+    /// Seconds of rapids.
     pub rapid: f64,
 }
 
@@ -18,22 +18,22 @@ pub struct Spent {
 pub struct BlockTime {
     /// Line of the block in the program, from 1.
     pub line: u32,
-    /// Its seconds.
+    /// The time of the block in seconds.
     pub seconds: f32,
 }
 
-/// Legs whose speeds may still rise.
+/// Legs whose planned speeds may still rise.
 ///
-/// The last leg is planned to end in a stop. A new leg raises the speeds before it: first backwards until one stays the same,
-/// then forwards as far as the accelerations allow. Legs that no later leg can change are counted and dropped. The first leg is
-/// also dropped if more legs wait than the control plans ahead.
+/// The last leg is planned to end in a stop. A new leg may raise the speeds before it. They are recalculated backwards
+/// until a leg keeps its speed, then forwards as far as the accelerations allow. Legs that no later leg can change are
+/// added to the time and removed. The first leg is also removed if the queue has more legs than the control plans ahead.
 #[derive(Clone, Debug)]
 pub(super) struct Queue {
     ahead: usize,
-    /// The entry speed of the first leg is fixed.
+    /// The legs in their order. The entry speed of the first one does not change any more.
     legs: VecDeque<Leg>,
     spent: Spent,
-    /// The times of blocks, if they are kept.
+    /// The times of blocks, if they are recorded.
     pub blocks: Option<Vec<BlockTime>>,
 }
 
@@ -50,7 +50,7 @@ impl Queue {
     pub fn push(&mut self, leg: Leg) {
         self.legs.push_back(leg);
         let count = self.legs.len();
-        // backwards: as fast as the distance to the stop at the end allows
+        // backwards: each leg as fast as the distance to the stop at the end allows
         let (mut exit, mut changed) = (0.0, count);
         for at in (1..count).rev() {
             let leg = &mut self.legs[at];
@@ -60,7 +60,7 @@ impl Queue {
             }
             (leg.entry, exit, changed) = (entry, entry, at);
         }
-        // forwards: as fast as the distance from the beginning allows; a leg that limits the speed here is final
+        // forwards: each leg as fast as the distance from the beginning allows; if this limits the speed, the speed is final
         let mut done = 0;
         for at in changed..count {
             let before = &self.legs[at - 1];
@@ -78,7 +78,7 @@ impl Queue {
         }
     }
 
-    /// The last leg ends in a stop.
+    /// Ends the last leg in a stop.
     pub fn stop(&mut self) {
         while let Some(leg) = self.legs.pop_front() {
             let exit = self.legs.front().map_or(0.0, |next| next.entry);
@@ -86,23 +86,23 @@ impl Queue {
         }
     }
 
-    /// The time since the last call.
+    /// Returns the time since the last call.
     pub fn take(&mut self) -> Spent {
         std::mem::take(&mut self.spent)
     }
 
-    /// Two moves overlap for this time.
+    /// Subtracts the time during which two moves overlap.
     pub fn overlap(&mut self, seconds: f64, is_cut: bool, row: usize) {
         *self.spent_on(is_cut) -= seconds;
         self.adds(row, -seconds);
     }
 
-    /// The row of the block that is being run.
+    /// The row of the current block in the times of blocks.
     pub fn row(&self) -> usize {
         self.blocks.as_ref().map_or(0, |blocks| blocks.len().saturating_sub(1))
     }
 
-    /// Adds seconds to a row, if the times of blocks are kept.
+    /// Adds seconds to a row, if the times of blocks are recorded.
     pub fn adds(&mut self, row: usize, seconds: f64) {
         if let Some(block) = self.blocks.as_mut().and_then(|blocks| blocks.get_mut(row)) {
             block.seconds += seconds as f32;

@@ -1,16 +1,16 @@
-//! Positions, and the unit of their lengths.
+//! Positions, and the units of lengths.
 
-/// Coordinates h v d and rotary a b c. Axes that are not given keep the tool's last position.
+/// A position: the coordinates h v d and the rotary axes a b c. An axis that is not given keeps its last position.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Axes {
     /// Value of each axis: lengths in the job's units, angles in degrees.
     pub values: [f64; 6],
-    /// Bit i: axis i is given.
+    /// Which axes are given: bit i for axis i.
     pub given: u8,
 }
 
 impl Axes {
-    /// The first axes, all given.
+    /// A position in which the first axes have these values and the others are not given.
     pub fn new(values: &[f64]) -> Axes {
         let mut axes = Axes::default();
         for (i, &value) in values.iter().take(6).enumerate() {
@@ -19,13 +19,13 @@ impl Axes {
         axes
     }
 
-    /// Value of one axis, if given.
+    /// The value of one axis; `None` if the axis is not given.
     #[inline]
     pub fn get(&self, axis: usize) -> Option<f64> {
         (self.given & 1 << axis != 0).then(|| self.values[axis])
     }
 
-    /// Sets the value of one axis, in the job's units or degrees.
+    /// Sets the value of one axis, in the job's units or in degrees.
     #[inline]
     pub fn set(&mut self, axis: usize, value: f64) {
         self.values[axis] = value;

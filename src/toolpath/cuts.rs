@@ -1,4 +1,4 @@
-//! Jobs for a torch or a laser: begin and end of each cut, and positions without a depth axis that the form ignores.
+//! Prepares jobs for a torch or a laser: adds the begin and end of each cut, and removes a depth axis that the form ignores.
 
 use super::axes::Axes;
 use super::event::Event;
@@ -10,34 +10,34 @@ use crate::diag::{Code, Diag};
 
 /// The depth axis, as a bit.
 const DEPTH: u8 = 0b100;
-/// Heights that differ by less are equal, in the job's units.
+/// Tolerance within which two heights are equal, in the job's units.
 const SAME_HEIGHT: f64 = 1e-6;
 
-/// A sink that adds the begin and end of cuts and passes events on. A cut lasts from the first feed move to the next
-/// rapid. Cuts are parts of the path ([`Section::Cut`]), and include the lead-in and lead-out.
+/// A sink that adds the begin and end of cuts and passes all events on. A cut lasts from the first feed move to the
+/// next rapid. It is a part of the path ([`Section::Cut`]) and includes the lead-in and lead-out.
 pub struct Cuts<'s> {
     sink: &'s mut dyn Sink,
     /// Whether the form ignores the depth axis.
     is_flat: bool,
-    /// Whether a cut has begun.
+    /// Whether the tool is in a cut.
     is_on: bool,
-    /// Other parts that began or ended since the last move: whether the part began, its section, and its place in the
-    /// job.
+    /// Other parts that began or ended since the last move: whether the part began, its section, and its location in
+    /// the job.
     parts: Vec<(bool, Section, Place)>,
     /// Position of the tool.
     at: Axes,
-    /// The height of the cuts.
+    /// The height of all cuts, once known.
     height: Option<f64>,
 }
 
 impl<'s> Cuts<'s> {
-    /// A sink in front of `sink`. `is_flat`: the form ignores the depth axis.
+    /// A sink that passes its events on to `sink`. `is_flat`: the form ignores the depth axis.
     pub fn new(sink: &'s mut dyn Sink, is_flat: bool) -> Cuts<'s> {
         Cuts { sink, is_flat, is_on: false, parts: Vec::new(), at: Axes::default(), height: None }
     }
 
-    /// Pushes the waiting parts and the begin or end of a cut. A cut begins before the waiting parts, and ends after
-    /// those that end.
+    /// Pushes the waiting parts and the begin or end of a cut. A cut begins before the parts that begin with it, and
+    /// ends after the parts that end with it.
     fn switch(&mut self, begins: bool, place: Place) -> Result<(), Stop> {
         let parts = std::mem::take(&mut self.parts);
         let ended = parts.iter().position(|(begins, ..)| *begins).unwrap_or(parts.len());
@@ -57,12 +57,12 @@ impl<'s> Cuts<'s> {
         Ok(())
     }
 
-    /// The position, without the depth axis if the form ignores it.
+    /// The position for the form: without the depth axis if the form ignores it.
     fn flat(&self, to: Axes) -> Axes {
         if self.is_flat { Axes { given: to.given & !DEPTH, ..to } } else { to }
     }
 
-    /// Moves the tool. Returns whether it moves along an axis that the form does not ignore.
+    /// Moves the tool. Returns whether the tool moves along an axis that the form prints.
     fn goes(&mut self, to: &Axes) -> bool {
         let counted = self.flat(*to);
         let moves = (0..6).any(|axis| counted.get(axis).is_some_and(|value| self.at.get(axis) != Some(value)));
@@ -74,14 +74,14 @@ impl<'s> Cuts<'s> {
         moves
     }
 
-    /// A rapid ends the cut. A rapid along the ignored axis only also ends it, but is not passed on.
+    /// Handles a rapid, which ends the cut. A rapid along an ignored depth axis only is not passed on.
     fn rapid(&mut self, to: Axes, place: Place) -> Result<(), Stop> {
         self.switch(false, place)?;
         let moves = self.goes(&to);
         if moves || !self.is_flat { self.sink.push(Event::Rapid(self.flat(to)), place) } else { Ok(()) }
     }
 
-    /// Begins a cut for a feed move. Returns `false` if the move is along the ignored axis only.
+    /// Begins a cut at a feed move. Returns `false` if the tool moves only along an ignored depth axis.
     fn cuts(&mut self, to: &Axes, place: Place) -> Result<bool, Stop> {
         if !self.goes(to) && self.is_flat {
             return Ok(false);
@@ -110,7 +110,7 @@ impl<'s> Cuts<'s> {
                 "cut in XY, or remove `Ignore Z` from the form and print Z",
             );
         }
-        // this also covers a full circle, which ends where it begins
+        // a full circle is a cut too, although it ends where it begins
         self.goes(&arc.to);
         if self.is_flat {
             self.same_height()?;
@@ -144,7 +144,7 @@ impl<'s> Cuts<'s> {
             Event::Line { to, feed } if self.cuts(&to, place)? => {
                 self.sink.push(Event::Line { to: self.flat(to), feed }, place)
             }
-            // the feed of the line is in force from here on
+            // the feed of the line applies from here on
             Event::Line { feed: Some(feed), .. } => self.sink.push(Event::Feed(feed), place),
             Event::Line { .. } => Ok(()),
             Event::Arc { arc, feed } => self.arc(arc, feed, place),

@@ -1,8 +1,8 @@
-//! The dwell that is kept from one cycle to the next.
+//! The last dwell, which one cycle takes over from another.
 
 use super::{CycleKind, CycleSpec};
 
-/// The last dwell of a cycle. A face cycle, or a tap that does not reverse, uses it if it has no dwell of its own.
+/// The last dwell of a cycle. A face cycle, or a tap that does not reverse the spindle, uses it if it has no dwell of its own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LastDwell {
     seconds: Option<f64>,
@@ -10,7 +10,7 @@ pub struct LastDwell {
 }
 
 impl LastDwell {
-    /// Fills in the dwell of a cycle, or keeps the cycle's own dwell.
+    /// Sets the dwell of a cycle that needs one and has none. If the cycle has its own dwell, remembers it.
     pub fn fill(&mut self, spec: &mut CycleSpec) {
         match (spec.dwell, spec.revs) {
             (None, None) if spec.kind == CycleKind::Face || spec.norevr => {

@@ -1,4 +1,4 @@
-//! The events of a toolpath (render.md section 1).
+//! The events of a toolpath. Readers push them, and the renderer converts them to blocks (docs/rendering.md).
 
 use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
@@ -25,7 +25,7 @@ pub enum EdmAction {
     Thread,
     /// The wire is cut.
     Cut,
-    /// A thread point is predrilled.
+    /// The start hole for the wire is drilled.
     PreDrill,
     /// The tank is filled.
     Submerge,
@@ -36,20 +36,20 @@ pub enum EdmAction {
 pub struct Call {
     /// The subprogram's number in the job.
     pub sub: f64,
-    /// Number of runs of the subprogram.
+    /// How often the subprogram runs.
     pub times: f64,
     /// Position of the tool at the call.
     pub at: Axes,
-    /// Work offset of the call: a fixture number below 50, else the code.
+    /// Work offset of the call: a fixture number if below 50, otherwise a code.
     pub work: Option<f64>,
 }
 
-/// One event of a job, as readers push it and sinks take it.
+/// One event of a job. Readers push events, and sinks receive them.
 #[derive(Clone, Debug)]
 pub enum Event<'a> {
-    /// The head of the job: the first event.
+    /// The head of the job. It is always the first event.
     Start(&'a Start),
-    /// An operation begins. The tool changes if its number is another.
+    /// An operation begins. The tool changes if the operation has another tool number.
     ToolChange(&'a ToolChange),
     /// A rapid move to a position.
     Rapid(Axes),
@@ -57,39 +57,39 @@ pub enum Event<'a> {
     Line {
         /// End of the move.
         to: Axes,
-        /// The feed from here on; `None`: as before.
+        /// The feed from this move on; `None`: unchanged.
         feed: Option<f64>,
     },
     /// An arc or helix at feed.
     Arc {
         /// End, centre and direction.
         arc: &'a Arc,
-        /// The feed from here on; `None`: as before.
+        /// The feed from this move on; `None`: unchanged.
         feed: Option<f64>,
     },
     /// A straight move that turns cutter compensation on.
     Infeed {
-        /// End and side.
+        /// End of the move, and side of the path.
         infeed: &'a Infeed,
-        /// The feed from here on; `None`: as before.
+        /// The feed from this move on; `None`: unchanged.
         feed: Option<f64>,
     },
     /// A straight move that turns cutter compensation off.
     Outfeed {
         /// End of the move.
         to: Axes,
-        /// The feed from here on; `None`: as before.
+        /// The feed from this move on; `None`: unchanged.
         feed: Option<f64>,
         /// Whether the move is a rapid.
         rapid: bool,
     },
-    /// The tool axis from here on, a unit vector; a job begins with 0, 0, 1.
+    /// The tool axis from here on, as a unit vector. At the start of a job it is 0, 0, 1.
     Tilt([f64; 3]),
     /// A named part of the path begins.
     Begin(Section),
     /// A named part of the path ends.
     End(Section),
-    /// A canned cycle begins: holes follow.
+    /// A canned cycle begins. Its holes follow.
     CycleBegin(&'a CycleSpec),
     /// A hole of the cycle.
     Hole(Hole),
@@ -101,30 +101,30 @@ pub enum Event<'a> {
     Stop(StopKind),
     /// A comment to print.
     Comment(&'a str),
-    /// Text to print without changes.
+    /// Text that is printed without changes.
     Text(&'a str),
-    /// The feed from here on, in the operation's mode.
+    /// The feed from here on, in the feed mode of the operation.
     Feed(f64),
-    /// The work offset from here on: a fixture number below 50, else the code.
+    /// The work offset from here on: a fixture number if below 50, otherwise a code.
     Work(f64),
-    /// The spindle from here on.
+    /// The state of the spindle from here on.
     Spindle(Spindle),
     /// The coolant from here on.
     Coolant(Coolant),
-    /// The tool goes home, to the machine position that the form defines.
+    /// The tool goes home, to the machine position that the form defines (MoveHome).
     Home,
-    /// The value of a variable or property of the form from here on, by name.
+    /// A variable or property of the form, by its name, and its value from here on.
     Set(&'a str, &'a Given),
-    /// A subprogram of this number begins.
+    /// The subprogram with this number begins.
     SubStart(f64),
     /// The open subprogram ends.
     SubEnd,
-    /// A subprogram is called.
+    /// A call of a subprogram.
     SubCall(&'a Call),
-    /// A thread is cut, on a lathe.
+    /// A thread on a lathe.
     Thread(&'a Thread),
     /// An action of a wire EDM machine.
     Edm(EdmAction),
-    /// The job is over: the last event.
+    /// The job ends. It is always the last event.
     Finish,
 }

@@ -1,4 +1,4 @@
-//! Holds a tool change until the path's first move is known, because the tool change may print its position.
+//! Holds a tool change back until the first move of the path is known, because the tool change may print its position.
 
 use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
@@ -10,27 +10,27 @@ use super::{Flow, Place, Sink, Stop, flow};
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 
-/// The largest number of items before an operation's first move.
+/// The largest number of items that may come before the first move of an operation.
 const MOST_HELD: usize = 4096;
 
-/// A filter between a reader and its sink.
+/// A filter between a reader and its sink. It holds back tool changes.
 pub struct Hold<'s> {
     sink: &'s mut dyn Sink,
     change: Option<(ToolChange, Place)>,
     waiting: Vec<(Waiting, Place)>,
-    /// The axes that a tool change of this machine may print.
+    /// The axes that a tool change of this machine may print, as bits.
     axes: u8,
-    /// The axis along which the tool enters a hole.
+    /// The axis along which the tool enters a hole, as a bit.
     depth: u8,
-    /// Target of the rapids so far, until all axes are given. For each axis it is the first position.
+    /// The first position of the path: for each axis, the first value in the rapids so far. Complete if all axes are given.
     first: Axes,
-    /// The tool in the spindle.
+    /// The number of the tool in the spindle.
     tool: Option<f64>,
-    /// Whether the held change loads another tool.
+    /// Whether the held tool change loads another tool.
     changes: bool,
 }
 
-/// An owned event that comes before the first move.
+/// An event before the first move, as an owned copy.
 enum Waiting {
     Plain(Event<'static>),
     Comment(String),
@@ -40,7 +40,7 @@ enum Waiting {
 }
 
 impl Waiting {
-    /// Converts an event to be held; `None`: the tool must have changed before it.
+    /// Copies an event that can be held back. `None`: the tool change must come before this event.
     fn of(event: &Event<'_>) -> Option<Waiting> {
         Some(match *event {
             Event::CycleBegin(spec) => Waiting::Cycle(Box::new(spec.clone())),
@@ -61,7 +61,7 @@ impl Waiting {
         })
     }
 
-    /// Whether no sequence prints this event before the tool change: comments, rapids and changes.
+    /// Whether postform prints nothing for this event before the tool change. This applies to comments, rapids and changes.
     fn prints_nothing(&self) -> bool {
         matches!(
             self,
@@ -72,7 +72,7 @@ impl Waiting {
 }
 
 impl<'s> Hold<'s> {
-    /// A filter in front of `sink`.
+    /// A filter that passes its events on to `sink`.
     pub fn new(sink: &'s mut dyn Sink) -> Self {
         Hold {
             sink,
@@ -86,10 +86,10 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Holds a tool change. Its `first` is filled in by this filter.
+    /// Holds a tool change back. The filter sets `first` of the tool change.
     ///
     /// # Errors
-    /// The sink fails at an event that was held before.
+    /// The sink fails at an earlier event that was held back.
     pub fn tool_change(&mut self, change: ToolChange, place: Place) -> Result<(), Stop> {
         self.release(First::Nothing)?;
         let tool = change.tool.as_ref().map(|tool| tool.number);
@@ -99,7 +99,7 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// Passes the tool change on. `first` is the first move, unless an earlier rapid has given a position.
+    /// Passes the held tool change on. `first` is its first move, unless an earlier rapid has given a position.
     fn release(&mut self, first: First) -> Result<(), Stop> {
         let said = std::mem::take(&mut self.first);
         if let Some((mut change, place)) = self.change.take() {
@@ -119,8 +119,8 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// Records the target of a rapid. The first position of each axis is kept. A new tool has no height until a rapid
-    /// gives one. Until then, rapids across belong to its tool change, and the tool goes down at the last of them.
+    /// Records the target of a rapid. For each axis, the first position is kept. A new tool has no height until a rapid
+    /// gives one. Until then, the last rapid across counts, because the tool goes down there.
     fn reaches(&mut self, to: &Axes) {
         if self.is_way() && self.first.given & to.given & !self.depth != 0 {
             self.first.given &= !to.given;
@@ -132,19 +132,19 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Whether the rapids so far are moves across of a new tool that has no height yet.
+    /// Whether the held tool change loads another tool and no rapid so far gives a height.
     fn is_way(&self) -> bool {
         self.changes && self.depth != 0 && self.first.given & self.depth == 0
     }
 
-    /// Removes rapids without a height, because the tool change goes to a later position.
+    /// Removes rapids without a height, because the tool change goes directly to a later position.
     fn forget_ways(&mut self) {
         let (depth, changes) = (self.depth, self.changes);
         let is_way = |w: &Waiting| matches!(w, Waiting::Plain(Event::Rapid(to)) if changes && to.given & depth == 0);
         self.waiting.retain(|(waiting, _)| !is_way(waiting));
     }
 
-    /// Passes the tool change on, and then an event.
+    /// Passes the held tool change on, and then this event.
     fn release_before(&mut self, event: Event<'_>, place: Place, first: First) -> Result<(), Stop> {
         self.release(first)?;
         self.sink.push(event, place)
@@ -153,7 +153,7 @@ impl<'s> Hold<'s> {
     #[cold]
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
         match event {
-            // earlier rapids have given positions in the previous offset, so the tool moves to them in that offset
+            // earlier rapids gave positions in the previous work offset, so the tool moves to them in that offset
             Event::Work(_) if self.first.given != 0 && !self.is_way() => {
                 self.release_before(event, place, First::Nothing)
             }
@@ -161,7 +161,7 @@ impl<'s> Hold<'s> {
                 self.change_in(work);
                 Ok(())
             }
-            // switches and settings before any other event belong to the tool change
+            // spindle events and settings before any other event are merged into the tool change
             Event::Spindle(spindle) if self.prints_nothing() => {
                 self.change_with(spindle);
                 Ok(())
@@ -173,7 +173,7 @@ impl<'s> Hold<'s> {
                 Ok(())
             }
             Event::Rapid(to) => {
-                // CAM systems move to the height first and then across, or the other way round: wait for both
+                // CAM systems give the height and the position across in either order, so wait for both
                 self.reaches(&to);
                 if self.axes & !self.first.given == 0 || to.given & !self.axes != 0 {
                     return self.release_before(event, place, First::Nothing);
@@ -201,16 +201,16 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Whether none of the waiting events is printed by itself.
+    /// Whether postform prints nothing for all waiting events.
     fn prints_nothing(&self) -> bool {
         self.waiting.iter().all(|(waiting, _)| waiting.prints_nothing())
     }
 
-    /// Puts the tool change in this work offset. The first position is in this offset, and the tool must not move there
-    /// in another.
+    /// Sets the work offset of the tool change. The first position is then in this offset. The tool must not go to a
+    /// position of the previous offset.
     fn change_in(&mut self, work: f64) {
         if self.first.given != 0 {
-            // a new tool moves directly to its position in the last offset
+            // a new tool moves directly to its position in the last work offset
             self.first = Axes::default();
             self.forget_ways();
         }
@@ -219,7 +219,7 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Adds a spindle event to the tool change.
+    /// Merges a spindle event into the tool change.
     fn change_with(&mut self, spindle: Spindle) {
         if let Some((change, _)) = &mut self.change {
             let before = change.spindle.unwrap_or_default();
@@ -232,14 +232,14 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// The first move if the path begins with the first hole of the waiting cycle.
+    /// The first move for a path that begins with a hole of the waiting cycle.
     fn first_hole(&mut self, hole: Hole) -> First {
         let spec = self.waiting.iter().find_map(|(waiting, _)| match waiting {
             Waiting::Cycle(spec) => Some(spec.clone()),
             _ => None,
         });
         if self.first.given & self.depth != 0 {
-            // above the hole, at the height of an earlier rapid
+            // the position above the hole, at the height of an earlier rapid
             self.reaches(&Axes { given: hole.at.given & self.axes & !self.depth, ..hole.at });
         } else {
             self.first = Axes::default();
@@ -248,15 +248,15 @@ impl<'s> Hold<'s> {
         spec.map_or(First::Cut, |spec| First::Hole(spec, hole))
     }
 
-    /// Handles a path that begins with a call. The tool change moves to the position of the call, in the work offset of
-    /// the call. The work offset of the operation follows.
+    /// Handles a path that begins with a call of a subprogram. The tool change moves to the position of the call, in
+    /// the work offset of the call. Afterwards the work offset of the operation is set again.
     fn first_call(&mut self, call: &Call, place: Place) -> Result<(), Stop> {
         let own = self
             .change
             .as_mut()
             .filter(|_| call.work.is_some())
             .map(|(change, _)| std::mem::replace(&mut change.work, call.work));
-        let lost = own == Some(None); // only the renderer has the offset that is in force
+        let lost = own == Some(None); // only the renderer knows the active work offset
         let first = if call.at.given == 0 || lost { First::Nothing } else { First::Rapid(call.at) };
         self.release_before(Event::SubCall(call), place, first)?;
         match own.flatten() {

@@ -1,12 +1,12 @@
-//! Events that live longer than their reader.
+//! Owned copies of events.
 
 use super::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread, ToolChange};
 
-/// An event that lives longer than its reader, so that it can be sent to another thread.
+/// An owned copy of an event. It can be kept or sent to another thread.
 #[derive(Clone, Debug)]
 pub struct Kept(Own);
 
-/// Data that is larger than a straight move is boxed, because most events are straight moves.
+/// Events with much data are boxed, because most events are straight moves and a copy should be small.
 #[derive(Clone, Debug)]
 enum Own {
     Start(Box<Start>),
@@ -59,7 +59,7 @@ impl From<&Event<'_>> for Kept {
 }
 
 impl Kept {
-    /// The event as it was before.
+    /// The event as a borrowed value.
     pub fn event(&self) -> Event<'_> {
         match &self.0 {
             Own::Start(start) => Event::Start(start),

@@ -1,22 +1,22 @@
-//! Kinds of canned cycles, and the sequence for each.
+//! Kinds of canned cycles, and the sequence of a form for each.
 
 use super::tool::SpindleTurn;
 use crate::lang::SequenceId;
 
-/// Kinds of canned cycles (cycles.md section 1.5).
+/// Kinds of canned cycles (docs/cycles.md).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CycleKind {
     /// Feed in, rapid out.
     Drill,
     /// Feed in, dwell, rapid out: spot facing.
     Face,
-    /// A right-hand thread.
+    /// A tap for a right-hand thread.
     Tap,
-    /// A left-hand thread.
+    /// A tap for a left-hand thread.
     LTap,
     /// Feed in, stop the spindle, rapid out.
     Bore,
-    /// A bore from below, cut upward.
+    /// A back bore: it is cut upward from below.
     Back,
     /// Feed in, feed out.
     Ream,
@@ -24,11 +24,11 @@ pub enum CycleKind {
     Deep,
     /// Pecks with short retracts.
     Chipbreak,
-    /// Through several webs, rapids between them.
+    /// A hole through several webs, with rapids between them.
     Thru,
-    /// A countersink by its diameter and angle.
+    /// A countersink, given by its diameter and angle.
     Csink,
-    /// A stop for manual work by the operator.
+    /// A stop at which the operator makes the hole by hand.
     Manual,
     /// The first custom cycle of the form.
     Custom1,
@@ -63,13 +63,13 @@ impl CycleKind {
         Self::NAMES.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
 
-    /// Finds a kind by its name, in upper or lower case.
+    /// Finds a kind by its name; upper and lower case are equal.
     pub fn parse(name: &str) -> Option<CycleKind> {
         Self::NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
     }
 
-    /// The sequence with the name of this kind (render.md section 3). Other kinds are printed only by a Custom sequence
-    /// that is labelled with them.
+    /// The sequence with the name of this kind, which prints its holes. Kinds without such a sequence are printed only
+    /// by a Custom sequence whose comment names the kind.
     pub fn sequence(self) -> Option<SequenceId> {
         Some(match self {
             CycleKind::Drill => SequenceId::Drill,
@@ -87,7 +87,7 @@ impl CycleKind {
         })
     }
 
-    /// The direction in which the spindle turns while a tap goes in.
+    /// The direction in which the spindle turns while the tool goes in; `None` if the kind is not a tap.
     pub fn inwards(self) -> Option<SpindleTurn> {
         match self {
             CycleKind::Tap => Some(SpindleTurn::Cw),

@@ -1,4 +1,4 @@
-//! Toolpath events. Readers produce them and the renderer consumes them, one at a time.
+//! Toolpath events. Readers of jobs produce them one at a time, and sinks such as the renderer process them.
 
 mod axes;
 mod cuts;
@@ -43,7 +43,7 @@ pub use summary::Summary;
 pub use thread::Thread;
 pub use tool::{Coolant, FeedMode, Spindle, SpindleTurn, Tool};
 
-/// A number as a key of a map. Both signs of zero give the same key.
+/// A number as the key of a map. 0 and -0 have the same key.
 pub(crate) fn key(number: f64) -> u64 {
     (number + 0.0).to_bits()
 }

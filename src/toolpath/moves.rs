@@ -15,7 +15,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The two axes of the plane in the order in which counter-clockwise is positive, and the axis across the plane.
+    /// The two axes of the plane and the axis across it. The two axes are in the order in which counter-clockwise is positive.
     pub fn axes(self) -> ([usize; 2], usize) {
         match self {
             Plane::Xy => ([0, 1], 2),
@@ -25,7 +25,7 @@ impl Plane {
     }
 }
 
-/// Direction of an arc, seen from the positive end of the axis across the plane.
+/// Direction of an arc, seen from the positive end of the axis that is perpendicular to the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Clockwise: G2.
@@ -39,19 +39,19 @@ pub enum Direction {
 pub struct Arc {
     /// End of the arc.
     pub to: Axes,
-    /// Centre of the arc as an absolute position. Its coordinate across the plane is ignored.
+    /// Centre of the arc as an absolute position. Its coordinate perpendicular to the plane is ignored.
     pub center: Option<Axes>,
-    /// Radius, instead of the centre: negative for the longer way round.
+    /// Radius, if it is given instead of the centre. It is negative for the longer arc.
     pub radius: Option<f64>,
     /// Direction of the arc.
     pub direction: Direction,
     /// Plane of the arc.
     pub plane: Plane,
-    /// Full turns before the arc stops at its end.
+    /// Number of additional full turns.
     pub turns: u32,
 }
 
-/// Side of the path where the tool is.
+/// The side of the path on which the tool moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Left of the path: G41.
@@ -65,18 +65,18 @@ pub enum Side {
 pub struct Infeed {
     /// End of the move.
     pub to: Axes,
-    /// Side of the path where the tool will be.
+    /// Side of the path on which the tool moves after it.
     pub side: Side,
     /// Whether the move is a rapid.
     pub rapid: bool,
 }
 
-/// Named parts of a path.
+/// Kinds of named parts of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
-    /// The approach onto the contour.
+    /// The lead-in: the approach to the contour.
     Leadin,
-    /// The move off the contour.
+    /// The lead-out: the move away from the contour.
     Leadout,
     /// The move down into the material.
     Plunge,
@@ -84,10 +84,10 @@ pub enum Section {
     Retract,
     /// The move across to the next pass.
     SideStep,
-    /// The moves of one Z level.
+    /// All moves at one Z level.
     ZLevel,
     /// A pass of a pocket or of a surface.
     Row,
-    /// Everything that a torch or a laser cuts without a rapid between. Jobs do not contain it.
+    /// Everything that a torch or a laser cuts between two rapids. Jobs do not contain this section; postform adds it.
     Cut,
 }

@@ -6,34 +6,34 @@ use super::start::Given;
 use super::tool::{FeedMode, Spindle, Tool};
 use crate::lang::Coolant;
 
-/// The beginning of an operation's path. Readers look ahead for it, because a tool change may print the position.
+/// The beginning of an operation's path. Readers find it in advance, because a tool change may print its position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum First {
     /// The path begins with a rapid to this position.
     Rapid(Axes),
     /// The path begins with the first hole of a cycle.
     Hole(Box<CycleSpec>, Hole),
-    /// The path begins with a cut. Its target is not a position to move to at rapid.
+    /// The path begins with a cut. The tool must not move to the end of this cut at rapid.
     Cut,
     /// The path has no move.
     #[default]
     Nothing,
 }
 
-/// The beginning of an operation. The tool changes if its number is another.
+/// The beginning of an operation. The tool changes if the operation has another tool number.
 #[derive(Clone, Debug, Default)]
 pub struct ToolChange {
     /// Name of the operation.
     pub name: Option<String>,
     /// Tool of the operation; `None` on machines without tools.
     pub tool: Option<Tool>,
-    /// Spindle, if given.
+    /// Spindle data of the operation, if given.
     pub spindle: Option<Spindle>,
-    /// Coolant, if given.
+    /// Coolant of the operation, if given.
     pub coolant: Option<Coolant>,
-    /// Work offset: a fixture number below 50, else the code.
+    /// Work offset: a fixture number if below 50, otherwise a code.
     pub work: Option<f64>,
-    /// Feed of moves without a feed of their own, in the unit of `feed_mode`.
+    /// Feed of moves that have no feed of their own, in the unit of `feed_mode`.
     pub feed: Option<f64>,
     /// Feed of plunges, in the unit of `feed_mode`.
     pub plunge: Option<f64>,
@@ -41,7 +41,7 @@ pub struct ToolChange {
     pub feed_mode: Option<FeedMode>,
     /// A comment to print.
     pub comment: Option<String>,
-    /// Values for variables, by name: those of the operation, and those set before its first move.
+    /// Values for variables, by name: those of the operation and those that are set before its first move.
     pub set: Vec<(String, Given)>,
     /// The beginning of the path.
     pub first: First,

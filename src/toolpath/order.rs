@@ -1,22 +1,22 @@
-//! Checks the order of events. A wrong order is a fault of the code that pushes events, never of a job.
+//! Checks the order of events. A wrong order is always an error in the code that pushes events, and not in a job.
 
 use super::event::Event;
 use crate::diag::{Code, Diag};
 
-/// State of a stream of events.
+/// The state of a stream of events, as far as it determines which events may follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
     /// Outside a cycle.
     #[default]
     Path,
-    /// In a cycle, until an event other than a hole.
+    /// In a cycle. Any event except a hole ends it.
     Cycle,
-    /// After the end.
+    /// After the end of the job.
     End,
 }
 
 impl Order {
-    /// Takes the next event.
+    /// Checks the next event.
     ///
     /// # Errors
     /// A hole is outside a cycle, or an event comes after the end.
@@ -34,7 +34,7 @@ impl Order {
     }
 }
 
-/// An error for events that no reader pushes. This is an error of postform itself.
+/// The error for events that no reader may push. It is an error in postform itself.
 ///
 /// # Errors
 /// Always fails.

@@ -1,10 +1,10 @@
-//! Locations in a job, small enough to be passed with every event.
+//! Locations in a job. They are small, because every event is passed with its location.
 
 use std::fmt;
 
 use crate::diag::Location;
 
-/// Location of an event in its input.
+/// The location of an event in its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Place {
     /// Line of the input, from 1; 0 if there is none.
@@ -17,14 +17,14 @@ pub struct Place {
     pub item: u64,
     /// Point of the item's cycle, from 1; 0 for the item itself.
     pub point: u32,
-    /// Subprogram, from 1, instead of an operation. All above 65,535 share that number.
+    /// Subprogram, from 1, if the event is not in an operation. All subprograms after number 65,535 share the number 65,535.
     pub subprogram: u16,
-    /// The job among joined jobs, from 1; 0: the job is not joined.
+    /// The number of the job among several joined jobs, from 1; 0: there is only one job.
     pub part: u16,
 }
 
 impl Place {
-    /// The path inside the document, such as `operations[0].path[3].cycle.points[2]`; empty at the top level.
+    /// The path inside the document, such as `operations[0].path[3].cycle.points[2]`. It is empty outside of operations and subprograms.
     pub fn path(&self) -> String {
         let mut path = match (self.operation, self.subprogram) {
             (0, 0) => return String::new(),
@@ -49,7 +49,7 @@ impl From<Place> for Location {
 }
 
 impl fmt::Display for Place {
-    /// `12:9, operations[0].path[3]`.
+    /// Prints the location, such as `12:9, operations[0].path[3]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         Location::from(*self).fmt(f)
     }

@@ -1,25 +1,25 @@
-//! Arcs in their plane, and parts of them: sweep, quadrants, halves, chords.
+//! Arcs in their plane, and how they are divided: at quadrants, into equal parts, into chords.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Angles that differ by less are equal.
+/// Tolerance within which two angles are equal, in radians.
 const SAME_ANGLE: f64 = 1e-9;
 
-/// An arc in its plane, in the plane's own coordinates.
+/// An arc in two dimensions, in the coordinates of its plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneArc {
     /// Centre.
     pub centre: [f64; 2],
     /// Radius.
     pub radius: f64,
-    /// Angle of the start, radians.
+    /// Angle of the start, in radians.
     pub start: f64,
-    /// Angle swept, positive counter-clockwise. It is more than a full turn for a helix with several turns.
+    /// Angle from start to end, positive counter-clockwise. For a helix with several turns it is more than a full turn.
     pub sweep: f64,
 }
 
 impl PlaneArc {
-    /// The arc from `from` to `to` about `centre`. Equal ends make a full circle. `turns` full turns are added.
+    /// The arc from `from` to `to` around `centre`. If start and end are equal, it is a full circle. `turns` full turns are added.
     pub fn new(from: [f64; 2], to: [f64; 2], centre: [f64; 2], ccw: bool, turns: u32) -> PlaneArc {
         let angle = |p: [f64; 2]| (p[1] - centre[1]).atan2(p[0] - centre[0]);
         let (start, end) = (angle(from), angle(to));
@@ -36,8 +36,8 @@ impl PlaneArc {
         PlaneArc { centre, radius, start, sweep: if ccw { sweep } else { -sweep } }
     }
 
-    /// The centre of an arc with this radius. A negative radius means the longer way round. `None`: the ends are equal,
-    /// or farther apart than the diameter.
+    /// The centre of an arc with this radius. If the radius is negative, the longer arc is meant. `None`: start and end
+    /// are equal, or farther apart than the diameter.
     pub fn centre_by_radius(from: [f64; 2], to: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let half = dx.hypot(dy) / 2.0;
@@ -45,24 +45,24 @@ impl PlaneArc {
             return None;
         }
         let square = radius * radius - half * half;
-        // allow a half circle whose radius was rounded
+        // allow a half circle whose rounded radius is a little too small
         if square < 0.0 && half > radius.abs() * (1.0 + 1e-6) + 1e-6 {
             return None;
         }
         let height = square.max(0.0).sqrt();
-        // the centre of the shorter counter-clockwise arc is on the left of the chord
+        // the centre of the shorter counter-clockwise arc is on the left side of the chord
         let side = if ccw == (radius > 0.0) { 1.0 } else { -1.0 };
         let (nx, ny) = (-dy / (2.0 * half), dx / (2.0 * half));
         Some([(from[0] + to[0]) / 2.0 + side * height * nx, (from[1] + to[1]) / 2.0 + side * height * ny])
     }
 
-    /// The point at a fraction of the sweep, from 0 to 1.
+    /// The point at a fraction of the arc, from 0 to 1.
     pub fn point(&self, part: f64) -> [f64; 2] {
         let (sin, cos) = (self.start + self.sweep * part).sin_cos();
         [self.centre[0] + self.radius * cos, self.centre[1] + self.radius * sin]
     }
 
-    /// Fractions of the sweep where the arc crosses a quadrant line, excluding 0 and 1.
+    /// The fractions of the arc at which it crosses quadrants, without 0 and 1.
     pub fn quadrant_parts(&self, parts: &mut Vec<f64>) {
         let direction = self.sweep.signum();
         let first = self.start * direction / FRAC_PI_2;
@@ -79,13 +79,13 @@ impl PlaneArc {
         }
     }
 
-    /// Fractions that divide the sweep into equal parts of at most `most` radians.
+    /// The fractions that divide the arc into equal parts of at most `most` radians.
     pub fn equal_parts(&self, most: f64, parts: &mut Vec<f64>) {
         let count = (self.sweep.abs() / most - SAME_ANGLE).ceil().max(1.0);
         parts.extend((1..count as u64).map(|i| i as f64 / count));
     }
 
-    /// The largest angle whose chord stays within `tolerance` of the arc.
+    /// The largest angle at which a chord is nowhere farther than `tolerance` from the arc.
     pub fn chord_angle(&self, tolerance: f64) -> f64 {
         if tolerance >= self.radius {
             return PI / 2.0;
@@ -123,7 +123,7 @@ mod tests {
     }
 
     proptest! {
-        /// A centre that is found by radius has that distance from both ends, and the arc sweeps the requested side.
+        /// A centre that is calculated from a radius has this distance from both ends, and the arc is the requested one of the two.
         #[test]
         fn radius_arcs_close(x in -10.0..10.0f64, y in -10.0..10.0f64, stretch in 1.001..5.0f64, ccw: bool, long: bool) {
             prop_assume!(x.hypot(y) > 0.01);

@@ -1,4 +1,4 @@
-//! Reasons why reading a job ends early.
+//! The reasons why reading a job ends before the end of the job.
 
 use super::Stop;
 use crate::diag::Diag;
@@ -8,7 +8,7 @@ use crate::diag::Diag;
 pub enum ReadError {
     /// The input could not be read.
     Io(std::io::Error),
-    /// The job is wrong, or its events request something that is not possible.
+    /// The job has an error, or its events request something that is not possible.
     Job(Box<Diag>),
     /// The sink needs no more events. This is not an error.
     Stopped,

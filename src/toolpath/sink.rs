@@ -1,4 +1,4 @@
-//! Sinks take events, and can stop the reader.
+//! Sinks receive events and can stop the reader that pushes them.
 
 use std::ops::ControlFlow;
 
@@ -6,7 +6,7 @@ use super::event::Event;
 use super::place::Place;
 use crate::diag::{Diag, Location};
 
-/// The reason why a sink takes no more events.
+/// The reason why a sink stops the reader.
 #[derive(Debug)]
 pub enum Stop {
     /// The sink needs no more events. This is not an error.
@@ -28,7 +28,7 @@ impl From<Diag> for Stop {
 }
 
 impl Stop {
-    /// Adds a location to the finding, unless it already has one.
+    /// Adds a location to the finding if it has none.
     pub(crate) fn placed(mut self, place: impl FnOnce() -> Location) -> Stop {
         if let Stop::Wrong(diag) = &mut self {
             diag.place.get_or_insert_with(place);
@@ -37,10 +37,10 @@ impl Stop {
     }
 }
 
-/// The answer of a sink: continue, or the reason to stop.
+/// The result of a sink: continue, or the reason to stop.
 pub type Flow = ControlFlow<Stop>;
 
-/// Converts a result to the answer of a sink.
+/// Converts a result to the result of a sink.
 #[inline]
 pub fn flow<E: Into<Stop>>(done: Result<(), E>) -> Flow {
     match done {
@@ -49,15 +49,15 @@ pub fn flow<E: Into<Stop>>(done: Result<(), E>) -> Flow {
     }
 }
 
-/// A receiver of events: the renderer, a summary, a check.
+/// A receiver of events, such as the renderer, a summary or a check.
 pub trait Sink {
-    /// Takes one event with its place in the input. After a break, no more events may be pushed.
+    /// Processes one event with its location in the input. After a break, no more events may be pushed.
     fn event(&mut self, event: Event<'_>, place: Place) -> Flow;
 
-    /// Passes one event to the sink. Returns a `Result`, so that `?` ends the reading when the sink stops.
+    /// Passes one event to the sink. The result is a `Result`, so `?` ends reading when the sink stops.
     ///
     /// # Errors
-    /// The sink takes no more events.
+    /// The sink stops the reader.
     #[inline]
     fn push(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
         match self.event(event, place) {

@@ -3,16 +3,16 @@
 use super::axes::Units;
 use crate::lang::Machine;
 
-/// A value that a job sets for a variable or a property of the form.
+/// A value that a job gives to a variable or property of the form.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Given {
     /// A number.
     Number(f64),
-    /// A text, a word, or `yes` and `no`.
+    /// A text, a word of a choice, or `yes` or `no`.
     Text(String),
 }
 
-/// Information about the part, for people.
+/// Information for people about the part to be made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct About {
     /// Name or number of the part.
@@ -38,14 +38,14 @@ pub struct Start {
     pub units: Units,
     /// Type of machine that the job is for.
     pub machine: Machine,
-    /// Values for variables, by name.
+    /// Values that the job sets for variables and properties, by name.
     pub set: Vec<(String, Given)>,
-    /// The tools in order of use, if the job contains it.
+    /// The tool numbers in the order of use, if the job gives them.
     pub tool_order: Option<Vec<f64>>,
 }
 
 impl Start {
-    /// The head of a job for a mill, without further data.
+    /// The head of a job for a mill, with no data except the units.
     pub fn new(units: Units) -> Start {
         Start {
             program: None,

@@ -1,4 +1,4 @@
-//! Statistics of a job: tools, moves, holes, extents.
+//! Statistics of a job: its tools, moves, holes and extents.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ use super::start::Start;
 use super::{Flow, Place, Sink, flow, key};
 use crate::diag::{Code, Diag};
 
-/// Counts the events of a job. `postform check` prints the summary.
+/// Counts the events of a job. `postform check` prints the result.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
     /// Units of the job.
@@ -19,7 +19,7 @@ pub struct Summary {
     pub name: Option<String>,
     /// Program number of the job.
     pub program: Option<f64>,
-    /// Tool numbers in the order of their first use, with diameter.
+    /// Tool numbers in the order of their first use, each with its diameter.
     pub tools: Vec<(f64, Option<f64>)>,
     /// Number of operations.
     pub operations: u64,
@@ -31,15 +31,15 @@ pub struct Summary {
     pub arcs: u64,
     /// Number of holes for each kind of cycle.
     pub holes: Vec<(CycleKind, u64)>,
-    /// Least and greatest position of each linear axis over all targets, including hole bottoms.
+    /// Least and greatest position of each linear axis, over all ends of moves and bottoms of holes.
     pub extents: [Option<(f64, f64)>; 3],
     /// Number of changes of the tool axis.
     pub tilts: u64,
-    /// Place of the first change of the tool axis.
+    /// Location of the first change of the tool axis.
     tilted: Option<Place>,
-    /// The first operation without content.
+    /// Location of the first operation without content.
     idle: Option<Place>,
-    /// An operation without content so far.
+    /// Location of the current operation if it has no content so far.
     begun: Option<Place>,
     order: Order,
     kind: Option<(CycleKind, f64)>,
@@ -63,7 +63,7 @@ impl Summary {
         self.extents[axis] = Some((least.min(value), greatest.max(value)));
     }
 
-    /// Findings that prevent every form from printing the job. Rendering would report them too.
+    /// The findings that make the job unprintable for every form. Rendering would report them too.
     pub fn unprintable(&self) -> Vec<Diag> {
         let at = |place: Place, code, message: String, help: &str| Diag::new(code, message).help(help).place(place);
         let tilted = self.tilted.map(|place| {

@@ -2,7 +2,7 @@
 
 use super::axes::Axes;
 
-/// A thread on a lathe. Positions are z and x as a radius, lengths in the job's units.
+/// A thread on a lathe. Its positions are z and a radius as x. Lengths are in the job's units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thread {
     /// Start of the thread: z, and the radius of the crest.
@@ -11,19 +11,19 @@ pub struct Thread {
     pub to: Axes,
     /// Distance between two crests.
     pub pitch: f64,
-    /// Height of the thread, on the radius; negative for an internal thread, which is cut outward.
+    /// Height of the thread, measured on the radius. It is negative for an internal thread, which is cut outward.
     pub depth: f64,
     /// Depth of the first cut, on the radius.
     pub first_depth: Option<f64>,
     /// Depth of the smallest cut, on the radius.
     pub min_depth: Option<f64>,
-    /// Radius at the start minus the radius at the end.
+    /// Radius at the start minus the radius at the end of the thread.
     pub taper: Option<f64>,
-    /// Angle of the tip, in degrees.
+    /// Angle between the flanks, in degrees.
     pub angle: Option<f64>,
     /// Number of passes.
     pub passes: Option<f64>,
-    /// Length of the runout, in the unit of the control.
+    /// Length of the runout, in the unit that the control uses.
     pub chamfer: Option<f64>,
     /// Number of starts.
     pub starts: Option<f64>,

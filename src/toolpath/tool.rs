@@ -1,4 +1,4 @@
-//! Tool data of an operation: tool, spindle, coolant, and feed mode.
+//! The data of an operation: tool, spindle, coolant and feed mode.
 
 pub use crate::lang::Coolant;
 
@@ -7,23 +7,23 @@ use super::start::Given;
 /// A tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tool {
-    /// Number by which the program calls the tool.
+    /// Number with which the program calls the tool.
     pub number: f64,
     /// Diameter, in the job's units.
     pub diameter: Option<f64>,
     /// Radius of the corner, in the job's units.
     pub corner_radius: Option<f64>,
-    /// Register of the tool's length.
+    /// Number of the register with the tool's length.
     pub length_offset: Option<f64>,
-    /// Register of the tool's diameter, for cutter compensation.
+    /// Number of the register with the tool's diameter, for cutter compensation.
     pub diameter_offset: Option<f64>,
-    /// Place in the turret, where that is not the number.
+    /// Position in the turret, if it differs from the number.
     pub turret: Option<f64>,
     /// Name of the tool.
     pub name: Option<String>,
-    /// Comment of the program about the tool.
+    /// Comment about the tool that the program prints.
     pub comment: Option<String>,
-    /// Other data, such as the holder or the stick-out, under names that the job chooses.
+    /// Other data under names that the job chooses, such as the holder or the stick-out.
     pub data: Vec<(String, Given)>,
 }
 
@@ -38,16 +38,16 @@ pub enum SpindleTurn {
     Off,
 }
 
-/// The spindle. Values that are not given stay unchanged.
+/// Spindle data. Values that are not given stay unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Spindle {
-    /// Revolutions per minute, or the surface speed in the unit of the control.
+    /// Speed in revolutions per minute, or surface speed in the unit of the control.
     pub speed: Option<f64>,
     /// Direction of the spindle.
     pub turn: Option<SpindleTurn>,
     /// Whether the speed is a constant surface speed.
     pub css: Option<bool>,
-    /// Highest revolutions per minute at constant surface speed.
+    /// Highest speed in revolutions per minute while a constant surface speed is active.
     pub max: Option<f64>,
 }
 
@@ -58,6 +58,6 @@ pub enum FeedMode {
     PerMinute,
     /// Length per turn of the spindle: G95, on lathes G99.
     PerRev,
-    /// Moves per minute: G93.
+    /// Moves per minute: the inverse of the time of a move. G93.
     InverseTime,
 }

@@ -1,4 +1,4 @@
-//! Arcs. A program may make them in parts, or of short lines.
+//! Compares arcs. A program may divide an arc into parts or into short lines.
 
 use super::cut::{ALL, Cut, Place, What, position, same, shown};
 use super::intent::Done;
@@ -8,10 +8,11 @@ use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
 
-/// How far parts may deviate from the circle, in tolerances. It is more than 1 because centres are rounded too.
+/// How far parts may deviate from the circle, in tolerances. The factor is more than 1 because centres are rounded too.
 const OFF: f64 = 5.0;
 
-/// Whether a short straight cut from the beginning of an arc ends on the arc, not beyond its end and not backwards.
+/// Whether a short straight cut that begins where the arc begins ends on the arc. Its end must not be behind the beginning or beyond the
+/// end.
 pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bool {
     let [first, second, _] = axes_of(turn.plane);
     let radius = |at: &Place| (at[first] - turn.center[first]).hypot(at[second] - turn.center[second]);
@@ -19,7 +20,7 @@ pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bo
     (radius(to) - radius(&cut.from)).abs() <= tolerance && angle <= sweep(&cut.from, turn).min(std::f64::consts::PI)
 }
 
-/// Compares the job's arc, made as one arc or in parts. The first part was met already.
+/// Compares the program's cuts with an arc of the job. The program may make the arc in parts. Its first part was already reached.
 pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     let (tolerance, chord) = (s.limits.tolerance, s.limits.chord);
     let [first, second, across] = axes_of(turn.plane);
@@ -42,7 +43,7 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
         }
         let end = found.end();
         let part = Turn { to: position(&end), turns: 0, ..*turn };
-        // measured from the program's position: rounding may close a circle that is open in the job, or the reverse
+        // measured from the program's position: rounding may close a circle that is open in the job, or open a closed one
         let straight_up = matches!(found.what, What::Line { .. })
             && [first, second].iter().all(|&axis| (end[axis] - found.from[axis]).abs() < 1e-9);
         let mut angle = if straight_up { 0.0 } else { sweep(&found.from, &part) };
@@ -76,7 +77,7 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
         let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
         let ends = same(&end, &cut.end(), ALL, tolerance);
         let in_it = !ends && (parts > 0 || swept < whole - 1e-6);
-        // on a steep helix, the rounding of X and Y changes the height by this much
+        // on a steep helix, rounded X and Y change the height by up to this amount
         let steep = ((turn.to[across] - cut.from[across]) / (radius * whole)).abs() * tolerance;
         let off = off.max(((end[across] - height).abs() - 2.0 * steep) * f64::from(u8::from(in_it)));
         if off > slack || swept > whole + slack_angle * f64::from(parts + 1) {
@@ -100,7 +101,7 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     }
 }
 
-/// The point of a part after an angle, in the plane. For a straight part, this is its end.
+/// The point that a part of the arc reaches after this angle, in the plane. For a straight part, this is the end of the part.
 fn point_of(found: &Cut, turn: &Turn, angle: f64) -> [f64; 2] {
     let [first, second, _] = axes_of(turn.plane);
     match found.what {

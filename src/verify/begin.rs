@@ -1,4 +1,4 @@
-//! The beginning of a cut. The program must have a cut of the same kind that begins at the same position.
+//! Checks the beginning of a cut. The program must have a cut of the same kind that begins at the same position.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, NAMES, Rapid, number, over, same, shown};
 use super::intent::{Done, Expected};
@@ -6,25 +6,25 @@ use super::sides::Sides;
 use super::{align, modal, pauses, rapids, wire};
 use crate::diag::Code;
 
-/// The beginning of the program's next cut.
+/// The beginning of the program's next cut, relative to the job's cut.
 enum Begins {
     /// At the beginning of the job's cut.
     There,
-    /// After the end of the job's cut: the program goes to this end at rapid.
+    /// After the end of the job's cut: the program reaches this end by a rapid.
     Behind,
-    /// Before the job's cut: the program feeds where the job has a rapid.
+    /// Before the job's cut: the program has a feed move where the job has a rapid.
     Before,
 }
 
-/// The program's next cut, after its path, beginning and state are compared. `None`: the program goes at rapid where the
-/// job cuts.
+/// Finds the program's cut for this cut of the job. Compares the path to it, its beginning and its modal state. `None`:
+/// the program has a rapid where the job cuts.
 pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
     let found = loop {
         let Some(found) = align::partner(s, cut)? else { return is_missing(s, cut, hole) };
         match begins(s, cut, &found, hole)? {
             Begins::There => break found,
             Begins::Behind => {
-                // the next cut still begins at this end
+                // the job's next cut begins at this end
                 s.job.goes_on(cut.end());
                 return Ok(None);
             }
@@ -74,7 +74,7 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     let angles = (3..6).filter(|&axis| cut.from[axis] != found.from[axis]).map(|axis| 1 << axis).sum::<u8>();
     let (wanted, is) = (shown(&cut.from, 0b111 | angles), shown(&found.from, 0b111 | angles));
     let line = found.line;
-    // the rapid went to the end of the cut
+    // a rapid goes to the end of the job's cut
     let cuts_by_rapid = |rapid: &Rapid| rapid.unknown == 0 && same(&rapid.to, &end, ALL, tolerance);
     if s.program.passage.rapids.iter().any(cuts_by_rapid) && !same(&end, &cut.from, ALL, tolerance) {
         s.found(Code::PV007, line, "print the feed code (G1) for this move", || {
@@ -115,7 +115,7 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
         let message = format!("the hole at {} is drilled from an unknown height", over(&hole.at));
         return s.differs(Code::PV005, line, message, "print [d] before the cycle");
     }
-    // the hole is still the job's, and the next one may be, too
+    // report it and continue: the hole is at the job's position, and the next hole may be too
     s.found(Code::PV005, line, "print R[vclear] in the cycle, at every hole where it changes", || {
         format!(
             "the feed begins at Z{}, but the job's clearance plane is Z{}",
@@ -126,7 +126,7 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     Ok(Begins::There)
 }
 
-/// Whether the program feeds to a position where the job goes at rapid. Reports it.
+/// Whether the program has a feed move to a position that the job reaches at rapid. If so, reports the difference.
 pub(super) fn is_the_jobs_rapid(s: &mut Sides<'_>, found: &Cut) -> bool {
     let (end, tolerance) = (found.end(), s.limits.tolerance);
     let is = s.job.rapids.iter().any(|rapid| same(&rapid.to, &end, ALL, tolerance));
@@ -138,7 +138,7 @@ pub(super) fn is_the_jobs_rapid(s: &mut Sides<'_>, found: &Cut) -> bool {
     is
 }
 
-/// The names of the axes, or `None` if there are none.
+/// The names of the axes in these bits, such as `X and Y`; `None` if no bit is set.
 pub(super) fn unsaid(axes: u8) -> Option<String> {
     let names: Vec<String> =
         (0..8).filter(|axis| axes & 1 << axis != 0).map(|axis| char::from(NAMES[axis]).to_string()).collect();

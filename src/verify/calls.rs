@@ -5,7 +5,7 @@ use super::intent::{Done, Intent, unproven};
 use super::tables::Unmodelled;
 use crate::toolpath::{Call, Kept, Place};
 
-/// The largest number of items run by calls.
+/// The largest number of items that all calls together may run.
 const MOST_DONE: u64 = 20_000_000;
 /// The deepest nesting of calls.
 const DEEPEST: u32 = 64;
@@ -16,8 +16,8 @@ impl Job {
         if self.expectation.subs_first { self.subprograms.count() } else { 0 }
     }
 
-    /// Runs a call: sets its work offset, moves to its position, and runs the subprogram's items as often as requested.
-    /// After each run, the modal state of the operation is restored.
+    /// Runs a call: sets its work offset, moves to its position, and runs the items of the subprogram as often as the
+    /// call requests. After each run, the modal state of the calling operation is restored.
     pub(super) fn call(&mut self, call: &Call, to: &mut impl Intent) -> Done {
         let Some(index) = self.subprograms.defined.iter().position(|sub| sub.number == call.sub) else {
             return unproven(Unmodelled::MissingSubprogram);
@@ -46,7 +46,7 @@ impl Job {
         self.subprograms.defined[index].items = items;
         self.subprograms.depth -= 1;
         if done.is_ok() {
-            to.comes_from(called_at); // on an error, the place stays at the item that differs
+            to.comes_from(called_at); // after an error, findings still name the item with the difference
             self.work_is(of_caller, to);
         }
         done

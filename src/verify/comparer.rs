@@ -1,4 +1,4 @@
-//! Compares a job's cuts with those of a program, one by one.
+//! Compares the cuts of a job with the cuts of a program, one by one.
 
 use std::io::{Read, Seek};
 
@@ -21,7 +21,7 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
-/// Differences of exactly the tolerance are allowed. Binary rounding makes them a little larger.
+/// Factor on the tolerance. Differences of exactly the tolerance are allowed, and binary rounding makes them a little larger.
 const BINARY: f64 = 1.0 + 1e-6;
 
 /// Compares a program with the events of its job. Push the events, then call [`Comparer::verdict`].
@@ -72,25 +72,25 @@ impl<'a> Comparer<'a> {
         }
     }
 
-    /// Sets the units of the program until the program sets its own.
+    /// Sets the units that apply until the program sets its own.
     pub fn begin_in(&mut self, units: Units) {
         self.sides.program.begin_in(units);
     }
 
-    /// Whether the control refused a block ahead of the job. This is reported at the job's next cut.
+    /// Whether the control refused a block before the job reached it. The refusal is reported at the job's next cut.
     pub(super) fn is_stuck(&self) -> bool {
         self.sides.program.has_failed()
     }
 
-    /// Runs the program while its text waits. Before the first operation, the job may still change how the program is
-    /// run.
+    /// Runs the program ahead while text is waiting. Before the first operation nothing runs, because the job may still
+    /// change the settings of the run.
     pub(super) fn run_on(&mut self, waits: &dyn Fn() -> bool) {
         if self.begun {
             self.sides.program.run_on(waits);
         }
     }
 
-    /// Counts of what was compared so far.
+    /// The number of cuts and holes compared so far.
     pub fn counts(&self) -> Counts {
         self.sides.report.counts
     }
@@ -100,7 +100,7 @@ impl<'a> Comparer<'a> {
         self.sides.report.findings.len() + self.sides.program.hazards.len()
     }
 
-    /// Adds to new findings the form lines that printed their blocks.
+    /// Adds to new findings the form line that printed their block.
     pub(super) fn locate(&mut self, origin: impl Fn(u64) -> Option<TraceLine>) {
         let hazards = self.sides.program.hazards.iter_mut();
         for finding in self.sides.report.findings.iter_mut().chain(hazards).filter(|finding| finding.form.is_none()) {
@@ -115,12 +115,12 @@ impl<'a> Comparer<'a> {
         self.sides.program.warnings()
     }
 
-    /// Whether the verdict is known and no longer depends on the rest of the job.
+    /// Whether the verdict is final. The rest of the job then can't change it.
     pub fn is_decided(&self) -> bool {
         self.found() > 0 || self.sides.report.unproven.is_some()
     }
 
-    /// The verdict, after the last event or after an event with a difference.
+    /// The verdict. Call this after the last event, or after an event that made a difference.
     ///
     /// # Errors
     /// The program can't be read.
@@ -143,7 +143,7 @@ impl<'a> Comparer<'a> {
 }
 
 impl Sink for Comparer<'_> {
-    /// Breaks when nothing more can be compared. [`Comparer::verdict`] then returns the reason.
+    /// Compares one event. Breaks when nothing more can be compared; [`Comparer::verdict`] then returns the reason.
     fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.report.place = place;
         if matches!(event, Event::ToolChange(_)) && !std::mem::replace(&mut self.begun, true) {
@@ -174,7 +174,7 @@ impl Intent for Sides<'_> {
     }
 
     fn rapid(&mut self, rapid: Rapid) -> Done {
-        // a rapid without a move is ignored
+        // a rapid to the current position is ignored
         let here = self.job.here();
         if here.is_some_and(|here| here.to == rapid.to && here.unknown == rapid.unknown) && rapid.spin.is_none() {
             return Ok(());
@@ -203,7 +203,7 @@ impl Intent for Sides<'_> {
             return Ok(());
         }
         let Some(found) = begin::meet(self, cut, hole)? else { return Ok(()) };
-        // the program drills in pecks
+        // the job drills this hole in one stroke, the program in pecks
         let tolerance = self.limits.tolerance;
         if let Some(hole) = hole.filter(|hole| hole.drilled_in_one && found.end()[DEPTH] > hole.bottom + tolerance) {
             self.peck(cut, hole);
@@ -211,7 +211,7 @@ impl Intent for Sides<'_> {
         }
         self.report.counts.cuts += u64::from(hole.is_none());
         match (cut.what, found.what) {
-            // a helix whose circle is smaller than the digits of the program
+            // a helix whose circle is smaller than the program's digits
             (What::Arc(turn), What::Line { .. }) if is_straight(cut, &turn, self.limits.tolerance) => {
                 let straight = Cut { what: What::Line { to: cut.end() }, ..cut.clone() };
                 lines::line(self, &straight, &found, hole)?;
@@ -339,8 +339,8 @@ impl Intent for Sides<'_> {
 }
 
 impl Sides<'_> {
-    /// Checks that everything that the job does between two cuts fits in memory. The program is checked when it runs to
-    /// its next cut.
+    /// Fails if the job does more between two cuts than postform keeps in memory. The program is checked when it runs
+    /// to its next cut.
     #[inline]
     fn can_hold(&mut self) -> Done {
         if self.job.is_too_long() {
@@ -349,7 +349,7 @@ impl Sides<'_> {
         Ok(())
     }
 
-    /// Records a cut of a hole in pecks. It is compared when the job's hole is complete.
+    /// Keeps one of the job's cuts in a pecked hole. The cuts are compared when the job's hole is complete.
     fn peck(&mut self, cut: &Cut, hole: &Expected) {
         let Limits { increment, tolerance, .. } = self.limits;
         let strokes = &mut self.hole.strokes;

@@ -1,4 +1,4 @@
-//! Cuts and the paths to them, by which job and program are compared.
+//! The cuts of job and program and the rapids to them, in the form in which they are compared.
 
 use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
@@ -7,7 +7,7 @@ use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
 use crate::nc::{Cooling, Position, Rotation, Threading, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
 
-/// A position: X Y Z in the job's units, A B C in degrees, and U V of a wire's upper guide in the job's units.
+/// A position: X Y Z in the job's units, A B C in degrees, and U V of the upper wire guide in the job's units.
 pub(super) type Place = [f64; 8];
 
 /// The X Y Z A B C of a position.
@@ -16,10 +16,10 @@ pub(super) fn position(place: &Place) -> Position {
     [x, y, z, a, b, c]
 }
 
-/// Value of U or V if the wire is not guided. The wire is then vertical.
+/// Value of U or V if the program does not move the upper wire guide separately. The wire is then vertical.
 pub(super) const UNSAID: f64 = 1e9;
 
-/// A position of a mill or lathe, without U and V.
+/// Converts a position of a mill or lathe to a `Place`. Its U and V have no value.
 pub(super) fn place(position: &Position) -> Place {
     let [x, y, z, a, b, c] = *position;
     [x, y, z, a, b, c, UNSAID, UNSAID]
@@ -29,9 +29,9 @@ pub(super) fn place(position: &Position) -> Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rapid {
     pub to: Place,
-    /// Axes whose position is known only at the machine.
+    /// Axes whose position is known only at the machine, as bits.
     pub unknown: u8,
-    /// Rotation or angle of the spindle, if it matters.
+    /// The required or actual state of the spindle, if it matters.
     pub spin: Option<Spin>,
 }
 
@@ -47,7 +47,8 @@ pub(super) enum Spin {
 }
 
 impl Spin {
-    /// Whether the spindle is in the state that the job requires. A stopped spindle is accepted whatever stopped it.
+    /// Whether the spindle is in the state that the job requires. If the job requires a stopped spindle, the way it is stopped does not
+    /// matter.
     pub fn serves(self, wanted: Spin) -> bool {
         match (wanted, self) {
             (Spin::At(a), Spin::At(b)) => ((a - b) / 360.0).fract().abs() * 360.0 < ORIENTED,
@@ -59,7 +60,7 @@ impl Spin {
     }
 }
 
-/// The motion at the end of the path.
+/// A cutting motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum What {
     /// A straight feed move.
@@ -78,7 +79,7 @@ impl What {
     }
 }
 
-/// The state in force at a cut. `None`: unknown, or without effect.
+/// The modal state at a cut. `None`: the value is unknown or has no effect.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub(super) struct State {
     pub tool: Option<f64>,
@@ -89,26 +90,26 @@ pub(super) struct State {
     pub coolant: Option<Cooling>,
     /// Cutter compensation. `Some(None)`: off.
     pub side: Option<Option<Side>>,
-    /// Registers of tool length, and of the diameter while compensation is on.
+    /// Register of the tool length. The next field is the register of the diameter while compensation is on.
     pub length: Option<f64>,
     pub diameter: Option<f64>,
     /// Whether the speed is a surface speed.
     pub css: bool,
-    /// Highest speed of the spindle, which limits a surface speed near the axis.
+    /// Highest speed of the spindle. It limits a surface speed near the axis of the lathe.
     pub limit: Option<f64>,
     /// The plane of the compensation.
     pub plane: Plane,
-    /// Whether the control synchronises feed and spindle.
+    /// Whether the control synchronises feed and spindle (rigid tapping).
     pub rigid: Option<bool>,
-    /// Data of a thread besides its moves.
+    /// Data of a thread that are not in its moves.
     pub thread: Threading,
-    /// Rotation of the spindle at the beginning of a floating tap of the control. For a job: the required rotation.
+    /// Rotation of the spindle at the beginning of the control's cycle for a floating tap. For a job: the required rotation.
     pub into_tap: Option<Rotation>,
 }
 
 impl State {
-    /// Begins a tap of the control that goes in with this rotation. A rigid tap starts the spindle itself. A floating tap
-    /// goes in with the rotation before it.
+    /// Begins a tapping cycle of the control with this rotation. A rigid tap starts the spindle itself. A floating tap
+    /// uses the rotation that is already on.
     pub fn taps(&mut self, inwards: Rotation) {
         let floats = self.rigid == Some(false);
         self.into_tap = self.rotation.filter(|_| floats);
@@ -123,7 +124,7 @@ impl State {
     }
 }
 
-/// A state that many cuts share until it changes. Two shared states are compared by their pointers first.
+/// A state that many cuts share until it changes. A comparison of two shared states compares their pointers first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shared(Rc<State>);
 
@@ -143,7 +144,7 @@ impl Deref for Shared {
 }
 
 impl DerefMut for Shared {
-    /// The state for a change. Other cuts that share it keep the old state.
+    /// The state, to be changed. Other cuts that share it keep the old state.
     fn deref_mut(&mut self) -> &mut State {
         Rc::make_mut(&mut self.0)
     }
@@ -160,24 +161,24 @@ impl PartialEq for Shared {
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     pub from: Place,
-    /// Axes of `from` whose position is known only at the machine.
+    /// Axes of `from` whose position is known only at the machine, as bits.
     pub unknown: u8,
-    /// Axes that the cut takes to a machine position (G53 under G1).
+    /// Axes that the cut moves to a machine position (G53 under G1).
     pub home: u8,
-    /// The axes whose end position is an unknown machine position.
+    /// Axes whose end position is a machine position that is unknown.
     pub open: u8,
     pub what: What,
     pub feed: Option<f64>,
     pub mode: FeedMode,
-    /// Feed per turn, if the cut follows the spindle.
+    /// Feed per turn, if the control synchronises the cut with the spindle.
     pub lead: Option<f64>,
     pub state: Shared,
-    /// Kinds of sequences that the job has used so far: since its last spindle event, and those whose feed this cut may
-    /// have.
+    /// Kinds of sequences, as the bits of `form_values::by`: those that the job used since its last spindle event, and
+    /// those that may have set the feed of this cut.
     pub by: [u8; 2],
     /// Whether a canned cycle of the control makes the cut.
     pub by_cycle: bool,
-    /// The program's line, or 0.
+    /// The program's line; 0 for a cut of the job.
     pub line: u64,
 }
 
@@ -187,8 +188,8 @@ impl Cut {
         self.what.end()
     }
 
-    /// Whether the cut is so short that it may disappear in the digits of a program. A full circle is never short,
-    /// although it ends where it begins.
+    /// Whether the cut is so short that the digits of a program may not show it. A full circle is never short, although
+    /// it ends where it begins.
     pub fn is_short(&self, tolerance: f64) -> bool {
         let end = self.end();
         let near = same(&self.from, &end, ALL, tolerance) && turn_as_far([&self.from, &self.from], [&self.from, &end]);
@@ -199,20 +200,20 @@ impl Cut {
     }
 }
 
-/// Whether an arc is so short in its plane that it may disappear in the digits of a program.
+/// Whether an arc is so short in its plane that the digits of a program may not show its curve.
 pub(super) fn is_straight(cut: &Cut, turn: &Turn, tolerance: f64) -> bool {
     let [first, second, _] = axes_of(turn.plane);
     let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
     turn.turns == 0 && radius * sweep(&cut.from, turn) <= 2.0 * tolerance
 }
 
-/// The axes as bits.
+/// All axes, as bits.
 pub(super) const ALL: u8 = 0xff;
 /// The names of the axes.
 pub(super) const NAMES: [u8; 8] = *b"XYZABCUV";
-/// The axis across a lathe's part, as an index: the radius.
+/// Index of the axis across a lathe's part. Its value is the radius.
 pub(super) const RADIUS: usize = 0;
-/// The axis along which holes go, as an index.
+/// Index of the axis along which holes are drilled.
 pub(super) const DEPTH: usize = 2;
 /// All axes except the depth.
 pub(super) const ACROSS: u8 = ALL & !(1 << DEPTH);
@@ -220,7 +221,7 @@ pub(super) const ACROSS: u8 = ALL & !(1 << DEPTH);
 /// Whether two positions are equal on these axes. Angles that differ by full turns are equal.
 #[inline]
 pub(super) fn same(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
-    // most positions are near on every axis, which is tested without branches
+    // fast path without branches: most positions are equal on all axes
     let all_near = a.iter().zip(b).fold(true, |near, (a, b)| near & ((a - b).abs() <= tolerance));
     all_near || same_on(a, b, axes, tolerance)
 }
@@ -234,12 +235,12 @@ fn same_on(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
     })
 }
 
-/// Whether the angles of two cuts turn by the same amount.
+/// Whether the rotary axes turn by the same angle in two cuts.
 pub(super) fn turn_as_far(a: [&Place; 2], b: [&Place; 2]) -> bool {
     (3..6).all(|axis| ((a[1][axis] - a[0][axis]) - (b[1][axis] - b[0][axis])).abs() <= 2.0 * ANGLE)
 }
 
-/// Whether b is on the straight line from a to c.
+/// Whether b is on the straight line from a to c, within the tolerance.
 pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
     let (mut along, mut length) = (0.0, 0.0);
     for axis in 0..8 {
@@ -254,7 +255,7 @@ pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> b
         && (0..8).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
 }
 
-/// Whether two cuts have the same direction, not backwards and not square to each other. An arc has no such direction and
+/// Whether two cuts have roughly the same direction: the angle between them is less than 90 degrees. If `b` is an arc, it
 /// is accepted.
 pub(super) fn lead_alike(a: &Cut, b: &Cut) -> bool {
     let [own, other] = [a, b].map(|cut| (cut.from, cut.end()));
@@ -262,26 +263,26 @@ pub(super) fn lead_alike(a: &Cut, b: &Cut) -> bool {
     along > 0.0 || matches!(b.what, What::Arc(_))
 }
 
-/// Distance of two positions along their farthest axis.
+/// Distance of two positions along the axis on which they differ most.
 pub(super) fn distance(a: &Place, b: &Place) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Straight distance of two positions.
+/// Straight-line distance of two positions.
 pub(super) fn apart(a: &Place, b: &Place) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// `X1 Y2.5 Z-0.1`, with angles if there are any.
+/// The position as text, such as `X1 Y2.5 Z-0.1`, with the angles that are in `axes`.
 pub(super) fn shown(place: &Place, axes: u8) -> String {
-    // a guided wire has no Z
+    // for a wire with a tilted guide, show X Y U V
     let axes = if place[6] == UNSAID && place[7] == UNSAID { axes } else { 0b1100_0011 };
     let words = (0..8).filter(|&axis| axes & 1 << axis != 0);
     let list: Vec<String> = words.map(|axis| format!("{}{}", char::from(NAMES[axis]), number(place[axis]))).collect();
     list.join(" ")
 }
 
-/// The position of a hole: X and Y, and angles that are not zero.
+/// The position of a hole as text: X and Y, and angles that are not zero.
 pub(super) fn over(place: &Place) -> String {
     let turned = (3..6).filter(|&axis| place[axis] != 0.0).map(|axis| 1 << axis).sum::<u8>();
     shown(place, 0b11 | turned)
@@ -293,7 +294,7 @@ pub(super) fn number(value: f64) -> f64 {
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
-/// Whether two dwells in seconds are equal. Dwells in revolutions are not whole milliseconds.
+/// Whether two dwells in seconds are equal. A tolerance is needed, because dwells in revolutions are not whole milliseconds.
 pub(super) fn same_dwell(wanted: f64, is: f64) -> bool {
     (wanted - is).abs() <= (ROUNDED * wanted).max(MOMENT)
 }

@@ -1,4 +1,4 @@
-//! Defaults that a form fills in where its job has no value, and values of the form itself.
+//! The values that a form supplies when its job has none, and values that the form itself defines.
 
 use super::form_values::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
@@ -12,37 +12,37 @@ use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{Coolant, EdmAction, Units};
 
-/// Values of the form that the job's numbers depend on.
+/// The values of the form that the comparison with the job needs.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Expectation {
     /// Cycle defaults in inches and in millimetres.
     pub defaults: [Defaults; 2],
-    /// How far short lines may deviate from an arc, in inches and in millimetres.
+    /// How far short lines may deviate from the arc that they replace, in inches and in millimetres.
     pub chord: [f64; 2],
-    /// The smallest digit of the form along a hole, in inches and in millimetres.
+    /// The smallest step that the form can print along a hole, in inches and in millimetres.
     pub increment: [f64; 2],
     /// Code of the first work offset: 54.
     pub first_work: f64,
     /// Work offset in force until the job selects one.
     pub work: Option<f64>,
-    /// How the form prints work offsets, and the control of its codes.
+    /// How the form prints work offsets, and the control that defines their codes.
     pub(super) work_words: Option<(WorkWords, &'static Control)>,
     /// Numbers that are added to a tool's number to get its length and diameter registers, if the job has none.
     pub registers: Option<[f64; 2]>,
     /// Whether the machine loads tools (M6) and has length offsets.
     pub tools: bool,
-    /// Whether the program must turn on a length offset before the tool goes down, on a machine that has length offsets.
+    /// Whether a length offset must be on before the tool goes down. This applies only to machines with length offsets.
     pub lengths_due: bool,
-    /// Whether units are set by the program only.
+    /// Whether the program must set the units itself.
     pub units_due: bool,
-    /// The program axis for each of the job's X Y Z A B C (`Rename`).
+    /// The axis in the program for each of the job's X Y Z A B C (the form's `Rename`).
     pub axes: [u8; 6],
     /// Codes of the coolant: on, off, mist.
     pub coolant: [f64; 3],
-    /// Whether taps are rigid if the job does not define it; `None`: not defined.
+    /// Whether taps are rigid if the job does not define it; `None`: the form does not define it either.
     pub rigid_tap: Option<bool>,
-    /// Whether the form prints the code that makes the following taps rigid (M29). Without the code they are not rigid.
+    /// Whether the form prints the code (M29) that makes the following taps rigid. Without this code they are not rigid.
     pub announces_taps: bool,
     /// Whether X of a lathe is a diameter.
     pub by_diameter: bool,
@@ -50,18 +50,18 @@ pub struct Expectation {
     pub subs_first: bool,
     /// The torch or laser that the machine switches on and off for cuts.
     pub beam: Option<Beam>,
-    /// Whether the form ignores the depth axis.
+    /// Whether the form prints no depth axis (Z).
     pub is_flat: bool,
-    /// The form's codes for threading and cutting a wire; `None` without a form.
+    /// The form's codes for threading and cutting a wire; `None` if there is no form.
     pub(super) wire: Option<Codes>,
-    /// Feeds that the form itself defines.
+    /// Feeds that the form itself prints or calculates.
     pub feeds: Own,
-    /// Speeds that the form itself defines.
+    /// Speeds that the form itself prints or calculates.
     pub speeds: Own,
 }
 
 impl Default for Expectation {
-    /// The values without a form: nothing is filled in.
+    /// The values without a form: the job gets no defaults.
     fn default() -> Self {
         let defaults = Defaults { rigid: true, ..Defaults::default() };
         Expectation {
@@ -120,8 +120,8 @@ impl Expectation {
         }
     }
 
-    /// Adds the feeds and speeds that the form's sequences print as numbers or calculate. A cut may have them instead of
-    /// the job's.
+    /// Adds the feeds and speeds that the form's sequences print as numbers or calculate. A cut may have one of them
+    /// instead of the job's value.
     #[must_use]
     pub fn typed(mut self, program: &Program) -> Expectation {
         let settings = &program.settings;
@@ -140,7 +140,7 @@ impl Expectation {
         self
     }
 
-    /// Collects the values in the lines of a sequence. `by`: the events that print the sequence.
+    /// Collects the feeds and speeds in the lines of a sequence. `by`: the events that print the sequence.
     fn types(&mut self, program: &Program, ops: &[Op], by: u8) {
         let settings = &program.settings;
         for op in ops {
@@ -164,7 +164,7 @@ impl Expectation {
         }
     }
 
-    /// The program's name for a work offset of the job; `None`: the form has no such offset.
+    /// The number or code with which the program selects a work offset of the job; `None`: the form has no such offset.
     pub(super) fn work_of(&self, work: f64) -> Option<f64> {
         let counted = work_code(self.first_work, work)?;
         let named = |(words, control): &(WorkWords, &'static Control)| self.feeds.work(counted, words, control);
@@ -173,7 +173,7 @@ impl Expectation {
 }
 
 impl Expectation {
-    /// Sets properties of the form from outside, by their rows.
+    /// Replaces the form's defaults of properties by given values. A property is identified by its row.
     #[must_use]
     pub fn given(mut self, properties: &[(u16, PropertyValue)]) -> Expectation {
         for (row, value) in properties {
@@ -184,7 +184,8 @@ impl Expectation {
     }
 }
 
-/// The axes as printed. Only rotary axes can be renamed without changing holes and arcs.
+/// The program's axis for each axis of the job. Only renamed rotary axes are considered, because renaming X, Y or Z would change holes
+/// and arcs.
 fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
     let mut axes = [0, 1, 2, 3, 4, 5];
     for (from, to) in rename {
@@ -197,15 +198,15 @@ fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
 }
 
 impl Expectation {
-    /// The coolant of a job as it is in a program. Two kinds may have the same code, for example on a machine without
-    /// mist. `None`: the simulator does not know the kind.
+    /// The coolant that the program has for a coolant of the job. Two kinds may have the same code, for example on a
+    /// machine without mist. `None`: the simulator does not model this kind.
     pub(super) fn cooling(&self, coolant: Coolant) -> Option<Cooling> {
         let [on, off, mist] = self.coolant;
         let (code, named) = match coolant {
             Coolant::FLOOD => (on, Cooling::Flood),
             Coolant::MIST => (mist, Cooling::Mist),
             Coolant::OFF => (off, Cooling::Off),
-            // coolant by codes of the form, or several kinds at once
+            // a kind that only the form defines, or several kinds at once
             _ => return None,
         };
         let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
@@ -214,14 +215,14 @@ impl Expectation {
 }
 
 impl Expectation {
-    /// The codes of an action of the wire.
+    /// The codes that the form prints for an action of the wire.
     pub(super) fn wire_codes(&self, action: EdmAction) -> impl Iterator<Item = Coded> {
         let row = self.wire.iter().flatten().find(|(own, _)| *own == action);
         row.map(|(_, codes)| codes.clone()).unwrap_or_default().into_iter()
     }
 }
 
-/// Whether taps of this control are rigid only after a code before them. A Haas and a Fadal make rigid taps by G84 alone.
+/// Whether this control taps rigidly only after a separate code (M29). A Haas and a Fadal tap rigidly by G84 alone.
 pub(super) fn taps_ahead(control: &Control) -> bool {
     control.has(Meaning::RigidAhead)
 }

@@ -1,16 +1,16 @@
-//! The most frequent case: a straight cut after a straight cut, the same in job and program. It is compared without copies,
-//! because most cuts of long jobs are of this kind. All other cuts take the general path, which has the same result for
-//! usual cuts.
+//! A fast path for the most frequent case: a straight cut after a straight cut, equal in job and program. Most cuts of long
+//! jobs are of this kind, so they are compared without copies. All other cuts take the general comparison, which has the
+//! same result for the cuts handled here.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
 use super::modal::is_feed;
 use super::sides::Sides;
 
-/// Length of the shortest usual cut in tolerances. Such a cut can't disappear in the digits of either side.
+/// Shortest cut for the fast path, in tolerances. The rounding of either side can't remove a longer cut.
 const LONG: f64 = 4.0;
 
-/// Whether the program's next cut is the job's cut and follows directly on the last one, without anything between. If so,
-/// the cut is done.
+/// Whether the program's next cut equals the job's cut and both follow directly on the previous cut. If so, the cut is
+/// counted as compared.
 pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> bool {
     let What::Line { to } = &cut.what else { return false };
     let tolerance = s.limits.tolerance;

@@ -1,4 +1,4 @@
-//! A difference or hazard, described by the job, the form and the program.
+//! A difference or hazard, with its locations in the job, the form and the program.
 
 use crate::diag::{Code, Diag, Location};
 use crate::render::TraceLine;
@@ -6,14 +6,14 @@ use crate::span::Span;
 use crate::terminal::escaped_lines;
 use crate::toolpath;
 
-/// A difference or hazard, with its locations in the job and in the program.
+/// A difference between job and program, or a hazard of the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Code of the finding.
     pub code: Code,
-    /// The difference, with both values.
+    /// The difference, with the value of the job and the value of the program.
     pub message: String,
-    /// The part to check.
+    /// What to check or change.
     pub help: &'static str,
     /// The job's item, if the finding concerns one.
     pub place: Option<toolpath::Place>,
@@ -23,12 +23,12 @@ pub struct Finding {
     pub block: String,
     /// The form line that printed the block, if it was traced.
     pub form: Option<Span>,
-    /// How often the difference was found. Findings with the same cause are counted here.
+    /// How often the difference was found. Later differences with the same cause are only counted.
     pub times: u64,
 }
 
 impl Finding {
-    /// The finding for people: with the item of the job, the block and the form line. `program`: name of the program.
+    /// The finding as a message: with the item of the job, the block and the form line. `program`: name of the program.
     pub fn diag(&self, program: &str) -> Diag {
         let mut location = self.place.map(Location::from).unwrap_or_default();
         location.program_line = Some(self.line).filter(|line| *line > 0);
@@ -46,7 +46,7 @@ impl Finding {
         }
     }
 
-    /// Adds the form line that printed the block, and the item of the job if it is not known.
+    /// Adds the form line that printed the block. Adds the item of the job if the finding has none.
     pub(crate) fn locate(&mut self, origin: TraceLine) {
         self.form = origin.form;
         self.place.get_or_insert(origin.place);

@@ -1,4 +1,4 @@
-//! Holes of two programs for different controls. The strokes may differ if the holes are the same.
+//! Compares holes in programs for two different controls. The strokes may differ if both programs make the same hole.
 
 use super::cut::{Cut, DEPTH, What, same};
 use super::program::Program;
@@ -15,13 +15,13 @@ fn is_stroke(cut: &Cut, tolerance: f64) -> bool {
     matches!(cut.what, What::Line { .. }) && cut.unknown == 0 && same(&cut.from, &cut.end(), ACROSS, tolerance)
 }
 
-/// Whether both programs begin a hole at the same position, from the same height down.
+/// Whether both programs begin a hole at the same position and height with a stroke down.
 pub(super) fn begin_alike(a: &Cut, b: &Cut, tolerance: f64) -> bool {
     let down = |cut: &Cut| is_stroke(cut, tolerance) && cut.end()[DEPTH] < cut.from[DEPTH] - tolerance;
     down(a) && down(b) && same(&a.from, &b.from, ACROSS | 1 << DEPTH, tolerance)
 }
 
-/// Whether two feeds or speeds differ by rounding only: by at most a thousandth, or one is rounded to a whole number.
+/// Whether two feeds or speeds differ by rounding only: by at most 0.1 %, or by at most 0.5 % if one is a whole number.
 pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
     const LAST_DIGITS: f64 = 0.001;
     const WHOLE: f64 = 0.005;
@@ -31,10 +31,10 @@ pub(super) fn rounded_alike(a: Option<f64>, b: Option<f64>) -> bool {
     apart <= LAST_DIGITS * a.abs() || apart <= WHOLE * a.abs() && (to_whole(a, b) || to_whole(b, a))
 }
 
-/// Reads all strokes with which the program drills its current hole. Returns the depths of the strokes that go down.
+/// Runs the program to the end of its current hole. Returns the depths of all strokes that go down.
 ///
 /// # Errors
-/// The program can't be run further.
+/// The program can't be read, or its control refuses a block.
 pub(super) fn hole(program: &mut Program<'_>, first: &Cut, tolerance: f64) -> Result<Vec<f64>, RunError> {
     let mut depths = vec![first.end()[DEPTH]];
     program.take();

@@ -1,5 +1,5 @@
-//! Feeds and speeds that a form itself defines, as numbers or calculated from the job's, and the cuts of the job that may
-//! have them.
+//! Feeds and speeds that a form itself defines, as numbers or calculated from the job's values. Each has the kinds of
+//! events that print it, because only cuts after such an event may have the value.
 
 use super::tables::OWN;
 use crate::compile::{Program, WorkWords};
@@ -7,7 +7,7 @@ use crate::control::Control;
 use crate::lang::{Coolant, SEQUENCES, SequenceId, TextId, VarId, VarSet};
 use crate::sema::{Formula, PropertyValue, Values};
 
-/// Events that print a sequence, as bits. A job without these events never gets the values of the sequence.
+/// Kinds of events that print a sequence, as bits. If the job has no such event, the values of the sequence do not apply.
 pub(super) mod by {
     /// Events of every job: its start, its tool changes, its plain moves.
     pub const JOB: u8 = 1;
@@ -17,13 +17,13 @@ pub(super) mod by {
     pub const INFEED: u8 = 1 << 2;
     /// The move that turns compensation off.
     pub const OUTFEED: u8 = 1 << 3;
-    /// The begin or end of a section.
+    /// The beginning or end of a section.
     pub const SECTION: u8 = 1 << 4;
     /// A stop, a dwell, the move home.
     pub const PAUSE: u8 = 1 << 5;
     /// A subprogram.
     pub const SUB: u8 = 1 << 6;
-    /// Events that print a cut themselves. A feed in their sequence is the feed of that cut.
+    /// Events that print a cut themselves. A feed in the sequence of such an event is the feed of that cut.
     pub const CUTS: u8 = HOLE | INFEED | OUTFEED;
 }
 
@@ -33,7 +33,7 @@ pub(super) fn printed_by(sequence: SequenceId) -> u8 {
     match sequence {
         S::InFeed => by::INFEED,
         S::OutFeed => by::OUTFEED,
-        // a sequence for threads prints the whole thread; values in Cancel stay in force after its hole
+        // a sequence for threads prints the whole thread; a value in Cancel stays active after the hole
         S::AutoThread | S::CanThread | S::Cancel => by::JOB,
         S::Stop | S::OptStop | S::DwellBlock | S::MoveHome => by::PAUSE,
         // these print how a torch comes down, but no cut
@@ -58,14 +58,14 @@ pub(super) fn printed_by(sequence: SequenceId) -> u8 {
     }
 }
 
-/// The form's own values of one quantity.
+/// The values that the form itself defines for one quantity, such as the feed.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
     /// Numbers in the form, with the events that print them.
     typed: Vec<(f64, u8)>,
     /// Calculations from the job's value, such as `[min(speed,800)]`, with the events that print them.
     calculated: Vec<(Formula, u8)>,
-    /// The form's properties as numbers; the defaults unless given otherwise.
+    /// The form's properties as numbers: a given value, or else the form's default.
     properties: Vec<f64>,
 }
 
@@ -91,7 +91,7 @@ impl Own {
         }
     }
 
-    /// Adds a calculated word, if its formula uses only one of these variables or only properties.
+    /// Adds a calculated word if its formula uses no variables, or exactly one variable and this variable is in `of`.
     pub(super) fn calculates(&mut self, formula: &Formula, of: &[VarId], by: u8) {
         let vars = formula.vars();
         let counts = vars.is_empty() || of.iter().any(|&var| vars == VarSet::of(&[var]));
@@ -110,8 +110,9 @@ impl Own {
         words.name(&values, control).unwrap_or(work)
     }
 
-    /// Whether the form has a value of its own for this value of the job, near enough to it. `by`: the events that the
-    /// job has had so far. `is`: tests whether a number is the program's value.
+    /// Whether the form itself defines a value that may replace this value of the job. It must be within the allowed
+    /// range around the job's value. `by`: the kinds of events of the job so far. `is`: tests whether a number is the
+    /// program's value.
     pub(super) fn says(&self, wanted: f64, by: u8, is: impl Fn(f64) -> bool) -> bool {
         let values = OfJob { wanted, properties: &self.properties };
         let near = |own: f64| (OWN[0] * wanted..=OWN[1] * wanted).contains(&own) && is(own);
@@ -129,7 +130,7 @@ fn number(value: &PropertyValue) -> f64 {
     }
 }
 
-/// The value of the job, for every variable.
+/// Variables for a formula: each variable has the value of the job.
 struct OfJob<'a> {
     wanted: f64,
     properties: &'a [f64],

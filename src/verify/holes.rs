@@ -1,4 +1,4 @@
-//! Holes in pecks. A control's cycle may make other pecks than the job and still the same hole.
+//! Compares pecked holes. A control's cycle may make other pecks than the job and still the same hole.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
@@ -9,7 +9,7 @@ use super::strokes::Strokes;
 use super::tables::LONGER;
 use crate::diag::Code;
 
-/// Compares the program's cuts in this hole. The first cut was met already.
+/// Compares the program's cuts in this hole with the job's. The first cut was already reached.
 pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
@@ -24,9 +24,9 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     while let Some(found) = s.next()? {
         let wanted = pecks.get(count);
         let is_one = wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
-        // at the bottom, a cut that is not from the same block's cycle is another hole or another item of the job
+        // at the bottom, another cut belongs to this hole only if the cycle of the same block makes it
         let same_block = found.by_cycle && found.line == line;
-        // only a tap feeds up again, and a tap of the control's cycle leaves the hole by itself
+        // only a tap that is printed as single moves feeds up again; a tapping cycle of the control leaves the hole itself
         let other_item = found.end()[DEPTH] < found.from[DEPTH] || !hole.is_tap || by_cycle;
         let at_bottom = strokes.deepest <= hole.bottom + tolerance;
         if count > 0 && (!stays_in(s, hole, &found) || at_bottom && other_item && !same_block && !is_one) {
@@ -38,7 +38,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
             pauses::between_pecks(s, hole);
         }
         let lowest = s.program.passage.rapids.iter().map(|rapid| rapid.to[DEPTH]).fold(f64::INFINITY, f64::min);
-        // a rapid in the hole must stay where material was already cut
+        // a rapid in the hole must not go deeper than the hole was cut
         if count > 0 && lowest < strokes.deepest - tolerance {
             let deepest = strokes.deepest;
             s.found(Code::PV009, found.line, "check the clearance of the pecks", || {
@@ -88,7 +88,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
             format!("the hole at {at} is cut to Z{}, but the job's hole to Z{}", number(deepest), number(hole.bottom))
         });
     }
-    // only a tap has a cut after the dwell at the bottom
+    // only a tap has another cut after the dwell at the bottom
     if hole.is_tap {
         let wanted = hole.dwell.unwrap_or(0.0);
         if !same_dwell(wanted, waited) {
@@ -104,8 +104,8 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     Ok(())
 }
 
-/// The depth of the hole before each of its pecks. A peck cuts new material below this depth, and no two pecks cut the
-/// same.
+/// The depth of the hole before each of its pecks. A peck cuts new material below this depth, so no two pecks cut the
+/// same material.
 fn begins(pecks: &[Cut]) -> Vec<f64> {
     let depths = pecks.iter().scan(f64::INFINITY, |deepest, peck| {
         let before = *deepest;
@@ -115,7 +115,7 @@ fn begins(pecks: &[Cut]) -> Vec<f64> {
     depths.collect()
 }
 
-/// Compares the spindle, registers and feed of a stroke with those of a job's peck that cuts some of the same material.
+/// Compares the spindle, registers and feed of a stroke with those of a peck of the job that cuts some of the same material.
 fn peck_state(
     s: &mut Sides<'_>,
     (pecks, begins): (&[Cut], &[f64]),
@@ -128,7 +128,7 @@ fn peck_state(
     let Some(first) = pecks.first() else { return };
     let up = to > found.from[DEPTH];
     let is_way = |peck: &Cut| (peck.end()[DEPTH] > peck.from[DEPTH]) == up;
-    // a stroke that cuts nothing new matches any peck
+    // a stroke that cuts nothing new may match any peck
     let within = |peck: &Cut, begin: f64| {
         to >= deepest || (peck.end()[DEPTH] < deepest - tolerance && begin.min(peck.from[DEPTH]) > to + tolerance)
     };
@@ -138,7 +138,7 @@ fn peck_state(
     };
     let all = || pecks.iter().zip(begins).filter(|(peck, _)| is_way(peck));
     let cutting = || all().filter(|(peck, begin)| within(peck, **begin));
-    // try the job's peck with the same number first, because holes may have thousands
+    // try the job's peck with the same index first, because a hole may have thousands of pecks
     let own = pecks.get(count).zip(begins.get(count)).filter(|(peck, begin)| {
         is_way(peck) && (is_same(peck, found, tolerance) || within(peck, **begin) && is_meant(peck))
     });
@@ -157,8 +157,8 @@ fn peck_state(
     }
 }
 
-/// Checks the pecks of a hole. Other pecks are accepted, but the hole must be pecked, and the tool must leave the hole as
-/// often as in the job.
+/// Checks the pecks of a hole. Other pecks are accepted. But if the job pecks the hole, so must the program, and the tool
+/// must leave the hole as often as in the job.
 fn check(s: &mut Sides<'_>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
     let help = "print Q[vbite] with G83 or G73, according to the kind of cycle in the job";
     let [count, outs] = wanted.counted(s.limits.tolerance);

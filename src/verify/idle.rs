@@ -1,12 +1,12 @@
-//! Paths without a cut: those of a tool or a work offset that cuts nothing, and those after the last cut of the program.
+//! Compares paths without a cut: those of a tool or a work offset without a cut, and those after the program's last cut.
 
 use super::cut::{ALL, Rapid, same};
 use super::passage::{Frame, Passage};
 use super::rapid_path::RapidPath;
 use super::ways::{Compared, compare as compare_way};
 
-/// The number of such paths of the job that the program does not make. `at_end`: the last path of both has no cut either.
-/// `tools`: the machine loads tools.
+/// The number of paths without a cut that the job has and the program does not have. `at_end`: the comparison is after
+/// the last cut, so the last path has no cut either. `tools`: the machine loads tools.
 pub(super) fn otherwise(job: &Passage, program: &Passage, at_end: bool, tools: bool, tolerance: f64) -> u64 {
     // the first path leads away from a cut, if there was one
     let leaves = usize::from(job.start.is_some());
@@ -22,7 +22,7 @@ pub(super) fn otherwise(job: &Passage, program: &Passage, at_end: bool, tools: b
     count
 }
 
-/// The paths without a cut, with their frames. Rapids at the end to a machine position are not included.
+/// The paths without a cut, with their frames. Final rapids to machine positions are left out.
 fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = (Frame, &[Rapid])> {
     let count = passage.legs().count().saturating_sub(leaves + usize::from(!at_end));
     passage.legs().skip(leaves).take(count).map(|(leg, rapids)| {
@@ -31,7 +31,7 @@ fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = 
     })
 }
 
-/// Whether the program goes to the job's positions, not lower, and ends at the job's end.
+/// Whether the program goes to the job's positions, is nowhere lower and ends at the same position as the job.
 fn is_made(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let (mut own, mut other) = (RapidPath::default(), RapidPath::default());
     own.set(None, job, tolerance);

@@ -1,4 +1,4 @@
-//! The job's side: converts events to intended cuts and paths.
+//! The job's side of the comparison: converts events to the cuts and paths that the job intends.
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
@@ -17,10 +17,10 @@ use crate::toolpath::{
     StopKind, Tool, ToolChange, Units,
 };
 
-/// An open cycle.
+/// A cycle that the job has opened and not yet closed.
 pub(super) struct Open {
     pub spec: CycleSpec,
-    /// Height of the last point.
+    /// Height of the last hole's position.
     pub point: Option<f64>,
     pub first_return: Option<f64>,
 }
@@ -43,9 +43,9 @@ pub(super) struct Job {
     machine: Machine,
     /// The tool's number in the job.
     tool: Option<f64>,
-    /// Kinds of sequences that the job has used so far; those that cut are counted since its last spindle event.
+    /// Kinds of events that the job has had so far. Events that print a cut are counted only since the last spindle event.
     by: u8,
-    /// The kind of sequence that prints the current cut.
+    /// The kind of event that prints the current cut.
     cuts_by: u8,
     pub(super) subprograms: Subprograms,
 }
@@ -76,10 +76,10 @@ impl Job {
         }
     }
 
-    /// Takes an event and passes its motions on.
+    /// Processes an event and passes its motions on to `to`.
     ///
     /// # Errors
-    /// The event can't be proven, or the intent has a finding.
+    /// The effect of the event is unknown, or the comparison of its motions ended.
     pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         self.order.follow(&event)?;
         if self.subprograms.hold(&event, to.place())? { Ok(()) } else { self.act(event, to) }
@@ -214,7 +214,7 @@ impl Job {
             self.changed(true, to);
         }
         if let Some(spindle) = &change.spindle {
-            // the speed of an operation is in revolutions unless given otherwise
+            // a spindle speed is in revolutions per minute unless the job requests a surface speed
             if spindle.speed.is_some() && spindle.css.is_none() {
                 self.counts_speed(false);
             }
@@ -235,7 +235,7 @@ impl Job {
         self.work_is(self.expectation.work_of(work), to);
     }
 
-    /// Sets the work offset by its code.
+    /// Sets the work offset by its code. A change begins a new frame.
     pub(super) fn work_is(&mut self, work: Option<f64>, to: &mut impl Intent) {
         if std::mem::replace(&mut self.state.work, work) != work {
             self.changed(false, to);
@@ -246,7 +246,7 @@ impl Job {
         to.changed(Frame { tool: self.state.tool, work: self.state.work }, self.state.length, tool);
     }
 
-    /// Handles text that goes into the program unchanged. Its codes switch the job's state as they switch the program's.
+    /// Handles text that is copied into the program unchanged. The codes in it change the job's state as they change the program's state.
     fn text(&mut self, text: &str, to: &mut impl Intent) -> Done {
         let mut axes = false;
         for token in tokens(text.as_bytes()) {
@@ -278,7 +278,7 @@ impl Job {
         if axes { unproven(Unmodelled::Text) } else { Ok(()) }
     }
 
-    /// Sets whether speeds are surface speeds or revolutions. After a change there is no speed yet.
+    /// Sets whether the speed is a surface speed or in revolutions per minute. After a change, no speed is known.
     fn counts_speed(&mut self, at_surface: bool) {
         if at_surface != self.css {
             self.state.speed = None;
@@ -303,7 +303,7 @@ impl Job {
         self.by &= !by::CUTS;
     }
 
-    /// Converts a position of the job. A lathe's positions are Z and radius.
+    /// Converts a position of the job. A lathe's job has its positions as Z and radius.
     pub(super) fn place(&self, to: &Axes) -> Axes {
         if !self.is_lathe() {
             return *to;
@@ -334,7 +334,7 @@ impl Job {
         target
     }
 
-    /// A position in the form in which both sides are compared.
+    /// A position in the form that is used for comparison on both sides.
     pub(super) fn whole(&self, at: &Axes) -> Place {
         let [x, y, u, v, ..] = at.values;
         let guide = |axis: usize, value: f64| if at.given & 1 << axis == 0 { UNSAID } else { value };
@@ -427,8 +427,8 @@ impl Job {
         self.cut_to(target, What::Arc(turn), to)
     }
 
-    /// Handles an action of the wire: threading, cutting, drilling its start hole, filling the tank. The codes are those
-    /// of the form's sequence.
+    /// Handles an action of the wire: threading, cutting, drilling its start hole, filling the tank. Its codes come from
+    /// the form's sequence.
     fn wire(&mut self, action: EdmAction, to: &mut impl Intent) -> Done {
         if self.expectation.wire.is_none() {
             return unproven(Unmodelled::Wire);
@@ -438,7 +438,7 @@ impl Job {
     }
 }
 
-/// The kind of sequence that prints an event.
+/// The kind of an event, as a bit of `form_values::by`.
 fn made_by(event: &Event<'_>) -> u8 {
     match event {
         Event::Hole(_) => by::HOLE,
@@ -466,7 +466,7 @@ pub(super) fn rotation(turn: SpindleTurn) -> Rotation {
     }
 }
 
-/// A lathe's tool as in its T word: its station in the turret, and its register in the last two digits.
+/// The station in the turret and the offset register of a lathe's tool, as in its T word. The register is the last two digits.
 fn turret(tool: &Tool, register: Option<f64>) -> [Option<f64>; 2] {
     const STATIONS: f64 = 100.0;
     let whole = tool.number >= STATIONS;

@@ -1,4 +1,4 @@
-//! The output of the job's side: its cuts, holes, threads and paths.
+//! The output of the job's side: its cuts, holes, threads and paths between cuts.
 
 use super::cut::{Cut, Place, Rapid};
 use super::passage::Frame;
@@ -7,36 +7,36 @@ use super::wire_codes::Coded;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{self, StopKind, Units};
 
-/// The receiver of the job's motions, in their order.
+/// Receives the job's motions in their order.
 pub(super) trait Intent {
-    /// Units of the job; in these units, how far lines may deviate from an arc, and the smallest digit of the form along
-    /// a hole.
+    /// Sets the units of the job. In these units: how far lines may deviate from an arc, and the smallest step that the
+    /// form can print along a hole.
     fn units(&mut self, units: Units, chord: f64, increment: f64);
     /// A rapid.
     fn rapid(&mut self, rapid: Rapid) -> Done;
     /// A cut.
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
-    /// A rapid that may also be a feed move, because it turns compensation on or off.
+    /// A move that turns compensation on or off. In the program it may be a rapid or a feed move.
     fn rapid_or_feed(&mut self, cut: &Cut) -> Done;
-    /// A dwell in seconds. Not a number means any length.
+    /// A dwell in seconds. NaN means a dwell of any length.
     fn wait(&mut self, seconds: f64);
     /// A stop.
     fn stop(&mut self, kind: StopKind);
-    /// A thread with all its passes, and the state in force.
+    /// A thread with all its passes, and the modal state at its passes.
     fn thread(&mut self, cut: &Cut, thread: &Threaded) -> Done;
-    /// The job is for a lathe. X in the program is a diameter or a radius.
+    /// Sets that the job is for a lathe. `by_diameter`: X in the program is a diameter, not a radius.
     fn is_of_lathe(&mut self, by_diameter: bool);
     /// The moves of a hole begin.
     fn hole_begins(&mut self, hole: &Expected);
     /// The moves of a hole end.
     fn hole_ends(&mut self, hole: &Expected) -> Done;
-    /// The tool or the work offset changes. From here on, positions are in another frame. `length`: the tool's register.
+    /// The tool or the work offset changes. Positions after it are in another coordinate frame. `length`: the tool's register.
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
-    /// The tool goes home. From there on its position is unknown. `length`: the tool's register.
+    /// The tool goes home. Its position is then unknown. `length`: the tool's length register.
     fn home(&mut self, length: Option<f64>);
     /// The job is over.
     fn finish(&mut self) -> Done;
-    /// The job is for a wire EDM machine.
+    /// Sets that the job is for a wire EDM machine.
     fn is_of_wire(&mut self);
     /// A code that threads or cuts the wire, drills its start hole or fills the tank.
     fn wire(&mut self, code: Coded);
@@ -46,10 +46,10 @@ pub(super) trait Intent {
     fn comes_from(&mut self, place: toolpath::Place);
 }
 
-/// Success, or a finding that ends the comparison.
+/// Success, or the finding that ended the comparison.
 pub(super) type Done<T = ()> = Result<T, Box<Diag>>;
 
-/// The requirements for a hole.
+/// The requirements of the job for a hole.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Expected {
     /// The position above the hole.
@@ -58,40 +58,40 @@ pub(super) struct Expected {
     pub plane: f64,
     pub bottom: f64,
     pub dwell: Option<f64>,
-    /// Whether the hole may be made in other pecks.
+    /// Whether the program may make the hole with other pecks.
     pub pecks: bool,
-    /// Whether the tool leaves the hole between pecks. For taps this is a setting of the control.
+    /// Whether the tool leaves the hole between pecks. For a tap, a setting of the control decides this.
     pub comes_out: bool,
-    /// Whether the job drills the hole without pecks. The program may still peck it.
+    /// Whether the job drills the hole in one stroke. The program may still peck it.
     pub drilled_in_one: bool,
-    /// Whether the hole is tapped: its feed and speed define the pitch.
+    /// Whether the hole is tapped. Its feed and speed then define the pitch.
     pub is_tap: bool,
-    /// Whether the tool may leave the hole at feed to a higher position than in the job.
+    /// Whether the tool may leave the hole at feed and end higher than in the job.
     pub feeds_out: bool,
-    /// Whether the moves of the hole are defined only by the form.
+    /// Whether only the form defines the moves in the hole (a custom cycle).
     pub custom: bool,
 }
 
-/// The requirements for one start of a thread. X is a radius.
+/// The requirements of the job for one start of a thread. X is a radius.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Threaded {
-    /// The position where its passes begin, beside the thread.
+    /// The position from which the tool moves to each pass, away from the thread.
     pub begin: Place,
-    /// Its end along the axis.
+    /// The Z of its end.
     pub end: f64,
     /// Radius of its crest at the end.
     pub crest: f64,
-    /// Radius at the start of a pass minus the radius at its end.
+    /// Radius at the beginning of a pass minus the radius at its end.
     pub taper: f64,
-    /// -1 if it is cut towards the axis, 1 if away from it.
+    /// -1 if the passes go deeper towards the axis, 1 if they go deeper away from it.
     pub inward: f64,
     /// Depths of the job's passes below the crest.
     pub passes: Vec<f64>,
-    /// Distance between two turns.
+    /// Distance that the thread advances in one turn.
     pub lead: f64,
 }
 
-/// Fails because the motions are not known well enough for a proof.
+/// Fails with the reason why this part of the job can't be proven.
 pub(super) fn unproven<T>(what: Unmodelled) -> Done<T> {
     Err(Box::new(
         Diag::new(Code::PV020, what.why())

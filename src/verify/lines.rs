@@ -1,4 +1,4 @@
-//! Straight cuts. A program may make them in parts.
+//! Compares straight cuts. A program may divide a straight cut into parts.
 
 use super::cut::{
     ACROSS, ALL, Cut, DEPTH, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
@@ -9,10 +9,10 @@ use super::sides::Sides;
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-/// After more consecutive cuts with a wrong end than this, the comparison ends.
+/// If more consecutive cuts than this have a wrong end, the comparison ends.
 const MOST_SLIPS: u32 = 3;
 
-/// Compares a straight cut, made as one cut or in parts that lie on it.
+/// Compares a straight cut. The program may make it as one cut or in parts that lie on it.
 pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let end = cut.end();
@@ -64,7 +64,7 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
     if let Some(hole) = hole
         && same(&end, &is, ACROSS, tolerance)
     {
-        // the tool leaves the hole at feed, farther up than in the job, but not above the job's greatest height
+        // the tool leaves the hole at feed and goes farther up than in the job, but not above the job's greatest height
         let upward = is[DEPTH] > end[DEPTH] && end[DEPTH] > from[DEPTH];
         if hole.feeds_out && upward && s.hole.highest.is_some_and(|highest| is[DEPTH] <= highest + tolerance) {
             s.report.allowed.outs += 1;
@@ -84,13 +84,13 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
     let help = "check the words that the form prints for this move";
     s.slips += 1;
     if s.slips > MOST_SLIPS {
-        return s.differs(Code::PV001, line, message(), help); // the cuts no longer correspond
+        return s.differs(Code::PV001, line, message(), help); // the cuts after this one do not correspond
     }
     s.found(Code::PV001, line, help, message);
     Ok(())
 }
 
-/// The required values for one part of a cut. In inverse time, a part has a share of the time.
+/// The required values for one part of a cut. In inverse time mode, the feed is scaled by the length of the part.
 fn in_parts(cut: &Cut, part: &Cut) -> Cut {
     let length = |cut: &Cut| apart(&cut.from, &cut.end());
     let share = length(part) / length(cut);

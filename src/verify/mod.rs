@@ -1,7 +1,8 @@
 //! Verifies that a program makes the motions that its job requests.
 //!
-//! The job's events become intended cuts, each with the path that leads to it. The program is run block by block and
-//! returns its cuts and paths. They are compared one by one, so memory does not grow with either side.
+//! The events of the job are converted to cuts, each with the path that leads to it. The program is simulated block by
+//! block, which also results in cuts and paths. Both are compared one by one, so memory does not grow with job or
+//! program.
 
 mod align;
 mod arcs;

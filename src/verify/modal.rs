@@ -1,4 +1,4 @@
-//! The modal state at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
+//! Compares the modal state at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
 use super::cut::{Cut, State, number};
 use super::sides::Sides;
@@ -7,10 +7,10 @@ use crate::diag::Code;
 use crate::nc::{Cooling, Rotation};
 use crate::toolpath::{self, FeedMode, Plane};
 
-/// A difference of two states: the code, the correction, and the message.
+/// A difference between two states: the code, the correction, and the message.
 type Differs = (Code, &'static str, String);
 
-/// Compares tool, work offset, spindle, coolant and compensation. `tap`: feed and speed define the pitch.
+/// Compares tool, work offset, spindle, coolant and compensation. `tap`: the cut is a tap, so feed and speed define the pitch.
 pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let both = [cut.state.clone(), found.state.clone()];
     s.before = found.state.clone();
@@ -84,7 +84,7 @@ fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
     if (a - b).abs() <= (if tap { PITCH } else { ROUNDED } * a).max(0.5) {
         return true;
     }
-    // a tap with the same feed and another speed cuts another thread
+    // a tap with the same feed and another speed has another pitch
     if !tap && s.own[1].says(a, cut.by[0], |own| (own - b).abs() <= 0.5) {
         s.report.allowed.speeds += 1;
         return false; // count each cut
@@ -97,7 +97,7 @@ fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
 
 fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
     let (a, b) = (wanted.coolant?, is.coolant?);
-    // coolant that the job does not request may be on, because it does no harm
+    // coolant that the job does not request is allowed, because it does no harm
     if a == b || a == Cooling::Off {
         return None;
     }
@@ -105,7 +105,7 @@ fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
     Some((Code::PV024, "print M[cool] in the tool change, and after a stop", message))
 }
 
-/// Compares the spindle before a floating tap. Such a tap goes in with the rotation that is already on.
+/// Compares the spindle before a floating tap. Such a tap starts with the rotation that is already on.
 fn into_tap([wanted, is]: [&State; 2]) -> Option<Differs> {
     let (a, b) = (wanted.into_tap?, is.into_tap?);
     let message = format!("the spindle is {} before the floating tap, but {} in the job", b.name(), a.name());
@@ -145,11 +145,11 @@ fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {
     Some((Code::PV018, "print D[dcomp] in InFeed", message))
 }
 
-/// Compares the feeds, within their rounding.
+/// Compares the feeds of two cuts, within the allowed rounding.
 pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let (Some(wanted), Some(mut is)) = (cut.feed, found.feed) else { return };
     let typed = is;
-    // the feed of a tap defines its pitch in either feed mode
+    // the feed of a tap defines its pitch, per minute or per revolution
     let speed = found.state.speed.filter(|speed| tap && !found.state.css && *speed > 0.0);
     if cut.mode != found.mode {
         match (cut.mode, found.mode, speed) {
@@ -175,7 +175,7 @@ pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     });
 }
 
-/// Whether a cut has the job's feed, if both are in the same feed mode.
+/// Whether a cut of the program has the job's feed. Feeds in different feed modes are not compared.
 pub(super) fn has_feed(cut: &Cut, found: &Cut) -> bool {
     match (cut.feed, found.feed) {
         (Some(wanted), Some(is)) => cut.mode != found.mode || is_feed(wanted, is, false),
@@ -183,7 +183,7 @@ pub(super) fn has_feed(cut: &Cut, found: &Cut) -> bool {
     }
 }
 
-/// Whether a feed is the required one, within its rounding.
+/// Whether a feed equals the required one within the allowed rounding.
 pub(super) fn is_feed(wanted: f64, is: f64, tap: bool) -> bool {
     (wanted - is).abs() <= (if tap { PITCH } else { ROUNDED } * wanted).max(1e-9)
 }

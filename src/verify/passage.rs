@@ -1,12 +1,12 @@
-//! Everything between two cuts: rapids, changes of tool and work offset, stops, dwells. Job and program each have one
-//! passage.
+//! A passage: everything between two cuts, such as rapids, changes of tool and work offset, stops and dwells. Job and
+//! program each have one.
 
 use super::cut::{ALL, DEPTH, Place, Rapid, same};
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
 
-/// The coordinate frame of positions.
+/// The coordinate frame of positions, given by the tool and the work offset.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Frame {
     pub tool: Option<f64>,
@@ -17,36 +17,36 @@ pub(super) struct Frame {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Leg {
     pub frame: Frame,
-    /// Number of rapids before the leg.
+    /// Number of rapids in the passage before this leg.
     from: usize,
-    /// Whether the leg begins at home, where the job sends the tool.
+    /// Whether the leg begins where the job sends the tool home.
     home: bool,
-    /// Length registers in force while the tool moved to known heights. For a job: the tool's register.
+    /// Length registers that were active while the tool moved to known heights. For a job: the tool's register.
     pub lengths: Vec<Option<f64>>,
 }
 
-/// An action between two cuts.
+/// An action between two cuts, such as a stop or a dwell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark<T> {
     pub what: T,
     /// Number of rapids before the mark.
     at: usize,
-    /// Number of frame changes before the mark, since the cut.
+    /// Number of frame changes between the last cut and the mark.
     leg: usize,
-    /// Whether the spindle was started from a stop before the mark, since the cut.
+    /// Whether the spindle was started from a stop between the last cut and the mark.
     pub started: bool,
-    /// Whether a torch or a laser is off at the mark. Then the tool is in no cut.
+    /// Whether a torch or a laser is off at the mark. If so, the tool is not in a cut.
     pub is_off: bool,
     /// The program's line; 0 for a job.
     pub line: u64,
-    /// The job's item.
+    /// The item of the job.
     pub place: toolpath::Place,
 }
 
 /// Everything between the last cut and the next.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
-    /// The start of the passage; `None`: known only at the machine.
+    /// The start of the passage; `None` if it is known only at the machine.
     pub start: Option<Rapid>,
     /// Whether the passage begins at the end of a cut, and not at the start of the program.
     after_cut: bool,
@@ -54,43 +54,43 @@ pub(super) struct Passage {
     /// The parts of the path, one for each frame. There is at least one.
     legs: Vec<Leg>,
     pub stops: Vec<Mark<StopKind>>,
-    /// Dwells in seconds. Not a number means any length.
+    /// Dwells in seconds. NaN means a dwell of any length.
     pub waits: Vec<Mark<f64>>,
-    /// The switches of the spindle, in order.
+    /// The changes of the spindle's rotation, in order.
     pub turns: Vec<Rotation>,
     /// Whether the spindle was started from a stop.
     pub started: bool,
     /// Whether a torch or a laser is off now.
     pub is_off: bool,
-    /// Codes of the program that are not simulated: the letter, and ten times the number.
+    /// Codes of the program that are not simulated: the letter, and the number times ten.
     pub codes: Vec<(u8, u16)>,
     /// Codes for threading and cutting a wire.
     pub does: Vec<Mark<Coded>>,
     /// Whether the tool was changed.
     pub new_tool: bool,
-    /// For each tool change of a lathe, the axes at a machine position.
+    /// For each tool change of a lathe: the axes that are at a machine position, as bits.
     pub turrets: Vec<u8>,
-    /// Axes that went to a machine position that is given in the program.
+    /// Axes that went to a machine position whose value is in the program.
     pub homes: u8,
-    /// Whether the job's path leaves the axis of its hole.
+    /// Whether the job's path moves away from the axis of its hole.
     pub aside: bool,
-    /// Whether the job's path left the axis of its hole before the last change of the frame.
+    /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
     pub left_aside: bool,
-    /// Targets of increments from a machine position, with their lines.
+    /// Targets of incremental moves from an unknown machine position, with their lines.
     pub astray: Vec<(u64, Place)>,
 }
 
-/// The reason why nothing is proven if a passage is too long.
+/// The message for a passage that is too long.
 pub(super) const TOO_LONG: &str = "too many rapids, stops and dwells between two cuts";
-/// The largest number of rapids between two cuts. No job has more, and all must be kept in memory.
+/// The largest number of rapids between two cuts. All of them are kept in memory, and no real job has more.
 const MOST: usize = 1 << 16;
-/// The largest number of stops and dwells between two cuts. No job has more, and each is compared with each.
+/// The largest number of stops and dwells between two cuts. Each is compared with each, and no real job has more.
 const MOST_MARKS: usize = 1 << 12;
-/// The largest number of changes of tool or work offset between two cuts. No job has more.
+/// The largest number of changes of tool or work offset between two cuts. No real job has more.
 const MOST_LEGS: usize = 1 << 11;
 
 impl Passage {
-    /// A passage from a start in a frame.
+    /// A passage that begins at this start in this frame.
     pub fn new(start: Option<Rapid>, frame: Frame) -> Passage {
         Passage {
             start,
@@ -137,7 +137,7 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
-    /// Passes over a cut that does not matter.
+    /// Skips a cut that does not matter: the passage continues at the end of the cut.
     pub fn goes_on(&mut self, to: Place) {
         match &mut self.start {
             Some(start) if self.rapids.is_empty() && self.legs.len() == 1 => {
@@ -147,13 +147,13 @@ impl Passage {
         }
     }
 
-    /// Changes the frame. From here on, positions are in other coordinates.
+    /// Changes the frame. Positions after it are in other coordinates.
     pub fn change(&mut self, frame: Frame) {
         if let [.., before, last] = self.legs.as_slice()
             && last.from == self.rapids.len()
             && before.frame == frame
         {
-            // the frame changed and changed back without a move
+            // the frame changed and changed back without a move between
             self.legs.pop();
             if self.legs.len() == 1 {
                 self.aside = std::mem::take(&mut self.left_aside);
@@ -166,7 +166,7 @@ impl Passage {
         self.legs.push(Leg { frame, from: self.rapids.len(), ..Leg::default() });
     }
 
-    /// Sends the tool home. A separate leg begins there, in the same frame.
+    /// Sends the tool home. A new leg begins there, in the same frame.
     pub fn goes_home(&mut self, length: Option<f64>) {
         if self.legs.len() == 1 {
             self.left_aside = std::mem::take(&mut self.aside);
@@ -180,8 +180,8 @@ impl Passage {
         self.legs.iter().any(|leg| leg.home)
     }
 
-    /// Begins a new leg after each machine position along one of these axes, as the job does where it goes home. Returns
-    /// whether there is such a position.
+    /// Begins a new leg after each machine position along one of these axes. The job's passage also begins a leg where
+    /// it goes home. Returns whether there is such a position.
     pub fn splits_at_home(&mut self, axes: u8) -> bool {
         let is_home = |rapid: &Rapid| rapid.unknown & axes != 0;
         let ends: Vec<usize> = (1..=self.rapids.len())
@@ -209,18 +209,18 @@ impl Passage {
         self.stops.iter().filter(|stop| stop.what == kind && stop.leg < leg).count()
     }
 
-    /// The legs that begin with another tool, and whether that tool is the first of all.
+    /// The indices of the legs that begin with another tool. `true`: this tool is the first of the program.
     pub fn tool_changes(&self) -> Vec<(usize, bool)> {
         let pairs = self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.tool != pair[1].frame.tool);
         pairs.map(|(at, pair)| (at + 1, pair[0].frame.tool.is_none())).collect()
     }
 
-    /// The last leg, which is in progress.
+    /// The current leg, which is the last one.
     pub fn leg(&mut self) -> Option<&mut Leg> {
         self.legs.last_mut()
     }
 
-    /// Whether the passage is too long to be kept in memory.
+    /// Whether the passage is too long to be kept in memory or compared.
     #[inline]
     pub fn is_too_long(&self) -> bool {
         let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
@@ -250,13 +250,13 @@ impl Passage {
         &self.rapids[self.legs.last().map_or(0, |leg| leg.from)..]
     }
 
-    /// A mark for an action at the current position.
+    /// A mark for an action at the tool's current position.
     pub fn mark<T>(&self, what: T, line: u64, place: toolpath::Place) -> Mark<T> {
         let (at, leg) = (self.rapids.len(), self.legs.len() - 1);
         Mark { what, at, leg, started: self.started, is_off: self.is_off, line, place }
     }
 
-    /// Position of the tool at a mark; `None` if no position is known yet.
+    /// Position of the tool at a mark; `None` if the position is not yet known.
     pub fn standing<T>(&self, mark: &Mark<T>) -> Option<Rapid> {
         let corner = match mark.at.checked_sub(1) {
             Some(last) => self.rapids.get(last).copied(),
@@ -266,14 +266,14 @@ impl Passage {
         corner.filter(|corner| corner.unknown == 0 && moved)
     }
 
-    /// Whether the tool is at a machine position along one of these axes, or where the job sent it home.
+    /// Whether the tool is at a machine position along one of these axes, or at the position to which the job sent it home.
     pub fn at_home<T>(&self, mark: &Mark<T>, axes: u8) -> bool {
         let sent = self.legs.get(mark.leg).is_some_and(|leg| leg.home && leg.from == mark.at);
         let last = mark.at.checked_sub(1).and_then(|last| self.rapids.get(last));
         sent || last.is_some_and(|rapid| rapid.unknown & axes != 0)
     }
 
-    /// Whether the tool is still at the end of the cut.
+    /// Whether the tool is still at the end of the cut at this mark.
     pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
         let Some(start) = self.start.filter(|_| self.after_cut && mark.leg == 0 && !mark.is_off) else { return false };
         let stays = |rapid: &Rapid| {
@@ -282,19 +282,19 @@ impl Passage {
         self.rapids.iter().take(mark.at).all(stays)
     }
 
-    /// Whether the tool is below this height at a mark and has been since the cut.
+    /// Whether the tool is below this height from the last cut to the mark.
     pub fn below_since<T>(&self, mark: &Mark<T>, height: f64) -> bool {
         let mut way = self.start.iter().chain(self.rapids.iter().take(mark.at));
         mark.leg == 0 && self.start.is_some() && way.all(|corner| is_below(corner, height))
     }
 
-    /// Whether the tool is below this height at a mark and stays there until the next cut.
+    /// Whether the tool is below this height from the mark to the next cut.
     pub fn below_until<T>(&self, mark: &Mark<T>, height: f64) -> bool {
         let stands = self.standing(mark).is_some_and(|corner| is_below(&corner, height));
         stands && self.rapids.iter().skip(mark.at).all(|corner| is_below(corner, height))
     }
 
-    /// Whether the tool stays at the end of the last cut, except for rapids smaller than the digits.
+    /// Whether the tool stays at the end of the last cut. Rapids smaller than the tolerance are allowed.
     pub fn stays(&self, tolerance: f64) -> bool {
         self.rapids.is_empty()
             || self.start.is_some_and(|start| {
@@ -303,14 +303,14 @@ impl Passage {
             })
     }
 
-    /// Position of the tool now, if known.
+    /// The current position of the tool, if known.
     pub fn here(&self) -> Option<Rapid> {
-        // in a new frame, no position was given yet
+        // in a new frame, the position is unknown until the first rapid
         let fresh = self.changed() && self.legs.last().is_some_and(|leg| leg.from == self.rapids.len());
         if fresh { None } else { self.rapids.last().copied().or(self.start) }
     }
 
-    /// Whether the next cut follows directly on the last, without anything between.
+    /// Whether the next cut follows directly on the last cut, without any action between them.
     pub fn is_plain(&self) -> bool {
         self.rapids.is_empty()
             && self.legs.len() == 1

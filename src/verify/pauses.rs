@@ -1,5 +1,5 @@
-//! Stops and dwells between cuts. The program must make those of the job where the tool may stop. Others are allowed only
-//! outside cuts.
+//! Compares stops and dwells between cuts. The program must have the stops and dwells of the job, at positions where the
+//! tool may stop. Other stops and dwells are allowed only outside cuts.
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, number, same, same_dwell};
 use super::intent::Expected;
@@ -10,7 +10,7 @@ use super::tables::STARTED;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
-/// Compares stops and dwells since the last cut.
+/// Compares the stops and dwells since the last cut.
 pub(super) fn compare(s: &mut Sides<'_>) {
     let passage = &s.program.passage;
     let nothing = [&s.job, passage].into_iter().all(|side| side.stops.is_empty() && side.waits.is_empty());
@@ -25,7 +25,7 @@ fn kind_of(kind: StopKind) -> &'static str {
     if kind == StopKind::Program { "program" } else { "optional" }
 }
 
-/// Checks that the program makes the job's stops, in their order and not lower.
+/// Checks that the program has the job's stops in the same order, with the tool at the same height or higher.
 fn stops(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut others = s.program.passage.stops.clone();
@@ -64,7 +64,7 @@ fn stops(s: &mut Sides<'_>) {
     }
 }
 
-/// Checks stops between two pecks of a hole, where no job has one. The hole is a cut up to its clearance plane.
+/// Checks stops between two pecks of a hole. No job has a stop there. Below its clearance plane, the hole is a cut.
 pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     for stop in s.program.passage.stops.clone() {
         let stands = s.program.passage.standing(&stop);
@@ -73,7 +73,7 @@ pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     }
 }
 
-/// Handles a stop that the job does not have. In a cut it is a finding; outside cuts it is counted.
+/// Handles a stop that the job does not have. In a cut it is a finding; outside cuts it is counted as an allowed difference.
 fn own_stop(s: &mut Sides<'_>, stop: &Mark<StopKind>, in_cut: bool) {
     if !in_cut {
         s.report.allowed.stops += 1;
@@ -84,13 +84,14 @@ fn own_stop(s: &mut Sides<'_>, stop: &Mark<StopKind>, in_cut: bool) {
     });
 }
 
-/// Whether the tool is at another position than the job's.
+/// Whether the tool is at different positions at the two marks.
 fn is_elsewhere<T>(s: &Sides<'_>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
     let stands = [s.job.standing(wanted), s.program.passage.standing(made)];
     matches!(stands, [Some(a), Some(b)] if !same(&a.to, &b.to, ALL, s.limits.tolerance))
 }
 
-/// Handles a machine without tool changes. It stops for each next tool, after the job's stops with the previous tool.
+/// On a machine without tool changes, the program stops for each next tool. Such a stop comes after the job's stops with the previous
+/// tool.
 fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     if !s.job.new_tool || s.tools || s.switches {
         return;
@@ -117,22 +118,22 @@ fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     }
 }
 
-/// Reports a difference at an earlier item of the job.
+/// Reports a difference at the item of the job where the mark was made.
 fn told<T>(s: &mut Sides<'_>, mark: &Mark<T>, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
     let here = std::mem::replace(&mut s.report.place, mark.place);
     s.found(code, line, help, message);
     s.report.place = here;
 }
 
-/// Checks that the program makes the job's dwells. Others are allowed only outside cuts, or while the spindle comes to
-/// speed.
+/// Checks that the program has the job's dwells. Other dwells are allowed only outside cuts, or while the spindle comes
+/// to speed.
 fn waits(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut wanted = std::mem::take(&mut s.job.waits);
     // dwells of any length are matched last
     wanted.sort_by_key(|wait| wait.what.is_nan());
     let mut others = s.program.passage.waits.clone();
-    // the next tool or work offset may have come since then
+    // the tool or work offset may have changed since the hole
     let holes = [s.hole.last, s.hole.before];
     let fed_out = s.job.start.is_some_and(|start| {
         holes
@@ -155,7 +156,7 @@ fn waits(s: &mut Sides<'_>) {
             (true, true) => true,
             (false, is) if is || hole.holds(passage, other, tolerance) => {
                 match (s.job.standing(wait), passage.standing(other)) {
-                    // the tool is already at the job's position
+                    // the tool must already be at the job's position
                     (Some(a), Some(b)) => {
                         same(&a.to, &b.to, ACROSS, tolerance) && b.to[DEPTH] >= a.to[DEPTH] - tolerance
                     }
@@ -163,7 +164,7 @@ fn waits(s: &mut Sides<'_>) {
                 }
             }
             (false, _) => true,
-            // after leaving a hole at feed, the tool may wait farther up
+            // after the tool leaves a hole at feed, it may dwell farther up
             (true, false) => fed_out && passage.standing(other).is_some_and(|at| is_over(&at)),
         };
         let passage = &s.program.passage;
@@ -176,7 +177,7 @@ fn waits(s: &mut Sides<'_>) {
         if wait.what.is_nan() {
             continue;
         }
-        // a dwell for the spindle to come to speed is not the job's, except in a hole
+        // a dwell for the spindle to come to speed does not replace a dwell of the job, except in a hole
         let may_be = |other: &Mark<f64>| !other.started || hole.holds(passage, other, tolerance);
         let another = others.iter().position(|other| serves(passage, other) && may_be(other));
         let seconds = number(wait.what);
@@ -189,7 +190,7 @@ fn waits(s: &mut Sides<'_>) {
             }),
         }
     }
-    // at the bottom of a hole that only the form defines
+    // at the bottom of a hole whose moves only the form defines
     let own = holes.into_iter().flatten().any(|last| {
         last.custom && s.program.passage.start.is_some_and(|start| same(&start.to, &last.at, ACROSS, tolerance))
     });
@@ -197,9 +198,9 @@ fn waits(s: &mut Sides<'_>) {
     for other in &others {
         let passage = &s.program.passage;
         let in_hole = s.hole.holds(passage, other, tolerance);
-        // after leaving a hole at feed, the tool is not in a cut
+        // after the tool leaves a hole at feed, it is not in a cut
         let in_cut = s.hole.inside.is_none() && passage.in_cut(other, tolerance);
-        // a torch may wait once to pierce, a spindle may wait to come to speed
+        // a torch may dwell once to pierce, a spindle once to come to speed
         let burns = s.switches && !other.is_off;
         let once = other.what <= STARTED && !started;
         started |= burns || in_cut;

@@ -1,4 +1,4 @@
-//! The job's holes, as the steps that its cycles plan.
+//! Plans the holes of the job as the steps of its cycles.
 
 use super::cut::{DEPTH, Spin, What};
 use super::intended::{Job, rotation, wait};
@@ -10,7 +10,7 @@ use crate::nc::Rotation;
 use crate::toolpath::{Axes, CycleKind, FeedMode, Hole, StopKind, Units, impossible};
 
 impl Job {
-    /// Passes on a hole of the open cycle.
+    /// Passes on the motions of one hole of the open cycle.
     pub(super) fn hole(&mut self, hole: &Hole, to: &mut impl Intent) -> Done {
         let at = self.place(&hole.at);
         let Some(open) = &mut self.cycle else { return impossible("a hole outside a cycle") };
@@ -30,7 +30,7 @@ impl Job {
         let mut steps = std::mem::take(&mut self.steps);
         let top = return_plane - point;
         if custom {
-            // a custom cycle may do more, but it goes down to the bottom and comes back
+            // a custom cycle may make more moves, but it must go down to the bottom and come back
             steps.list.clear();
             let feed = Step::Feed(planes.bottom, planes.feed);
             steps.list.extend([Step::Rapid(planes.clear), feed, Step::Rapid(top)]);
@@ -66,7 +66,7 @@ impl Job {
         };
         let list = std::mem::take(&mut steps.list);
         let before = self.state.clone();
-        // change the state only if needed, because the holes share one state
+        // change the state only if needed, because all holes of a cycle share one state
         if before.rigid != rigid {
             self.state.rigid = rigid;
         }
@@ -83,7 +83,7 @@ impl Job {
 
     fn steps(&mut self, steps: &[Step], point: f64, target: Axes, hole: &Expected, to: &mut impl Intent) -> Done {
         let (feed, state) = (self.feed, self.state.clone());
-        // the rotation that a tap leaves outside its hole does not matter
+        // after a tap, the rotation of the spindle outside the hole does not matter
         let mut spin = self.state.rotation.map(Spin::Turns).filter(|_| !hole.is_tap);
         self.at = target;
         to.rapid(self.rapid_to(&target, None))?;

@@ -1,4 +1,4 @@
-//! Compares two programs by the motions of the machine. The same motions written in another way are no difference.
+//! Compares two programs by the motions of the machine. Different code for the same motions is no difference.
 
 use std::io::{Read, Seek};
 
@@ -19,28 +19,28 @@ use crate::toolpath::{StopKind, Units};
 pub struct MotionDifference {
     /// Description of the difference.
     pub message: String,
-    /// Line and text of the old and the new block; line 0 if a program is over.
+    /// The line number and text of the block in the old and in the new program; line 0 if that program has ended.
     pub blocks: [(u64, String); 2],
 }
 
 /// The result of comparing the motions of two programs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motions {
-    /// The first difference. Nothing is compared after it.
+    /// The first difference. The comparison ends there.
     pub difference: Option<MotionDifference>,
-    /// Number of paths between cuts that differ and are not lower.
+    /// Number of paths between cuts that differ although neither is lower.
     pub ways: u64,
-    /// Number of cuts that follow different codes, among the codes that are not simulated.
+    /// Number of cuts before which the two programs have different codes that are not simulated.
     pub codes: u64,
-    /// Number of holes with other pecks, in programs for different controls.
+    /// Number of holes with different pecks. Only programs for different controls are compared in this way.
     pub pecks: u64,
-    /// Number of feeds that differ by rounding, in programs for different controls.
+    /// Number of feeds that differ by rounding. Only programs for different controls may differ like this.
     pub feeds: u64,
     /// Number of cuts compared.
     pub cuts: u64,
 }
 
-/// The reason why motions can't be compared: a program (0 old, 1 new) can't be read, or its control refuses it.
+/// The reason why motions can't be compared: program 0 (old) or 1 (new) can't be read, or its control refuses a block.
 #[derive(Debug)]
 pub struct NoMotion(pub usize, pub RunError);
 
@@ -79,11 +79,11 @@ pub fn compare_motions(
         }
         motions.codes += u64::from(a.passage.codes != b.passage.codes);
         let (Some(cut), Some(found)) = (&x, &y) else {
-            // check both directions, because going out higher is also another motion
+            // check both directions, because a higher path after the last cut also counts as another motion
             let low = |a: usize, b: usize| leaves_low(&ways[a], &ways[b], tolerance).is_some();
             let same_way = ways[0].is(&ways[1], tolerance);
             let leaves_well = same_way || !low(0, 1) && !low(1, 0);
-            // the end stops spindle and coolant, with or without codes
+            // the end of a program stops spindle and coolant anyway, so their codes are not compared
             let besides = astray(&a, &b, tolerance)
                 .or_else(|| pauses(&a, &b, tolerance))
                 .or_else(|| turrets(&a, &b))
@@ -153,7 +153,7 @@ pub fn compare_motions(
     }
 }
 
-/// Converts a comparison in the other direction: where the old path is lower, the new path is elsewhere.
+/// Converts the result of comparing the old path with the new one. If the old path is lower, the paths are different.
 fn higher(other: Compared) -> Compared {
     match other {
         Compared::Lower(to, _) => Compared::Elsewhere(to),
@@ -250,9 +250,9 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
 /// How two programs name registers and work offsets. Programs for the same control use the same numbers.
 #[derive(Clone, Copy)]
 struct Names {
-    /// Whether work offsets are compared by their order: G54, `G15 H1` and datum 1 are the first.
+    /// Whether work offsets are compared by their order. G54, `G15 H1` and datum 1 are each the first.
     by_order: bool,
-    /// Whether both programs name length and diameter registers. On some controls these belong to the tool.
+    /// Whether both programs name length and diameter registers. On some controls the registers belong to the tool.
     registers: bool,
 }
 
@@ -267,7 +267,7 @@ impl Names {
         let additional = additional_work(0.0);
         match work {
             work if !self.by_order => work,
-            // the first offset, until the program selects another
+            // without a code, the first work offset is active
             None => Some(1.0),
             Some(code) if code > additional => Some(code - additional + 6.0),
             Some(code) if code > 59.0 => Some((code - 59.0) * 10.0 + 6.0),
@@ -290,7 +290,7 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
         ("the spindle speed", before.speed, now.speed),
     ];
     let text = |value: Option<f64>| value.map_or("none".to_owned(), |value| number(value).to_string());
-    // a surface speed in other units is rounded differently
+    // a surface speed that is converted from other units is rounded differently
     let differ = |a: Option<f64>, b: Option<f64>| match (a, b) {
         (Some(a), Some(b)) => (a - b).abs() > 1e-6 * a.abs(),
         (a, b) => a != b,
@@ -319,7 +319,7 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
     (before.side != now.side).then(|| "cutter compensation is different".to_owned())
 }
 
-/// Compares the targets of increments from machine positions. Both count from the same position.
+/// Compares the targets of incremental moves from machine positions. Both programs must count from the same position.
 fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let (a, b) = (&old.passage.astray, &new.passage.astray);
     let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
@@ -349,13 +349,13 @@ fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
         .then(|| format!("dwells before this cut: {}, in the old program {}", listed(&waits(new)), listed(&waits(old))))
 }
 
-/// Compares the switches of the spindle between two cuts.
+/// Compares the changes of the spindle's rotation between two cuts.
 fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let turns = |program: &Program<'_>| -> Vec<String> {
         program.passage.turns.iter().map(|turn| turn.name().to_owned()).collect()
     };
     let (before, now) = (turns(old), turns(new));
-    // the rotation at the cut is compared elsewhere: some controls' cycles stop the spindle, others do not
+    // the rotation at the cut is compared elsewhere, because the cycles of only some controls stop the spindle
     if names.by_order && before.last() == now.last() {
         return None;
     }
@@ -363,7 +363,7 @@ fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<Strin
         .then(|| format!("the spindle before this cut: {}, in the old program {}", listed(&now), listed(&before)))
 }
 
-/// Compares where a lathe's turret indexes: at home along X, Z, both or neither.
+/// Compares where a lathe's turret indexes: with X, Z, both or neither at home.
 fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let text = |axes: Option<&u8>| match axes {
         None => "at no tool change",
@@ -377,8 +377,8 @@ fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     Some(format!("the turret turns {}, in the old program {}", text(now.get(differ)), text(before.get(differ))))
 }
 
-/// Checks that the tool does not go home along fewer axes: the height, or X and Z of a lathe. Programs for controls with
-/// different languages are not compared.
+/// Checks that the new program does not move fewer axes home than the old one: Z, or X and Z of a lathe. Programs for
+/// controls with different languages are not compared.
 fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
     let lost = old.passage.homes & !new.passage.homes & counts;
@@ -392,7 +392,7 @@ fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
         .then(|| format!("the tool no longer goes home along {} before this cut", axes.join(" and ")))
 }
 
-/// Compares the angles of the stopped spindle during rapids.
+/// Compares the angles at which the spindle is stopped during rapids.
 fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let angles = |program: &Program<'_>| -> Vec<String> {
         let stands = program.passage.rapids.iter().filter_map(|rapid| match rapid.spin? {

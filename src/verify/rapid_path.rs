@@ -1,26 +1,26 @@
-//! Paths of rapids from one cut to the next.
+//! Paths of rapids between two cuts.
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, distance, lies_between, same};
 
-/// The shortest rapid, as a multiple of the tolerance, whose printed digits give its direction exactly enough.
+/// Minimum length of a rapid, in tolerances, whose direction can be determined from its printed digits.
 const LEG: f64 = 4.0;
 
-/// A path as corners: the start, if known, and the ends of its rapids.
+/// A path as a list of corners: its start, if known, and the ends of its rapids.
 #[derive(Debug, Default)]
 pub(super) struct RapidPath {
     pub corners: Vec<Rapid>,
-    /// Whether the first corner is the start.
+    /// Whether the first corner is the start of the path.
     pub begun: bool,
 }
 
 impl RapidPath {
-    /// Sets the path from a start over these rapids. Rapids without a move are left out.
+    /// Sets the path to these rapids from a start. Rapids without a move are left out.
     pub fn set(&mut self, start: Option<Rapid>, rapids: &[Rapid], tolerance: f64) {
         self.corners.clear();
         self.corners.extend(start);
         self.begun = start.is_some();
         for rapid in rapids {
-            // a full turn of an axis is a move
+            // a full turn of a rotary axis is a move
             let stays = |last: &Rapid| last.to.iter().zip(&rapid.to).all(|(a, b)| (a - b).abs() <= tolerance * 1e-3);
             if !self.corners.last().is_some_and(|last| stays(last) && last.unknown == rapid.unknown) {
                 self.corners.push(*rapid);
@@ -28,9 +28,9 @@ impl RapidPath {
         }
     }
 
-    /// Joins parts of one straight rapid, if the spindle has no requirement between them.
+    /// Joins the parts of one straight rapid, unless the spindle has a required state between them.
     pub fn join(&mut self, tolerance: f64) {
-        // the direction of a leg as short as the tolerance is not known
+        // the direction of a rapid as short as the tolerance is unknown
         let leads = |a: &Rapid, b: &Rapid| distance(&a.to, &b.to) > LEG * tolerance;
         let mut kept = 0;
         for at in 0..self.corners.len() {
@@ -50,7 +50,7 @@ impl RapidPath {
         self.corners.truncate(kept);
     }
 
-    /// Whether both paths have the same corners, known or unknown.
+    /// Whether both paths have the same corners with the same unknown axes.
     pub fn is(&self, other: &RapidPath, tolerance: f64) -> bool {
         self.corners.len() == other.corners.len()
             && self
@@ -60,17 +60,17 @@ impl RapidPath {
                 .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
     }
 
-    /// Sets the path from a start over all of these rapids.
+    /// Sets the path to all these rapids from a start, including those without a move.
     pub fn set_all(&mut self, start: Option<Rapid>, rapids: &[Rapid]) {
         self.corners.clear();
         self.corners.extend(start.iter().chain(rapids));
         self.begun = start.is_some();
     }
 
-    /// Checks that another path follows this one. It may stop on this path and pass straight over its corners. Returns
-    /// how often the other path goes round a corner of a slanted rapid, at the greater of the two heights, if that is
-    /// allowed. The error has the first corners that differ, of this path and of the other. A radius that is not a number
-    /// is unknown.
+    /// Checks that another path follows this path. The other path may stop on this path and pass straight over its
+    /// corners. If `may_round`, it may replace a slanted rapid by two rapids, with the corner at the greater of the two
+    /// heights. Returns how often it does so. The error has the first corners that differ, of this path and of the other.
+    /// A NaN radius is unknown.
     pub fn is_followed(
         &self,
         other: &RapidPath,
@@ -95,7 +95,7 @@ impl RapidPath {
                 // a move of no length
                 (_, Some(b), Some(at)) if is(at, b) => made += 1,
                 (Some(a), _, Some(at)) if is(at, a) => own += 1,
-                // beyond the job's corner, or not as far
+                // the other path goes straight on beyond this corner, or stops before it
                 (Some(a), Some(b), Some(at)) if between(at, a, b) => (own, here) = (own + 1, Some(a)),
                 (Some(a), Some(b), Some(at)) if between(at, b, a) => (made, here) = (made + 1, Some(b)),
                 (Some(a), Some(b), Some(at)) if may_round && round(at, b, a) => {
@@ -106,17 +106,17 @@ impl RapidPath {
         }
     }
 
-    /// Whether no rapid moves across at this height or below.
+    /// Whether no rapid moves across at this height or lower.
     pub fn stays_above(&self, height: f64) -> bool {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
         across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))
     }
 }
 
-/// The moves across between corners.
+/// The moves between corners that change any axis except Z.
 pub(super) fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &Rapid)> {
     let pairs = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
-    // a full turn is a move, although it ends where it began
+    // a full turn of a rotary axis is a move, although it ends where it began
     let turns = |a: &Rapid, b: &Rapid| (3..6).any(|axis| (a.to[axis] - b.to[axis]).abs() > 0.001);
     // a move to or from a machine position
     let home = |a: &Rapid, b: &Rapid| (a.unknown ^ b.unknown) & ACROSS != 0;

@@ -1,4 +1,4 @@
-//! The paths between cuts. A program may go higher than the job, but not lower or elsewhere.
+//! Compares the paths between cuts. The program's path may be higher than the job's, but not lower, and it may go nowhere else.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
@@ -8,7 +8,7 @@ use super::ways::{Compared, are_the_same, compare as compare_way, enters_hole, l
 use crate::diag::Code;
 use crate::lang::Machine;
 
-/// Compares the paths to a cut.
+/// Compares the paths of job and program to the next cut.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     if s.program.passage.rapids.is_empty() && s.job.rapids.is_empty() && !s.job.changed() {
@@ -20,7 +20,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         return beside_the_part(s, line);
     }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
-    // most paths are equal and need no comparison of corners
+    // fast path: most paths are equal, so their corners need no comparison
     let starts = [s.job.start, s.program.passage.start];
     if let ([Some(a), Some(b)], false) = (starts, lost || changed)
         && are_the_same(&[a], &[b], tolerance)
@@ -40,7 +40,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     }
     let [job, program] = &mut s.ways;
     let passage = &s.program.passage;
-    // after a change, the path may begin anywhere
+    // after a change of tool or work offset, the path may begin anywhere
     let both = lost && changed;
     job.set(if lost { None } else { s.job.start }, s.job.arriving(), tolerance);
     program.set(
@@ -87,7 +87,7 @@ fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     });
 }
 
-/// Checks the frames of a path. Each move of the tool must use a frame of the job and the offset registers of this frame.
+/// Checks the frames of a path. Each move must be in a frame of the job, with the offset registers of that frame.
 pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;
@@ -102,7 +102,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;
     let count = s.job.legs().count();
-    // before a cut of a mill, a rapid across at unknown height counts too; the job moves where it has rapids
+    // before a cut of a mill, rapids across at an unknown height are checked too; only frames with rapids of the job are allowed
     let by_rapids = s.machine == Machine::Mill && !s.switches && line != 0;
     let moves = |at: usize, leg: &Leg, rapids: &[Rapid]| {
         !leg.lengths.is_empty() || by_rapids && at > 0 && rapids.iter().any(|rapid| rapid.unknown & 0b11 != 0b11)
@@ -120,7 +120,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
             .filter(|(at, (own, rapids))| is_frame(&own.frame, &leg.frame) && is_own(*at, rapids));
         let known: Vec<Option<f64>> = own
             .flat_map(|(_, (own, _))| match own.lengths.is_empty() {
-                // with the tool of the last cut, the job keeps its length register
+                // if the frame has the tool of the last cut, the length register of that cut is still active
                 true if was => vec![before.1],
                 true => vec![None],
                 false => own.lengths.clone(),
@@ -152,7 +152,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     });
 }
 
-/// The axes that are checked for the move home, as bits: one of them must go home.
+/// The axes to check for a move home, as bits. One of them must go home.
 pub(super) fn away(machine: Machine) -> u8 {
     match machine {
         Machine::Mill => 1 << DEPTH,
@@ -161,7 +161,7 @@ pub(super) fn away(machine: Machine) -> u8 {
     }
 }
 
-/// Checks that the program goes home where the job does. Both paths begin again there.
+/// Checks that the program goes home where the job does. A new leg of both paths begins there.
 fn goes_home(s: &mut Sides<'_>, line: u64) {
     let away = away(s.machine);
     if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
@@ -171,15 +171,15 @@ fn goes_home(s: &mut Sides<'_>, line: u64) {
     }
 }
 
-/// The first position of rapids at a known height that is not above or below `from`.
+/// The first position at a known height that is not straight above or below `from`.
 fn crosses(from: Option<&Rapid>, rapids: &[Rapid], tolerance: f64) -> Option<Place> {
     let from = from?;
     let beside = |rapid: &&Rapid| rapid.unknown & 0b111 == 0 && !same(&rapid.to, &from.to, ACROSS, tolerance);
     rapids.iter().take_while(|rapid| rapid.unknown & 1 << DEPTH == 0).find(beside).map(|rapid| rapid.to)
 }
 
-/// Checks the path away from the last cut of a tool, a work offset or the program. `until`: the number of the program's
-/// rapids.
+/// Checks the path after the last cut of a tool, of a work offset or of the program. `until`: how many of the program's
+/// rapids belong to this path.
 fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let tolerance = s.limits.tolerance;
     let [job, program] = &mut s.ways;
@@ -189,7 +189,7 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let aside = if s.job.changed() { s.job.left_aside } else { s.job.aside };
     let (own, other) = (s.job.leaving(), &s.program.passage.rapids[..until]);
     let as_job = goes_as(own, other, tolerance);
-    // after the job's last position on its way home, no rapid may cross the part before the move home
+    // after the job's last position before home, the program may only go straight up or down before the move home
     let beyond =
         other.split_at_checked(own.len()).filter(|(way, _)| s.job.was_sent_home() && goes_as(own, way, tolerance));
     let before_home = beyond.and_then(|(_, beyond)| crosses(own.last().or(s.job.start.as_ref()), beyond, tolerance));
@@ -198,7 +198,7 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     match leaves_hole(job, program, tolerance) {
         Some(Compared::Turning) => turns_otherwise(s, line),
         Some(_) if aside => stays_at_wall(s, line),
-        // the job's own path, and from its end to machine positions
+        // the job's own path, and then only rapids to a machine height
         _ if as_job && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
         _ => {
             if let Some(to) = before_home {
@@ -215,20 +215,20 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     as_job
 }
 
-/// Whether the program goes to the job's positions before it goes to positions that are known only at the machine.
+/// Whether the program's known positions are exactly the job's, before any position that is known only at the machine.
 fn goes_as(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let known = program.iter().take_while(|rapid| rapid.unknown == 0);
     let count = known.clone().count();
     count == job.len() && known.zip(job).all(|(a, b)| same(&a.to, &b.to, ALL, tolerance))
 }
 
-/// Checks frames between the first and the last, or all after the first `at_end`. No rapid may be lower than the job's
-/// own in that frame.
+/// Checks the frames between the first and the last one, or with `at_end` all frames after the first. In each frame, no
+/// rapid may be lower than the job's rapids in that frame.
 fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let tolerance = s.limits.tolerance;
     let tools = s.tools;
     let legs: Vec<_> = s.program.passage.legs().collect();
-    // the path away from the last cut is compared separately
+    // the path after the last cut is compared by `leave`
     let first = usize::from(s.job.start.is_some());
     let inner = legs.get(first..legs.len() - usize::from(!at_end)).unwrap_or_default();
     let mut low = None;
@@ -241,7 +241,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             .map(|(_, rapids)| rapids)
             .collect();
         if own.is_empty() {
-            // the job has no move with this tool in this offset, so it has no height of its own
+            // the job has no move with this tool in this work offset, so no height is allowed
             let known = rapids.iter().find(|rapid| rapid.unknown & 0b100 == 0);
             low = low.or(known.map(|rapid| (rapid.to, leg.frame.work)));
             continue;
@@ -289,9 +289,9 @@ pub(super) fn end(s: &mut Sides<'_>) {
     s.report.allowed.tails += u64::from(!as_job || idle > 0);
 }
 
-/// Compares paths on lathes and wire EDM machines, where no side is free of the part or wire. The tool must go to the
-/// job's positions in their order, and to machine positions. On a lathe, a slanted rapid may go round its corner on the
-/// side away from the chuck.
+/// Compares paths on lathes and wire EDM machines, where the part or the wire may be on any side. The tool must go to
+/// the job's positions in their order, and may go to machine positions. On a lathe, a slanted rapid may be replaced by
+/// two rapids on the side away from the chuck.
 fn beside_the_part(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
     let is_lathe = s.machine == Machine::Lathe;

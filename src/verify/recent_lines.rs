@@ -1,4 +1,4 @@
-//! The texts of the last lines of a program, for findings about blocks that were just run.
+//! Keeps the texts of a program's last lines, for findings about blocks that were just run.
 
 /// Number of lines kept.
 const KEPT: usize = 16;
@@ -11,7 +11,7 @@ pub(super) struct Recent {
 }
 
 impl Recent {
-    /// Keeps a line that was run. Its text is swapped with that of an older line.
+    /// Keeps a line that was run. Swaps its text with that of the oldest line, so that no memory is allocated.
     #[inline]
     pub fn keep(&mut self, line: u64, text: &mut Vec<u8>) {
         if self.lines.len() < KEPT {
@@ -33,7 +33,7 @@ impl Recent {
         if digits.is_empty() { digits } else { format!("N{digits}") }
     }
 
-    /// Text of a line of the program, if it is still kept.
+    /// Text of a line of the program, if the line is still kept.
     pub fn text(&self, line: u64) -> Option<String> {
         let (_, text) = self.lines.iter().find(|(number, _)| *number == line)?;
         Some(String::from_utf8_lossy(text).trim().to_owned())

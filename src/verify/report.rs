@@ -1,11 +1,11 @@
-//! Findings and counts so far.
+//! The findings and counts of a comparison so far.
 
 use super::finding::Finding;
 use super::verdict::{Equivalences, Unproven};
 use crate::diag::{Code, Diag};
 use crate::toolpath;
 
-/// The amount that was compared.
+/// How much was compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Number of cuts of the job outside holes.
@@ -14,7 +14,7 @@ pub struct Counts {
     pub holes: u64,
 }
 
-/// A difference that may have been reported already.
+/// A difference to report. The report may already have a difference with the same cause.
 pub(super) struct Difference<'a> {
     pub code: Code,
     pub help: &'static str,
@@ -34,19 +34,19 @@ pub(super) struct Report {
     /// The job's item.
     pub place: toolpath::Place,
     pub unproven: Option<Unproven>,
-    /// The fault of the job that ended the comparison.
+    /// The fault in the job that ended the comparison.
     pub wrong: Option<Box<Diag>>,
     /// Whether the job was compared to its end.
     pub finished: bool,
 }
 
 impl Report {
-    /// Whether the verdict is known before the end of the job.
+    /// Whether the verdict is already known.
     pub fn is_decided(&self) -> bool {
         !self.findings.is_empty() || self.unproven.is_some()
     }
 
-    /// The reason why nothing is proven. A job that was not compared to its end is never proven.
+    /// The reason why the program is not proven. A program is never proven if the comparison did not reach the job's end.
     pub fn unproven(&mut self) -> Option<Unproven> {
         if self.unproven.is_some() || self.finished {
             return self.unproven.take();
@@ -58,7 +58,7 @@ impl Report {
         Some(Unproven { why, help, place: Some(self.place), ..Unproven::default() })
     }
 
-    /// Adds a difference. Differences with the same cause are counted with the first.
+    /// Adds a difference. If one with the same cause is known, only its count increases.
     pub fn add(&mut self, difference: &Difference<'_>) {
         let known = self.findings.iter_mut();
         let Difference { code, help, line, place, .. } = *difference;

@@ -1,10 +1,10 @@
-//! Converts the numbers of a program to those of the job: units, renamed axes, surface speeds.
+//! Converts the numbers of a program to those of its job: units, renamed axes, surface speeds.
 
 use super::cut::{Place, UNSAID, place, position};
 use crate::nc::Position;
 use crate::toolpath::Units;
 
-/// All axes have the same names in the program.
+/// The axes if the form renames none.
 const AS_WRITTEN: [u8; 6] = [0, 1, 2, 3, 4, 5];
 
 /// Conversion of the program's numbers to the job's.
@@ -12,15 +12,15 @@ const AS_WRITTEN: [u8; 6] = [0, 1, 2, 3, 4, 5];
 pub(super) struct Scale {
     /// Units of the program.
     pub units: Units,
-    /// Units of the result.
+    /// Units of the job, in which positions are compared.
     pub wanted: Units,
-    /// The program's axis for each axis of the job, as the form prints it.
+    /// The program's axis for each axis of the job, as the form renames them.
     pub axes: [u8; 6],
-    /// Whether there is no Y.
+    /// Whether the machine is a lathe, which has no Y.
     pub lathe: bool,
-    /// Whether the depth axis is ignored.
+    /// Whether the form prints no depth axis.
     pub flat: bool,
-    /// For a wire: the third and fourth axis are U and V. The bits are the axes that are not given.
+    /// For a wire: the third and fourth axes are U and V. The bits are the axes without a value.
     pub wire: Option<u8>,
 }
 
@@ -62,7 +62,7 @@ impl Scale {
         place(&at)
     }
 
-    /// The end of an arc. If the wire guide moves along, its position is returned in the other axes.
+    /// The end of an arc. For a wire whose guide moves too, the other two values are the position of the guide.
     pub fn end_of_arc(self, to: &Position) -> Position {
         let end = self.place(to);
         let mut at = position(&end);
@@ -74,7 +74,7 @@ impl Scale {
         at
     }
 
-    /// The axes whose positions are unknown, as bits. An ignored depth is always unknown.
+    /// The axes whose positions are unknown, as bits. If the form prints no depth axis, the depth is always unknown.
     pub fn unknown(self, bits: u8) -> u8 {
         self.axes(bits) | u8::from(self.flat) << 2
     }

@@ -1,4 +1,4 @@
-//! The two sides of a comparison, and the reporting of differences.
+//! The two sides of a comparison, and functions that report differences.
 
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::form_values::Own;
@@ -20,37 +20,37 @@ use crate::toolpath;
 pub(super) struct Limits {
     /// Distance up to which two positions are equal.
     pub tolerance: f64,
-    /// Distance of short lines from their arc.
+    /// How far short lines may deviate from the arc that they replace.
     pub chord: f64,
-    /// The smallest digit of the form along a hole. A lift of that size shows that the tool left the bottom.
+    /// The smallest step that the form can print along a hole. A retract of this size shows that the tool left the bottom.
     pub increment: f64,
 }
 
-/// The current hole of the job, and the last one.
+/// The current hole of the job and the last ones, and the strokes so far in the current hole.
 #[derive(Debug, Default)]
 pub(super) struct Holes {
-    /// The hole where the job is now. Its moves aside must then be made as in the job.
+    /// The hole where the job is now. The tool's moves away from the axis of this hole must be as in the job.
     pub over: Option<Expected>,
-    /// The tool's last hole.
+    /// The last hole of the current tool.
     pub last: Option<Expected>,
-    /// The last hole of the previous tool, while this tool has none; or the last hole that was cut, if the operator makes
-    /// the current one.
+    /// The last hole of the previous tool, while the current tool has none. Or the hole that was cut last, if the
+    /// operator makes the current one by hand.
     pub before: Option<Expected>,
-    /// The greatest height of the job at this hole and the holes before it.
+    /// The greatest height of the job at this hole and at the holes before it in the cycle.
     pub highest: Option<f64>,
-    /// Whether the program cuts the hole.
+    /// Whether the program has a cut in this hole.
     pub cut: bool,
-    /// Cuts of a hole in pecks.
+    /// The job's cuts in a pecked hole.
     pub pecks: Vec<Cut>,
-    /// The height where the feed began in the hole of the last cut. `None`: the cut was in no hole, or in a hole that
-    /// only the form defines.
+    /// The height where the feed began in the hole of the last cut. `None`: the cut was not in a hole, or only the form
+    /// defines the moves in the hole.
     pub inside: Option<f64>,
     /// The strokes of the job's pecks in this hole.
     pub strokes: Strokes,
 }
 
 impl Holes {
-    /// Whether the tool is in a hole at a mark: still in the last hole, or on its way into the current one.
+    /// Whether the tool is in a hole at a mark: still in the last hole, or already in the current one.
     pub fn holds<T>(&self, passage: &Passage, mark: &Mark<T>, tolerance: f64) -> bool {
         let next = self.over.filter(|hole| !hole.custom).map(|hole| hole.plane);
         self.inside.is_some_and(|plane| passage.below_since(mark, plane - tolerance))
@@ -58,39 +58,39 @@ impl Holes {
     }
 }
 
-/// The state of a comparison: the side of the job and that of the program.
+/// The state of a comparison, with the side of the job and the side of the program.
 pub(super) struct Sides<'a> {
     pub program: Program<'a>,
-    /// Everything that the job does since its last cut.
+    /// Everything that the job has done since its last cut.
     pub job: Passage,
     pub hole: Holes,
     pub limits: Limits,
-    /// Buffers that are reused, so that no comparison allocates.
+    /// Buffers that are reused, so that no comparison allocates memory.
     pub ways: [RapidPath; 2],
-    /// The state in force at the program's last cut.
+    /// The state at the program's last cut.
     pub before: Shared,
-    /// The last states of job and program that agreed.
+    /// The last states of job and program that were equal.
     pub agreed: Option<[Shared; 2]>,
-    /// The different ends of the last cuts. If the next cuts begin there, they correspond.
+    /// The ends of the last cuts of job and program, if they differ. If the next cuts begin there, they correspond.
     pub slipped: Option<[Place; 2]>,
-    /// The last thread, until another cut comes, and the number of passes that the program made beyond the job's.
+    /// The last thread, until another cut follows, and the number of passes that the program made in addition to the job's.
     pub threaded: Option<(Threaded, usize)>,
-    /// Number of consecutive cuts that ended at different positions.
+    /// Number of consecutive cuts whose ends differ.
     pub slips: u32,
     /// Whether the machine loads tools.
     pub tools: bool,
-    /// Whether the machine is a torch or laser, whose tool nobody changes.
+    /// Whether the machine is a torch or laser. It has no tool change.
     pub switches: bool,
     /// The type of machine.
     pub machine: Machine,
-    /// Feeds and speeds that the form itself defines.
+    /// Feeds and speeds that the form itself defines, in this order.
     pub own: [Own; 2],
     pub report: Report,
     pub failure: Option<std::io::Error>,
 }
 
 impl Sides<'_> {
-    /// Reports a difference after which the two sides still correspond.
+    /// Reports a difference after which the cuts of both sides still correspond.
     pub fn found(&mut self, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
         let program = &self.program;
         let block = || program.text_of(line);
@@ -98,14 +98,14 @@ impl Sides<'_> {
         self.report.add(&Difference { code, help, message: &message, line, block: &block, place });
     }
 
-    /// Reports a difference that ends the comparison, because the cuts after it do not correspond.
+    /// Reports a difference that ends the comparison, because the cuts after it no longer correspond.
     pub fn differs<T>(&mut self, code: Code, line: u64, message: String, help: &'static str) -> Result<T, Box<Diag>> {
         let diag = Box::new(Diag::new(code, message.clone()).help(help));
         self.found(code, line, help, || message.clone());
         Err(diag)
     }
 
-    /// Records that nothing is proven from this line of the program on.
+    /// Records that nothing is proven after this line of the program.
     pub fn unproven<T>(&mut self, why: String, help: &str, line: u64) -> Result<T, Box<Diag>> {
         let diag = Box::new(Diag::new(Code::PV020, why.clone()).help(help));
         let block = self.program.number_of(line);
@@ -154,7 +154,7 @@ impl Sides<'_> {
         }
     }
 
-    /// Ends the job's cut. The next path of the job begins at its end.
+    /// Ends the job's cut. The job's next path begins at the end of the cut.
     pub fn leave(&mut self, cut: &Cut, hole: Option<&Expected>) {
         self.hole.inside = hole.filter(|hole| !hole.custom).map(|hole| hole.plane);
         self.job.begin(Rapid { to: cut.end(), unknown: 0, spin: None });

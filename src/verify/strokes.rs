@@ -1,8 +1,8 @@
-//! Strokes in a hole, from the pecks of job and program, counted in the same way for both.
+//! Counts the strokes in a hole, in the same way for the pecks of job and program.
 
 use super::tables::LEFT;
 
-/// The strokes of a hole so far. A stroke ends when the tool leaves the bottom, not at the end of a block.
+/// The strokes of a hole so far. A stroke ends when the tool leaves the bottom, so it may consist of several blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Strokes {
     /// The height where the feed begins.
@@ -13,37 +13,37 @@ pub(super) struct Strokes {
     highest: f64,
     /// The height where the last stroke began to cut.
     begun: f64,
-    /// The depth of the hole when the tool was last out of it.
+    /// The depth of the hole when the tool last left it.
     out: f64,
-    /// The number of strokes, and the number of those that began after the tool was out of the hole.
+    /// The number of strokes, and how many of them began after the tool had left the hole.
     pub counts: [u64; 2],
     /// The counts without the last stroke.
     earlier: [u64; 2],
     /// The longest stroke.
     pub longest: f64,
-    /// The greatest depth that was cut without leaving the hole.
+    /// The greatest depth that was cut between two retracts out of the hole.
     pub farthest: f64,
 }
 
 impl Strokes {
-    /// An empty state for a hole whose feed begins at this height.
+    /// The state before the first stroke in a hole whose feed begins at this height.
     pub fn over(plane: f64) -> Strokes {
         Strokes { plane, deepest: plane, highest: plane, begun: plane, out: plane, ..Strokes::default() }
     }
 
-    /// Moves the tool to a height without cutting.
+    /// Moves the tool to a height at rapid.
     pub fn comes_to(&mut self, height: f64) {
         self.highest = self.highest.max(height);
     }
 
-    /// Feeds to a height. `increment`: the smallest digit of the form along the hole, in the job's units.
+    /// Feeds to a height. `increment`: the smallest step that the form can print along the hole, in the job's units.
     pub fn cut(&mut self, to: f64, increment: f64, tolerance: f64) {
         self.comes_to(to);
         if to >= self.deepest {
             return;
         }
         let [count, outs] = self.counts;
-        // half a digit of the form allows for binary rounding
+        // half a step of the form allows for binary rounding
         if count == 0 || self.highest - self.deepest > increment / 2.0 {
             let is_out = count > 0 && self.highest >= self.plane - tolerance;
             (self.earlier, self.counts) = (self.counts, [count + 1, outs + u64::from(is_out)]);
@@ -57,7 +57,7 @@ impl Strokes {
         (self.deepest, self.highest) = (to, to);
     }
 
-    /// The counts. A last stroke that only cuts a small rest is left out.
+    /// The counts of strokes. A last stroke that only cuts a small remainder is not counted.
     pub fn counted(&self, tolerance: f64) -> [u64; 2] {
         let last = self.begun - self.deepest;
         if last > (LEFT * self.longest).max(2.0 * tolerance) { self.counts } else { self.earlier }
@@ -68,7 +68,7 @@ impl Strokes {
 mod tests {
     use super::*;
 
-    /// The strokes of a hole from height 2 down. Each move is a height, with `true` for feed moves.
+    /// The strokes of a hole whose feed begins at height 2. Each move has its target height, and `true` for a feed move.
     fn strokes(moves: &[(bool, f64)]) -> Strokes {
         let mut strokes = Strokes::over(2.0);
         for &(feeds, to) in moves {
@@ -84,7 +84,7 @@ mod tests {
         assert_eq!((lifted(0.001).counts, lifted(0.001).longest), ([2, 0], 5.0));
         assert_eq!(lifted(4.99).counts, [2, 0]);
         assert_eq!((lifted(5.0).counts, lifted(5.0).farthest), ([2, 1], 5.0));
-        // up at feed, as with a tap
+        // the tool goes up at feed, as in a tap
         assert_eq!(strokes(&[(true, -3.0), (true, -2.0), (true, -8.0)]).counts, [2, 0]);
     }
 

@@ -1,4 +1,4 @@
-//! Subprograms of the job. Their items are kept where they are defined, and repeated at each call.
+//! Subprograms of the job. Their items are kept when they are defined and run again at each call.
 
 use super::intent::{Done, unproven};
 use super::tables::Unmodelled;
@@ -29,7 +29,7 @@ impl Subprograms {
         self.defined.len()
     }
 
-    /// Keeps an item of the subprogram that is being defined. Returns `false` outside of subprograms.
+    /// Keeps an item if it belongs to a subprogram. Returns `false` if the item is outside of subprograms.
     pub fn hold(&mut self, event: &Event<'_>, place: Place) -> Done<bool> {
         match event {
             Event::SubStart(number) => {

@@ -1,33 +1,33 @@
-//! Tolerances of each quantity, and reasons for no proof: the tables of docs/verify.md.
+//! The tolerance of each quantity, and the reasons why a job can't be proven: the tables of docs/verify.md.
 
-/// Positions, in inches and millimetres. This is more than the rounding of digits.
+/// Tolerance of positions, in inches and millimetres. It is more than the rounding of the printed digits.
 pub(super) const PLACES: [f64; 2] = [1e-4, 2e-3];
-/// The least tolerance of short lines from their arc, in inches and millimetres. The form's `Tolerance` may be more.
+/// Deviation of short lines from their arc that is always allowed, in inches and millimetres. The form's `Tolerance` may allow more.
 pub(super) const CHORDS: [f64; 2] = [0.001, 0.02];
-/// Angles in degrees.
+/// Tolerance of angles, in degrees.
 pub(super) const ANGLE: f64 = 0.001;
-/// The angle of a stopped spindle, in degrees.
+/// Tolerance of the angle of a stopped spindle, in degrees.
 pub(super) const ORIENTED: f64 = 0.01;
-/// Feeds, speeds and dwells, as a fraction of their value.
+/// Tolerance of feeds, speeds and dwells, as a fraction of the value.
 pub(super) const ROUNDED: f64 = 0.01;
-/// Feed and speed of a tap, as a fraction of their value. Both define the pitch.
+/// Tolerance of the feed and speed of a tap, as a fraction of the value. Both define the pitch of the thread.
 pub(super) const PITCH: f64 = 0.0025;
-/// Dwells in seconds, if that is more than the fraction.
+/// Tolerance of dwells in seconds. It applies if it is more than the fraction above.
 pub(super) const MOMENT: f64 = 0.001;
-/// Longest dwell in a cut, in seconds, after a spindle, torch or laser was started. This value is our decision: spindles
-/// come to speed and torches pierce within this time.
+/// Longest dwell in a cut, in seconds, after a spindle, torch or laser was started. We chose this limit: within this
+/// time, a spindle comes to speed and a torch pierces.
 pub(super) const STARTED: f64 = 30.0;
-/// Factor by which a peck may be longer than the job's longest peck.
+/// Factor by which a peck of the program may be longer than the longest peck of the job.
 pub(super) const LONGER: f64 = 1.5;
-/// A last peck shorter than this fraction of the longest is a rest, which the program may leave out.
+/// A last peck shorter than this fraction of the longest peck is a remainder, which the program may leave out.
 pub(super) const LEFT: f64 = 0.05;
 
-/// The smallest digit of usual programs, in inches and millimetres, if no form defines the format of its letters.
+/// The smallest step that programs usually print, in inches and millimetres. It is used if no form defines letter formats.
 pub(super) const INCREMENTS: [f64; 2] = [1e-4, 1e-3];
-/// Range of the form's own feed or speed, as factors of the job's value.
+/// Range of a feed or speed that the form itself defines, as factors of the job's value.
 pub(super) const OWN: [f64; 2] = [0.2, 2.0];
 
-/// The tolerance of each quantity, as in docs/verify.md.
+/// Each quantity with its tolerance as text, as in docs/verify.md.
 pub fn tolerances() -> Vec<[String; 2]> {
     let part = |part: f64| format!("{} % of itself", part * 100.0);
     let row = |quantity: &str, near: String| [quantity.to_owned(), near];
@@ -58,12 +58,12 @@ pub fn tolerances() -> Vec<[String; 2]> {
 
 macro_rules! unmodelled {
     ($($name:ident $why:literal;)*) => {
-        /// Parts of jobs that can't be proven.
+        /// The parts of jobs that can't be proven.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Unmodelled { $($name),* }
 
         impl Unmodelled {
-            /// The reason why nothing is proven from this part on.
+            /// The reason why nothing is proven after this part.
             pub fn why(self) -> &'static str {
                 match self { $(Unmodelled::$name => $why),* }
             }

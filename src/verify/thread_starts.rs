@@ -1,4 +1,4 @@
-//! Threads of a job for a lathe, one start at a time.
+//! Plans the threads of a lathe's job, one start at a time.
 
 use super::cut::{DEPTH, RADIUS, What};
 use super::intended::Job;
@@ -22,7 +22,7 @@ impl Job {
             .map_err(Box::<Diag>::from)?;
         let starts = thread.starts.unwrap_or(1.0);
         for start in 0..starts as u32 {
-            // each start begins one pitch farther from the thread
+            // each further start of the thread begins one pitch farther away from it
             let back = f64::from(start) * thread.pitch * if begin >= end.values[DEPTH] { 1.0 } else { -1.0 };
             let mut beside = self.at;
             beside.set(DEPTH, begin + back);

@@ -1,4 +1,4 @@
-//! Threads of a lathe. Other passes make the same thread if they are not coarser and end at the same depth.
+//! Compares threads of a lathe. Other passes are accepted if they are not coarser and end at the same depth.
 
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
@@ -10,7 +10,7 @@ use super::tables::{LONGER, PITCH};
 use crate::diag::Code;
 
 impl Threaded {
-    /// The depth of a cut of the program; `None`: the cut is not a pass of this thread.
+    /// The depth of a cut of the program in this thread; `None`: the cut is not a pass of this thread.
     fn depth(&self, found: &Cut, tolerance: f64) -> Option<f64> {
         let near = |a: f64, b: f64| (a - b).abs() <= 2.0 * tolerance;
         let to = found.end();
@@ -20,13 +20,13 @@ impl Threaded {
         is_one.then(|| (to[RADIUS] - self.crest) * self.inward)
     }
 
-    /// Whether the other thread is the same and begins at the same position along Z. The approach may differ.
+    /// Whether the other thread is equal and begins at the same Z. The approach may differ.
     fn is_again(&self, other: &Threaded) -> bool {
         self.begin[DEPTH] == other.begin[DEPTH] && *self == Threaded { begin: self.begin, ..other.clone() }
     }
 
-    /// Whether a rapid between passes crosses the uncut thread. The tool must move along the axis beside the crest, and
-    /// go in where the passes begin.
+    /// Whether a rapid between passes crosses uncut material of the thread. The tool must move along the axis outside
+    /// of the crest, and move to the depth of a pass where the passes begin.
     fn is_crossed(&self, a: &Rapid, b: &Rapid, tolerance: f64) -> bool {
         let outermost = [self.crest, self.crest + self.taper].map(|crest| crest * self.inward).into_iter();
         let crest = outermost.fold(f64::INFINITY, f64::min);
@@ -38,7 +38,7 @@ impl Threaded {
     }
 }
 
-/// Compares all passes of a thread.
+/// Compares all passes of the program for a thread of the job.
 pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     let tolerance = s.limits.tolerance;
     let whole = thread.passes.last().copied().unwrap_or(0.0);
@@ -57,7 +57,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         }
         let from = Rapid { to: found.from, unknown: found.unknown, spin: None };
         if count == 0 {
-            // the approach from beside the thread
+            // the approach from a position outside of the thread
             s.job.rapids.push(from);
             super::pauses::compare(s);
             super::rapids::compare(s, found.line);
@@ -89,7 +89,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         && !is_parted(&s.job)
         && s.agreed.as_ref().is_some_and(|[wanted, _]| *wanted == cut.state);
     if again {
-        // the same thread again: the program made the passes of both one after the other
+        // the job has the same thread twice: the program made the passes of both together
         s.threaded = Some((thread.clone(), made - thread.passes.len()));
         leave(s, thread, whole);
         return Ok(());
@@ -128,11 +128,11 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
     Ok(())
 }
 
-/// Ends a thread.
+/// Ends a thread and sets the job's position after it.
 fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     s.hole.inside = None;
     s.report.counts.cuts += 1;
-    // out of the last pass, then back to the position beside the beginning
+    // the tool goes out of the last pass, then back to the position where the passes begin
     let mut out = thread.begin;
     out[DEPTH] = thread.end;
     let end = Rapid {
@@ -145,17 +145,17 @@ fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });
 }
 
-/// Whether the path from one pass to the next has more than rapids.
+/// Whether there is more than rapids between two passes.
 fn is_parted(passage: &Passage) -> bool {
     passage.changed() || !passage.stops.is_empty() || !passage.waits.is_empty()
 }
 
-/// The requirements for a pass. Its lead is compared separately.
+/// The values required for a pass. Its lead is compared separately.
 fn cut_of(cut: &Cut, found: &Cut) -> Cut {
     Cut { feed: None, line: found.line, ..cut.clone() }
 }
 
-/// Checks the path between two passes: out across, back along the crest, and in again.
+/// Checks the path between two passes: out of the thread, back along it, and in again.
 fn between(s: &mut Sides<'_>, thread: &Threaded, to: Rapid, line: u64) -> Done {
     let tolerance = s.limits.tolerance;
     let passage = &s.program.passage;

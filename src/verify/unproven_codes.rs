@@ -1,12 +1,12 @@
-//! Codes after which a program is not proven, because its control is not known well enough.
+//! Codes after which a program is not proven, because postform does not know what the control does with them.
 
 use crate::control::{Control, Rules};
 use crate::diag::{Code, Diag};
 
-/// Whether the fault is a limit of postform and not a refusal of the control. Then the control's file does not have the
-/// code, or the code is not run.
+/// Whether a fault is a limit of postform and not a refusal of the control. This is so if the control's file does not
+/// contain the code, or if postform does not run the code.
 ///
-/// For LinuxCNC and similar controls all codes are known, so they refuse all others themselves.
+/// For LinuxCNC and similar controls all codes are known. A code that is missing in their files is therefore a refusal.
 pub(super) fn is_unknown(code: Code, control: &Control) -> bool {
     match code {
         Code::PN003 => control.rules() == Rules::Fanuc,
@@ -15,7 +15,7 @@ pub(super) fn is_unknown(code: Code, control: &Control) -> bool {
     }
 }
 
-/// `fanuc has no G201 that we know`, or the reason why a code is not run.
+/// The reason as text: `fanuc has no G201 that we know`, or why postform does not run the code.
 pub(super) fn unknown_code(diag: &Diag, control: &Control) -> String {
     let name = control.name();
     let code = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');

@@ -1,14 +1,14 @@
-//! Settings that a program must make before it moves, and whether their absence was reported.
+//! Settings that a program must make before it moves, and whether a missing setting was reported.
 
 use super::expectation::Expectation;
 use crate::control::{Control, ToolLength};
 
-/// Settings that the program must still make, and whether their absence was reported.
+/// Settings that the program has not made yet, and whether a missing setting was reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Due {
     lengths: bool,
     length_reported: bool,
-    /// Whether the program turned a length offset off again.
+    /// Whether the program turned a length offset on and then off.
     length_off: bool,
     units: bool,
 }
@@ -26,7 +26,7 @@ impl Due {
         self.units = false;
     }
 
-    /// Whether the units must still be set. Returns `true` only once.
+    /// Whether the units must still be set. Returns `true` only once, so that the finding is reported once.
     pub fn units(&mut self) -> bool {
         std::mem::take(&mut self.units)
     }
@@ -36,7 +36,7 @@ impl Due {
         self.units
     }
 
-    /// Whether tools need a length offset.
+    /// Whether each tool must have a length offset.
     pub fn lengths(&self) -> bool {
         self.lengths
     }
@@ -46,7 +46,7 @@ impl Due {
         self.length_off = to.is_none() && (self.length_off || from.is_some());
     }
 
-    /// The code to print instead if no length offset is on.
+    /// The correction for a missing length offset.
     pub fn length_help(&self) -> &'static str {
         match self.length_off {
             false => "print G43 H[lcomp] in the tool change, before the height",
@@ -57,12 +57,12 @@ impl Due {
         }
     }
 
-    /// Records a new tool. Its missing length is reported again.
+    /// Records a new tool. A missing length offset is reported once for each tool.
     pub fn new_tool(&mut self) {
         self.length_reported = false;
     }
 
-    /// Whether a missing length must be reported. Returns `true` once for each tool.
+    /// Whether to report a missing length offset now. Returns `true` once for each tool.
     pub fn reports_length(&mut self) -> bool {
         !std::mem::replace(&mut self.length_reported, true)
     }

@@ -1,4 +1,4 @@
-//! The result of a proof, and the equivalences that it allowed.
+//! The result of a proof, and the allowed differences that it counts.
 
 use std::fmt;
 
@@ -8,31 +8,31 @@ use crate::toolpath;
 
 macro_rules! allowed {
     ($($name:ident $one:literal $how:literal $file:literal $about:literal;)*) => {
-        /// Equivalences: how often a program does something differently from its job and equally well.
+        /// Allowed differences (equivalences): how often a program does something differently from its job and equally well.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct Equivalences {
             $(#[doc = concat!($about, " Decided in `src/verify/", $file, "`.")] pub $name: u64),*
         }
 
         impl Equivalences {
-            /// All equivalences, in the order of the docs: the count, the noun (such as `hole`), and the difference (such
-            /// as `with other pecks`).
+            /// All equivalences in the order of docs/verify.md: the count, the noun (such as `hole`), and the difference
+            /// (such as `with other pecks`).
             pub fn counts(&self) -> impl Iterator<Item = (u64, &'static str, &'static str)> {
                 [$((self.$name, $one, $how)),*].into_iter()
             }
 
-            /// All equivalences with their names and counts, in the order of the docs.
+            /// All equivalences with their names and counts, in the order of docs/verify.md.
             pub fn named(&self) -> impl Iterator<Item = (&'static str, u64)> {
                 [$((stringify!($name), self.$name)),*].into_iter()
             }
 
-            /// The name of each equivalence and what it allows, in the order of the docs.
+            /// The name of each equivalence and what it allows, in the order of docs/verify.md.
             pub const ABOUT: &'static [(&'static str, &'static str)] = &[$((stringify!($name), $about)),*];
         }
     };
 }
 
-// columns: name, noun, difference, the one file that counts it, description
+// columns: name, noun, difference, the only file that counts it, description
 allowed! {
     pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts, and holes that the job drills in one stroke and the program in pecks.";
     ways    "path" "between cuts in another order of axes or higher" "rapids.rs" "Paths between cuts that move the axes in another order, or higher.";
@@ -60,29 +60,29 @@ allowed! {
 pub enum Verdict {
     /// The program makes the job's motions in the job's order.
     Identical,
-    /// The program makes the job's cuts and holes, with other pecks or other paths between them.
+    /// The program makes the job's cuts and holes, with allowed differences such as other pecks or other paths.
     Equivalent(Equivalences),
-    /// From some point on, it is not known what the job or the program does.
+    /// From some point on, the effect of the job or of the program is unknown.
     NotProven(Box<Unproven>),
-    /// The program does something else, or something dangerous.
+    /// The program does something else than its job, or something dangerous.
     Different(Vec<Finding>),
 }
 
-/// Kinds of reasons why a program is not proven.
+/// Kinds of reasons why a program is not proven (`Verdict::NotProven`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UnprovenKind {
-    /// The effect of a block of the program or of an item of the job is unknown. [`Unproven::line`] and
-    /// [`Unproven::place`] contain its location.
+    /// The effect of a block of the program or of an item of the job is unknown. Its location is in [`Unproven::line`]
+    /// or [`Unproven::place`].
     #[default]
     Unknown,
-    /// Neither the form nor the caller gave a control. The program was compared by the rules of an assumed control.
+    /// Neither the form nor the caller named a control. The program was compared by the rules of an assumed control.
     ControlAssumed,
     /// The options requested no proof.
     NotAsked,
 }
 
-/// The reason why nothing is proven.
+/// The reason why a program is not proven.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Unproven {
@@ -90,22 +90,22 @@ pub struct Unproven {
     pub kind: UnprovenKind,
     /// The reason, such as `fanuc has no G201 that we know`.
     pub why: String,
-    /// The correction for the reason.
+    /// How to remove the reason.
     pub help: String,
-    /// The program's line from which nothing is proven, from 1; 0 if the job is the reason.
+    /// The program's line after which nothing is proven, from 1; 0 if the job is the reason.
     pub line: u64,
     /// Block number as written, such as `N120`; empty if there is none.
     pub block: String,
-    /// The item of the job from which nothing is proven.
+    /// The item of the job after which nothing is proven.
     pub place: Option<toolpath::Place>,
-    /// Differences by the rules of the assumed control.
+    /// The differences under the rules of the assumed control.
     pub notes: Vec<Finding>,
-    /// Whether the program may be proven from a file, because a file can seek.
+    /// Whether the program could be proven from a file. A file can be read again from an earlier position.
     pub in_a_file: bool,
 }
 
 impl Unproven {
-    /// The location from which nothing is proven: ` from N120`, ` from line 7`, or empty if the job is the reason.
+    /// The location after which nothing is proven: ` from N120`, ` from line 7`, or empty if the job is the reason.
     pub fn from(&self) -> String {
         match (self.block.as_str(), self.line) {
             ("", 0) => String::new(),
@@ -116,7 +116,7 @@ impl Unproven {
 }
 
 impl Verdict {
-    /// The verdict for an assumed control. It is never different, because another control may be meant.
+    /// The verdict under an assumed control. It is never `Different`, because the user may mean another control.
     pub fn assumed(self, control: &str) -> Verdict {
         let (notes, would) = match self {
             Verdict::Different(findings) => (findings, "different"),
@@ -133,7 +133,7 @@ impl Verdict {
         }))
     }
 
-    /// The differences, or the notes if the program is not proven, as findings. `program`: name of the program.
+    /// The differences as messages; if the program is not proven, the notes. `program`: name of the program.
     pub(crate) fn diags(&self, program: &str) -> Vec<Diag> {
         let found = match self {
             Verdict::Different(findings) => findings,
@@ -159,13 +159,13 @@ impl Verdict {
         }
     }
 
-    /// Whether the program is proven to do what its job requests.
+    /// Whether the program is proven: identical or equivalent.
     pub fn is_proven(&self) -> bool {
         matches!(self, Verdict::Identical | Verdict::Equivalent(_))
     }
 }
 
-/// One line: `equivalent: 4 holes with other pecks`.
+/// Prints one line, such as `equivalent: 4 holes with other pecks`.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -182,7 +182,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// `4 holes with other pecks, 1 path after the last cut to another position`.
+/// Prints the counts, such as `4 holes with other pecks, 1 path after the last cut to another position`.
 impl fmt::Display for Equivalences {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let met = self.counts().filter(|(number, ..)| *number > 0);

@@ -1,4 +1,4 @@
-//! Compares the program's path from one cut to the next with the job's.
+//! Compares the program's path from one cut to the next with the job's path.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
 use super::rapid_path::{RapidPath, across};
@@ -6,30 +6,30 @@ use super::rapid_path::{RapidPath, across};
 /// The result of comparing the program's path with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Compared {
-    /// The job's path, after joining moves of no length and parts of one straight rapid.
+    /// The program has the job's path. Moves of no length and divided straight rapids do not count.
     Same,
-    /// A path that moves the axes in another order, or is higher than the job's path, but is nowhere lower.
-    /// `step_by_step`: each move across corresponds to one in the job.
+    /// The path moves the axes in another order, or is higher than the job's path, but is nowhere lower.
+    /// `step_by_step`: each move across corresponds to one of the job.
     AsGood { step_by_step: bool },
-    /// Lower than the job's path at this position.
+    /// The path goes to this position, lower than the job's path. The number is the lowest allowed height.
     Lower(Place, f64),
-    /// Across to a position where the job does not go.
+    /// The path moves across to this position, to which the job does not go.
     Elsewhere(Place),
-    /// The job's path with another state of the spindle.
+    /// The path is the job's, but the spindle is in another state.
     Turning,
 }
 
-/// Length of a rapid across, in tolerances, up to which it may be a rapid straight up with rounded ends.
+/// Up to this length, in tolerances, a rapid across may be a rapid straight up whose ends were rounded.
 const ROUNDED_ACROSS: f64 = 2.0;
 
-/// Whether the program's rapids are the job's, one by one and with the same spindle.
+/// Whether both paths have the same rapids with the same state of the spindle.
 pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let is = |a: &Rapid, b: &Rapid| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b);
     job.len() == program.len() && job.iter().zip(program).all(|(a, b)| is(a, b))
 }
 
-/// Compares the program's path with the job's, rapid by rapid. If they differ, the parts of straight rapids are joined
-/// and compared again. Both paths are then joined.
+/// Compares the program's path with the job's, rapid by rapid. If they differ, joins the parts of straight rapids in
+/// both paths and compares the joined paths.
 pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start: bool, tolerance: f64) -> Compared {
     let by_rapids = compare_as_they_are(job, program, known_start, tolerance);
     if !matches!(by_rapids, Compared::Same | Compared::Turning | Compared::AsGood { step_by_step: true }) {
@@ -43,10 +43,10 @@ pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start:
     by_rapids
 }
 
-/// Compares the program's path with the job's.
+/// Compares the program's path with the job's without joining rapids.
 ///
-/// If both beginnings are known, the heights of their moves across are compared end by end. If the job's beginning is
-/// unknown (after a tool change), the program may come to the job's first position from anywhere, but not lower than that
+/// If both starts are known, the ends of the moves across are compared by their heights. If the job's start is unknown
+/// (after a tool change), the program may come to the job's first position from anywhere, but not lower than that
 /// position.
 fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, tolerance: f64) -> Compared {
     let Some(first) = job.corners.first().filter(|_| !known_start) else {
@@ -58,7 +58,7 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
             tolerance,
         );
     };
-    // above its first position, the job may go down before it goes across
+    // at the X and Y of its first position, the job may go down before it goes across
     let over_it = job.corners.iter().take_while(|corner| same(&corner.to, &first.to, ACROSS, tolerance));
     let lowest = over_it.map(|corner| corner.to[DEPTH]).fold(first.to[DEPTH], f64::min);
     let there = |exactly: u8| {
@@ -71,15 +71,15 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
     let Some(arrived) = there(ALL).or_else(|| there(ACROSS)) else {
         return compare_corners(&job.corners, &program.corners, false, usize::from(program.begun), tolerance);
     };
-    // the first corner is the end of the last cut
+    // the program's first corner is the end of the last cut
     let low = program.corners[..=arrived]
         .iter()
         .skip(usize::from(program.begun))
         .find(|corner| height(corner) < lowest - tolerance);
     let crosses = across(&program.corners[..=arrived], tolerance)
         .find(|(a, b)| height(a).min(height(b)) < first.to[DEPTH] - tolerance);
-    // a known X or Y must be that of the first position before the tool comes down; if both are unknown, the height was
-    // given first
+    // before the tool comes down, X or Y, if known, must be that of the first position; if both are unknown, the
+    // program printed the height first
     let astray = |corner: &&Rapid| {
         corner.unknown & 0b11 != 0b11
             && height(corner) <= first.to[DEPTH] + tolerance
@@ -92,22 +92,22 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
     compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)
 }
 
-/// Whether the spindle at a corner of the program is in the state that the job requires, if any.
+/// Whether the spindle at a corner of the program is in the state that the job requires. The job may require none.
 fn spins(job: &Rapid, program: &Rapid) -> bool {
     job.spin.is_none_or(|wanted| program.spin.is_none_or(|is| is.serves(wanted)))
 }
 
-/// Whether the spindle must be stopped at an angle at this corner, and is not whenever the program comes to it.
+/// Whether the job requires that the spindle is stopped at an angle at this corner, but the program never stops it at this angle there.
 fn stands_otherwise(corner: &Rapid, program: &[Rapid], tolerance: f64) -> bool {
     let stands = matches!(corner.spin, Some(Spin::At(_) | Spin::Oriented));
     let mut there = program.iter().filter(|other| same(&other.to, &corner.to, ALL, tolerance)).peekable();
     stands && there.peek().is_some() && !there.any(|other| spins(corner, other))
 }
 
-/// Whether the spindle is in another state on the first rapid than the job requires.
+/// Whether the spindle is not in the required state on the first rapid.
 fn leaves_turning_otherwise(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let (Some(left), [start, first, ..]) = (job.get(1), program) else { return false };
-    // after leaving at feed, the tool is already out
+    // if the tool left the hole at feed, it is already out
     let left_before = start.unknown == 0 && same(&start.to, &left.to, ALL, tolerance);
     !left_before && !spins(left, first)
 }
@@ -117,10 +117,10 @@ fn height(rapid: &Rapid) -> f64 {
     if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
 }
 
-/// The fraction of a straight rapid at a position, from 0 to 1, the point there, and the lowest height of the rapid
-/// within the rounding of positions. `None`: the position is beside the rapid.
+/// Where a position lies on a straight rapid: the fraction of the rapid from 0 to 1, the point there, and the lowest
+/// height there within the rounding of positions. `None`: the position is not on the rapid.
 fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place, f64)> {
-    // a full turn returns a rotary axis to the same position
+    // a rotary axis is at the same position after a full turn
     let turns = |axis: usize| (3..6).contains(&axis);
     let way = |axis: usize| if turns(axis) { (to[axis] - from[axis]) % 360.0 } else { to[axis] - from[axis] };
     let longest = (0..6).filter(|&axis| axis != DEPTH).max_by(|&a, &b| way(a).abs().total_cmp(&way(b).abs()))?;
@@ -133,8 +133,8 @@ fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64
     same(place, &there, ACROSS, tolerance).then_some((part, there, lowest))
 }
 
-/// Whether a rapid across is above the job's rapids across everywhere, and not beside them. It may pass straight over
-/// their corners. A rapid with an unknown start must be one of the job's own.
+/// Whether a rapid across is above rapids of the job everywhere and does not leave their lines. It may pass straight
+/// over their corners. A rapid whose start or end is unknown must be one of the job's rapids.
 fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
     let is = |a: &Rapid, b: &Rapid| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
     if (a.unknown | b.unknown) & ACROSS != 0 {
@@ -157,11 +157,11 @@ fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
     places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
 }
 
-/// Compares two lists of corners. `start`: number of the program's corners at the end of its last cut.
+/// Compares two lists of corners. `start`: how many of the program's first corners are the end of its last cut.
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
         let pairs = || job.iter().zip(program);
-        // an axis that is unknown in the job may have any position
+        // if an axis is unknown in the job, any position of it is allowed
         let is = |a: &Rapid, b: &Rapid| b.unknown & !a.unknown == 0 && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
         if pairs().all(|(a, b)| is(a, b)) {
             return if pairs().all(|(a, b)| spins(a, b)) { Compared::Same } else { Compared::Turning };
@@ -169,10 +169,10 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     }
     let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(job, tolerance).map(|(a, b)| height(a).min(height(b))).fold(highest, f64::min);
-    // at a position of the job, the path may be as low as the job is there; elsewhere only as low as the job's moves
-    // across
+    // at a position of the job, the path may be as low as the job is there; elsewhere it may be as low as the job's
+    // moves across
     for corner in program.iter().skip(start) {
-        // a corner of the job with only a height matches any position
+        // a corner of the job that gives only a height applies to any position
         let there =
             job.iter().filter(|other| other.unknown & 0b11 != 0 || same(&other.to, &corner.to, ACROSS, tolerance));
         let at_corners = there.map(|other| other.to[DEPTH]).reduce(f64::min);
@@ -189,7 +189,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
             return Compared::Lower(corner.to, floor);
         }
     }
-    // the spindle must be stopped, or stopped at its angle, while the tool leaves
+    // while the tool leaves, the spindle must be stopped, or stopped at its angle, if the job requires it
     let turns = known_start && leaves_turning_otherwise(job, program, tolerance)
         || job.iter().any(|corner| stands_otherwise(corner, program, tolerance));
     if known_start && across(job, tolerance).count() == across(program, tolerance).count() {
@@ -204,7 +204,8 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
             return if turns { Compared::Turning } else { Compared::AsGood { step_by_step: true } };
         }
     }
-    // with other corners: no move across below the job's greatest height, and none at all if the job does not move across
+    // if the corners differ, no move across may be below the job's greatest height; if the job does not move across, the program must not
+    // either
     let stays = across(job, tolerance).next().is_none();
     for (a, b) in across(program, ROUNDED_ACROSS * tolerance).filter(|(a, b)| !is_over(a, b, job, tolerance)) {
         let low = height(a).min(height(b));
@@ -217,20 +218,20 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
 }
 
-/// A position with full turns added to its angles, so that they are near those of another position.
+/// The position with full turns added to or subtracted from its angles, so that they are near those of `like`.
 fn unwound(place: &Place, like: &Place) -> Place {
     let turns = |axis: usize| if (3..6).contains(&axis) { ((place[axis] - like[axis]) / 360.0).round() } else { 0.0 };
     std::array::from_fn(|axis| place[axis] - 360.0 * turns(axis))
 }
 
-/// Checks the path out of a hole whose cycle defines the spindle and the moves: the job's corners must occur in their
-/// order and with its spindle.
+/// Checks the path out of a hole whose cycle requires states of the spindle. The path must contain these corners of the
+/// job in their order, with the required state of the spindle.
 pub(super) fn leaves_hole(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<Compared> {
     let corners = &program.corners;
     let mut from = 0;
     for corner in job.corners.iter().skip(1).filter(|corner| corner.spin.is_some()) {
         let is = |at: &Rapid| at.unknown == 0 && same(&at.to, &corner.to, ALL, tolerance);
-        // on a rapid to this corner, not at its beginning
+        // on a rapid to this corner, but not at the start of that rapid
         let passes = |at: usize| {
             at > 0
                 && (corners[at - 1].unknown | corners[at].unknown) == 0
@@ -247,7 +248,7 @@ pub(super) fn leaves_hole(job: &RapidPath, program: &RapidPath, tolerance: f64) 
     None
 }
 
-/// Whether the program enters a hole as the job does, with the job's moves aside, from the position above the hole on.
+/// Whether the program enters a hole with the same moves as the job, beginning above the hole. They include moves away from its axis.
 pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, tolerance: f64) -> bool {
     let Some(first) = job.corners.iter().position(|corner| same(&corner.to, over, ACROSS, tolerance)) else {
         return false;
@@ -262,13 +263,13 @@ pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, to
         && pairs.all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b))
 }
 
-/// Checks the program's path after a last cut. No move across may be below the job's moves across. The tool may go down
-/// only where the job does.
+/// Checks the program's path after the last cut. No move across may be lower than the job's moves across. The tool may
+/// go down only where the job does.
 pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<(Place, f64)> {
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
     let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
-    // if the job does not move across, machine positions must be approached from above its last height
+    // if the job does not move across, rapids to machine positions must be higher than its last height
     let stays = across(&job.corners, tolerance).next().is_none() && !job.corners.is_empty();
     let low = across(&program.corners, ROUNDED_ACROSS * tolerance).find(|(a, b)| {
         let at = height(a).min(height(b));
@@ -277,8 +278,8 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
     }
-    // down only where the job goes down, and not lower; elsewhere not below its moves across; not at all if the job only
-    // goes up
+    // The tool may go down only where the job goes down, and not lower. Elsewhere it must not be below the job's moves
+    // across. If the job only goes up, the tool must not go down.
     let lowest = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
     let floor = |at: &Rapid| {
         let there = |own: &&Rapid| {
@@ -287,7 +288,7 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
         let own = job.corners.iter().skip(1).filter(there).map(|own| own.to[DEPTH]).reduce(f64::min);
         own.unwrap_or(lowest.max(crossing))
     };
-    // a cycle of the control may leave the hole higher than the job; the program then goes straight down to the job's
+    // a cycle of the control may leave the hole higher than the job; the program may then go straight down to the job's
     // position
     let comes_back = |at: usize| {
         let is_left = |rapid: &Rapid, axes| {
@@ -328,13 +329,13 @@ mod tests {
 
     #[test]
     fn parts_of_a_straight_rapid_are_the_jobs() {
-        // the job's two rapids are on one line, down to the hole; the program goes across before it goes down
+        // the job's two rapids to the hole are on one line; the program goes across before it goes down
         let job = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 3.0]];
         let program = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 5.0], [0.0, 0.0, 5.0], [0.0, 0.0, 3.0]];
         assert_eq!(compared(&job, &program), Compared::AsGood { step_by_step: true });
         let low = [[-1.0, -1.0, 7.0], [-0.5, -0.5, 4.9], [0.0, 0.0, 4.9], [0.0, 0.0, 3.0]];
         assert!(matches!(compared(&job, &low), Compared::Elsewhere(_) | Compared::Lower(..)));
-        // the third hole is on a line with the first, between: its corner is not on the path to the second
+        // the Y of the third corner is between those of the first two, but this corner is not on the rapid to the second one
         let back = [[0.0, 1.2, 0.7], [0.0, -2.7, 0.1], [0.0, -1.3, 0.1], [0.0, -1.6, -0.1]];
         let up = [
             [0.0, 1.2, 0.7],
@@ -348,7 +349,7 @@ mod tests {
         let on = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [8.0, 0.0, 3.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
         let straight = [[0.0, 0.0, 9.0], [0.0, 0.0, 5.0], [8.0, 0.0, 5.0], [8.0, 0.0, 9.0], [9.0, 0.0, 9.0]];
         assert_eq!(compared(&on, &straight), Compared::AsGood { step_by_step: false });
-        // to a machine position at a low height
+        // a rapid to a machine position at a low height
         let mut home = way(&job);
         home.corners.insert(2, Rapid { unknown: 0b11, ..home.corners[1] });
         assert!(matches!(compare(&mut way(&job), &mut home, true, 1e-4), Compared::Lower(..) | Compared::Elsewhere(_)));
@@ -379,7 +380,7 @@ mod tests {
         ));
     }
 
-    /// The job adds up its turns, the form subtracts full turns: the path out of the hole is the same.
+    /// The job adds up the turns of an axis, the form subtracts full turns: the path out of the hole is the same.
     #[test]
     fn a_hole_is_left_whatever_its_turns_are() {
         let p = |z: f64, a: f64, spin: Option<Spin>| Rapid { to: place(&[1.0, 2.0, z, a, 0.0, 0.0]), unknown: 0, spin };
@@ -418,7 +419,7 @@ mod tests {
         ways[1].set(Some(program[0]), &program[1..], 1e-4);
         let [own, made] = &mut ways;
         assert_eq!(compare(own, made, true, 1e-4), Compared::AsGood { step_by_step: false });
-        // a corner on the path to a hole far below: the rounding of Y makes it look like a straight path
+        // a corner on the path to a hole far below: because Y is rounded, the path looks straight
         let down = [[0.0, 0.072, 41.388], [0.0, 0.072, 41.363], [0.0, 2.972, -9.426]];
         let stays = [[0.0, 0.072, 41.388], [0.0, 0.072, 41.363], [0.0, 2.972, 41.363], [0.0, 2.972, -9.426]];
         let [mut job, mut program] = [way_within(&down, 2e-3), way_within(&stays, 2e-3)];

@@ -1,5 +1,5 @@
-//! A proof that runs beside the renderer, in one pass. Events and text are compared as they are made, and neither is kept
-//! in memory.
+//! A proof that runs in parallel with the renderer, in one pass. Events and text are compared as soon as they are
+//! produced, and neither is kept in memory.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -15,14 +15,14 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{Event, Kept, Place, Sink};
 
-/// The events that a renderer took, and the text that it printed for them so far.
+/// A batch of events that a renderer processed, and the text that it printed for them.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
     /// Events with their places in the job.
     pub events: Vec<(Kept, Place)>,
     /// Bytes of the program. A block may extend over two batches.
     pub text: Vec<u8>,
-    /// The form line and the item of the job for each line that ends in this text. May be empty.
+    /// For each line that ends in this text: the form line and the item of the job. May be empty.
     pub trace: Vec<TraceLine>,
 }
 
@@ -53,11 +53,11 @@ pub struct Outcome {
     pub warnings: Vec<Diag>,
 }
 
-/// Proves a program while it is made. `batches` may be the end of a channel. A batch is requested only when it is needed
-/// for the comparison, and none is requested after the verdict is known. Each batch is dropped after its comparison.
-/// Until the program sets its units, they are those of the job if `of_job`, else those of `settings`.
+/// Proves a program while it is printed. `batches` may be the receiving end of a channel. A batch is requested only when
+/// the comparison needs it, and none after the verdict is known. Each batch is dropped after its comparison. Until the
+/// program sets its units, they are the job's if `of_job`, and else those of `settings`.
 ///
-/// A program that calls or repeats parts of itself is not proven, because only a file can seek back
+/// A program that calls or repeats parts of itself is not proven, because reading such parts again needs a file
 /// ([`Unproven::in_a_file`](super::Unproven::in_a_file)).
 ///
 /// # Errors
@@ -96,7 +96,7 @@ pub fn prove_beside<B: AsRef<Batch>>(
                 break 'job;
             }
         }
-        // run the passage between two cuts as it comes, without waiting for the job's next cut
+        // run the text between two cuts when it arrives, without waiting for the job's next cut
         comparer.run_on(&|| queue.borrow().texts.len() > MOST_TEXTS);
         if comparer.found() > found {
             found = locate(&mut comparer);
@@ -120,21 +120,21 @@ fn only_a_file(why: &'static str) -> io::Error {
     io::Error::new(io::ErrorKind::Unsupported, why)
 }
 
-/// Batches that were received and are still needed.
+/// Batches that were received and are still in use.
 struct Queue<I: Iterator> {
     batches: I,
     /// Batches whose events are still to be compared.
     events: VecDeque<Rc<I::Item>>,
     /// Batches whose text is still to be run.
     texts: VecDeque<Rc<I::Item>>,
-    /// Batches of lines with their origins: the batch that is being run, the one before it, and those after it.
+    /// Batches with the origins of lines: of the batch that is being run, the one before it, and those after it.
     traces: VecDeque<Rc<I::Item>>,
-    /// Whether no more text is read, because the control refused a block. This is reported at the job's next cut.
+    /// Whether the rest of the text is ignored because the control refused a block. The refusal is reported at the job's next cut.
     unread: bool,
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
-    /// Drops all text: it is no longer needed.
+    /// Drops all waiting text, because it is no longer needed.
     fn drop_texts(&mut self) {
         self.unread = true;
         self.texts.clear();
@@ -174,7 +174,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
         Ok(Some(batch))
     }
 
-    /// The origin of a line that was run recently.
+    /// The form line and the job's item of a line that was run recently.
     fn origin(&self, line: u64) -> Option<TraceLine> {
         let mut traces = self.traces.iter().map(|batch| &(**batch).as_ref().trace);
         let lines = traces.find(|lines| lines.last().is_some_and(|last| last.line >= line))?;
@@ -182,17 +182,17 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
     }
 }
 
-/// The program's text as it arrives.
+/// The program's text, read as it arrives.
 struct Text<I: Iterator> {
     queue: Rc<RefCell<Queue<I>>>,
     /// The batch that is being read.
     batch: Option<Rc<I::Item>>,
-    /// Number of bytes of its text already read.
+    /// Number of bytes of the batch that were already read.
     at: usize,
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> Text<I> {
-    /// The unread rest of the batch.
+    /// The part of the batch that is not read yet.
     fn rest(&self) -> &[u8] {
         self.batch.as_ref().map_or(&[], |batch| &(**batch).as_ref().text[self.at..])
     }

@@ -1,12 +1,12 @@
-//! Actions of a wire EDM machine between cuts. The form's codes for threading and cutting the wire must come in the job's
-//! order and at its positions.
+//! Compares the actions of a wire EDM machine between cuts. The form's codes for threading and cutting the wire must come
+//! in the job's order and at the job's positions.
 
 use super::cut::{ALL, same};
 use super::sides::Sides;
 use super::wire_codes::{self, Coded};
 use crate::diag::Code;
 
-/// Compares the codes since the last cut with the job's actions and their positions.
+/// Compares the program's codes since the last cut with the job's actions and their positions.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     if s.job.does.is_empty() && s.program.passage.does.is_empty() {
         return;

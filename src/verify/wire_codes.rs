@@ -4,13 +4,13 @@ use crate::compile::{Op, Program};
 use crate::lang::SequenceId;
 use crate::toolpath::EdmAction;
 
-/// A code: its letter, and ten times its number.
+/// A code: its letter, and its number times ten.
 pub(super) type Coded = (u8, u16);
 
-/// The codes of each action.
+/// The codes that the form prints for each action.
 pub(super) type Codes = Vec<(EdmAction, Vec<Coded>)>;
 
-/// All actions, each with the sequence that prints it and a description.
+/// Each action with the sequence that prints it and a description.
 const ACTIONS: [(EdmAction, SequenceId, &str); 4] = [
     (EdmAction::Thread, SequenceId::EdmThread, "threads the wire"),
     (EdmAction::Cut, SequenceId::EdmCut, "cuts the wire"),
@@ -18,7 +18,7 @@ const ACTIONS: [(EdmAction, SequenceId, &str); 4] = [
     (EdmAction::Submerge, SequenceId::SubmergeTank, "fills the tank"),
 ];
 
-/// The M codes that the form's sequences for these actions print.
+/// The M codes that the form's sequences print for these actions.
 pub(super) fn codes_of(program: &Program) -> Codes {
     let literal = |op: &Op| match op {
         Op::Literal { index, .. } => program.literals.get(*index as usize),
@@ -32,7 +32,7 @@ pub(super) fn codes_of(program: &Program) -> Codes {
     ACTIONS.iter().map(|(action, id, _)| (*action, codes(*id))).collect()
 }
 
-/// The description of a code.
+/// The description of the action that a code belongs to.
 pub(super) fn what(codes: &Codes, code: Coded) -> &'static str {
     let action = codes.iter().find(|(_, codes)| codes.contains(&code)).map(|(action, _)| *action);
     ACTIONS.iter().find(|(own, ..)| Some(*own) == action).map_or("", |(_, _, what)| what)

@@ -1,4 +1,4 @@
-//! After warm-up a rendered event allocates nothing.
+//! After warm-up, rendering an event allocates no memory.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -15,7 +15,7 @@ thread_local!(static COUNT: Cell<u64> = const { Cell::new(0) });
 /// Counts this thread's allocations.
 struct Counting;
 
-// the only way to count is to be the allocator; it passes everything on
+// only a global allocator can count allocations; it passes each call on to the system's allocator
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         COUNT.with(|count| count.set(count.get() + 1));
@@ -45,7 +45,7 @@ fn events_do_not_allocate() {
     let mut renderer = Renderer::new(&program, Options::default());
     let head = "{\"start\":{\"program\":1,\"units\":\"inch\",\"tools\":[{\"number\":1}]}}\n\
         {\"operation\":{\"tool\":1,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n{\"rapid\":[0,0,1]}\n";
-    // the head comes from a reader that is then cut off: only its events matter here
+    // the head comes from a reader whose input ends early; only the events that it pushed are used
     _ = read_lines(head.as_bytes(), &mut renderer);
     let drill = CycleSpec { depth: Some(0.5), feed: Some(5.0), ..CycleSpec::new(CycleKind::Drill) };
     let deep = CycleSpec { step: Some(0.1), kind: CycleKind::Deep, ..drill.clone() };

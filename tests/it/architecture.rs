@@ -1,5 +1,5 @@
-//! Imports point one way: the `use crate::` lines of each module against the table in ARCHITECTURE.md, and the files of a
-//! module against one another. No file is too long to read at once.
+//! Checks that imports go in one direction: the `crate::` paths of each module against the table in ARCHITECTURE.md,
+//! and the files of a module against one another. Checks that no source file is longer than 500 lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::support::root;
 
-/// Rows `| module | what | imports |` of the table.
+/// The rows of the table `| module | contents | imports |`.
 fn table() -> Vec<(String, BTreeSet<String>)> {
     let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
     let rows = text.lines().skip_while(|line| !line.starts_with("| module |")).skip(2);
@@ -30,7 +30,7 @@ fn files(path: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
-/// Each row of `allowed!` names the one file that decides it.
+/// Each row of `allowed!` names the one file that counts the allowance.
 #[test]
 fn an_allowance_is_decided_in_one_file() {
     let table = fs::read_to_string(root().join("src/verify/verdict.rs")).unwrap();
@@ -78,7 +78,7 @@ fn imports_are_those_of_the_table() {
             }
         }
     }
-    // one way: a module imports only rows above its own
+    // a module imports only modules from the rows above its own row
     for (i, (name, imports)) in table.iter().enumerate() {
         for import in imports {
             assert!(names[..i].contains(&import.as_str()), "{name} imports {import}, which is not above it");
@@ -99,7 +99,7 @@ fn only_the_parser_knows_the_grammar() {
     }
 }
 
-/// The paths that a file names: those of its `use` lines, with their braces opened, and those in its code.
+/// The paths in a file: those of its `use` lines, with braces expanded, and those in its code.
 fn paths(text: &str) -> Vec<String> {
     fn open(tree: &str, before: &str, found: &mut Vec<String>) {
         let Some((head, rest)) = tree.split_once('{') else {
@@ -139,8 +139,8 @@ fn paths(text: &str) -> Vec<String> {
     found
 }
 
-/// Which files of a module import which. A file has the name of its module, as `moves/arc`; the module's own `mod.rs` only
-/// names the others, and counts for nothing.
+/// The files that each file of a module imports. A file is named within its module, as `moves/arc`. The module's own
+/// `mod.rs` only declares the other files, so it is left out.
 fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
     let folder = root().join("src").join(module);
     let mut sources = Vec::new();
@@ -155,7 +155,7 @@ fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
         .collect();
     let of = |name: &String, text: &String| {
         let mut found = BTreeSet::new();
-        // the tests inside a file say `super` of the file
+        // tests inside a file refer to the file as `super`
         for path in paths(text).iter().filter(|path| *path != "super::*") {
             let mut steps: Vec<&str> = path.split("::").map(str::trim).collect();
             let mut place: Vec<&str> = name.split('/').collect();
@@ -170,7 +170,7 @@ fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
                         steps.remove(0);
                     }
                 }
-                // a file with files below it names them without more
+                // a file imports the files below it without a prefix
                 _ => {}
             }
             place.extend(steps);
@@ -183,7 +183,7 @@ fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
     texts.iter().map(|(name, text)| (name.clone(), of(name, text))).collect()
 }
 
-/// Files that lead to each other.
+/// Files that import one another, directly or through other files.
 fn circles(imports: &BTreeMap<String, BTreeSet<String>>) -> BTreeSet<Vec<String>> {
     let reached = |from: &String| {
         let (mut found, mut open) = (BTreeSet::new(), vec![from]);
@@ -208,7 +208,8 @@ fn circles_are_found() {
     assert!(imports("render")["moves/arc"].len() > 3);
 }
 
-/// A newcomer can read a module from below: no files but a pair know one another. The command line is not held to that.
+/// In `src`, a circle of imports contains at most two files, so that a newcomer can read a module from its lowest files
+/// up. The command line is not checked.
 #[test]
 fn files_of_a_module_import_one_way() {
     for entry in fs::read_dir(root().join("src")).unwrap() {

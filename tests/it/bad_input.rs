@@ -1,4 +1,4 @@
-//! What each kind of wrong input gets: a code, a place, exit status 1, no panic, and no output file.
+//! Wrong input of every kind: it gives a code, a location and exit status 1, causes no panic, and leaves no output file.
 
 use std::fs;
 use std::path::Path;
@@ -49,7 +49,7 @@ fn render_with(folder: &Folder, job: &Path, form: &Path, options: &[&str]) -> Ou
     output
 }
 
-/// `wanted` must all be in the message, `status` the exit status.
+/// Checks the exit status, and that the message contains all texts in `wanted`.
 fn expect(what: &str, output: &Output, status: i32, wanted: &[&str]) {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(status), "{what}: {message}");
@@ -437,7 +437,7 @@ fn full_disks_and_closed_pipes() {
     assert!(fs::metadata("/dev/full").is_ok_and(|m| !m.is_file()), "the device was replaced by a file");
     let mut child = run("-").arg("--quiet").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let mut first = [0; 10];
-    child.stdout.take().unwrap().read_exact(&mut first).unwrap(); // and close the pipe
+    child.stdout.take().unwrap().read_exact(&mut first).unwrap(); // then close the pipe
     let output = child.wait_with_output().unwrap();
     expect("a closed pipe", &output, 0, &[]);
     assert!(output.stderr.is_empty());
@@ -486,7 +486,7 @@ fn outputs_do_not_replace_their_inputs() {
         fs::remove_file(folder.0.join("x.svg")).unwrap();
     }
     expect("standard input", &run("- --from json -o job.json", "< job.json"), 2, &["is an input"]);
-    // the other output, by another name, through a link to nothing yet, and by the shell
+    // both outputs in one file: by another name, through a link without a target, and by a redirection of the shell
     symlink("new.nc", folder.0.join("link")).unwrap();
     for (arguments, redirect) in
         [("-o new.nc --trace ./new.nc", ""), ("-o link --trace new.nc", ""), ("--trace new.nc", "> new.nc")]
@@ -495,7 +495,7 @@ fn outputs_do_not_replace_their_inputs() {
         _ = fs::remove_file(folder.0.join("new.nc"));
     }
     assert_eq!(texts(), before);
-    // a link to nothing yet is followed, one that leads to itself is an error, a file called - is none
+    // a link without a target is followed, a link to itself is an error, and a file called - is not standard input
     expect("a link to nothing yet", &run("job.json -o link", ""), 0, &[]);
     assert!(folder.0.join("link").is_symlink() && folder.0.join("new.nc").is_file());
     symlink("circle", folder.0.join("circle")).unwrap();
@@ -504,7 +504,7 @@ fn outputs_do_not_replace_their_inputs() {
     expect("a file called -", &run("- --from json", "< job.json"), 0, &[]);
 }
 
-/// Whatever is asked for is answered at once.
+/// `postform explain` answers very long names at once.
 #[test]
 fn long_questions_are_answered() {
     for what in ["a ".repeat(50_000), "a".repeat(100_000)] {
@@ -514,7 +514,7 @@ fn long_questions_are_answered() {
     }
 }
 
-/// Of a long list of tools a message names some.
+/// A message about a long list of tools names only some of them.
 #[test]
 fn many_tools() {
     use postform::internals::json::read_document;
@@ -528,7 +528,7 @@ fn many_tools() {
     assert!(help.len() < 300 && help.ends_with(" and others"), "{help}");
 }
 
-/// A form has a size, with all that it calls.
+/// A form and the forms that it calls may have at most 512 KB together.
 #[test]
 fn forms_have_a_size() {
     let folder = Folder::new("large_forms");
@@ -543,7 +543,7 @@ fn forms_have_a_size() {
     expect("a large form", &render(&folder, &job, &form), 2, &["form.pf is larger than 512 KB"]);
 }
 
-/// A few words of a job may ask for more program than anybody wants.
+/// A short job that would print an extremely long program needs the option `--huge`.
 #[test]
 fn a_program_far_longer_than_its_job_is_asked_about() {
     let folder = Folder::new("huge");
@@ -553,12 +553,12 @@ fn a_program_far_longer_than_its_job_is_asked_about() {
         "{{\"cycle\":{{\"kind\":\"deep\",\"depth\":99,\"clear\":1,\"feed\":100,\"step\":0.01,\"emulate\":true,\"points\":[{points}]}}}}"
     );
     let job = folder.write("job.json", job(&cycle));
-    // the proof of a hundred megabytes adds nothing to what is asked here
+    // without the proof of 100 MB, which this test does not need
     let output = render_with(&folder, &job, &form, &["--no-verify"]);
     expect("a huge program", &output, 1, &["PR028", "100 MB of program", "--huge", "job.json:"]);
 }
 
-/// Names, values and messages of files, and arguments, hold no character that steers a terminal when they are shown.
+/// Names, values and messages from files or arguments never send control characters to the terminal.
 #[test]
 fn no_file_and_no_argument_steers_the_terminal() {
     let folder = crate::support::folder::Folder::new("steers");

@@ -1,4 +1,4 @@
-//! `postform test`: cases in folders, as a person keeps them beside a form.
+//! `postform test`: cases in folders, kept next to a form as users do.
 
 use std::fs;
 use std::process::Output;
@@ -6,7 +6,7 @@ use std::process::Output;
 use crate::support::folder::{Folder, err, out};
 use crate::support::root;
 
-/// A folder with a form that ships and its standard cases.
+/// A folder with a shipped form and its standard cases.
 fn kept(test: &str, form: &str) -> Folder {
     let folder = Folder::new(&format!("cases-{test}"));
     fs::copy(root().join("postforms").join(form), folder.0.join(form)).unwrap();
@@ -51,11 +51,11 @@ fn the_standard_cases_see_a_change_of_the_form() {
     }
     let last = said.lines().last().unwrap();
     assert!(last.starts_with("56 cases, 1 form: 56 programs, ") && last.ends_with(" differ"), "{last}");
-    // the order of words is no difference where postform.toml says so
+    // a different order of words is ignored if postform.toml lists it under `ignore`
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\nignore = [\"order\", \"spaces\"]\n");
     ends(&folder.run(&["test"]), 0, "56 cases, 1 form: 56 programs, all as expected");
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\n");
-    // shown, then written
+    // --update shows the differences, then writes the programs
     let output = folder.run(&["test", "--update"]);
     assert!(out(&output).contains("+N90 G98 G81 X10. Y10. R2. Z-15. F120.\n"));
     assert_eq!(output.status.code(), Some(0));
@@ -72,7 +72,7 @@ fn every_form_that_ships_prints_its_standard_cases() {
         assert_eq!(output.status.code(), Some(0), "{name}: {}", err(&output));
         let said = out(&output);
         let counts: Vec<usize> = said.split(|c: char| !c.is_ascii_digit()).filter_map(|n| n.parse().ok()).collect();
-        // what a control has not is refused by name
+        // a job that needs something which the control lacks is refused with a named code
         assert!(counts[counts.len().min(2) - 1] > 0 && !said.contains("PX001"), "{said}");
     }
     let output = folder.run(&["test", "."]);
@@ -81,14 +81,14 @@ fn every_form_that_ships_prints_its_standard_cases() {
     assert!(said.lines().last().unwrap().contains("21 forms") && said.contains("all as expected"), "{said}");
 }
 
-/// A line of a form that prints words: a letter with a number or a variable comes first.
+/// Is this a line of a form that prints words? It begins with a letter that is followed by a number or a variable.
 fn is_block(line: &str) -> bool {
     let mut letters = line.trim().chars();
     letters.next().is_some_and(|letter| letter.is_ascii_uppercase())
         && letters.next().is_some_and(|next| next == '[' || next.is_ascii_digit())
 }
 
-/// The line without its last word, without its first, and with another digit in what is typed.
+/// Variants of the line with a mistake: without its last word, without its first word, with another typed digit.
 fn mistakes(line: &str) -> Vec<String> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let mut list = vec![words[..words.len() - 1].join(" "), words[1..].join(" ")];
@@ -104,7 +104,7 @@ fn mistakes(line: &str) -> Vec<String> {
     list
 }
 
-/// A word lost or a digit changed: the cases that print the line see it, or the proof does.
+/// If a form loses a word or a digit changes, the cases that print the line fail, or the proof does.
 #[test]
 fn the_standard_cases_see_broken_forms() {
     let most: usize = std::env::var("BROKEN").map_or(2, |count| count.parse().unwrap());
@@ -122,7 +122,7 @@ fn the_standard_cases_see_broken_forms() {
         let lines: Vec<&str> = whole.lines().collect();
         let begins = lines.iter().position(|line| line.trim() == "StartCode").unwrap_or(0);
         let printed = (begins..lines.len()).filter(|at| is_block(lines[*at]) && !missing.contains(&(at + 1)));
-        // of all lines, not of the first ones
+        // a selection from all lines, not only the first ones
         let all: Vec<(usize, String)> =
             printed.flat_map(|at| mistakes(lines[at]).into_iter().map(move |broken| (at, broken))).collect();
         let (mut tried, mut unseen) = (0, Vec::new());
@@ -131,7 +131,7 @@ fn the_standard_cases_see_broken_forms() {
             text[*at] = broken;
             fs::write(folder.0.join(form), text.join("\n") + "\n").unwrap();
             tried += 1;
-            // a coolant that a tool change does not print is printed before the first cut all the same: the program is as it was
+            // a coolant that a tool change does not print is printed before the first cut, so the program is unchanged
             let is_said_again = lines[*at].trim() == "M[cool]";
             if folder.run(&["test", "--format", "json"]).status.code() == Some(0) && !is_said_again {
                 unseen.push(format!("{form}:{}: `{}` became `{broken}`", at + 1, lines[*at]));
@@ -177,12 +177,12 @@ fn an_error_may_be_what_is_expected() {
     let output = folder.run(&["test", "tests/subprogram"]);
     assert!(out(&output).contains("PR008"), "{}", out(&output));
     ends(&output, 1, "1 case, 1 form: 1 program, 1 failed");
-    // a program that is expected stays where none is printed
+    // an expected program is kept even if the form now refuses the job
     fs::remove_file(folder.0.join("tests/subprogram/expected.haas.refused")).unwrap();
     folder.write("tests/subprogram/expected.haas.nc", "%\n");
     ends(&folder.run(&["test", "tests/subprogram", "--update"]), 1, "1 case, 1 form: 1 program, 1 failed");
     assert_eq!(fs::read_to_string(folder.0.join("tests/subprogram/expected.haas.nc")).unwrap(), "%\n");
-    // and a refusal gives way to a program that is printed
+    // an expected refusal is replaced by the program that is now printed
     fs::remove_file(folder.0.join("tests/drill/expected.haas.nc")).unwrap();
     folder.write("tests/drill/expected.haas.refused", "PR008\n");
     ends(&folder.run(&["test", "tests/drill"]), 1, "1 case, 1 form: 1 program, 1 failed");
@@ -208,7 +208,7 @@ fn forms_and_jobs_of_any_kind() {
     ends(&folder.run(&["test", "parts", "--jobs", "1"]), 0, "2 cases, 2 forms: 4 programs, all as expected");
     ends(&folder.run(&["test", "parts/drill.cl"]), 0, "1 case, 2 forms: 2 programs, all as expected");
     ends(&folder.run(&["test", "parts", "--form", "fanuc.pf"]), 0, "2 cases, 1 form: 2 programs, all as expected");
-    // a form with an error fails its own cases
+    // the cases of a form with an error fail; those of other forms do not
     folder.write("fanuc.pf", "Machine Mill\nNonsense\n");
     let output = folder.run(&["test", "parts"]);
     assert!(out(&output).contains("fanuc.pf has errors"), "{}", out(&output));
@@ -279,7 +279,7 @@ fn an_expected_program_without_its_job_is_a_problem() {
     assert!(said.lines().last().unwrap().starts_with("55 cases, 1 form: 55 programs, 2 failed; 2 problems"), "{said}");
 }
 
-/// A broken job and a program that does something else are never what is expected.
+/// A broken job and a program with other motions can never be an expected result.
 #[test]
 fn what_is_wrong_can_not_be_expected() {
     let folder = Folder::new("cases-wrong");
@@ -327,7 +327,8 @@ fn the_file_of_the_cases_says_day_post_and_proof() {
     assert!(said.contains("none.pf") && said.contains("tests/postform.toml names it under [test]"), "{said}");
 }
 
-/// A program that calls itself is proven in a file, as render proves it; one that is not is named with the reason.
+/// A program that calls itself is proven from a file, as in `render`. A program that is not proven is reported with the
+/// reason.
 #[test]
 fn what_is_not_proven_is_named() {
     let folder = kept("unproven", "siemens.pf");
@@ -353,7 +354,7 @@ fn a_second_form_is_added_by_hand() {
     );
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\", \"../siemens.pf\"]\n");
     ends(&folder.run(&["test"]), 0, "56 cases, 2 forms: 112 programs, all as expected");
-    // jobs of a lathe by the same names
+    // a lathe has jobs with the same names
     let said = out(&folder.run(&["test", "--new", "fanuc-lathe.pf"]));
     assert!(
         said.contains(
@@ -371,12 +372,12 @@ fn what_differs_alone_is_said() {
     let program = fs::read_to_string(&path).unwrap();
     fs::write(&path, program.replace('\n', "\r\n")).unwrap();
     assert!(out(&folder.run(&["test", "tests/drill"])).contains("only spaces or line ends differ\n"));
-    // a block less: the numbers of the blocks after it are not shown
+    // a missing block: the block numbers after it are not shown as differences
     fs::write(&path, program).unwrap();
     change(&folder, "haas.pf", "G[unitmode] G17 G40 G49 G80 G90\n", "G[unitmode] G17 G40 G49 G80 G90\nG64\n");
     let said = out(&folder.run(&["test", "tests/drill"]));
     assert_eq!(said.lines().filter(|line| line.starts_with('-') || line.starts_with('+')).count(), 3, "{said}");
-    // a form with an error: once
+    // a form with an error is reported once
     folder.write("haas.pf", "Machine Mill\nNonsense\n");
     let said = out(&folder.run(&["test"]));
     assert_eq!(said.matches("haas.pf has errors").count(), 1, "{said}");

@@ -1,4 +1,4 @@
-//! APT CL files as their systems write them: what each statement does, and what is refused.
+//! APT CL files in the style of each CAM system: the effect of each statement, and the refusals.
 
 use crate::support;
 use std::fs;
@@ -11,7 +11,7 @@ use postform::toolpath::{ReadError, Summary, Units};
 
 const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 
-/// The blocks of a file between tool change and end, then its warnings; or its error.
+/// The blocks of a file between tool change and end, followed by its warnings; or its error.
 fn read(text: &str, options: Options) -> Vec<String> {
     let form = mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd");
     let checked = support::check(&form.replace("%0\n", "%0\nG[unitmode]\n"));
@@ -58,7 +58,7 @@ fn motions_go_where_they_say() {
     assert_eq!(body("TRANS/1,2,3\nGOTO/0,0,0\nORIGIN/1,0,0\nGOTO/5,0,0"), ["G1 X1. Y2. Z3. F100.", "X5."]);
 }
 
-/// Blanks, case, continuation, comments, record numbers, points without GOTO: as in real files.
+/// Blanks, case, continuation lines, comments, record numbers, and points without GOTO are read as in real files.
 #[test]
 fn statements_are_read_as_they_are_written() {
     assert_eq!(body("goto/1,$ to the next line\n  2,3 $$ a remark"), ["G1 X1. Y2. Z3. F100."]);
@@ -77,7 +77,7 @@ fn feeds_are_those_of_their_units() {
     assert!(error("FEDRAT/10,FURLONGS").starts_with("PL002 a FEDRAT"));
 }
 
-/// A tool change is complete when its spindle is known, which may be after its first rapids.
+/// A tool change is complete when its spindle speed is known, which may be after the first rapids.
 #[test]
 fn the_spindle_may_come_after_the_first_rapids() {
     let text =
@@ -100,7 +100,7 @@ fn arcs_turn_as_their_system_means_them() {
     };
     assert_eq!(by(Dialect::SolidWorksCam), "G17 G3 X2. Y1. I0 J1.");
     assert_eq!(by(Dialect::Makino), "G17 G2 X2. Y1. I0 J1.");
-    // nobody says who wrote it: the arc leaves the line before it along its tangent
+    // for a file of an unknown system, the arc direction follows from the tangent of the line before it
     assert_eq!(body(arc)[1], "G17 G3 X2. Y1. I0 J1.");
     assert!(error("GOTO/1,0,10\nCIRCLE/2,0,10,0,0,1,1\nGOTO/3,0,10").starts_with("PL006 the direction of this CIRCLE"));
     assert!(
@@ -121,7 +121,7 @@ fn compensation_goes_with_the_next_motion() {
     assert!(error("CUTCOM/LEFT\nCYCLE/DRILL,DEPTH,1,MMPM,9\nGOTO/1,1,0").starts_with("PC041"));
 }
 
-/// The words of other systems mean what they mean there.
+/// Cycle words of other systems have the meaning that their own system defines.
 #[test]
 fn cycles_of_other_systems_are_read_by_their_dialect() {
     let by = |dialect, text: &str| {
@@ -144,7 +144,7 @@ fn cycles_of_other_systems_are_read_by_their_dialect() {
     assert!(by(Dialect::Gener, "CYCLE/DRILL,FEDTO,5,MMPM,90")[0].starts_with("PC018 `FEDTO`"));
     let text = "CYCLE/DRILL,RAPTO,2,FEDTO,-5,RTRCTO,AUTO,MMPM,90\nGOTO/1,1,0\nCYCLE/OFF\nEND-OF-PATH\n";
     let options = Options { dialect: Some(Dialect::Nx), ..Options::default() };
-    // RTRCTO,AUTO goes back to where the tool was before the cycle
+    // RTRCTO,AUTO returns to the height of the tool before the cycle
     assert_eq!(drilled(&read(&format!("{HEAD}{text}"), options)), "G98 G81 X1. Y1. Z-5. R2. F90.");
 }
 
@@ -169,7 +169,7 @@ fn what_moves_the_part_or_is_cut_off_is_refused() {
     );
 }
 
-/// Whatever stands in a file: an answer, and no panic.
+/// Every mutated file gives a result or an error, and never a panic.
 #[test]
 fn mutated_files_get_an_answer() {
     let mut state = 7u64;
@@ -232,7 +232,7 @@ fn mutated_files_get_an_answer() {
     }
 }
 
-/// What the file must say and does not is an error that names the option; with the option it is printed.
+/// A value that a file lacks is an error that names an option. With the option, the job is printed.
 #[test]
 fn what_a_file_leaves_open_has_an_option() {
     let file = "LOADTL/1\nSPINDL/900,CLW\nFROM/0,0,20\nFEDRAT/50\nGOTO/0,0,1\nFINI\n";
@@ -278,7 +278,7 @@ fn what_a_file_leaves_open_has_an_option() {
     }
 }
 
-/// All that is missing is named at once, and `check` says why no form can print a job.
+/// One error names all missing values. `check` reports why no form can print a job.
 #[test]
 fn whatever_keeps_a_file_from_being_printed_is_said_at_once() {
     let summary = |text: &str| {
@@ -307,7 +307,7 @@ fn whatever_keeps_a_file_from_being_printed_is_said_at_once() {
     );
 }
 
-/// GOHOME with a place is a rapid there, up before across; NX counts turns of a helix by TIMES, Autodesk by ANGLE.
+/// GOHOME with a position is a rapid to it, up before across. TIMES of NX and ANGLE of Autodesk give the turns of a helix.
 #[test]
 fn places_and_turns_are_those_that_are_written() {
     assert_eq!(body("GOTO/1,0,2\nGOHOME/5,5,40"), ["G1 X1. Z2. F100.", "G0 Z40.", "X5. Y5."]);
@@ -323,7 +323,7 @@ fn places_and_turns_are_those_that_are_written() {
     assert!(error("NURBS/1,2").starts_with("PL004 NURBS: a spline"));
 }
 
-/// Compensation that ends before an arc ends with the straight motion after it; along the depth alone it stays.
+/// Compensation that is turned off before an arc ends in the next straight motion in the plane. A motion along the depth axis does not end it.
 #[test]
 fn compensation_waits_for_a_straight_motion_in_the_plane() {
     let lines = body(
@@ -334,7 +334,7 @@ fn compensation_waits_for_a_straight_motion_in_the_plane() {
     assert!(error("CUTCOM/LEFT\nMOVARC/0,1,10,0,0,1,1\nGOTO/1,1,10").starts_with("PL004 cutter compensation can't"));
 }
 
-/// Rapids before the first tool lead to the tool change; the tool that waits is loaded once.
+/// Rapids before the first tool are left out. A tool that is loaded twice in a row is loaded once.
 #[test]
 fn what_stands_before_the_first_tool_is_not_its_path() {
     let text = "UNITS/MM\nRAPID\nGOTO/0,0,100\nRAPID\nGOTO/9,9,100\nLOADTL/1\nLOADTL/1,1\nSPINDL/9,CLW\nRAPID\nGOTO/1,1,50\nFINI\n";
@@ -344,7 +344,7 @@ fn what_stands_before_the_first_tool_is_not_its_path() {
     );
 }
 
-/// Autodesk's cycles say bottoms and absolute heights: read as depths below their points they would drill twice as deep.
+/// Autodesk's cycles contain the bottom and absolute heights. Read as depths below the points, they would drill twice as deep.
 #[test]
 fn holes_of_autodesk_begin_above_their_points() {
     let options = || Options { dialect: Some(Dialect::Autodesk), ..Options::default() };
@@ -366,7 +366,7 @@ fn holes_of_autodesk_begin_above_their_points() {
     assert!(read(&format!("{HEAD}SPINDL/ON\nFINI"), options())[0].starts_with("PL004 SPINDL/ON: Autodesk's"));
 }
 
-/// BORE of NX feeds out, and comes out by rapid with DRAG; elsewhere it stops the spindle.
+/// BORE of NX feeds out, and with DRAG retracts at rapid. In files of other systems, BORE stops the spindle.
 #[test]
 fn bores_of_nx_come_out_as_they_are_named() {
     let kind = |cycle: &str| {
@@ -384,12 +384,12 @@ fn bores_of_nx_come_out_as_they_are_named() {
     assert_eq!(kind("BORE,MANUAL"), "PC001");
 }
 
-/// A coordinate system whose z is not the tool's is another setup.
+/// A coordinate system whose Z axis is not the tool axis is an error in the current setup.
 #[test]
 fn coordinate_systems_agree_with_the_tool() {
     let turned = "CSYS/1,0,0,0,0,0,-1,-40,0,1,0,-20";
     assert!(error(&format!("{turned}\nGOTO/1,0,10")).starts_with("PL004 the z axis of the CSYS of line 7"));
-    // also where a hole is the first point, and where it is turned but a little
+    // the same with a hole as the first point, and for a small angle
     let hole = format!("{turned}\nCYCLE/DRILL,DEPTH,1,MMPM,9,CLEAR,2\nGOTO/1,0,10\nCYCLE/OFF");
     assert!(error(&hole).starts_with("PL004 the z axis of the CSYS of line 7"));
     let little = "CSYS/1,0,.005,0,0,1,0,0,-.005,0,1,0";
@@ -398,7 +398,7 @@ fn coordinate_systems_agree_with_the_tool() {
     assert!(body(moved)[2].starts_with("PL008 this CSYS differs from the CSYS of line 7"));
 }
 
-/// Turning: z and the radius, feeds per revolution, constant surface speed.
+/// Turning: Z and the radius, feeds per revolution, constant surface speed.
 #[test]
 fn turning_is_a_job_for_a_lathe() {
     let text = fs::read_to_string(support::root().join("tests/data/cl/catia-turning.aptsource")).unwrap();
@@ -409,7 +409,7 @@ fn turning_is_a_job_for_a_lathe() {
     for block in ["G96", "Z-1.5748", "F.0118"] {
         assert!(rendered.contains(block), "{block} in\n{rendered}");
     }
-    // CATIA describes a turning tool where its number is
+    // CATIA describes a turning tool in the words after its number
     let told = "TOOLNO/1,TURN,1,0,3,0.4,$\n0.0,0.0,0.1,MMPR,500.0,SFM,$\nCCLW,ON,0.0,NOTE";
     assert!(text.contains("TOOLNO/1,TURN"));
     let described = text.replace("TOOLNO/1,TURN", told);
@@ -426,7 +426,7 @@ fn turning_is_a_job_for_a_lathe() {
     assert_eq!(diag.message, "a turning tool at y 1");
 }
 
-/// Real files, where they lie beside the checkout: all are read, or refused for what they do not say.
+/// Real files, if they are next to the checkout: each is read, or refused because it lacks a value.
 #[test_with::path(../shared/data/cl)]
 #[test]
 fn real_files_are_read_or_refused_for_a_reason() {
@@ -465,22 +465,22 @@ fn real_files_are_read_or_refused_for_a_reason() {
     assert_eq!(names, 12);
 }
 
-/// What belongs together stays together: feeds and speeds, points and their motions, registers and tools.
+/// Related values stay together: feeds and speeds, points and their motions, registers and tools.
 #[test]
 fn nothing_is_lost_between_statements() {
     let drill = "CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2";
-    // the last spindle direction comes back
+    // SPINDL/ON restores the last spindle direction
     let lines = body("SPINDL/OFF\nGOTO/1,0,10\nSPINDL/ON\nGOTO/2,0,10");
     assert_eq!(lines, ["M5", "G1 X1. F100.", "S1000 M3", "X2."]);
-    // a feed per revolution follows the spindle inside a cycle
+    // inside a cycle, a feed per revolution follows the spindle speed
     let lines = body("CYCLE/DRILL,DEPTH,1,MMPR,.1,CLEAR,2\nGOTO/1,1,0\nSPINDL/500,CLW\nGOTO/2,2,0\nCYCLE/OFF");
     assert!(lines.contains(&"G99 G81 X2. Y2. Z-1. R2. F50.".to_owned()), "{lines:?}");
-    // GODLTA counts from the point, not from where the hole was left
+    // GODLTA is relative to the point, not to the tool's height after the hole
     let lines = body(&format!("{drill}\nGOTO/1,1,0\nGODLTA/10,0,0\nCYCLE/OFF\nGODLTA/0,0,50"));
     assert_eq!(lines[2..], ["G99 G81 X1. Y1. Z-10. R2. F100.", "X11.", "G80", "G0 Z50."]);
-    // both shifts hold
+    // both shifts apply
     assert_eq!(body("TRANS/10,0,0\nORIGIN/0,0,5\nGOTO/1,2,3"), ["G1 X11. Y2. Z-2. F100."]);
-    // CYCLE/ON replaces what it says
+    // CYCLE/ON replaces only the words that it contains
     let lines = body(&format!("{drill}\nCYCLE/ON,DEPTH,5\nGOTO/1,1,0\nCYCLE/OFF"));
     assert_eq!(lines[2], "G99 G81 X1. Y1. Z-5. R2. F100.");
     assert_eq!(body("N29 GOTO/6,0,10\n100 GOTO/5,0,10"), ["G1 X6. F100.", "X5."]);
@@ -504,7 +504,7 @@ fn nothing_is_lost_between_statements() {
     assert!(read("PARTNO A\rUNITS/MM\rFINI\r", Options::default())[0].starts_with("PL001 the lines end"));
 }
 
-/// Surface speeds are those of the file's units, and their code stands before them.
+/// Surface speeds are converted from the file's units, and their code is printed before them.
 #[test]
 fn surface_speeds_have_units_and_their_code() {
     let text = "UNITS/MM\nLOADTL/1\nSPINDL/SFM,100,CLW\nRAPID\nGOTO/0,0,10\nFINI\n";
@@ -518,7 +518,7 @@ fn surface_speeds_have_units_and_their_code() {
     assert!(rendered.unwrap().text.contains("G96 S30\nT1 M6\nS30"), "30.48 metres a minute");
 }
 
-/// Coolant stays from tool to tool, and CATIA's TOOLNO only describes the tool that LOADTL loads.
+/// Coolant stays on for the next tool. TOOLNO of CATIA only describes the tool that LOADTL loads.
 #[test]
 fn what_is_said_once_holds() {
     let lines = body("COOLNT/FLOOD\nGOTO/1,0,10\nLOADTL/2\nSPINDL/500,CLW\nFEDRAT/9\nRAPID\nGOTO/1,1,1");
@@ -528,22 +528,22 @@ fn what_is_said_once_holds() {
     assert_eq!(read(&text, options), ["G0 X0 Y0 Z10."]);
 }
 
-/// Units and the system that wrote a file are those of its beginning; nothing later reinterprets what was read.
+/// Units and CAM system are determined at the beginning of the file. Later statements do not change the meaning of earlier ones.
 #[test]
 fn units_and_dialect_are_known_before_they_are_needed() {
     let early = "LOADTL/1\nSPINDL/1,CLW\nFEDRAT/5,IPM\nUNITS/MM\nRAPID\nGOTO/0,0,1\nFINI\n";
     assert!(read(early, Options::default())[0].starts_with("PL005 the units of the file are not known yet at 3:1"));
-    // the file's own units go before those that were assumed
+    // the units in the file override the assumed ones
     let own =
         early.replace("LOADTL", "UNITS/INCHES\nLOADTL").replace("UNITS/MM\n", "").replace("FINI", "GOTO/1,0,1\nFINI");
     let lines = read(&own, Options { units: Some(Units::Mm), ..Options::default() });
     assert_eq!(lines, ["G0 X0 Y0 Z1.", "G1 X1. F5."]);
-    // a mark in a later text is no sign of another system, whose circles would turn the other way
+    // the mark of another system in a later text is ignored; its circles would turn in the opposite direction
     let arc = "GOTO/1,0,10\nPPRINT/APTCL-SPEC\nCIRCLE/1,1,10,0,0,1,1\nGOTO/2,1,10";
     assert_eq!(body(arc).last().unwrap(), "G17 G3 X2. Y1. I0 J1.");
 }
 
-/// Whatever stands between the points of a cycle, no hole is lost.
+/// No statement between the points of a cycle makes a hole disappear.
 #[test]
 fn text_between_holes_loses_none() {
     let words =
@@ -561,7 +561,7 @@ fn text_between_holes_loses_none() {
     assert_eq!(lines[from..], ["G80", "(HI)", "G99 G81 X30. Y10. Z-12. R3. F100.", "G80"]);
 }
 
-/// SolidWorks CAM stops and describes tools with INSERT, also before the first line that says who wrote the file.
+/// SolidWorks CAM writes stops and tool descriptions with INSERT, even before the line that names the system.
 #[test]
 fn solidworks_inserts_are_stops_and_tools() {
     let text = "PARTNO/1\nUNIT/MM\nINSERT/4.0mm JOBBER DRILL\nCUTTER/4.,0,2.,3.,31.,0,83.\nLOAD/TOOL,14\n\
@@ -574,11 +574,11 @@ fn solidworks_inserts_are_stops_and_tools() {
     assert_eq!(lines[stop - 1..=stop + 1], ["(CHANGE FIXTURE)", "M0", "(MIND THE CLAMP)"]);
     assert_eq!(lines.last().unwrap(), "PL008 INSERT/mind the clamp is printed as a comment");
     assert!(lines.contains(&"S3500 M3".to_owned()), "the spindle turns again: {lines:?}");
-    // elsewhere INSERT goes into the program as it stands
+    // for other systems, INSERT is printed unchanged
     assert_eq!(body("INSERT/M88"), ["M88"]);
 }
 
-/// A tool change ends a cycle; what its points mean then, only a feed or another cycle says.
+/// A tool change ends a cycle. Points after it are refused until a feed or another cycle follows.
 #[test]
 fn points_after_a_tool_change_that_ended_a_cycle_are_refused() {
     let drill = "CYCLE/DRILL,DEPTH,5,MMPM,100,CLEAR,2";
@@ -591,7 +591,7 @@ fn points_after_a_tool_change_that_ended_a_cycle_are_refused() {
     }
 }
 
-/// NX names tools and may load none: each needs its number. Two MSYS are two setups.
+/// NX may name tools without loading them: each name needs a number. Two MSYS statements are two setups.
 #[test]
 fn tools_that_are_only_named_need_numbers() {
     let path = |tool: &str, x: u8| {
@@ -620,7 +620,7 @@ fn tools_that_are_only_named_need_numbers() {
     assert!(by(&setups.replace(&other, msys), "1")[0].starts_with("G0"));
 }
 
-/// A part that is milled from above, then drilled and milled from the front: its y points into the front's z.
+/// A part that is milled from above, then drilled and milled from the front. In the front's frame, Z is along the part's Y axis.
 const TWO_SIDES: &str = "UNITS/MM\nFEDRAT/100,MMPM\n\
     LOADTL/1\nSPINDL/1000,RPM,CLW\nRAPID\nGOTO/0,0,10\nGOTO/5,0,-1\nSTOP\nRAPID\nGOTO/5,0,50\n\
     LOADTL/2\nSPINDL/2000,RPM,CLW\nCOOLNT/MIST\nRAPID\nGOTO/10,-30,5,0,-1,0\nGOTO/10,-8,5\n\
@@ -651,7 +651,7 @@ fn a_setup_is_read_in_a_frame_of_its_own() {
         "G0 Z50.",
     ];
     assert_eq!(setup(2), front);
-    // the tool that is there goes on
+    // the tool of the setup before stays loaded
     assert_eq!(setup(3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
     let none = setup(4);
     assert_eq!(none.len(), 1);
@@ -676,10 +676,10 @@ fn setups_are_listed_whatever_is_in_them() {
     assert_eq!(postform::internals::cl::setups(arc.as_bytes(), &Options::default()).unwrap().len(), 3);
 }
 
-/// Where the file says how the CAM system looks at a setup, its x is taken.
+/// If the file contains the view of the CAM system for a setup, the setup uses its X axis.
 #[test]
 fn a_setup_lies_as_its_csys_does() {
-    let csys = "CSYS/0,1,0,0,0,0,-1,0,-1,0,0,0\n"; // by rows: its x is -z of the part, its z -y
+    let csys = "CSYS/0,1,0,0,0,0,-1,0,-1,0,0,0\n"; // row by row: its X is -Z of the part, its Z is -Y
     let text = TWO_SIDES.replace("RAPID\nGOTO/10,-30,5,0,-1,0", &format!("{csys}RAPID\nGOTO/10,-30,5,0,-1,0"));
     let front = front_of(&text, 2);
     assert_eq!(front[0], "G0 X-5. Y10. Z30.");
@@ -696,7 +696,7 @@ fn a_setup_does_not_begin_inside_a_cut() {
     assert!(refused[0].starts_with("PL004 the tool axis turns under cutter compensation"), "{refused:?}");
 }
 
-/// A job whose name says nothing is known by how it begins: one of each kind.
+/// The format of a job without a known file name extension is found by its first bytes: an example of each format.
 #[test]
 fn jobs_are_known_by_how_they_begin() {
     use postform::{Format, Job};
@@ -718,8 +718,8 @@ fn jobs_are_known_by_how_they_begin() {
     assert!(Job::open("export", b"hello, world").is_err());
 }
 
-/// The return plane is one height for the whole cycle, whatever stands between its points: the tool comes back to the
-/// higher of it and the hole's clearance.
+/// The return plane is one height for the whole cycle, regardless of statements between its points. The tool returns to
+/// the return plane or to the hole's clearance, whichever is higher.
 #[test]
 fn a_return_plane_holds_for_the_whole_cycle() {
     let drill = "CYCLE/DRILL,DEPTH,10,MMPM,90,CLEAR,3";
@@ -730,13 +730,13 @@ fn a_return_plane_holds_for_the_whole_cycle() {
         assert_eq!(body(&format!("{drill},{returns}\n{points}")), kept, "{returns}");
     }
     assert_eq!(body(&format!("CYCLE/RETURN,3\n{drill}\n{points}")), kept);
-    // no plane: none said, or OFF before the cycle; OFF inside it is for the next one
+    // no return plane: none given, or OFF before the cycle; OFF inside a cycle applies to the next one
     assert_eq!(body(&format!("{drill}\n{points}")), low);
     assert_eq!(body(&format!("CYCLE/RETURN,OFF\n{drill},RETURN\n{points}")), low);
     assert_eq!(body(&format!("{drill},RETURN\nCYCLE/RETURN,OFF\n{points}")), kept);
     let catia = Options { dialect: Some(Dialect::Catia), ..Options::default() };
     assert_eq!(read(&format!("{HEAD}{drill},RETURN,0\n{points}\nFINI\n"), catia)[1..], low);
-    // statements between holes, before one above the plane
+    // statements between holes, before a hole above the plane
     for between in [
         "RAPID\nGOTO/2,2,40",
         "CYCLE/AUTO,OFF\nCYCLE/AUTO,ON",
@@ -754,7 +754,7 @@ fn a_return_plane_holds_for_the_whole_cycle() {
     assert!(manual.contains(&"M0".to_owned()), "{manual:?}");
 }
 
-/// A CSYS that turns back, and points that do not: on which side of the part they lie is not known.
+/// A CSYS that turns back is refused if the points after it do not turn back: the side of the part is then unknown.
 #[test]
 fn a_setup_ends_where_a_csys_turns_back() {
     let up = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n";
@@ -765,7 +765,7 @@ fn a_setup_ends_where_a_csys_turns_back() {
     assert_eq!(front_of(&said, 3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
 }
 
-/// What the mark of a known system means by a CIRCLE is checked at its arcs, as in a file of an unknown system.
+/// If a file has the mark of a system, the meaning of CIRCLE is still checked at its arcs, as in a file without a mark.
 #[test]
 fn the_arcs_of_a_marked_file_agree_with_its_mark() {
     let csi = |k: i32| format!("CSI_TOOL_PATH/A\n{HEAD}GOTO/1,0,10\nCIRCLE/1,1,10,0,0,{k},1\nGOTO/2,1,10\nFINI\n");
@@ -782,7 +782,7 @@ fn the_arcs_of_a_marked_file_agree_with_its_mark() {
     assert_eq!(read(&csi(-1), said)[2], "G17 G3 X2. Y1. I0 J1.");
 }
 
-/// A statement that chooses a work offset or a frame is no remark.
+/// A statement that selects a work offset or a frame must not be ignored like a remark.
 #[test]
 fn work_offsets_and_frames_of_cl_files_are_not_passed_over() {
     assert!(error("GOTO/1,0,10\nZERO/2").starts_with("PL004 ZERO selects a work offset"));

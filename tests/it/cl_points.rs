@@ -1,5 +1,5 @@
-//! CL files read a second time, by a reader that shares nothing with `src/cl` and knows only points, holes and heights: the
-//! programs for LinuxCNC cut to the same points and drill the same holes, in the same order.
+//! Reads CL files with a second reader, which shares no code with `src/cl` and reads only points, holes and heights.
+//! The programs for LinuxCNC must cut to the same points and drill the same holes, in the same order.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::fs;
@@ -12,18 +12,18 @@ use postform::toolpath::{ReadError, Units};
 
 use crate::support::{check, plain_post, root};
 
-/// What a tool does to the part.
+/// An action of the tool on the part.
 #[derive(Clone, Copy, Debug)]
 enum Item {
-    /// A cut along a line or an arc, to here.
+    /// A cut along a line or an arc to this point; true: an arc.
     Cut([f64; 3], bool),
-    /// A rapid that turns compensation on or off, which some forms print as a cut.
+    /// A rapid that turns compensation on or off. Some forms print it as a cut.
     Way([f64; 3]),
-    /// A hole: its bottom, and the height from which it is fed.
+    /// A hole: its bottom, and the height at which the feed begins.
     Hole([f64; 3], f64),
 }
 
-/// What a length may differ by: the last digit of the program.
+/// Tolerance of a length: the last digit of the program.
 const DIGIT: f64 = 2e-5;
 
 fn same(a: f64, b: f64) -> bool {
@@ -40,7 +40,8 @@ fn after(words: &[&str], word: &str) -> Option<f64> {
     words.get(at + 1)?.parse().ok()
 }
 
-/// How deep below a point a cycle goes, and how high above it feeds begin; or the two heights of Autodesk's.
+/// The depth of a cycle below its point, and the height above it at which the feed begins; for Autodesk, the two
+/// heights.
 #[derive(Clone, Copy)]
 enum Cycle {
     Below(f64, f64),
@@ -58,10 +59,10 @@ fn cycle(words: &[&str], autodesk: bool) -> Cycle {
     Cycle::Below(depth, clear)
 }
 
-/// What a CL file asks for.
+/// The actions that a CL file requests.
 fn wanted(text: &str) -> Vec<Item> {
     let autodesk = text.starts_with("MODE/");
-    // statements: comments cut off, continued lines joined
+    // statements, without comments, with continued lines joined
     let mut statements = vec![String::new()];
     for line in text.lines() {
         let line: String = line.split("$$").next().unwrap().chars().filter(|c| !c.is_whitespace()).collect();
@@ -112,7 +113,7 @@ fn wanted(text: &str) -> Vec<Item> {
     items
 }
 
-/// What a program for LinuxCNC does.
+/// The actions of a program for LinuxCNC.
 fn made(program: &str) -> Vec<Item> {
     let (mut items, mut at) = (Vec::new(), [f64::NAN; 3]);
     let (mut motion, mut from, mut bottom, mut initial, mut returns_high) = (0, 0.0, 0.0, f64::NAN, true);
@@ -127,7 +128,7 @@ fn made(program: &str) -> Vec<Item> {
         let word = |letter| words.iter().find(|(l, _)| *l == letter).map(|(_, value)| *value);
         let codes: Vec<i64> = words.iter().filter(|(l, _)| *l == 'G').map(|(_, v)| (v * 10.0).round() as i64).collect();
         if codes.contains(&530) {
-            continue; // to a place of the machine
+            continue; // a move to a machine position
         }
         for code in &codes {
             match code {
@@ -166,7 +167,8 @@ fn made(program: &str) -> Vec<Item> {
     items
 }
 
-/// The program makes what is wanted, in order, and nothing else: but an arc may come in parts, and a hole in pecks.
+/// Checks that the program makes exactly the requested actions in order. An arc may be printed in parts, and a hole in
+/// pecks.
 fn assert_made(name: &str, wanted: &[Item], made: &[Item]) {
     let mut next = made.iter().peekable();
     for (n, want) in wanted.iter().enumerate() {
@@ -180,7 +182,7 @@ fn assert_made(name: &str, wanted: &[Item], made: &[Item]) {
                 true
             }
             (Item::Hole(bottom, _), Item::Cut(at, _)) if same_point(*bottom, *at) => true,
-            // a part of an arc, a peck of a hole
+            // a part of an arc, or a peck of a hole
             (Item::Cut(_, true), Item::Cut(_, true)) => false,
             (Item::Hole(bottom, _), Item::Cut(at, _)) if same(bottom[0], at[0]) && same(bottom[1], at[1]) => false,
             (want, made) => panic!("{name}: item {n} of the file is {want:?}, the program makes {made:?}"),
@@ -203,7 +205,7 @@ fn options(text: &str) -> Options {
 }
 
 fn program(text: &str, options: &Options) -> Result<String, ReadError> {
-    // coolant of any kind
+    // a form with all kinds of coolant
     let kinds = "CoolantKind through M7\nCoolantKind air M7\nCoolantKind high M8\n";
     let post = plain_post("linuxcnc.pf");
     let checked = check(&(kinds.to_owned() + &post));
@@ -228,7 +230,7 @@ fn files(folder: &Path) -> Vec<(String, String)> {
         .collect()
 }
 
-/// One file of each system, in its style.
+/// One file in the style of each system.
 #[test]
 fn programs_of_written_files_cut_and_drill_what_the_files_say() {
     let mut count = 0;
@@ -247,7 +249,8 @@ fn programs_of_written_files_cut_and_drill_what_the_files_say() {
     assert_eq!(count, 7);
 }
 
-/// The judge sees what is wrong: a point, a depth, a clearance, something too few and too many.
+/// The comparison of this test finds each kind of fault: a wrong point, depth or clearance, a missing item, an
+/// additional one.
 #[test]
 fn the_judge_finds_each_kind_of_fault() {
     let text = fs::read_to_string(root().join("tests/data/cl/solidworks.apt")).unwrap();
@@ -262,7 +265,7 @@ fn the_judge_finds_each_kind_of_fault() {
     }
 }
 
-/// The same of real files, where they lie beside the checkout.
+/// Compares the programs of real files with the second reader, if the files are next to the checkout.
 #[test_with::path(../shared/data/cl)]
 #[test]
 fn programs_of_real_files_cut_and_drill_what_the_files_say() {

@@ -1,20 +1,20 @@
-//! What the renderer believes after each code of each control, and what the simulator believes. A sequence types the code
-//! between two cuts. What the renderer prints after it must make the motions of the job when the simulator runs it, but
-//! for what the code itself does: a stop, a dwell, a frame that moves.
+//! Compares the state that the renderer assumes after each code of each control with the state in the simulator. A
+//! sequence prints the code between two cuts. The blocks after it must make the motions of the job in the simulator.
+//! Only effects of the code itself are allowed: a stop, a dwell, a moved frame.
 
 use postform::diag::Code;
 use postform::internals::control::{Control, Meaning, names};
 use postform::internals::verify::Finding;
 use postform::{Job, NoFiles, Options, Post, Source, Verdict};
 
-/// Cuts, a row whose beginning types the code, an arc, two holes and a rapid.
+/// Cuts, a row that begins with the code, an arc, two holes and a rapid.
 const JOB: &str = r#"{"postform":1,"program":100,"units":"inch","tools":[{"number":1,"length_offset":1,"diameter_offset":1}],
 "operations":[{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":10,"path":[
 {"rapid":[0,0,1]},{"rapid":[0,0,0.1]},{"line":[0,0,-0.1]},{"line":[1,0,-0.1]},{"begin":"row"},{"line":[1,1,-0.1]},{"end":"row"},
 {"line":[2,1,-0.1]},{"arc":{"to":[3,2],"center":[2,2],"direction":"ccw"}},{"line":[3,2,1]},
 {"cycle":{"kind":"drill","clear":0.1,"return":1,"feed":8,"depth":0.5,"points":[[4,4,0],[5,4,0]]}},{"rapid":[6,6,1]}]}]}"#;
 
-/// A form for a control whose rows begin with this block.
+/// A form for a control that prints this block at the beginning of each row.
 fn form(control: &Control, typed: &str) -> String {
     let grbl = control.is_like("grbl");
     let length = if grbl { "" } else { "G43 H[lcomp] " };
@@ -27,35 +27,35 @@ fn form(control: &Control, typed: &str) -> String {
     )
 }
 
-/// What a code of this meaning does itself, which no printing after it undoes.
+/// The findings that a code of this meaning causes by itself, and that later blocks can't prevent.
 fn own_doing(meaning: Meaning) -> &'static [Code] {
     use Meaning as M;
     match meaning {
         M::Dwell => &[Code::PV010],
         M::StopProgram | M::StopOptional | M::Pallet => &[Code::PV019],
-        // a Grbl goes on reading, with all that it holds reset
+        // Grbl continues after it, with all modal states reset
         M::End | M::Return => &[Code::PV017, Code::PV011],
-        // where its axis words go is in the job no way
+        // the move of its axis words is not in the job's path
         M::Reference | M::Machine | M::ToolChange => &[Code::PV001],
-        // the places of the job lie elsewhere from here on
+        // from here on, the job's positions are in another frame
         M::Frame | M::Preset | M::Data => &[Code::PV021, Code::PV001],
         M::LengthOn | M::LengthOff | M::LengthData => &[Code::PV014, Code::PV001],
-        // no cycle may follow it
+        // a cycle is not allowed after it
         M::SideLeft | M::SideRight => &[Code::PV018, Code::PV015],
         _ => &[],
     }
 }
 
-/// Is a finding about the typed block itself: the control refuses it?
+/// Is the finding a refusal of the typed block itself?
 fn refuses(finding: &Finding, block: &str) -> bool {
     finding.code == Code::PV015 && finding.message.contains(&format!("in `{block}"))
 }
 
-/// What is wrong after a typed block.
+/// The first finding after a typed block that the code itself does not explain.
 fn disagreement(control: &Control, meaning: Meaning, typed: &str) -> Option<String> {
     let text = form(control, typed);
     let post = Post::compile(Source::from_text("form.pf", &text), &NoFiles).ok()?;
-    // an error with its place is an answer
+    // an error of the renderer is accepted
     let program = post.render(Job::json(JOB), &Options::default()).ok()?;
     let verdict = post.verify(Job::json(JOB), program.text()).unwrap();
     let Verdict::Different(findings) = verdict else { return None };
@@ -73,7 +73,7 @@ fn renderer_and_simulator_believe_the_same_of_every_code() {
     for control in names().filter_map(Control::named) {
         for row in control.rows() {
             let code = row.code.to_string();
-            // E alone is a work offset of a Fadal
+            // on a Fadal, E selects a work offset
             let words = (b'A'..=b'Z').filter(|&letter| letter != b'E' && row.words.has(letter));
             let all: String = words.map(|letter| format!(" {}1", char::from(letter))).collect();
             for typed in [code.clone(), format!("{code}{all}"), format!("{code} X[h]")] {

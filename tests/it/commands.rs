@@ -1,4 +1,4 @@
-//! Every command that bears on generated moves and on blocks, by what it prints.
+//! Tests every command of forms that affects generated moves and blocks, by the printed program.
 
 use crate::support::{job, mill, path_lines, program};
 
@@ -21,7 +21,7 @@ fn motion_words() {
     let numbers = "G 2\nM 2";
     assert_eq!(path_lines(numbers, "", "{\"rapid\":[0,0,0.5]}"), ["G00 Z.5"]);
     assert_eq!(program(&mill(numbers, ""), &job("{\"rapid\":[0,0,0.5]}"))[2], "S1000 M03");
-    // the spindle's code may stand after the arc's: [direct] is defined by CW and CCW
+    // the spindle code may come after the arc's: `[direct]` has its value from CW and CCW
     let both = program(&mill("CW G2 M13\nCCW G3 M14", ""), &job(CORNER));
     assert_eq!(both[2], "S1000 M13");
     assert!(both.iter().any(|line| line.contains("G3 X2. Y1.")), "{both:?}");
@@ -32,12 +32,13 @@ fn arc_centres_in_three_forms() {
     assert_eq!(arcs("CtrCode I J K", CORNER), ["G17 G3 X2. Y1. I0 J1.", "G1 Y2."]);
     assert_eq!(arcs("CtrCode R", CORNER), ["G17 G3 X2. Y1. R1.", "G1 Y2."]);
     assert_eq!(arcs("CtrIncremental? N", CORNER), ["G17 G3 X2. Y1. I1. J1.", "G1 Y2."]);
-    // over 180 degrees a radius would be the other arc: split, or printed as the form says
+    // for over 180 degrees, a positive radius means the other arc: the arc is split, or printed in the form's format
+    // for it
     assert_eq!(arcs("", LONG), ["G17 G3 X0 Y-1. I-1. J0"]);
     assert_eq!(arcs("CtrCode R", LONG), ["G17 G3 X-.7071 Y.7071 R1.", "X0 Y-1. R1."]);
     assert_eq!(arcs("CtrCode R\nCtrCode>180 R", LONG), ["G17 G3 X0 Y-1. R-1."]);
     assert_eq!(arcs("CtrCode R\nCtrCode>180 I J", LONG), ["G17 G3 X0 Y-1. I-1. J0"]);
-    // a full circle has no radius
+    // a full circle can't be printed with a radius
     assert_eq!(arcs("", CIRCLE), ["G17 G2 I-1. J0"]);
     assert_eq!(arcs("CtrCode R", CIRCLE), ["G17 G2 X-1. R1.", "X1. R1."]);
     assert_eq!(arcs("CtrCode R\nCtrCode360 I J", CIRCLE), ["G17 G2 I-1. J0"]);
@@ -52,7 +53,7 @@ fn quadrants_planes_helices() {
     let yz =
         "{\"line\":[0,1,0]},{\"arc\":{\"to\":[null,0,1],\"center\":[null,0,0],\"direction\":\"ccw\",\"plane\":\"yz\"}}";
     assert_eq!(arcs("", yz), ["G19 G3 Y0 Z1. J-1. K0"]);
-    // a plane that the control has not: lines, within the tolerance
+    // the control lacks this plane: the arc becomes lines within the tolerance
     let chords = arcs("ArcPlane G17\nTolerance 0.1", xz);
     assert_eq!(chords, ["X.7071 Z.7071", "X0 Z1."]);
     let helix = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[1,0,-0.5],\"center\":[0,0],\"direction\":\"ccw\",\"turns\":1}}";
@@ -84,7 +85,7 @@ fn arcs_restate_their_code_where_the_form_wants_it() {
 fn increments_add_up_without_a_rest() {
     let path = "{\"line\":[0.33334,0,1]},{\"line\":[0.66668,0,1]},{\"line\":[1,0,1]},{\"line\":[1,0,1]}";
     assert_eq!(path_lines("Incremental? Y", "", path), ["G1 X.3333 F10.", "X.3334", "X.3333"]);
-    // nothing to add is no move, also where nothing is known after a tool change that shifts the frame
+    // an increment of zero prints no move, even if the tool change leaves the printed values unknown
     let form = mill("Incremental? Y", "").replacen("Z[d]", "Z[d] G91", 1);
     assert_eq!(
         program(&form, &job("{\"rapid\":[0,0,1]},{\"rapid\":[0,0,2]}"))[3..5],
@@ -133,7 +134,7 @@ fn block_numbers() {
         lines("Sequence#s N 1 1\nN 3\nFirst#? N\nLast#? N")[1..],
         ["T1 M6", "N001 S1000 M3", "N002 G0 G54 X0 Y0 Z1.", "N003 G1 X1. F10.", "M30"]
     );
-    // at its width the number starts again
+    // when the block number exceeds its width, it starts again
     assert_eq!(lines("Sequence#s N 8 1\nN >1")[1..4], ["N8 T1 M6", "N9 S1000 M3", "N8 G0 G54 X0 Y0 Z1."]);
     assert_eq!(lines("Sequence#s N 10 10\nSpaces? N")[1], "N10T1M6");
     let own = mill("Sequence#s N 10 10", "").replacen("T[tool] M6", "N[block] T[tool] M6", 1);
@@ -229,7 +230,7 @@ fn the_next_tool_comes_from_the_list_of_tools() {
     let lines = program(&form, &two("\"tool_order\":[1,2],"));
     assert_eq!(lines[1], "T1 M6 (next 2, first 1)");
     assert_eq!(lines[5], "T2 M6 (next 1, first 1)");
-    // a job that does not list them is read twice
+    // a job without the order of its tools is read twice
     assert_eq!(program(&form, &two(""))[1], "T1 M6 (next 2, first 1)");
     let word = form.replace("(next [nexttool], first [tool1])", "H[nexttool]");
     assert_eq!(program(&word, &two(""))[1], "T1 M6 H2");
@@ -268,7 +269,7 @@ fn moves_are_measured_for_forms_that_print_them() {
     assert_eq!(lines[1], "(L5 T30 SUM5)");
 }
 
-/// A form for both units has the defaults of each.
+/// A form for both units has different default values for inches and millimetres.
 #[test]
 fn defaults_of_cycles_are_those_of_the_jobs_units() {
     let form = mill("Units both", "").replace("%0\n", "%0\nG[unitmode]\n");
@@ -280,11 +281,11 @@ fn defaults_of_cycles_are_those_of_the_jobs_units() {
         lines[cut - 1].clone()
     };
     assert_eq!([clear(&form, "inch"), clear(&form, "mm")], ["Z.1", "Z3."]);
-    // what the form says is in inches
+    // a value in the form is in inches
     assert_eq!(clear(&form.replace("Units both", "Units both\nCycleClear 0.2"), "mm"), "Z5.08");
 }
 
-/// The first forms have every number in brackets.
+/// In the oldest forms, every number is in brackets.
 #[test]
 fn numbers_in_brackets() {
     let plain = mill("Rapid G00", "");
@@ -295,7 +296,7 @@ fn numbers_in_brackets() {
     assert_eq!(program(&old, &path), program(&plain, &path));
 }
 
-/// A program number that is asked for stands where the job has none.
+/// The program number may come from a prompt if the job has none.
 #[test]
 fn the_program_number_may_be_asked_for() {
     let form = mill("Ask program# \"Program number\" 77", "").replacen("%0\n", "%0\nO[program#]\n", 1);
@@ -304,14 +305,15 @@ fn the_program_number_may_be_asked_for() {
     assert_eq!(program(&form, &text.replacen("\"program\":100,", "", 1))[1], "O77");
 }
 
-/// Rows of Replace may double a block each: what no control reads is refused where it becomes too long.
+/// Each `Replace` may double the length of a block. A block that becomes too long for the control is refused at that
+/// point.
 #[test]
 fn replaced_blocks_stay_short() {
     let doubled = |rows: usize| path_lines(&"Replace G GG\n".repeat(rows), "", "{\"line\":[1,0,0]}");
     assert_eq!(doubled(5), [format!("{}1 X1. Z0 F10.", "G".repeat(32))]);
     let refused = doubled(28);
     assert!(refused[0].starts_with("PR027 a block of 40"), "{refused:?}");
-    // LinuxCNC stops at a long block, in the middle of the part
+    // LinuxCNC stops at a block that is too long, in the middle of the part
     let text = format!("{{\"text\":\"({})\"}}", "A".repeat(300));
     assert!(path_lines("", "", &text)[0].starts_with('('));
     assert!(path_lines("Control linuxcnc", "", &text)[0].starts_with("PR027 a block of 302 characters"));

@@ -1,4 +1,4 @@
-//! Expressions and conditions: what is calculated, which lines print, what is refused.
+//! Expressions and conditions: calculated values, the lines that print, and errors.
 
 use crate::support::{check, job, mill, path_lines, program, render, render_checked};
 use postform::internals::render::Options;
@@ -11,12 +11,12 @@ fn codes(form: &str) -> Vec<&'static str> {
     codes
 }
 
-/// A form whose first tool change prints these lines before all else.
+/// A form whose first tool change prints these lines before all others.
 fn form(head: &str, lines: &str) -> String {
     mill(head, "").replacen("1stToolChange\n", &format!("1stToolChange\n{lines}\n"), 1)
 }
 
-/// What the lines print at X0 Y0 Z1, S1000 M3, tool 1, offset 54.
+/// The output of these lines at X0 Y0 Z1, S1000 M3, tool 1, work offset 54.
 fn lines(lines: &str) -> Vec<String> {
     let printed = program(&form("", lines), &job("{\"line\":[1,1,0]}"));
     match printed.iter().position(|line| line == "T1 M6") {
@@ -56,7 +56,7 @@ fn a_calculated_word_is_modal_like_its_letter() {
     assert_eq!(path_lines(head, sequences, path), ["G1 X1. Q2. F10.", "X2.", "X3. Z2. Q4."]);
 }
 
-/// A form limits the speed of its machine: the job's own is not said after it.
+/// If a form limits the spindle speed by a calculation, the job's speed is not printed again.
 #[test]
 fn a_speed_that_the_form_limits_stays() {
     let text = mill("", "").replace("S[speed] M", "S[min(speed,800)] M");
@@ -65,7 +65,7 @@ fn a_speed_that_the_form_limits_stays() {
     assert_eq!(speeds, ["S800 M3"]);
 }
 
-/// A calculated word of a condition is how the form says it: no other word for it follows.
+/// A calculated word counts as printing its condition, so no other word for the condition follows.
 #[test]
 fn a_calculated_condition_is_said() {
     let offsets = [
@@ -87,7 +87,7 @@ fn a_calculated_condition_is_said() {
     assert_eq!(printed.iter().filter(|line| line.ends_with(" M3")).count(), 1, "{printed:?}");
 }
 
-/// Counting in a list, and asking after it what came out.
+/// A value that a list counts can be used after the list.
 #[test]
 fn what_a_list_sets_is_asked_behind_it() {
     let asked = "@set val1 = 0\n@for tool\n@if [tool] > 0\n@set val1 = [val1]+1\n@end\n@end\n([val1] TOOLS)\n@if [val1] > 1\n(MANY)\n@else\n(ONE)\n@end";
@@ -101,7 +101,7 @@ fn what_a_list_sets_is_asked_behind_it() {
     assert_eq!(program(&text, &two)[1..3], ["(2 TOOLS)", "(MANY)"]);
 }
 
-/// The conditions of a sequence are asked before the Upon in front of it prints.
+/// All conditions of a sequence are evaluated before the Upon in front of it prints, so they can't use a value that the Upon sets.
 #[test]
 fn what_an_upon_sets_is_not_asked_before_it() {
     let upon = |set: &str, asks: &str| {
@@ -115,14 +115,14 @@ fn what_an_upon_sets_is_not_asked_before_it() {
     }
 }
 
-/// Blanks before a directive are indentation, inside another one or not; what else begins with `@` there is a remark.
+/// Blanks before a directive are indentation. Other indented text that begins with `@` is a comment.
 #[test]
 fn an_indented_directive_is_one() {
     assert_eq!(lines("@set val1 = 1\n  @set val1 = 2\n([val1])\n\t@set val1 = 3\n([val1])"), ["(2)", "(3)"]);
     assert_eq!(lines("  @if [tool] = 1\n    (ONE)\n  @end\n  @see the manual"), ["(ONE)"]);
 }
 
-/// A value that is not there is no reason to keep the one of another cycle.
+/// `@set` with a variable that has no value is an error, so that a value of another cycle is not used.
 #[test]
 fn what_is_set_of_no_value_is_an_error() {
     let drill = |set: &str| {
@@ -134,7 +134,7 @@ fn what_is_set_of_no_value_is_an_error() {
     assert!(drill("@set val1 = 7\n@if [dwell]\n@set val1 = [dwell]*1000\n@end").contains(&"(W 7)".to_owned()));
 }
 
-/// `@set` stands after the line before it, whose number is taken then.
+/// `@set` runs after the line before it, so `[block]` is then the number of the next block.
 #[test]
 fn a_number_is_set_behind_its_line() {
     let text = mill("Sequence#s N 1 1", "").replacen(
@@ -146,14 +146,14 @@ fn a_number_is_set_behind_its_line() {
     assert_eq!(printed[1..3], ["N1 (A)", "N2 (2)"]);
 }
 
-/// A lathe's turret takes station and register in one word, which may be calculated.
+/// On a lathe, one word selects station and offset register. It may be calculated.
 #[test]
 fn a_calculated_word_says_which_tool() {
     let form = "Machine Lathe\n1stToolChange\nT[tool*101]\nG97 S[speed] M[direct]\nEnd";
     assert!(check(form).diags.iter().all(|diag| diag.code.name() != "PF429"), "{:?}", check(form).diags);
 }
 
-/// The centre of an arc is said with each arc, calculated or not.
+/// Every arc prints its centre, even if the centre word is calculated.
 #[test]
 fn a_calculated_centre_is_no_place_that_stays() {
     let sequences = "CwCode\nG2 X[h] Y[v] I[ival*1] J[jval*1] F[frate]\nEnd\n";
@@ -162,7 +162,7 @@ fn a_calculated_centre_is_no_place_that_stays() {
     assert_eq!(lines, ["G2 X2. I1. J0 F10.", "X4. I1. J0"]);
 }
 
-/// What stands beside a value would be read as part of it, whether a variable or a calculation makes the value.
+/// Text that touches a value would be read as part of the number. This applies to variables and to calculations.
 #[test]
 fn nothing_stands_beside_a_calculated_value() {
     for word in ["G5[tool+3]", "G5[tool]", "X-[h-7]", "X-[h]"] {
@@ -268,11 +268,11 @@ fn numbers_are_compared_as_they_print() {
     let printed = render_checked(&check(&text), job.as_bytes(), false, inches).unwrap().text;
     let lines: Vec<&str> = printed.lines().collect();
     assert_eq!(lines[2..5], ["M1", "Q1. R1. P1", "M2"], "{printed}");
-    // a clearance of 0.2 over a point at 0.1
+    // a clearance of 0.2 above a point at height 0.1
     let drill = "Drill\n@if [vclear] = 0.3\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@else\nG82 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel\n";
     let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.2,\"feed\":5,\"points\":[[1,0,0.1]]}}";
     assert!(path_lines("", drill, path).iter().any(|line| line.starts_with("G81")));
-    // and what is left of a difference is nothing to divide by
+    // a rounding error is not a divisor: it counts as zero
     let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] Q[1/(vclear-0.3)] F[frate]\nEnd Cancel\n";
     assert_eq!(path_lines("", drill, path), ["PR051 a division by zero"]);
 }
@@ -281,7 +281,7 @@ fn numbers_are_compared_as_they_print() {
 fn branches_lie_in_each_other() {
     let text = "@if [tool] = 1\n  M1\n  @if [speed] > 5000\n    M2\n  @elif [speed] > 500\n    M3\n  @else\n    M4\n  @end\n  M5\n@elif [tool] = 1\nM6\n@end\nM7";
     assert_eq!(lines(text), ["M1", "M3", "M5", "M7"]);
-    // blanks are a comment again after the last @end
+    // after the last @end, indented text is a comment again
     assert_eq!(lines("@if [tool] = 2\n   M1\n@end\n  M2\nM3"), ["M3"]);
     assert_eq!(lines("@if [tool] = 1 # the first\n\tM1 # and so on\n@END # over"), ["M1"]);
 }
@@ -297,7 +297,7 @@ fn what_is_set_holds_to_the_end() {
     let head = "Ask val2 \"Q\" 1\nModalLetters X Y Z F S";
     let path = "{\"line\":[1,0,1]},{\"line\":[2,0,1]},{\"line\":[3,0,1]}";
     assert_eq!(path_lines(head, sequences, path), ["G1 X1. F10. Q2.", "X2. Q4.", "X3. Q8."]);
-    // a condition after it asks for the new value
+    // a condition after it uses the new value
     let text = "@set val1 = 3\n@if [val1] = 3\nM3\n@end\n@set val1 = [val1]+1\n@if [val1] = 4\nM4\n@end\n(IS [val1])";
     assert_eq!(lines(text), ["M3", "M4", "(IS 4)"]);
 }
@@ -329,11 +329,11 @@ fn a_hole_of_another_branch_begins_the_cycle_anew() {
     );
 }
 
-/// Three holes: the second and the third lie lower than the first.
+/// Three holes. The second and the third are lower than the first.
 const STEPPED: &str =
     "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,0,0],[2,0,-2],[3,0,-2]]}}";
 
-/// The blocks of these holes that begin with `Q` or `C`, and where the cycle ends.
+/// The blocks of these holes that begin with `Q` or `C`, and the height at the end of the cycle.
 fn of_stepped_holes(head: &str, drill: &str) -> Vec<String> {
     let mut printed = path_lines(head, &format!("Drill{drill}\nEnd Cancel\n"), STEPPED);
     printed.retain(|line| line.starts_with(['Q', 'C', 'P']) || line == "G80");
@@ -349,13 +349,13 @@ fn a_cycle_begins_anew_where_its_counted_lines_would_print_another_value() {
         ("", "@set val1 = [pointd]\n`Q203=`[val1]"),
         ("", "@set val1 = [pointd]\n@set val2 = [val1]\n`Q203=`[val2*1]"),
         (top, "@set top = [pointd]\n`Q203=`[top]"),
-        // by another letter than the lines that repeat
+        // with another letter than in the repeated lines
         ("", "`Q203=`[d+1]"),
     ] {
         let printed = of_stepped_holes(head, &format!(" 1\n{begins}\n{HOLE}"));
         assert_eq!(printed, ["Q203=0", "G80", "Q203=-2", "G80"], "{begins}");
     }
-    // set after the lines that print it
+    // `@set` after the lines that print the value
     let printed = of_stepped_holes("Ask val1 \"Q\" 7", &format!(" 1\n`Q203=`[val1]\n@set val1 = 8\n{HOLE}"));
     assert_eq!(printed, ["Q203=7", "G80", "Q203=8", "G80"]);
 }
@@ -513,7 +513,7 @@ fn a_condition_that_never_changes_is_a_warning() {
     assert_eq!(warning.message, "a condition that is always true");
 }
 
-/// However deep directives lie, they are looked at once.
+/// Deeply nested directives are each processed once, so they take little time.
 #[test]
 fn directives_that_lie_too_deep_cost_no_time() {
     for (open, levels) in [("@if [val1]", 30), ("@if [val1]", 20_000), ("@for tool", 20_000), ("@iff [val1]", 20_000)] {
@@ -522,8 +522,8 @@ fn directives_that_lie_too_deep_cost_no_time() {
     }
 }
 
-/// What a line of the form sets otherwise than the job wants is set again before the next cut, and what it sets
-/// alike is not said twice.
+/// If a line of the form sets a different value than the job, the job's value is printed again before the next cut. An
+/// equal value is not printed twice.
 #[test]
 fn what_a_line_sets_is_said_again_as_the_job_wants_it() {
     let between = |head: &str, tool: [&str; 2], row: &str, items: &str| {
@@ -539,7 +539,7 @@ fn what_a_line_sets_is_said_again_as_the_job_wants_it() {
         ("", same, "S300", "", "S300 | S1000 M3 | "),
         ("", same, "S[300+0]", "", "S300 | S1000 M3 | "),
         ("", same, "S[speed]", "", "S1000 | "),
-        // the form's own speed is over where a line prints the job's
+        // the form's own speed applies until a line prints the job's speed
         ("", ["S[speed] M", "S700 M"], "S[speed]", "", "S1000 | "),
         ("", same, "M5", "", "M5 | S1000 M3 | "),
         ("", same, "M4", "", "M4 | S1000 M3 | "),
@@ -547,7 +547,7 @@ fn what_a_line_sets_is_said_again_as_the_job_wants_it() {
         ("", ["G[work]", "G54.1 P[work]"], "G54.1 P2", "", "G54.1 P2 | G54.1 P54 | "),
         ("Control haas", same, "M88", "", "M88 | S1000 M3 | "),
         ("Control haas", same, "M88", off, "M5 | G0 X1. Y1. | M88 | G1 Y0 F10."),
-        // the letter of the speed counts the dwell: the speed is unknown after it
+        // the dwell uses the letter of the speed, so the speed is unknown after it
         ("Dwell G4 S s", same, "(ROW)", "{\"dwell\":2},", "G4 S2 | (ROW) | S1000 M3 | "),
         ("Dwell G4 P s", same, "(ROW)", "{\"dwell\":2},", "G4 P2 | (ROW) | "),
     ];

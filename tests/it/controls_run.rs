@@ -1,10 +1,10 @@
-//! What the controls that ship run and refuse: the codes, words and settings by which one differs from its neighbour.
+//! The shipped controls: codes, words and settings by which one control differs from another when programs run.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::support::folder::{Folder, err, out};
 
-/// Simulates a program: what it does as JSON, or what was said.
+/// Simulates a program. Returns the actions as JSON, or the message.
 fn run(control: &str, program: &str) -> Result<String, String> {
     static RUNS: AtomicUsize = AtomicUsize::new(0);
     let folder = Folder::new(&format!("controls_run_{}", RUNS.fetch_add(1, Ordering::Relaxed)));
@@ -13,7 +13,7 @@ fn run(control: &str, program: &str) -> Result<String, String> {
     if run.status.success() { Ok(out(&run)) } else { Err(err(&run)) }
 }
 
-/// Programs of one block after a usual head, each with what is said of it; nothing: it runs.
+/// Runs one block each after a usual head. Each case has the expected message; if it is empty, the block must run.
 fn blocks(head: &str, end: &str, cases: &[(&str, &str, &str)]) {
     for (control, block, said) in cases {
         let ran = run(control, &format!("{head}{block}\n{end}"));
@@ -29,7 +29,7 @@ const HEAD: &str = "G21 G90 G94 G17\nT1 M6\nS900 M3\nG0 X0 Y0 Z20.\n";
 #[test]
 fn mills_differ_by_their_files() {
     let cases = [
-        // settings of the machine decide
+        // a setting of the machine decides
         ("mach3", "G4 P2", "the control file of mach3 does not give the unit of P of a dwell"),
         ("mach3", "G1 F90.\nG2 X10. I5.", "the control file of mach3 does not give the origin of I and J"),
         ("mach3", "G91.1\nG1 F90.\nG2 X10. I5.", ""),
@@ -58,7 +58,7 @@ fn mills_differ_by_their_files() {
     blocks(HEAD, "M30\n", &cases);
 }
 
-/// FluidNC is a Grbl with M6 and outputs; a line has at most 127 characters, with its comment.
+/// FluidNC is a Grbl with M6 and outputs. A line may have at most 127 characters, including its comment.
 #[test]
 fn fluidnc_counts_comments() {
     let comment = |length: usize| format!("(A{}", "B".repeat(length - 3)) + ")";
@@ -77,7 +77,7 @@ fn fluidnc_counts_comments() {
     blocks("G21 G90 G94 G17\nG0 X0 Y0 Z20\n", "M30\n", &cases);
 }
 
-/// grblHAL's G83 waits at the end of each stroke, comes up to the return level, and feeds again from there.
+/// G83 of grblHAL dwells at the end of each stroke, retracts to the return level, and feeds down again from there.
 #[test]
 fn grblhal_feeds_again_from_the_return_level() {
     let drilled = run("grblhal", &format!("{HEAD}G99 G83 X1. Y0 Z-4. R2. Q3. F90.\nG80\nM30\n")).unwrap();
@@ -98,7 +98,7 @@ fn grblhal_feeds_again_from_the_return_level() {
     }
 }
 
-/// A Haas and a Centroid go home with all axes where G28 names none; a Fanuc is asked for them.
+/// G28 without axes moves all axes home on a Haas and a Centroid. On a Fanuc it is refused.
 #[test]
 fn a_haas_goes_home_with_all_axes() {
     blocks(HEAD, "M30\n", &[("haas", "G28", ""), ("centroid", "G28", ""), ("fanuc", "G28", "G28 or G30 without axes")]);
@@ -107,7 +107,7 @@ fn a_haas_goes_home_with_all_axes() {
     assert!(home.matches("\"rapid\"").count() >= 2, "{home}");
 }
 
-/// What stands before the first `%` is no program where it is comments alone.
+/// Text before the first `%` is skipped if it contains only comments.
 #[test]
 fn a_program_may_have_comments_before_its_first_percent() {
     let program = format!("(SHAFT)\n; of the shop\n%\nO7\n{HEAD}M30\n%\n");
@@ -116,7 +116,8 @@ fn a_program_may_have_comments_before_its_first_percent() {
     assert!(run("fanuc", &cut).unwrap_err().contains("the program ends at `%`"));
 }
 
-/// `C0.4` in a cut of a lathe is a chamfer on many machines and an axis on others, and `A30.` an angle: neither is run.
+/// In a cut of a lathe, `C0.4` is a chamfer on many machines and an axis on others, and `A30.` is an angle. Both are
+/// refused.
 #[test]
 fn a_chamfer_of_a_lathe_is_no_axis() {
     let head = "G18 G99\nT0101\nG97 S900 M3\nG0 X50. Z5.\nG1 Z0 F.2\n";

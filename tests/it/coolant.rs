@@ -1,10 +1,10 @@
-//! Kinds of coolant: their codes, what ends them, what a form does not have.
+//! Kinds of coolant: their codes, the codes that turn them off, and kinds that a form lacks.
 
 use crate::support::{check, mill, plain_post, program, render};
 
 const KINDS: &str = "CoolantKind through M88 M89\nCoolantKind air M12";
 
-/// A job of these operations: the tool, its coolant, the path after the first rapid.
+/// A job of these operations: tool, coolant, path after the first rapid.
 fn job(operations: &[(u32, &str, &str)]) -> String {
     let operations = operations.iter().map(|(tool, coolant, path)| {
         format!(
@@ -20,7 +20,7 @@ fn job(operations: &[(u32, &str, &str)]) -> String {
 
 const LINE: &str = "{\"line\":[1,0,0]}";
 
-/// The M codes of a program without those of tools, spindle and end.
+/// The M codes of a program, without those of tool change, spindle and program end.
 fn codes(form: &str, job: &str) -> Vec<String> {
     let printed = program(form, job);
     if printed.len() == 1 {
@@ -47,14 +47,14 @@ fn each_kind_has_its_code() {
     assert!(print("foam")[0].starts_with("PJ003"));
 }
 
-/// `[coolantoff]` ends what is on, not what was on before that.
+/// `[coolantoff]` turns off the coolant that is on, not an earlier one.
 #[test]
 fn each_kind_is_ended_by_its_own_code() {
     let ends = mill(KINDS, "").replace("ToolChange\nT[tool] M6\n", "ToolChange\nM[coolantoff]\nT[tool] M6\nM[cool]\n");
     let text = ends.replace("1stToolChange\nM[coolantoff]\n", "1stToolChange\n");
     let tools = job(&[(1, "through", LINE), (2, "on", LINE), (1, "on", LINE), (2, "through", LINE)]);
     assert_eq!(codes(&text, &tools), ["M88", "M89", "M8", "M9", "M8", "M9", "M88"]);
-    // changed in an operation, and ended by a stop
+    // changed during an operation, and turned off before a stop
     let stops = form(KINDS, "M[cool]").replace("EndCode\n", "Stop\nM[coolantoff]\nM0\nEnd\n\nEndCode\n");
     let changed =
         "{\"coolant\":\"through\"},{\"line\":[1,0,0]},{\"coolant\":\"on\"},{\"line\":[0,0,0]},{\"stop\":\"program\"}";
@@ -65,10 +65,10 @@ fn each_kind_is_ended_by_its_own_code() {
 #[test]
 fn what_has_a_code_of_its_own_to_end_it_is_ended_by_that() {
     let two = job(&[(1, "through", LINE), (2, "on", LINE)]);
-    // by the form
+    // turned off by the form's sequence
     let text = mill(KINDS, "").replace("ToolChange\nT[tool] M6\n", "ToolChange\nM[coolantoff]\nT[tool] M6\nM[cool]\n");
     assert_eq!(codes(&text.replace("1stToolChange\nM[coolantoff]\n", "1stToolChange\n"), &two), ["M88", "M89", "M8"]);
-    // else as a block of its own, before the next cut
+    // otherwise in a separate block before the next cut
     assert_eq!(codes(&form(KINDS, "M[cool]"), &two), ["M88", "M8", "M89"]);
     let off = job(&[(
         1,
@@ -76,7 +76,7 @@ fn what_has_a_code_of_its_own_to_end_it_is_ended_by_that() {
         "{\"coolant\":\"off\"},{\"line\":[1,0,0]},{\"coolant\":\"air\"},{\"line\":[0,0,0]},{\"coolant\":\"on\"},{\"line\":[1,0,0]}",
     )]);
     assert_eq!(codes(&form(KINDS, "M[cool]"), &off), ["M88", "M89", "M12", "M8"]);
-    // at the end
+    // at the end of the program
     let text = form(KINDS, "M[cool]").replace("EndCode\n", "EndCode\nM[coolantoff]\n");
     assert_eq!(codes(&text, &job(&[(1, "through", LINE)])), ["M88", "M89"]);
 }
@@ -89,7 +89,7 @@ fn conditions_ask_for_the_kind() {
     for (coolant, code) in [("through", "M101"), ("mist", "M102"), ("on", "M103"), ("air", "M103"), ("off", "M104")] {
         assert_eq!(print(&[(1, coolant, LINE)]), code, "{coolant}");
     }
-    // off is off, whatever ends the kind before
+    // `[cool]` is off even if the previous kind has its own "off" code
     let two = job(&[(1, "through", LINE), (2, "off", LINE)]);
     assert!(codes(&form(KINDS, lines), &two).contains(&"M104".to_owned()));
     let unknown = check(&form("", "@if [cool] = through\nM1\n@end"));
@@ -107,7 +107,7 @@ fn several_kinds_are_on_at_once() {
     };
     let ends = form(KINDS, "M[cool]").replace("EndCode\n", "EndCode\nM[coolantoff]\n");
     let print = |operations: &[(u32, &str, &str)]| codes(&ends, &list(operations));
-    // [cool] is the first, the others stand beside it; what has no code of its own to end it ends with everything
+    // `[cool]` prints the first kind, separate blocks print the others; M9 turns off kinds without an own "off" code
     assert_eq!(print(&[(1, "through,air", LINE)]), ["M88", "M12", "M9", "M89"]);
     assert_eq!(print(&[(1, "air,through", LINE)]), ["M12", "M88", "M89", "M9"]);
     assert_eq!(print(&[(1, "through", LINE)]), ["M88", "M89"]);
@@ -120,19 +120,19 @@ fn several_kinds_are_on_at_once() {
     assert_eq!(change("air,through", "\"air\""), ["M12", "M88", "M89", "M9"]);
     assert_eq!(change("through,air", "\"through\""), ["M88", "M12", "M9", "M88", "M89"]);
     assert_eq!(change("through,air", "\"off\""), ["M88", "M12", "M9", "M89", "M9"]);
-    // a kind beside the first is a change of the coolant, for the form's own words too
+    // an additional kind is a change of coolant, so CoolantChange prints
     let own = format!("{ends}CoolantChange\n(COOLANT)\nM[cool]\nEnd\n");
     let beside = list(&[(1, "through", &path("{\"coolant\":[\"through\",\"air\"]}"))]);
     assert_eq!(program(&own, &beside)[6..9], ["(COOLANT)", "M88", "M12"]);
-    // before another tool
+    // before the next tool change
     assert_eq!(
         print(&[(1, "on", LINE), (2, "air,through", LINE), (1, "off", LINE)]),
         ["M8", "M12", "M88", "M89", "M9", "M9"]
     );
-    // after a stop each is ended that is on, stopped or not
+    // after a stop, each kind that was on is turned off, even if the stop turned it off too
     let off = path("{\"stop\":\"program\"},{\"coolant\":\"off\"}");
     assert_eq!(print(&[(1, "air,through", &off)]), ["M12", "M88", "M0", "M89", "M9", "M9"]);
-    // after a stop all are said again
+    // after a stop, all kinds are printed again
     let stop = path("{\"stop\":\"program\"}");
     assert_eq!(print(&[(1, "air,through", &stop)]), ["M12", "M88", "M0", "M12", "M88", "M89", "M9"]);
 }
@@ -189,19 +189,19 @@ fn codes_of_kinds_that_are_typed_are_said() {
     assert_eq!(codes(&form(KINDS, lines), &two), ["M88", "M89", "M8"]);
 }
 
-/// What a form turns on stands where the job has no coolant; what the job had on ends with its tool.
+/// If the job has no coolant, coolant that the form turns on stays on. Coolant from the job ends with its tool.
 #[test]
 fn the_forms_own_coolant_stands() {
     let silent = |jobs: &[(u32, &str, &str)]| job(jobs).replace("\"coolant\":\"none\",", "");
     let own = form("", "M8");
     assert_eq!(codes(&own, &silent(&[(1, "none", LINE), (2, "none", LINE)])), ["M8", "M8"]);
-    // after a stop it is said again
+    // after a stop it is printed again
     let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
     assert_eq!(codes(&own, &silent(&[(1, "none", stop)])), ["M8", "M0", "M8"]);
-    // the job's own ends with its tool
+    // coolant from the job ends with its tool
     assert_eq!(codes(&form("", "M[cool]"), &silent(&[(1, "on", LINE), (2, "none", LINE)])), ["M8", "M9"]);
     assert_eq!(codes(&form("", ""), &silent(&[(1, "on", LINE), (2, "none", LINE)])), ["M8", "M9"]);
-    // where both say something it is the job's, and that is told
+    // if both set the coolant, the job's value applies, with a warning
     let rendered = render(&own, &job(&[(1, "off", LINE)])).unwrap();
     assert!(rendered.text.contains("M8\n") && rendered.text.contains("\nM9\n"), "{}", rendered.text);
     let told: Vec<_> = rendered.notes.iter().map(|note| (note.code.name(), note.labels.len())).collect();
@@ -209,7 +209,7 @@ fn the_forms_own_coolant_stands() {
     assert_eq!(rendered.notes[0].message, "the form prints M8, but the job requests M9, which is printed after it");
 }
 
-/// A speed that the tool change prints stands until the job gives another one.
+/// A speed that the tool change prints applies until the job changes the speed.
 #[test]
 fn the_forms_own_speed_stands() {
     let speeds = |form: &str, path: &str| -> Vec<String> {
@@ -223,14 +223,14 @@ fn the_forms_own_speed_stands() {
     assert_eq!(speeds(&typed, later), ["S700", "S1200"]);
     let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
     assert_eq!(speeds(&typed, stop), ["S700", "S700"]);
-    // elsewhere the job's is said after it
+    // in another sequence, the job's speed is printed again after it
     let row = mill("", "BeginRow\nS300\nEnd");
     let path = "{\"begin\":\"row\"},{\"line\":[1,0,0]},{\"end\":\"row\"}";
     assert_eq!(speeds(&row, path), ["S1000", "S300", "S1000"]);
     assert_eq!(render(&row, &job(&[(1, "off", path)])).unwrap().notes[0].code.name(), "PR056");
 }
 
-/// M88 and M89 of a Haas stop the spindle: before the next cut it turns again, whoever printed the code.
+/// M88 and M89 of a Haas stop the spindle, so the spindle is started again before the next cut.
 #[test]
 fn a_code_that_stops_the_spindle_is_followed_by_the_spindle() {
     let on = "{\"line\":[1,0,0]},{\"coolant\":\"through\"},{\"line\":[0,0,0]}";
@@ -240,11 +240,11 @@ fn a_code_that_stops_the_spindle_is_followed_by_the_spindle() {
         words.map(str::to_owned).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(print("haas"), "M6 M9 S1000 M3 M88 S1000 M3 M30");
-    // of a Fanuc nothing public says so: the code is the builder's
+    // for a Fanuc, no public source defines M88; it is a code of the machine's builder
     assert_eq!(print("fanuc"), "M6 M9 S1000 M3 M88 M30");
 }
 
-/// The shipped form prints it first, so that nothing is said twice.
+/// The shipped form prints coolant through the spindle before it starts the spindle, so that nothing is printed twice.
 #[test]
 fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
     let printed = program(
@@ -253,5 +253,5 @@ fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
     );
     let at = |word: &str| printed.iter().position(|line| line.split(' ').any(|own| own == word)).unwrap();
     assert!(at("M88") < at("M3") && at("M3") < at("M89") && at("M89") < at("M8"), "{printed:#?}");
-    assert_eq!(printed.iter().filter(|line| line.contains("M3")).count(), 3, "{printed:#?}"); // two tools and M30
+    assert_eq!(printed.iter().filter(|line| line.contains("M3")).count(), 3, "{printed:#?}"); // two tools, and M30
 }

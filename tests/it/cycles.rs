@@ -1,5 +1,5 @@
-//! Worked CYCLE statements: what a CL file says, printed as single moves, is what the tool must do. Coordinates agree
-//! to the last printed decimal; a rapid may be printed in two parts, up first or down last.
+//! Worked CYCLE statements: a CL file, printed as single moves, must give the expected motions. Coordinates must agree
+//! to the last printed decimal. A rapid may be printed in two parts, up first or down last.
 
 use crate::support;
 use std::fs;
@@ -10,7 +10,7 @@ use postform::internals::render::{Cycles, Options, Renderer};
 use postform::toolpath::{ReadError, Units};
 use serde_json::Value;
 
-/// A form that prints every number with six decimals and every code of a cycle in a block of its own.
+/// A form that prints numbers with six decimals, and each code of a cycle in a separate block.
 fn form(config: &Value, units: Units) -> String {
     let number = |name: &str, metric: f64, inch: f64| {
         config.get(name).and_then(Value::as_f64).unwrap_or(if units == Units::Mm { metric } else { inch })
@@ -31,7 +31,7 @@ fn form(config: &Value, units: Units) -> String {
     )
 }
 
-/// What a program does, read from its blocks.
+/// An action of a program, read from its blocks.
 #[derive(Clone, Debug, PartialEq)]
 enum Motion {
     Rapid([f64; 3]),
@@ -106,10 +106,10 @@ fn near(a: &[f64; 3], b: &[f64; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1.1e-6)
 }
 
-/// Compares; a rapid may come in two parts, the first of which moves only Z, or only X and Y. Rapids to where the tool is
-/// are not printed.
+/// Compares the motions. A rapid may have two parts, the first only in Z, or only in X and Y. A rapid to the current
+/// position is not printed.
 fn agree(id: &str, mut at: [f64; 3], expected: &[Motion], printed: &[Motion]) {
-    // after a stop the spindle is said again, before the tool crosses: the examples leave that to the post
+    // after a stop, the spindle is started again before the tool moves across; the examples leave this to the post
     let stop = printed.iter().position(|motion| *motion == Motion::Code("stop".into())).unwrap_or(printed.len());
     let turns_again = |motion: &Motion| *motion == Motion::Code("CLW".into());
     let mut printed = printed.iter().enumerate().filter(|(i, motion)| *i < stop || !turns_again(motion)).map(|m| m.1);
@@ -148,7 +148,7 @@ fn worked_examples_agree() {
         let id = example["id"].as_str().unwrap();
         let setup = &example["setup"];
         if setup["config"].get("rigid_available").is_some() {
-            continue; // only a control can; the planner has a test of its own
+            continue; // only a control can make this cycle; a test in the planner covers it
         }
         let inches = setup["units"] == "IN";
         let units = if inches { Units::Inch } else { Units::Mm };
@@ -197,7 +197,7 @@ fn worked_examples_agree() {
     }
 }
 
-/// Every wrong combination by its name, and what is only warned of.
+/// Every wrong combination of options has a named error or warning.
 #[test]
 fn wrong_combinations_have_names() {
     let cases = [
@@ -287,7 +287,7 @@ fn wrong_combinations_have_names() {
     }
 }
 
-/// ORIENT without an angle stops where the form says.
+/// ORIENT without an angle uses the angle that the form defines.
 #[test]
 fn orient_alone_is_the_forms_angle() {
     let text = "UNITS/MM\nLOADTL/1\nSPINDL/800,RPM,CLW\nRAPID\nGOTO/0,0,50\n\
@@ -298,7 +298,7 @@ fn orient_alone_is_the_forms_angle() {
     assert!(rendered.text.contains("M19 R45"), "{}", rendered.text);
 }
 
-/// The F of a tap may count its turns, as in the manual: it is printed as it stands.
+/// F of a tap may be the spindle speed, as in the manual. It is printed unchanged.
 #[test]
 fn a_tap_that_prints_its_speed_stands() {
     let tap = "LTap\nG74 X[h] Y[v] Z[d] R[vclear] F[speed] Q[vbite]\nEnd Cancel";

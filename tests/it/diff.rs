@@ -1,4 +1,4 @@
-//! What changed between two programs: verdicts on pairs, properties, the command with its formats, git.
+//! Differences between two programs: verdicts on pairs, properties, the command with its output formats, git.
 
 use crate::support::control;
 use std::fs;
@@ -31,13 +31,13 @@ fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison 
     compare(&program(old), &program(new), &Options { ignore, tolerance })
 }
 
-/// Do both machines do the same?
+/// Do both programs make the machine do the same?
 fn same_motion(old: &str, new: &str) -> bool {
     let settings = RunSettings::new(control("fanuc"));
     compare_motions([old, new].map(|text| (Cursor::new(text), settings)), Units::Mm, 1e-6).unwrap().difference.is_none()
 }
 
-/// The program in inches: every length and feed divided.
+/// The program in inches: each length and feed is divided by 25.4.
 fn in_inches(text: &str) -> String {
     let mut out = String::new();
     for word in text.replace("G21", "G20").split_inclusive([' ', '\n']) {
@@ -60,7 +60,7 @@ fn renumbered(text: &str) -> String {
     lines.collect()
 }
 
-/// The cycle written as moves.
+/// The program with its cycle written as single moves.
 fn expanded() -> String {
     let moves = "G0 X0. Y0.\nZ2.\nG1 Z-5. F80.\nG0 Z2.\nX10.\nG1 Z-5.\nG0 Z2.\nX20.\nG1 Z-5.\nG0 Z2.\n";
     let (head, rest) = BASE.split_once("N110").unwrap();
@@ -74,7 +74,7 @@ fn pairs_and_their_verdicts() {
         assert!(BASE.contains(from), "{from}");
         BASE.replacen(from, to, 1)
     };
-    // new program, what must be ignored so that it is the same ("-": nothing helps), and whether the machine does the same
+    // the new program, the differences to ignore so that it counts as equal ("-": not possible), and whether the motions are the same
     let pairs: Vec<(&str, String, &str, bool)> = vec![
         ("itself", BASE.into(), "", true),
         ("renumbered", renumbered(BASE), "numbers", true),
@@ -143,7 +143,7 @@ fn pairs_and_their_verdicts() {
                 assert!(!same(Ignore::default()), "{what} differs when nothing is ignored");
                 assert!(same(ignoring(names)) && same(all), "{what} is the same ignoring {names}");
                 for left_out in names.split(',').filter(|_| names.contains(',')) {
-                    // spaces only go along with what leaves blanks after
+                    // leaving out `spaces` makes no difference if another ignored kind covers the blanks
                     let rest: Vec<&str> = names.split(',').filter(|name| *name != left_out).collect();
                     assert!(left_out == "spaces" || !same(ignoring(&rest.join(","))), "{what} needs {left_out}");
                 }
@@ -154,7 +154,7 @@ fn pairs_and_their_verdicts() {
     }
 }
 
-/// A bore is left with the spindle at an angle.
+/// The spindle angle during the retract of a bore is compared.
 #[test]
 fn motions_differ_where_the_spindle_stands_at_another_angle() {
     let bore = |stands: &str| {
@@ -177,14 +177,14 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     }
 }
 
-/// The first difference between the motions of two programs of one control.
+/// The first difference between the motions of two programs for one control.
 fn difference(name: &str, programs: [String; 2]) -> Option<String> {
     let settings = RunSettings::new(control(name));
     let programs = programs.map(|program| (Cursor::new(program), settings));
     compare_motions(programs, Units::Mm, 1e-6).unwrap().difference.map(|found| found.message)
 }
 
-/// What a lathe's spindle and turret do.
+/// Spindle and turret of a lathe are compared.
 #[test]
 fn motions_of_lathes_differ_in_spindle_and_turret() {
     const PART: &str = "G21 G18 G40 G99\nT0101\nG50 S2500\nG96 S150 M3\nG0 X44. Z5.\nG1 Z-20. F2.\nG28 U0 W0\nT0202\nG97 S800 M3\n\
@@ -206,7 +206,7 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
     }
 }
 
-/// Threads by the words that their moves do not show.
+/// Threads are compared by the words that do not change their moves, too.
 #[test]
 fn motions_of_threads_differ_in_their_words() {
     let part =
@@ -229,7 +229,7 @@ fn motions_of_threads_differ_in_their_words() {
     assert_eq!(differs(cycle, cycle), None);
 }
 
-/// An offset that stands in for a way home, and an axis that is left where it was in another offset.
+/// Unknown positions count as different if their reasons differ: an offset, a move home, or an axis left in another offset.
 #[test]
 fn motions_differ_where_a_position_is_unknown_for_another_reason() {
     let part = |middle: &str| {
@@ -260,7 +260,7 @@ fn motions_of_taps_differ_in_what_makes_them_rigid() {
     );
 }
 
-/// A detour is no difference, and is said.
+/// A detour at rapid is no difference, but it is counted and reported.
 #[test]
 fn other_ways_are_counted() {
     let detour = BASE.replacen("N110", "G0 X-20.\nN110", 1);
@@ -280,7 +280,7 @@ fn tolerance_moves_and_words() {
     assert_eq!(compared(BASE, &new, Ignore::USUAL, 0.0).edits().count(), 2);
     assert!(compared(BASE, &new, Ignore::USUAL, 0.0005).is_same());
     assert!(!compared(BASE, &new, Ignore::USUAL, 0.0003).is_same());
-    // one block at another place, once each
+    // one block is moved to another position: it is removed once and added once
     let moved = BASE.replacen("N80 Y20.\n", "", 1).replacen("N130 X20.\n", "N130 X20.\nN80 Y20.\n", 1);
     let comparison = compared(BASE, &moved, Ignore::USUAL, 0.0);
     let edits: Vec<Edit> = comparison.edits().copied().collect();
@@ -292,8 +292,8 @@ fn tolerance_moves_and_words() {
     assert_eq!(places(&spans[1]), [(10, 13), (14, 16)]);
 }
 
-/// Programs that have nothing in common, or the same blocks in another order, get an answer in bounded time. It is right, and the
-/// same again.
+/// Programs without common blocks, or with the same blocks in another order, are compared in bounded time. The result
+/// is correct, and the same in every run.
 #[test]
 fn large_differences_have_one_answer() {
     let line = |i: u64, seed: u64| format!("G1 X{}\n", i * 7919 + seed);
@@ -312,7 +312,7 @@ fn large_differences_have_one_answer() {
     }
 }
 
-/// However long the programs are, blocks that were edited are found, and no others.
+/// In programs of any length, exactly the edited blocks are found.
 #[test]
 fn edits_far_apart_are_all_that_is_found() {
     let old: Vec<String> = (0..200_000u64).map(|i| format!("G1 X{} Y{}\n", i * 7919 % 10_007, i % 3)).collect();
@@ -329,7 +329,7 @@ fn edits_far_apart_are_all_that_is_found() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
-    /// Of a few edits in blocks that repeat, the comparison is as short as the shortest.
+    /// For a few edits in repeating blocks, the comparison has the least number of changes.
     #[test]
     fn few_edits_have_the_shortest_answer(
         blocks in prop_oneof![Just(3), Just(12), Just(40)].prop_flat_map(|kinds| proptest::collection::vec((0..kinds, 0..3u8), 250..300)),
@@ -357,7 +357,7 @@ proptest! {
     }
 }
 
-/// Blocks of so many words that have nothing in common are compared in bounded time, and every word is told.
+/// Long blocks without common words are compared in bounded time, and every changed word is reported.
 #[test]
 fn long_blocks_are_compared_in_bounded_time() {
     let block = |end: &str| (0..60_000).map(|i| format!("X{i}{end} ")).collect::<String>() + "\n";
@@ -367,7 +367,7 @@ fn long_blocks_are_compared_in_bounded_time() {
     assert_eq!(compare(&old, &new, &Options::default()).edits().count(), 1);
 }
 
-/// NEW made from OLD by the edits alone.
+/// NEW, made from OLD by applying the edits.
 fn applied(old: &Program, new: &Program, comparison: &Comparison) -> Vec<u8> {
     let mut out = Vec::new();
     let mut at = 0;
@@ -432,7 +432,7 @@ proptest! {
             let names: Vec<&str> = (0..6).filter(|i| bits & 1 << i != 0).map(|i| Ignore::NAMES[i]).collect();
             ignoring(&names.join(","))
         };
-        // lines that are gone or new: a changed one is one of each
+        // counts removed and added lines; a changed line counts as one of each
         let found = |bits: u8| -> usize {
             let weigh = |edit: &Edit| if matches!(edit, Edit::Changed(..)) { 2 } else { 1 };
             compared(&old, &new, ignore(bits), 0.0).edits().map(weigh).sum()
@@ -479,7 +479,7 @@ fn the_command_and_its_formats() {
     assert_eq!(json["summary"]["letters"]["F"], 1);
     let html = stdout(&postform(&["diff", old, new, "--format", "html"]));
     assert!(html.contains("<mark>F320.</mark>") && html.contains("(&lt;b&gt;&amp;)"), "{html}");
-    // the page asks nobody; what is named is no address but the language of its picture
+    // the page loads nothing; the only URL in it is the XML namespace of its picture
     assert!(!html.replace("http://www.w3.org/2000/svg", "").contains("http"));
     let motion = postform(&["diff", old, new, "--motion"]);
     assert_eq!(motion.status.code(), Some(1));
@@ -524,7 +524,7 @@ fn forms_and_what_they_change() {
     assert_eq!((same.status.code(), stdout(&same).as_str()), (Some(0), ""));
 }
 
-/// As the documentation says, in a repository of its own.
+/// Uses git as the documentation describes, in a repository of its own.
 #[test_with::executable(git)]
 #[test]
 fn git_shows_programs_by_their_words() {
@@ -549,7 +549,7 @@ fn git_shows_programs_by_their_words() {
     assert!(shown.contains("F in 1 block") && shown.contains("1 block changed"), "{shown}");
 }
 
-/// The page in a real browser, where one is installed.
+/// Shows the page in a real browser, if one is installed.
 #[test_with::executable(chromium || chromium-headless-shell || google-chrome)]
 #[test]
 fn the_page_is_shown_by_a_browser() {
@@ -578,6 +578,6 @@ fn the_page_is_shown_by_a_browser() {
     });
     let output = browser.unwrap();
     let bytes = fs::read(&picture).unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)));
-    // an empty page makes a far smaller picture
+    // the picture of an empty page is much smaller
     assert!(bytes.starts_with(b"\x89PNG") && bytes.len() > 20_000, "{} bytes", bytes.len());
 }

@@ -1,4 +1,4 @@
-//! What lies under `editors/`: colours that know every name, and versions that agree.
+//! Tests the files under `editors/`: the highlighting covers every name, and the versions agree.
 
 use std::fs;
 use std::process::Command;
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::support::root;
 
-/// Runs a script that tries the configuration of an editor's page, with this program.
+/// Runs a script that tests the configuration on an editor's page, with this build's postform.
 fn tried(script: &str) {
     let ran = Command::new(root().join("editors").join(script)).arg(env!("CARGO_BIN_EXE_postform")).output().unwrap();
     let said = String::from_utf8_lossy(&[ran.stdout, ran.stderr].concat()).into_owned();

@@ -1,4 +1,4 @@
-//! What is written for people who embed postform: the examples as they print, and the promises of the front door.
+//! For users of the library: the examples print what they should, and the public interface keeps its guarantees.
 
 use std::error::Error as _;
 use std::io::{self, Cursor};
@@ -18,7 +18,8 @@ fn post() -> Post {
     Post::compile(Source::from_text("fanuc.pf", FORM), &NoFiles).unwrap()
 }
 
-/// Standard output of an example. `cargo test` has built it; where the tests are built alone, cargo does it now.
+/// Standard output of an example. `cargo test` has built the example; if only the tests were built, cargo builds it
+/// here.
 fn printed(example: &str) -> String {
     let built = Path::new(env!("CARGO_BIN_EXE_postform")).with_file_name("examples").join(example);
     let mut command = if built.exists() {
@@ -69,7 +70,7 @@ fn an_error_shows_the_line_that_it_is_about() {
     let (first, marked) = (error.to_string(), format!("{error:#}"));
     let margin = " ".repeat(line.to_string().len());
     assert_eq!(marked, format!("{first}\n{line} | X[hh]\n{margin} |   ^^"));
-    // a job has no line of a form
+    // an error in a job contains no line of the form
     let error = post().render(Job::json("{}").named("part.json"), &Options::default()).unwrap_err();
     assert_eq!(format!("{error:#}"), error.to_string());
 }
@@ -112,7 +113,7 @@ fn a_program_is_whole_or_nothing() {
     let error = post().render_to(Job::json(&JOB[..JOB.len() / 2]), &Options::default(), &mut cut).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Job);
     assert_eq!(error.findings().diags.last().unwrap().code.name(), "PJ007");
-    // events that stop too early are no program, either
+    // events that end too early give no program
     let error = post().render(Job::events(|_| Ok(())), &Options::default()).unwrap_err();
     assert!(error.to_string().contains("Event::Finish"), "{error}");
 }
@@ -131,7 +132,7 @@ fn inputs_of_all_kinds_are_one_job() {
     text(stream.again());
     assert_eq!(post().render(stream.again(), &options).unwrap_err().kind(), ErrorKind::Usage);
     assert_eq!(Job::open("what?", "hello").unwrap_err().kind(), ErrorKind::Usage);
-    // a program as a job makes the same cuts
+    // a program that is read as a job gives the same cuts
     let again = post().render(Job::nc(EXPECTED), &options).unwrap();
     assert!(!matches!(post().verify(Job::nc(EXPECTED), again.text()).unwrap(), Verdict::Different(_)));
 }

@@ -1,4 +1,4 @@
-//! What the file of a program is called where `--output` names a folder, and which post of a file prints it.
+//! The file name of a program if `--output` is a folder, and the choice of a post from a file with several.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -48,7 +48,7 @@ fn form_and_job_name_the_file() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!((output.status.code(), written(&folder)), (Some(0), vec![name.to_owned()]), "{head}: {said}");
         assert!(said.contains(&format!("{name} is written")), "{said}");
-        // and again, in its place
+        // the second run replaces the file
         assert_eq!(render(&folder, &mill(head, ""), &named, &["-o", "out"]).status.code(), Some(0));
         assert_eq!(written(&folder), [name]);
     }
@@ -79,7 +79,7 @@ fn a_file_of_several_posts_prints_by_one_of_them() {
     let none = render(&folder, &both, &job, &["--post", "Mazak"]);
     let said = String::from_utf8_lossy(&none.stderr).into_owned();
     assert!(none.status.code() == Some(2) && said.contains("Haas one, Haas two"), "{said}");
-    // places are those of the file
+    // locations are those in the file
     let broken = format!("{}\n{}", post("A", "M30"), post("B", "M30 X["));
     let line = broken.lines().position(|line| line.contains("M30 X[")).unwrap() + 1;
     let said = render(&folder, &broken, &job, &["--post", "B"]);

@@ -1,5 +1,5 @@
-//! The canonical layout: idempotent, and what is rendered stays the same, over all forms that ship and many that are made
-//! of them by changing their layout.
+//! The canonical layout is idempotent and does not change programs. Tested with all shipped forms and with many
+//! variants of their layout.
 
 use crate::support;
 use std::fs;
@@ -18,7 +18,7 @@ fn laid_out(text: &str) -> String {
     format(&Source::from_text("form.pf", text))
 }
 
-/// Posts, sample forms and the fences of the rule pages.
+/// Posts, sample forms, and the code blocks on the pages of the rules.
 fn forms() -> Vec<String> {
     let posts = fs::read_dir(root().join("postforms")).unwrap().map(|e| e.unwrap().path());
     let own = samples().into_iter().filter_map(|folder| sample_form(&folder));
@@ -30,7 +30,7 @@ fn forms() -> Vec<String> {
     forms
 }
 
-/// The programs of these samples, or why there is none.
+/// The programs of these samples; for a sample that can't be printed, the error code.
 fn programs(form: &Checked, folders: &[std::path::PathBuf]) -> Vec<Result<String, &'static str>> {
     let one = |folder: &std::path::PathBuf| {
         let options = Options { program: Some(1), ..Options::default() };
@@ -48,7 +48,7 @@ fn what_ships_renders_the_same_and_stays_as_it_is() {
         assert_eq!(laid_out(&once), once, "not idempotent:\n{text}");
         let (before, after) = (checked(text.as_bytes()), checked(once.as_bytes()));
         assert_eq!(programs(&before, &folders), programs(&after, &folders), "{text}\n--- laid out\n{once}");
-        // findings stay, but for those of the layout itself; those of words that are lost stay in any case
+        // findings stay the same, except those about the layout; findings about lost words always stay
         let layout = ["PF102", "PF103", "PF107", "PF204"];
         let codes = |form: &Checked| {
             let found = postform::internals::lint::lint(form, &Levels::default()).diags;
@@ -93,7 +93,7 @@ fn files_are_laid_out_in_place_and_standard_input_is_a_filter() {
     assert_eq!(String::from_utf8(output.stdout).unwrap(), once);
 }
 
-/// A change of a form's layout: none of them means anything.
+/// Changes the layout of a form's line without changing its meaning.
 fn change(line: &str, kind: u8) -> String {
     match kind {
         0 => format!("{line}  "),
@@ -103,11 +103,11 @@ fn change(line: &str, kind: u8) -> String {
         4 => format!("\n{line}"),
         5 => format!("{line}\n\n# on its own"),
         6 => format!("{line}\n   a remark by indenting"),
-        // sequences, commands and variables, not the letters
+        // in sequences, commands and variables, but not in letters
         7 => line.replace("End", "END").replace("StartCode", "STARTCODE").replace("[h]", "[H]"),
         8 => line.replace('[', "<").replace(']', ">"),
         9 => line.replace("] F[", "]F[").replace("] Y[", "]Y["),
-        // an argument directly after the semicolon, and a tab in a remark
+        // an argument directly after the semicolon, or a tab in a comment
         11 if line.starts_with("Dwell ") => line.replacen(' ', ";", 1),
         12 if line.starts_with("Custom") => format!("{line}\tfor this mill"),
         13 if line.starts_with("Comment ") || line.starts_with("Control ") => line.replacen(' ', "; ", 1),
@@ -118,7 +118,7 @@ fn change(line: &str, kind: u8) -> String {
 
 static FORMS: std::sync::LazyLock<Vec<String>> = std::sync::LazyLock::new(forms);
 
-/// In backquotes a tab is printed like any other character: no fix takes it out.
+/// A tab in backquotes is printed like any other character, so no fix removes it.
 #[test]
 fn a_tab_in_backquotes_is_text() {
     let tabs = |line: &str| {
@@ -131,7 +131,7 @@ fn a_tab_in_backquotes_is_text() {
     assert_eq!(tabs("`MSG`\t`(A\tB)`"), 1);
 }
 
-/// A name alone between brackets is a variable, whatever blanks are around it; a calculation keeps its blanks.
+/// A name alone in brackets is a variable, even with blanks around it. A calculation keeps its blanks.
 #[test]
 fn names_with_blanks_around_them_are_names() {
     let text = |word: &str| format!("LineCode\nG1 {word} F[frate]\nEnd\n");
@@ -146,7 +146,7 @@ fn names_with_blanks_around_them_are_names() {
     }
 }
 
-/// What is no word stays as typed, with the words that touch it: `a<0>` alone would lose its brackets.
+/// Text that is no word stays as typed, with the words that touch it. Alone, `a<0>` would lose its brackets.
 #[test]
 fn text_that_is_no_word_stays_as_typed() {
     let form = "Drill\n>a<0>0\nEnd\n";
@@ -172,10 +172,10 @@ proptest! {
         prop_assert_eq!(programs(&before, &folders), programs(&after, &folders), "{}\n--- laid out\n{}", other, once);
     }
 
-    /// Whatever the text: the layout ends, is stable, and has the same findings that keep it from being printed.
+    /// For any text, formatting ends, gives a stable layout, and keeps the findings that prevent printing.
     #[test]
     fn any_text_has_a_layout(text in "(([A-Za-z0-9#;%:()\\[\\]<>.+~ \t\"-]{0,20}|End|Drill|StartCode|X->3.>4|Rapid G0|End Cancel|X\\[h\\] Y\\[v\\])\r?\n){0,30}") {
-        // in the head of a form that is right, so that what is found is about the text
+        // the head of the form is correct, so all errors come from the text
         let text = format!("{text}\n{}", support::mill("", ""));
         let once = laid_out(&text);
         prop_assert_eq!(&laid_out(&once), &once);
@@ -189,7 +189,7 @@ proptest! {
     }
 }
 
-/// What is no form stays as it is: by its name, or because a line of it makes no sense.
+/// A file that is not a form is left unchanged: by its name, or because one of its lines makes no sense.
 #[test]
 fn what_is_no_form_is_left_alone() {
     use crate::support::folder::{Folder, err};
@@ -210,7 +210,7 @@ fn what_is_no_form_is_left_alone() {
     }
     folder.run(&["lint", "--fix", "Makefile"]);
     assert_eq!(folder.read("Makefile"), "all:\n\tgcc x.c\n");
-    // a part that a form calls, one that is asked for, and standard input
+    // files that are formatted: one that a form calls, one with --force, and standard input
     folder.write("form.pf", support::mill("Call part.inc", ""));
     folder.write("part.inc", "RapidCode\nG0 X<h> Y[v] Z[d]\nEnd\n");
     assert_eq!(folder.run(&["fmt", "part.inc"]).status.code(), Some(0));

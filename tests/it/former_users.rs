@@ -1,5 +1,5 @@
-//! What forms of the older compiler hold: it means here what it meant there. What its users write into CL files stands in
-//! tests/data/cycles.json, and files of several posts in texts.rs and file_names.rs.
+//! Forms written for the older compiler have the same meaning here. Statements of its users in CL files are tested in
+//! tests/data/cycles.json, files with several posts in texts.rs and file_names.rs.
 
 use crate::support::{check, program};
 
@@ -50,7 +50,7 @@ End
 
 #[test]
 fn a_form_of_the_older_compiler_prints() {
-    // angle brackets are brackets, a remark after two blanks is one, and nothing of it is an error
+    // angle brackets are brackets, text after two blanks is a comment, and nothing in the form is an error
     let found = check(FORM);
     let serious: Vec<_> = found.diags.iter().filter(|diag| diag.is_error()).collect();
     assert!(serious.is_empty(), "{serious:?}");
@@ -61,7 +61,7 @@ fn a_form_of_the_older_compiler_prints() {
              \"feed\":100{dwell},\"points\":{points}}}}}]}}]}}"
         )
     };
-    // Upon [d] fires in a cycle, too: it ends, and begins again
+    // Upon [d] prints inside a cycle too: the cycle ends and is started again
     let printed = program(FORM, &hole("", "[[1,1,0],{\"at\":[3,3,0],\"depth\":7}]"));
     let holes: Vec<&str> = printed
         .iter()
@@ -83,12 +83,12 @@ fn a_form_of_the_older_compiler_prints() {
         ],
         "{printed:?}"
     );
-    // a drill that dwells takes the facing cycle, where the form has one
+    // a drill cycle with a dwell is printed as a facing cycle, if the form has one
     let printed = program(FORM, &hole(",\"dwell\":1", "[[1,1,0]]"));
     assert!(printed.iter().any(|line| line == "G99 G82 X1. Y1. Z-5. R1. P1000 F100."), "{printed:?}");
 }
 
-/// The names of variables that the older compiler shortened or had besides.
+/// Variable names that the older compiler abbreviated or had in addition.
 #[test]
 fn variables_of_the_older_compiler_are_known() {
     for name in ["endh", "endv", "hcdc", "vcdc", "lastrotang", "etplane", "arcrad", "endang", "depth", "cool"] {

@@ -1,5 +1,5 @@
-//! FreeCAD documents: each of our own, made with 0.20.2 and 1.1.3, gives the job that FreeCAD's own Python says it has.
-//! The dumps beside them were made inside FreeCAD from the reopened documents.
+//! FreeCAD documents, made with FreeCAD 0.20.2 and 1.1.3. The reader must give the job that FreeCAD's own Python gives.
+//! The dumps next to the documents were made inside FreeCAD from the reopened documents.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::io::{Cursor, Write as _};
@@ -19,14 +19,14 @@ fn data(file: &str) -> PathBuf {
     support::root().join("tests/data/freecad").join(file)
 }
 
-/// Where a path leads, said step by step: what the reader's events and FreeCAD's commands must both come to.
+/// The steps of a path as text. The reader's events and FreeCAD's commands must give the same steps.
 #[derive(Default)]
 struct Steps {
     said: Vec<String>,
     at: [f64; 3],
     feed: f64,
     cycle: Option<CycleSpec>,
-    /// Rapids that count only where no hole of the same operation follows.
+    /// Rapids that count only if no hole of the same operation follows.
     rapids: Vec<String>,
     drilled: bool,
 }
@@ -65,7 +65,7 @@ impl Steps {
 
     fn hole(&mut self, hole: String, level: f64) {
         if self.drilled {
-            self.rapids.clear(); // they only lead from hole to hole
+            self.rapids.clear(); // they only lead from one hole to the next
         }
         self.say(hole);
         self.at[2] = level;
@@ -142,7 +142,7 @@ fn dumped(dump: &Value) -> Vec<String> {
         if item["kind"] != "operation" {
             continue;
         }
-        // 0.20 leaves comments and stops out of its own list: they are where they stand among the operations
+        // 0.20 omits comments and stops from its own list: they are taken from the list of operations
         while old && bare.peek().is_some_and(|next| next["controller"].is_null()) {
             stops(&mut steps, &bare.next().unwrap()["commands"]);
         }
@@ -193,7 +193,7 @@ fn path(steps: &mut Steps, commands: &Value, feeds: &[f64; 2]) {
         let word = |letter: &str| command[1].get(letter).and_then(Value::as_f64);
         let to = ["X", "Y", "Z"].map(word);
         if let (Some(f), true) = (word("F"), name != "G0") {
-            // a controller's feed, which saving has rounded to six decimals
+            // a controller's feed; saving has rounded it to six decimals
             steps.feed = 60.0 * feeds.iter().copied().find(|own| (own - f).abs() < 1.5e-6).unwrap_or(f);
         }
         let [x, y, z] = steps.at;
@@ -216,7 +216,7 @@ fn path(steps: &mut Steps, commands: &Value, feeds: &[f64; 2]) {
                     "G84" => "tap",
                     _ => "ream",
                 };
-                // a tap's F is its pitch
+                // F of a tap is its pitch
                 let feed = if kind.ends_with("tap") { word("F").unwrap() * word("S").unwrap() } else { steps.feed };
                 let [x, y, bottom] = to.map(Option::unwrap);
                 let r = word("R").unwrap();
@@ -260,7 +260,7 @@ fn archive(members: &[(&str, &[u8])]) -> Vec<u8> {
     zip.finish().unwrap().into_inner()
 }
 
-/// Objects as FreeCAD writes them: name, then property, type's element and value.
+/// Objects as FreeCAD writes them: name, then for each property its type, element and value.
 fn document(objects: &[(&str, &[(&str, &str)])]) -> String {
     let mut text =
         String::from("<?xml version='1.0' encoding='utf-8'?>\n<Document ProgramVersion=\"1.1R1\"><ObjectData>");
@@ -308,7 +308,7 @@ fn with_path(path: &str) -> Vec<u8> {
     archive(&[("Document.xml", text.as_bytes()), ("Op.nc", path.as_bytes())])
 }
 
-/// A document in which a property of an object is another.
+/// The document with another value for a property of an object.
 fn changed(object: &str, property: &str, value: &str) -> Vec<u8> {
     let objects: Vec<(&str, Vec<(&str, &str)>)> =
         [("Job", JOB), ("Operations", OPERATIONS), ("Op", OPERATION), ("Tool", TOOL)]
@@ -325,7 +325,7 @@ fn changed(object: &str, property: &str, value: &str) -> Vec<u8> {
     archive(&[("Document.xml", document(&objects).as_bytes()), ("Op.nc", b"G0 X1 Y1 Z5\nG1 Z-1 F2\n")])
 }
 
-/// Code, message and place of what a document is refused for, or `read`.
+/// Code, message and location of the refusal of a document, or `read`.
 fn refused(bytes: &[u8], options: &Options) -> String {
     struct Nothing;
     impl Sink for Nothing {
@@ -350,7 +350,7 @@ fn events(bytes: &[u8]) -> Vec<String> {
     steps.said.into_iter().filter(|said| !tool(said)).collect()
 }
 
-/// Tools of these small documents have no diameter.
+/// Accepts the tools of these small documents, which have no diameter.
 struct Lenient<'a>(&'a mut Steps);
 
 impl Sink for Lenient<'_> {
@@ -362,7 +362,7 @@ impl Sink for Lenient<'_> {
     }
 }
 
-/// A document whose operation the user typed: FreeCAD's Custom.
+/// A document with an operation whose commands the user typed (FreeCAD's Custom).
 fn typed(path: &str) -> Vec<u8> {
     let mut operation = OPERATION.to_vec();
     operation.push(("Gcode", "<StringList><String value=\"\"/></StringList>"));
@@ -370,7 +370,7 @@ fn typed(path: &str) -> Vec<u8> {
     archive(&[("Document.xml", text.as_bytes()), ("Op.nc", path.as_bytes())])
 }
 
-/// What no job has is printed as it was typed; after a G code it is unknown what the rest means, so that it is text too.
+/// A command without an equivalent in a job is printed as typed. After an unknown G code, the rest is text too.
 #[test]
 fn a_custom_operation_prints_what_was_typed() {
     let folder = Folder::new("freecad-custom");
@@ -381,7 +381,7 @@ fn a_custom_operation_prints_what_was_typed() {
         let output = folder.run(&[&["render", "job.FCStd", "--form", form, "--set", "header=off"], more].concat());
         out(&output) + &err(&output)
     };
-    // feeds are millimetres a second in the document
+    // in the document, feeds are in millimetres per second
     for (rest, printed) in [
         ("M64 P1", "\nM64 P1\nG0 X1. Y1. Z50.\n"),
         ("G38.2 Z-10 F2", "\nG38.2 Z-10 F120\nG0 Z50\n"),
@@ -393,17 +393,17 @@ fn a_custom_operation_prints_what_was_typed() {
     }
     assert!(post("M64 P1", &[]).contains("identical"));
     assert!(post("G2 X3 Y3 R2 F2", &[]).contains(" G2 X3. Y3. I2. J0 F120.\n"), "{}", post("G2 X3 Y3 R2 F2", &[]));
-    // text is not converted
+    // text is not converted to other units
     let said = post("G53 X5", &["--units", "inch"]);
     assert!(said.contains("PR035") && said.contains("the text has X5 in the units of the job"), "{said}");
     let none = &Options::default();
     for code in ["M6 T2", "M2", "M30"] {
         assert!(refused(&typed(code), none).starts_with("PD003"), "{code}");
     }
-    // FreeCAD's own operations have no such commands
+    // operations that FreeCAD makes itself never contain this command
     assert!(refused(&with_path("M64 P1"), none).starts_with("PD003 M64: a command that a job can't contain"));
     assert!(refused(&with_path("G91 X1"), none).starts_with("PD003"));
-    // a stop takes no words, and none is lost
+    // a stop with another word is refused, so no word is lost
     assert!(refused(&with_path("M1 P5"), none).starts_with("PD003 M1: a word P that a job can't contain"));
     assert!(post("M1 P5", &[]).contains("M1 P5"), "{}", post("M1 P5", &[]));
     assert!(refused(&typed("G2 X3 Y3 I1 R1"), none).starts_with("PD003 G2: an arc with a radius and a centre"));
@@ -467,7 +467,7 @@ fn broken_documents_are_refused() {
     );
     let text = document(&[("Job", JOB), ("Operations", OPERATIONS), ("Op", OPERATION), ("Tool", TOOL)]);
     starts(&archive(&[("Document.xml", text.as_bytes())]), "PD001 the archive has no `Op.nc`");
-    // what is damaged inside is seen by its checksum
+    // a checksum detects damaged contents
     let mut bytes = with_path(&"G0 X1 Y1 Z5\n".repeat(500));
     let at = bytes.windows(5).position(|window| window == b"Op.nc").unwrap() + 8;
     bytes[at] ^= 0x55;
@@ -540,7 +540,7 @@ fn no_word_of_a_path_is_lost() {
     assert!(refused(&with_path(&long), &Options::default()).starts_with("PD003 a line of a path that can't be read"));
 }
 
-/// Rapids that only lead from hole to hole belong to the cycle; one over a clamp does not.
+/// Rapids that only lead from hole to hole belong to the cycle. A rapid over a clamp is kept.
 #[test]
 fn rapids_between_holes_count_where_they_avoid_something() {
     let hole = |x: i32| format!("G81 X{x} Y0 Z-5 R2 F1\n");
@@ -561,7 +561,7 @@ fn rapids_between_holes_count_where_they_avoid_something() {
     assert_eq!(one.0, "R C H H E R .");
 }
 
-/// Rapids, cycles' beginnings and ends, holes, as letters.
+/// Rapids, starts and ends of cycles, and holes, as letters.
 #[derive(Default)]
 struct Cycles(String);
 
@@ -579,7 +579,7 @@ impl Sink for Cycles {
     }
 }
 
-/// As a user does it, for four posts: the program is printed and makes the motions of the document.
+/// Documents are printed with four posts as a user does it. Each program makes the motions of its document.
 #[test]
 fn documents_are_posted_and_proven() {
     for name in DOCUMENTS {
@@ -601,7 +601,7 @@ fn documents_are_posted_and_proven() {
     }
 }
 
-/// Ends of the cuts that LinuxCNC's interpreter makes of a program, millimetres; what takes it nowhere is left out.
+/// End points of the cuts in millimetres, from LinuxCNC's interpreter; cuts of zero length are left out.
 fn cuts(program: &str, name: &str) -> Vec<[f64; 3]> {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
     let (file, table) = (folder.join(format!("freecad-{name}.ngc")), folder.join("tools.tbl"));
@@ -628,7 +628,7 @@ fn cuts(program: &str, name: &str) -> Vec<[f64; 3]> {
     ends
 }
 
-/// FreeCAD's own programs of the documents, and ours, in the interpreter: every cut ends at the same place.
+/// FreeCAD's own programs and ours, run by the interpreter: all cuts end at the same positions.
 #[test_with::executable(rs274)]
 #[test]
 fn the_interpreter_cuts_what_freecads_own_program_cuts() {
@@ -639,7 +639,7 @@ fn the_interpreter_cuts_what_freecads_own_program_cuts() {
             .output()
             .unwrap();
         let theirs = std::fs::read_to_string(data(&format!("{name}.linuxcnc.ngc"))).unwrap();
-        // its comments may nest parentheses, which the interpreter refuses
+        // FreeCAD's comments may contain nested parentheses, which the interpreter refuses
         let theirs: String = theirs.lines().filter(|line| !line.contains('(')).flat_map(|line| [line, "\n"]).collect();
         let ours = cuts(&String::from_utf8_lossy(&ours.stdout), &format!("{name}.ours"));
         let theirs = cuts(&theirs, &format!("{name}.theirs"));

@@ -1,5 +1,5 @@
-//! The worked examples of the POSTFORM manual: what the sample of each prints from the example's own sequence is the
-//! example's expected lines, exactly.
+//! The worked examples of the POSTFORM manual. From the example's own sequence, the sample of each example must print
+//! exactly the expected lines.
 
 use crate::support;
 use std::fs;
@@ -26,7 +26,7 @@ fn worked_examples_are_exact() {
         if case["kind"] == "program" {
             assert_eq!(lines, expected, "{id}");
         } else if strings(&case["sequence"]).len() == 1 {
-            // a command line, whose blocks are generated
+            // this example is a command, so its lines are in generated blocks
             assert!(lines.windows(expected.len()).any(|found| found == expected), "{id}: {lines:?}");
         } else {
             let from_sequence = lines_of(&case["sequence"], case["kind"] == "cycle", &form, &rendered);
@@ -37,7 +37,7 @@ fn worked_examples_are_exact() {
     assert!(seen == cases.len() && seen > 10, "{seen}");
 }
 
-/// The program lines that come from a sequence of the form, and for a cycle from Cancel.
+/// The program lines that come from this sequence of the form; for a cycle also those of Cancel.
 fn lines_of(sequence: &Value, cycle: bool, form: &std::path::Path, rendered: &support::Rendered) -> Vec<String> {
     let checked = check_file(form);
     let source = &checked.files[0];

@@ -1,4 +1,5 @@
-//! Programs and what Grbl 1.1h does with them, as its own parser answered: the same motions, the same first refusal.
+//! Programs with the results of Grbl 1.1h's own parser. The simulator must make the same motions and refuse the same
+//! block first.
 
 use std::fs;
 use std::io::Cursor;
@@ -9,18 +10,18 @@ use postform::internals::nc::{Action, Cooling, Item, Position, Rotation, RunErro
 use postform::toolpath::{Direction, FeedMode, Plane, Units};
 use serde_json::Value;
 
-/// An action, in mm and machine coordinates.
+/// An action, in millimetres and machine coordinates.
 #[derive(Clone, Debug, PartialEq)]
 enum Done {
     Rapid([f64; 3]),
-    /// End and feed; the feed counts blocks a minute under G93.
+    /// End and feed; true: G93 (inverse time).
     Feed([f64; 3], f64, bool),
-    /// End, centre from the start, degrees (negative: clockwise), feed.
+    /// End, centre relative to the start, angle in degrees (negative: clockwise), feed.
     Arc([f64; 3], [f64; 3], f64, f64, bool),
     Dwell(f64),
     Pause,
     End,
-    /// What the spindle and the coolant do after a line.
+    /// The state of spindle and coolant after a line.
     Spindle(Rotation, f64),
     Coolant(bool, bool),
 }
@@ -47,15 +48,15 @@ impl Done {
     }
 }
 
-/// What was done, with its lines; the refused line with the number of Grbl's answer.
+/// The actions with their lines; and the refused line, if there is one, with Grbl's error number.
 type Ended = (Vec<(u64, Done)>, Option<(u64, u64)>);
 
-/// The simulator between two lines.
+/// The state of a run between two lines.
 struct Run {
     simulator: Simulator<'static>,
     scale: f64,
     at: [f64; 3],
-    /// The zero of the line before.
+    /// The program zero of the line before.
     frame: [f64; 3],
     mode: FeedMode,
     spindle: Done,
@@ -77,7 +78,7 @@ impl Run {
         }
     }
 
-    /// All lines; the refused one with Grbl's number.
+    /// Runs all lines. Returns the actions and the refused line.
     fn all(mut self) -> Ended {
         loop {
             let mut items = Vec::new();
@@ -95,14 +96,14 @@ impl Run {
         }
     }
 
-    /// The actions of a line. The frame is that at its end, which is the frame of all its moves.
+    /// Handles the actions of a line. The frame at the end of the line applies to all its moves.
     fn take(&mut self, items: &[Item]) {
         let (mut turning, mut coolant, line) = (self.spindle.clone(), self.coolant, self.simulator.line());
         let frame = self.frame();
         let is_frame = |item: &Item| matches!(item.action, Action::Frame | Action::Work(_));
         let reframed = items.iter().rposition(is_frame);
         for (i, item) in items.iter().enumerate() {
-            // G92.1 and M2 move the frame after the move
+            // G92.1 and M2 change the frame after the move
             let before = reframed.is_some_and(|at| i < at);
             let frame = if before { self.frame } else { frame };
             match &item.action {
@@ -145,7 +146,7 @@ impl Run {
         }
     }
 
-    /// Where the program's zero is, in mm.
+    /// The position of the program zero in millimetres.
     fn frame(&self) -> [f64; 3] {
         let zero = self.simulator.state().in_machine_coordinates(&[0.0; 6]);
         let inch = self.simulator.state().units() == Units::Inch;
@@ -181,7 +182,7 @@ impl Run {
     }
 }
 
-/// What Grbl did, with the switches as they are after each line.
+/// The recorded actions of Grbl, with the state of spindle and coolant after each line.
 fn recorded(case: &Value) -> Vec<(u64, Done)> {
     let mut list: Vec<(u64, Done)> = Vec::new();
     let mut switches: Vec<(u64, Done)> = Vec::new();
@@ -232,18 +233,18 @@ fn recorded(case: &Value) -> Vec<(u64, Done)> {
     list
 }
 
-/// A spindle that stands has no speed.
+/// A stopped spindle has speed 0.
 fn spindle(rotation: Rotation, speed: f64) -> Done {
     Done::Spindle(rotation, if rotation == Rotation::Stop { 0.0 } else { speed })
 }
 
-/// With mist, as some builds have it: a control of a shop's own.
+/// A control like Grbl with mist coolant, which some builds of Grbl have.
 fn with_mist() -> &'static Control {
     let text = "name = \"mist\"\nlike = \"grbl\"\n[coolant]\nmist = true\n";
     Box::leak(Box::new(Control::read("mist.toml", text).unwrap()))
 }
 
-/// How a case differs, if it does.
+/// The difference between a case and the simulator, if there is one.
 fn difference(case: &Value, control: &'static Control) -> Option<String> {
     let (ours, refused) = Run::new(case["program"].as_str().unwrap(), control).all();
     let error = &case["error"];
@@ -276,13 +277,13 @@ fn programs_do_what_grbl_does() {
     assert!(cases.len() >= 449);
 }
 
-/// The samples that the Grbl post prints; what it can't print is an error of the job.
+/// The Grbl post prints the samples; a sample that it can't print must be an error of the job.
 #[test]
 fn grbl_takes_every_sample_that_its_post_prints() {
     let form = root().join("postforms/grbl.pf");
     let mut taken = 0;
     for folder in samples() {
-        // a lathe's form has other axes
+        // a form for a lathe has other axes
         let mill = sample_form(&folder)
             .is_none_or(|form| check_file(&form).form.settings.machine == postform::internals::lang::Machine::Mill);
         let Some(rendered) = mill.then(|| render_sample(&folder, &form).ok()).flatten() else { continue };
@@ -293,7 +294,7 @@ fn grbl_takes_every_sample_that_its_post_prints() {
     assert!(taken >= 40, "{taken}");
 }
 
-/// What Grbl has no code for is an error of the job, with what to do instead.
+/// If Grbl has no code for an item of the job, the error explains the alternative.
 #[test]
 fn what_grbl_lacks_is_an_error_of_the_job() {
     let form = check_file(&root().join("postforms/grbl.pf"));
@@ -317,7 +318,7 @@ fn what_grbl_lacks_is_an_error_of_the_job() {
     assert!(rendered(&job(start)).is_ok());
 }
 
-/// A program that was cut off: Grbl knows no end, and turns the spindle on.
+/// A program that ends without an end code: Grbl accepts it, and the spindle keeps turning.
 #[test]
 fn a_spindle_without_an_end_is_told() {
     let warned = |program: &str| {

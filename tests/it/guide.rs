@@ -1,5 +1,5 @@
-//! docs/guide.md as a reader does it: its files are written into an empty folder, its commands are run there, and what they
-//! print is what stands in the guide. `TRYCMD=overwrite cargo test guide::` writes the outputs again.
+//! Follows docs/guide.md like a reader: writes its files into an empty folder, runs its commands there, and compares
+//! their output with the guide. `TRYCMD=overwrite cargo test guide::` writes the outputs into the guide again.
 
 use crate::support;
 use std::fs;
@@ -13,7 +13,7 @@ fn every_step_does_what_the_guide_shows() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("guide");
     _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    // until the guide writes its own, no configuration from above
+    // until the guide writes its own postform.toml, an empty one hides those of folders above
     fs::write(folder.join("postform.toml"), "").unwrap();
     let path = root().join("docs/guide.md");
     let text = fs::read_to_string(&path).unwrap();
@@ -39,7 +39,7 @@ fn every_step_does_what_the_guide_shows() {
             }
         }
         made += "\n```\n";
-        // the line end belongs to what follows
+        // the line end belongs to the following text
         rest = &rest[rest.len() - after.len()..];
     }
     made += rest;
@@ -50,7 +50,7 @@ fn every_step_does_what_the_guide_shows() {
     support::assert_same("docs/guide.md", &text, &made);
 }
 
-/// A command and what it prints, as on a terminal.
+/// The output of a command as on a terminal.
 fn run(folder: &Path, line: &str) -> String {
     let mut args: Vec<&str> = line.split(' ').collect();
     args.retain(|arg| !arg.is_empty());

@@ -1,4 +1,5 @@
-//! What the posts that ship say about a program at its beginning: what a machinist reads, and that the program is the same without it.
+//! The headers that shipped posts print at the beginning of a program for the machinist. Without the header, the
+//! program must be the same.
 
 use std::fs;
 
@@ -7,7 +8,7 @@ use postform::internals::render::Options;
 use postform::internals::sema::PropertyValue;
 use postform::{Job, NoFiles, Post, Source};
 
-/// The posts that ship, by their names.
+/// The shipped posts, by their names.
 fn posts() -> Vec<(String, String)> {
     let files = fs::read_dir(root().join("postforms")).unwrap().map(|entry| entry.unwrap().path());
     let name = |path: &std::path::Path| path.file_stem().unwrap().to_string_lossy().into_owned();
@@ -29,7 +30,7 @@ fn without_its_header_a_program_is_byte_for_byte_what_it_was() {
             let (path, kind) = sample_job(&folder);
             let job = fs::read(path).unwrap();
             let what = format!("{name} with {}", folder.display());
-            // a job may switch the header off itself
+            // a job may turn off the header itself
             let bare = String::from_utf8_lossy(&job).replace("\"set\": {\"header\": false},", "");
             match (print(&plain, bare.as_bytes(), kind, None), print(&form, &job, kind, Some(false))) {
                 (Ok(plain), Ok(off)) => assert_same(&what, &plain.text, &off.text),
@@ -41,13 +42,13 @@ fn without_its_header_a_program_is_byte_for_byte_what_it_was() {
     assert!(programs > 500, "{programs}");
 }
 
-/// With the header a program has more comments, and not one word more.
+/// With the header, a program has more comments, but no additional word.
 #[test]
 fn a_header_is_comments_alone() {
     let words = |text: &str, mark: char| -> Vec<String> {
         let block = |line: &str| {
             let block = line.split(mark).next().unwrap_or_default().trim_end();
-            // block numbers count comments too
+            // block numbers also count comments
             let is_number = |word: &str| word.starts_with('N') || word.bytes().all(|byte| byte.is_ascii_digit());
             let words = block.split(' ').skip_while(|word| is_number(word));
             words.collect::<Vec<_>>().join(" ")
@@ -99,7 +100,7 @@ fn a_machinist_reads_what_comes() {
         "(T3 D6)",
     ];
     assert_eq!(comments[..header.len()], header);
-    // and where each begins
+    // and the comment at the beginning of each operation
     assert_eq!(comments[header.len()..], ["(HOLES)", "(CONTOUR)", "(SPRING CUT)"]);
 }
 
@@ -112,7 +113,7 @@ fn a_header_keeps_nobody_from_streaming() {
         assert_eq!(post.reads_once_with().as_deref(), Some("header=no"), "{name}");
         options.properties.push(("header".into(), "off".into()));
         assert!(!post.reads_ahead(&options).unwrap(), "{name}");
-        // the next tool, which some jobs say in their head, is no header
+        // the next tool, which some jobs list in their head, does not belong to the header
         assert_eq!(post.may_read_twice(&options).unwrap(), form.contains("T[nexttool]"), "{name}");
         options.one_pass = true;
         options.proof = None;

@@ -1,4 +1,4 @@
-//! `Incremental? Y`: an increment is printed only from a position that the control shares.
+//! `Incremental? Y`: an increment is printed only from a position that the control certainly has.
 
 use crate::support::{job, mill, path_lines, program};
 
@@ -9,7 +9,7 @@ fn increments(sequences: &str, path: &str) -> Vec<String> {
 #[test]
 fn increments_count_from_what_the_tool_change_printed() {
     assert_eq!(increments("", "{\"line\":[1,0,1]},{\"line\":[1,2,0.5]}"), ["G1 X1. F10.", "Y2. Z-.5"]);
-    // this tool change leaves the height out: nobody knows it
+    // this tool change does not print the height, so it is unknown
     let low = mill("Incremental? Y", "").replace(" Z[d]", "");
     assert!(program(&low, &job("{\"line\":[1,0,0]}"))[0].starts_with("PR001 an increment of Z"));
 }
@@ -28,7 +28,7 @@ fn a_cycle_that_prints_positions_is_printed_as_moves() {
     let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
     let moves = ["G0 X1. Y1.", "Z-.9", "G1 Z-1.1 F5.", "G0 Z1.1"];
     assert_eq!(increments(drill, path), moves);
-    // a form may say how
+    // a form may print G90 itself
     let own = drill.replace("G81", "G90 G81");
     assert_eq!(increments(&own, path)[2], "G90 G81 X1. Y1. Z-1. R.1 F5.");
 }
@@ -72,7 +72,7 @@ fn a_higher_hole_after_g90_is_not_approached_by_an_increment() {
     assert!(lines[0].starts_with("PR040"), "{lines:?}");
 }
 
-/// An Upon goes to the position that it prints: what is left of the move counts from there.
+/// An Upon moves to the position that it prints. The rest of the move counts from that position.
 #[test]
 fn increments_count_from_what_an_upon_printed() {
     let rapid = "RapidCode\nG0 X[hdist] Y[vdist] Z[ddist]\nEnd";
@@ -82,7 +82,7 @@ fn increments_count_from_what_an_upon_printed() {
     assert_eq!(lines, ["G0 Z1.", "G91 G28 Z0", "G90 G55 G0 X1. Y2. Z1.", "G91", "X1."]);
     let without = increments(&upon("X[h] Y[v]"), path);
     assert!(without[0].starts_with("PR001 [ddist] has no value here"), "{without:?}");
-    // nobody goes to a position after the offset
+    // without the Upon, the position in the new work offset is unknown
     let bare = increments(rapid, path);
     assert!(bare[0].starts_with("PR001 [hdist] has no value here"), "{bare:?}");
 }

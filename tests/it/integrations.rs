@@ -1,11 +1,11 @@
-//! The posts that run inside CAM systems, tested in their own languages without those systems.
+//! Runs the tests of the posts inside CAM systems. They are in the posts' own languages and do not need the systems.
 #![allow(clippy::unwrap_used)]
 
 use std::process::Command;
 
 use crate::support;
 
-/// Runs tests of another language, which find this build's postform in `POSTFORM`.
+/// Runs tests in another language. They find this build's postform in the variable `POSTFORM`.
 fn passes(program: &str, arguments: &[&str]) {
     let done = Command::new(program)
         .args(arguments)
@@ -19,14 +19,15 @@ fn passes(program: &str, arguments: &[&str]) {
     assert!(said.contains("Ran ") || said.contains("# pass "), "no test ran: {said}");
 }
 
-/// FreeCAD's own objects by stand-ins, made of what was dumped inside it; `just freecad` runs the post inside FreeCAD.
+/// Stand-ins replace FreeCAD's objects; they are made from dumps of FreeCAD. `just freecad` runs the post inside
+/// FreeCAD.
 #[test_with::executable(python3)]
 #[test]
 fn the_post_for_freecad_prints_what_the_saved_document_gives() {
     passes("python3", &["integrations/freecad/test_postform_post.py"]);
 }
 
-/// Autodesk's engine by a stand-in that has what its documentation says.
+/// A stand-in replaces Autodesk's post engine. It has the functions of Autodesk's documentation.
 #[test_with::executable(node)]
 #[test]
 fn the_post_for_fusion_writes_the_job() {

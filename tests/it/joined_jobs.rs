@@ -42,12 +42,12 @@ fn the_second_job_follows_the_first() {
     let text = program.text();
     assert!(text.contains("(PART)") && !text.contains("(OTHER)"), "{text}");
     assert_eq!(text.matches("M30").count(), 1, "{text}");
-    // flood is not left on for the job without coolant
+    // the flood coolant of the first job is turned off for the second job, which has no coolant
     let second = &text[text.find("G55 X3. Y4.").unwrap()..];
     assert!(!second.contains("M8"), "{text}");
 }
 
-/// What one job leaves in force must not change the next one.
+/// A job is refused if a state that the job before it leaves active would change its meaning.
 #[test]
 fn a_job_that_would_change_its_meaning_is_refused() {
     let first = job(HEAD, FIRST);
@@ -70,7 +70,7 @@ fn a_job_that_would_change_its_meaning_is_refused() {
         (&first, second("\"tool\":2", "\"tool\":1"), "the tool stays the same"),
         (&surface, second(r#""speed":2000,"#, r#""speed":100,"mode":"css","#), "highest spindle speed"),
     ] {
-        // the tool of the second job is used by the first one, too
+        // the second job has another tool under a number that the first job also uses
         let first = first.replace(r#""operations":["#, &format!(r#""operations":[{SECOND},"#));
         let found = refused(&first, &second);
         assert!(found.starts_with("PJ014 b:") && found.contains("b can't follow a: "), "{reason}: {found}");
@@ -103,14 +103,14 @@ fn subprograms_are_not_shared() {
     }
 }
 
-/// A message names the job that conflicts, which need not be the one before.
+/// The message names the job that conflicts, which is not always the previous one.
 #[test]
 fn the_job_that_conflicts_is_named() {
     let third = job(HEAD, FIRST).replace(r#""diameter":10"#, r#""diameter":8"#);
     let texts = [job(HEAD, FIRST), job(HEAD, SECOND), third];
     let error = post("haas.pf").render(join(&texts), &Options::default()).unwrap_err().to_string();
     assert!(error.contains("c can't follow a: its tool 1"), "{error}");
-    // what is in a subprogram stays in force, too
+    // a state that a subprogram sets also stays active
     let form = std::fs::read_to_string(root().join("samples/sub-call/form.pf")).unwrap();
     let post = Post::compile(Source::from_text("form.pf", form), &NoFiles).unwrap();
     let head = HEAD.replace("mm", "inch");
@@ -120,7 +120,7 @@ fn the_job_that_conflicts_is_named() {
     assert!(error.contains("contains text for the program"), "{error}");
 }
 
-/// An error is located in its own job, whoever finds it: the reader, the renderer, or the proof.
+/// An error has its location in its own job, whether the reader, the renderer or the proof finds it.
 #[test]
 fn errors_name_their_job() {
     let folder = Folder::new("joined");
@@ -171,7 +171,7 @@ fn errors_name_their_job() {
     assert_eq!(out(&fed), folder.read("part.nc"));
 }
 
-/// The cuts and holes of a program, by the simulator, with their work offset.
+/// The cuts and holes of a program with their work offsets, from the simulator.
 fn cuts(folder: &Folder, program: &str) -> Vec<String> {
     folder.write("program.nc", program);
     let simulated = folder.run(&["simulate", "program.nc", "--control", "haas"]);
@@ -204,8 +204,8 @@ fn operations() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// The joined program makes the cuts of the separate programs, one after the other, and is proven. Where the tool stays the
-    /// same, the job before ends with `home`; without it, the jobs are refused.
+    /// The joined program makes the cuts of the separate programs in order, and is proven. If both jobs use the same
+    /// tool, the first one ends with `home`; without it, the jobs are refused.
     #[test]
     fn a_joined_program_makes_the_cuts_of_its_parts(parts in prop::collection::vec(operations(), 2..4), home in prop::bool::weighted(0.7)) {
         let folder = Folder::new("joined-random");

@@ -1,4 +1,5 @@
-//! Jobs whose events are kept: they are the job again, with its locations, warnings and options.
+//! Jobs whose events are kept in memory give the same result as the original job, with the same locations, warnings and
+//! options.
 
 use std::fs;
 
@@ -10,7 +11,7 @@ use postform::{Format, Job, NoFiles, Options, Post, Source};
 fn printed(post: &Post, job: Job<'_>) -> (Result<String, String>, String) {
     match post.render(job, &Options::default()) {
         Ok(program) => (Ok(program.text().to_owned()), format!("{:?}", program.notes())),
-        // warnings of the whole job are known at the first error
+        // with kept events, the warnings of the whole job are already known at the first error
         Err(error) => {
             let errors: Vec<_> = error.findings().diags.iter().filter(|diag| diag.is_error()).collect();
             (Err(format!("{errors:?}")), String::new())

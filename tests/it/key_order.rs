@@ -1,4 +1,4 @@
-//! Keys of a job in any order: JSON objects have none.
+//! The keys of a job may be in any order, because objects in JSON have no order.
 
 use std::fs;
 use std::io::Cursor;
@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::program_commands::{fed, postform, text};
 use crate::support::{root, samples};
 
-/// A value as text, with the keys of each object turned on by as many as the numbers say.
+/// A value as text. The keys of each object are rotated by the next number.
 fn turned(value: &Value, by: &mut impl Iterator<Item = usize>) -> String {
     match value {
         Value::Object(map) => {
@@ -44,7 +44,7 @@ fn printed(post: &Post, job: Job<'_>) -> String {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2))]
 
-    /// Every sample's job prints the same program, whatever the order of its keys.
+    /// The job of every sample prints the same program in any order of keys.
     #[test]
     fn the_order_of_keys_changes_no_program(by in proptest::collection::vec(0usize..12, 1..40)) {
         let form = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
@@ -69,25 +69,25 @@ fn an_error_has_its_place_in_the_text_as_it_stands() {
     fs::write(&file, job).unwrap();
     let said = text(&postform(&["check", file.to_str().unwrap()]).stderr);
     assert!(said.contains("job.json:4:") && said.contains("operations[0].path[1].line"), "{said}");
-    // what stands after the job is an error in any order of keys
+    // text after the end of the job is an error in any order of keys
     for after in ["{\"postform\": 1}", " x", "}", ","] {
         fs::write(&file, job.replace("\"x\"", "1") + after).unwrap();
         let said = text(&postform(&["check", file.to_str().unwrap()]).stderr);
         assert!(said.contains("PJ008"), "{after}: {said}");
     }
-    // cut off: the same error as in the usual order
+    // a truncated job gives the same error as in the usual order
     for length in (0..job.len() - 2).step_by(3) {
         fs::write(&file, &job[..length]).unwrap();
         let output = postform(&["check", file.to_str().unwrap()]);
         assert_eq!(output.status.code(), Some(1), "{}", &job[..length]);
         let said = text(&output.stderr);
-        // the beginning of a job has an order of keys only after its first list
+        // the order of keys is known only after the first list of the job
         let is_named = said.contains("PJ007") || length < 90 && said.starts_with("PJ");
         assert!(is_named, "{}: {said}", &job[..length]);
     }
 }
 
-/// A stream can't be gone back in.
+/// The reader can't go back in a stream, so the error names the key that comes too late.
 #[test]
 fn a_stream_says_which_key_comes_too_late() {
     let arguments =

@@ -1,11 +1,11 @@
-//! The forms that ship: what each prints of a tap, a thread and a long travel, and how its program is proven.
+//! The shipped forms: their output for a tap, a thread and a long travel, and its proof.
 
 use std::fs;
 
 use crate::support::folder::{Folder, err, out};
 use crate::support::root;
 
-/// A mill's job in millimetres with this path.
+/// A job for a mill in millimetres, with this path.
 fn mill(path: &str) -> String {
     format!(
         "{{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{{\"number\":1}}],\"operations\":[{{\"tool\":1,\"work\":54,\
@@ -13,7 +13,7 @@ fn mill(path: &str) -> String {
     )
 }
 
-/// The program by a form that ships, and the verdict.
+/// The program of a shipped form, and the verdict.
 fn printed(test: &str, form: &str, job: &str) -> (Vec<String>, String) {
     let folder = Folder::new(&format!("kit-{test}-{form}"));
     folder.write("job.json", job);
@@ -64,7 +64,7 @@ fn a_haas_travels_more_than_a_metre() {
     }
 }
 
-/// P and Q of G76 have no point: they count thousandths of a millimetre, or ten-thousandths of an inch.
+/// P and Q of G76 have no decimal point: they are in units of 0.001 mm or 0.0001 inch.
 #[test]
 fn a_lathe_cuts_threads_in_both_units() {
     let inch = fs::read_to_string(root().join("samples/lathe-part/job.json")).unwrap();
@@ -81,7 +81,7 @@ fn a_lathe_cuts_threads_in_both_units() {
     assert!(said.contains("identical") || said.contains("equivalent"), "{said}");
 }
 
-/// A program that never says its units is not proven without `--units`, and different in the others.
+/// A program without a code for its units is not proven without `--units`. With the wrong units it is different.
 #[test]
 fn the_units_of_a_program_are_said_by_it_or_by_an_option() {
     let folder = Folder::new("kit-units");

@@ -1,5 +1,5 @@
-//! Programs in the languages of Siemens, Heidenhain and Okuma: what each call does, from the makers' texts and public programs
-//! (tests/data/languages, each case with its source), and the way through a program.
+//! Programs in the languages of Siemens, Heidenhain and Okuma: the effect of each call, from the makers' texts and
+//! public programs (tests/data/languages; each case names its source), and the order of execution.
 
 use std::fs;
 use std::io::Cursor;
@@ -8,7 +8,7 @@ use crate::support::{control, root};
 use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
 use serde_json::Value;
 
-/// What a program does, and the message of its refusal.
+/// The actions of a program, and the message if it is refused.
 fn actions(program: &str, name: &str) -> (Vec<Action>, Option<String>) {
     let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control(name)));
     let (mut all, mut items) = (Vec::new(), Vec::new());
@@ -25,7 +25,7 @@ fn actions(program: &str, name: &str) -> (Vec<Action>, Option<String>) {
     }
 }
 
-/// Is the value of an expectation, where it says one, that of the machine?
+/// Does the machine's value match the expected one? An expectation without a value matches all values.
 fn near(said: &Value, is: f64) -> bool {
     said.as_f64().is_none_or(|said| (said - is).abs() < 1e-6)
 }
@@ -36,7 +36,7 @@ fn is_place(said: &Value, at: &[f64; 6]) -> bool {
         && said["at_most"].as_f64().is_none_or(|most| at[2] <= most + 1e-9)
 }
 
-/// Does an action do what a row expects? Feeds a turn are told a minute there.
+/// Does an action match a row of expectations? Feeds per revolution are expected per minute.
 fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
     match (said["kind"].as_str().unwrap(), action) {
         ("rapid" | "retract", Action::Rapid { to, machine, .. }) => *machine & 0b100 == 0 && is_place(said, to),
@@ -63,7 +63,7 @@ fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
     }
 }
 
-/// Actions that a case lists or not.
+/// Is an action of a kind that the case lists?
 fn counts(action: &Action, listed: &[Value]) -> bool {
     let lists = |kind: &str| listed.iter().any(|said| said["kind"] == kind);
     match action {
@@ -87,11 +87,11 @@ fn wrong(case: &Value, name: &str) -> Option<String> {
         return Some(format!("refused: {message}"));
     }
     let per_turn = if program.contains("G95") { 400.0 } else { 1.0 };
-    // a shift is a rapid in the plane
+    // a shift in the plane appears as a rapid
     let rows: Vec<&Value> =
         expected.iter().filter(|said| !said["kind"].as_str().unwrap().starts_with("shift")).collect();
     let shifts = rows.len() < expected.len();
-    // a case that shows one block begins with it
+    // a case for a single block begins with that block
     let first = rows.first().map(|row| row["kind"].clone());
     if first == Some("length".into()) {
         let begin = found.iter().rposition(|action| matches!(action, Action::Length(_)));
@@ -101,7 +101,7 @@ fn wrong(case: &Value, name: &str) -> Option<String> {
     let mut turning = "off";
     for row in rows {
         let is_row = |action: &Action| is_expected(row, action, per_turn);
-        // the spindle may turn as a tap needs it
+        // the spindle may already turn in the direction that the tap needs
         if row["synchronous"] == true && row["dir"] == turning {
             continue;
         }
@@ -139,7 +139,7 @@ fn every_call_does_what_its_makers_text_says() {
     assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
-/// The ends of all moves, as `X Y Z`, and where the program was refused.
+/// The ends of all moves as `X Y Z`, and the refused line.
 fn ends(program: &str, name: &str) -> String {
     let (found, refused) = actions(program, name);
     let shown = |to: &[f64; 6]| {
@@ -224,7 +224,7 @@ fn an_okuma_jumps_and_calls() {
     }
 }
 
-/// What is not known ends the run with its name, and never passes without a word.
+/// An unknown word stops the run with an error that names the word. It is never skipped silently.
 #[test]
 fn what_is_not_read_is_refused_by_name() {
     let table = [
@@ -261,7 +261,7 @@ fn what_is_not_read_is_refused_by_name() {
     }
 }
 
-/// Empty, cut off, not UTF-8, hostile: an error, and no panic.
+/// Empty, truncated, non-UTF-8 and malicious programs give an error and never a panic.
 #[test]
 fn bad_programs_are_refused() {
     let deep = format!("R1={}1\nM30", "(".repeat(100_000));
@@ -285,7 +285,7 @@ fn bad_programs_are_refused() {
     }
 }
 
-/// What Siemens programs have and postform does not run is named as what it is, not as a missing subprogram.
+/// Features of Siemens programs that postform does not run are refused by their own names, not as missing subprograms.
 #[test]
 fn what_is_not_run_is_named() {
     let refused = |block: &str| actions(&format!("G17 G54\n{block}\nG0 X1\nM30"), "siemens").1;
@@ -302,7 +302,7 @@ fn what_is_not_run_is_named() {
     assert_eq!(refused("FNORM"), None);
 }
 
-/// A parameter of a cycle that is mistyped was passed over as a part of the cycle's name.
+/// A mistyped parameter of a cycle was ignored, because it was read as a part of the cycle's name.
 #[test]
 fn mistyped_parameters_of_a_cycle_are_refused() {
     let cycle = |words: &str| {
@@ -325,7 +325,7 @@ fn mistyped_parameters_of_a_cycle_are_refused() {
     }
 }
 
-/// A program whose control is not named is run by the one that its language shows.
+/// A program without a named control is run by the control that its language indicates.
 #[test]
 fn the_language_of_a_program_is_found() {
     for (program, name) in [
@@ -339,13 +339,14 @@ fn the_language_of_a_program_is_found() {
         let mut input = Cursor::new(program.as_bytes());
         let found = postform::internals::nc::settings_for(&mut input, std::path::Path::new(""), settings).unwrap();
         assert_eq!(found.control.name(), name, "{program}");
-        // another control is told, and reads nothing
+        // another control refuses the program and names the language
         let (_, refused) = actions(program, "grbl");
         assert_eq!(refused.is_some_and(|message| message.contains("reads another")), name != "fanuc", "{program}");
     }
 }
 
-/// After the way home the height is unknown. A rapid of the form's own that prints it had that of the hole's bottom.
+/// After a return to home the height is unknown. A rapid sequence of the form printed the height of the hole's bottom
+/// instead.
 #[test]
 fn a_rapid_of_the_forms_own_has_no_height_of_a_hole() {
     let form = fs::read_to_string(root().join("postforms/heidenhain.pf")).unwrap();
@@ -358,7 +359,7 @@ fn a_rapid_of_the_forms_own_has_no_height_of_a_hole() {
     assert!(error.contains("[d] has no value here"), "{error}");
 }
 
-/// `M140 MB MAX` goes up to the end of the travel, and an empty CYCLE800 turns nothing.
+/// `M140 MB MAX` moves up to the end of the travel. An empty CYCLE800 does not turn the part.
 #[test]
 fn resets_and_ways_home_are_run() {
     let (all, refused) =
@@ -371,7 +372,7 @@ fn resets_and_ways_home_are_run() {
     }
 }
 
-/// One part for two controls: holes by other pecks and rounded feeds are the same part; another depth, position or feed is none.
+/// One part for two controls. Other pecks and rounded feeds are no difference; another depth, position or feed is one.
 #[test]
 fn one_part_for_two_controls_is_compared_by_its_holes() {
     use postform::internals::verify::compare_motions;
@@ -403,7 +404,7 @@ fn one_part_for_two_controls_is_compared_by_its_holes() {
     }
 }
 
-/// The program of one machine, printed for another in another language: the same cuts and holes.
+/// A program for one machine is printed for another one in another language. Cuts and holes stay the same.
 #[test]
 fn a_program_is_printed_for_another_machine() {
     for from in ["haas", "okuma", "heidenhain"] {
@@ -419,7 +420,7 @@ fn a_program_is_printed_for_another_machine() {
                 "{from} to {to}: {said}"
             );
             assert!(said.contains("20 holes") || said.contains("16 holes"), "{from} to {to}: {said}");
-            // nothing but pecks and the parts of arcs is another
+            // only pecks and the parts of arcs differ
             let verdict = said.lines().find(|line| line.starts_with("equivalent")).unwrap();
             let counted = verdict.rsplit(": ").next().unwrap();
             assert!(
@@ -431,7 +432,7 @@ fn a_program_is_printed_for_another_machine() {
     }
 }
 
-/// A call whose subprogram is in no file is refused, and the blocks after it are run: the program is not cut off there.
+/// A call of a missing subprogram is refused, but the blocks after it are still run.
 #[test]
 fn a_refused_call_hides_nothing() {
     for (name, program) in [

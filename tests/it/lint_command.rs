@@ -1,4 +1,4 @@
-//! `postform lint` as it is run: reports against their schemas, configuration, fixes in files, wrong input.
+//! `postform lint` as a command: reports that match their schemas, configuration, fixes in files, wrong input.
 
 use crate::support;
 use std::fs;
@@ -8,13 +8,14 @@ use crate::support::folder::{Folder, err, out};
 use crate::support::{mill, root};
 use serde_json::Value;
 
-/// A line with a warning, a safe fix, an unsafe one and a note.
+/// A line with a warning, a safe fix, an unsafe fix and a note.
 const SEQUENCES: &str = "LineCode\nGl X<h> Y[v] Z[d]F[frate]\nEnd";
 
 fn schema(path: &str) -> jsonschema::Validator {
     let text = fs::read_to_string(root().join(path)).unwrap();
     let mut schema: Value = serde_json::from_str(&text).unwrap();
-    // SARIF's schema as published has a pattern for languages that strict readers refuse; we print no language
+    // the published SARIF schema contains a pattern for languages that strict validators refuse; our reports contain no
+    // language
     for holder in ["run", "toolComponent"] {
         if let Some(language) = schema.pointer_mut(&format!("/definitions/{holder}/properties/language")) {
             language.as_object_mut().unwrap().remove("pattern");
@@ -29,7 +30,8 @@ fn valid(schema: &jsonschema::Validator, value: &Value) {
     assert!(errors.is_empty(), "{}", errors.join("\n"));
 }
 
-/// Forms with findings of all kinds: names that need escaping, places in two files, no place at all.
+/// Forms with findings of all kinds: file names that need escaping, locations in two files, findings without a
+/// location.
 fn many() -> Folder {
     let folder = Folder::new("many");
     folder.write("b.pf", mill("Call common, 1%.inc", SEQUENCES));
@@ -79,7 +81,7 @@ fn reports_are_valid_and_ordered() {
     assert!(
         github.lines().all(|line| ["::error ", "::warning ", "::notice "].iter().any(|kind| line.starts_with(kind)))
     );
-    // the same however many are looked at together
+    // the output is the same in every run, although forms are checked in parallel
     for _ in 0..3 {
         assert_eq!(out(&folder.run(&["lint", ".", "--format", "github"])), github);
     }
@@ -132,9 +134,9 @@ fn configuration_gives_the_form_the_control_and_the_limits() {
     let output = folder.run(&["render", "jobs/job.json"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(out(&output).contains("G1 X1. Y1. Z0 F10.") && err(&output).contains("PF601"), "{}", err(&output));
-    // what the command line says comes first
+    // an option on the command line ranks before postform.toml
     assert_eq!(folder.run(&["render", "jobs/job.json", "--limits", "classic"]).status.code(), Some(1));
-    // LinuxCNC takes whole numbers, Fanuc does not
+    // LinuxCNC accepts numbers without a decimal point, Fanuc does not
     folder.write("program.nc", "G21\nG0 X1\nM2\n");
     assert_eq!(folder.run(&["simulate", "program.nc"]).status.code(), Some(0));
     assert_eq!(folder.run(&["simulate", "program.nc", "--control", "fanuc"]).status.code(), Some(1));
@@ -215,7 +217,7 @@ fn folders_are_not_left_through_links() {
     assert_ne!(folder.read("posts/own.pf"), text);
     assert_eq!(folder.read("outside/other.pf"), text);
     assert_eq!([folder.read("outside/notes.txt"), folder.read("posts/notes.txt")], [notes, notes]);
-    // one that is named is followed
+    // a link that is named on the command line is followed
     folder.run(&["fmt", "posts/other.pf"]);
     assert_ne!(folder.read("outside/other.pf"), text);
     // a form that calls a pipe
@@ -268,7 +270,7 @@ fn unsafe_fixes_show_the_program_before_and_after() {
     serde_json::from_str::<Value>(&out(&json)).unwrap();
 }
 
-/// A safe fix is one for the form that calls the file: its marks, its control.
+/// A fix of a called file is safe only for the form that calls it, with that form's comment marks and control.
 #[test]
 fn parts_are_mended_where_they_are_called() {
     let folder = Folder::new("parts");
@@ -282,14 +284,14 @@ fn parts_are_mended_where_they_are_called() {
     }
     folder.run(&["lint", "--fix", "--unsafe-fixes", "posts"]);
     assert_eq!(folder.read("posts/part.pf"), part.replace("GO", "G0"));
-    // two that call each other: one finding, and no form that nobody looked at
+    // two forms that call each other: one finding, and no form is left unchecked
     folder.write("ring/a.pf", mill("Call b.pf", ""));
     folder.write("ring/b.pf", "Call a.pf\n");
     let output = folder.run(&["lint", "ring", "--format", "github"]);
     assert_eq!((output.status.code(), out(&output).matches("PF009").count()), (Some(1), 1), "{}", out(&output));
 }
 
-/// What an unsafe fix changes must be seen before it is made.
+/// Unsafe fixes are applied only after their effect on a program was shown.
 #[test]
 fn unsafe_fixes_that_nobody_can_see_are_not_made() {
     let folder = Folder::new("unseen");
@@ -298,7 +300,7 @@ fn unsafe_fixes_that_nobody_can_see_are_not_made() {
     folder.write("broken.json", "{");
     let missing = folder.run(&["lint", "--fix", "--unsafe-fixes", "form.pf", "--job", "missing.json"]);
     assert_eq!((missing.status.code(), folder.read("form.pf")), (Some(2), text.clone()));
-    // places are those of the file, and safe fixes are not told as others
+    // locations are those in the file, and safe fixes are not listed as unsafe
     let shown = out(&folder.run(&["lint", "--unsafe-fixes", "form.pf"]));
     assert!(shown.starts_with("form.pf: 1 unsafe fix (made by --fix --unsafe-fixes):\n"), "{shown}");
     let line = text.lines().position(|line| line.starts_with("Gl")).unwrap() + 1;
@@ -342,7 +344,8 @@ fn called_files_are_named_by_their_paths() {
     folder.write("posts/part.inc", "Upon [work]\nG91\nEnd\n");
     let github = out(&folder.run(&["lint", "posts/form.pf", "--format", "github"]));
     assert!(github.contains("file=posts/part.inc,line=2"), "{github}");
-    // a part is looked at where it is called, even if it is called .pf and a shell names it; alone where nothing calls it
+    // a called file is checked with its caller, even if it ends with .pf and is named on the command line; it is
+    // checked alone only if no form calls it
     folder.write("posts/form.pf", mill("Call part.pf", ""));
     folder.write("posts/part.pf", "Leading0s? Y\n");
     let github = out(&folder.run(&["lint", "posts", "--format", "github"]));
@@ -352,7 +355,7 @@ fn called_files_are_named_by_their_paths() {
     assert_eq!(named, github);
     let github = out(&folder.run(&["lint", "posts/part.pf", "--format", "github"]));
     assert!(github.contains("file=posts/part.pf") && github.contains("PF005"), "{github}");
-    // a form that calls itself is one finding
+    // a form that calls itself gives one finding
     folder.write("posts/form.pf", mill("Call form.pf", ""));
     let output = folder.run(&["lint", "posts/form.pf", "--format", "github"]);
     assert!(out(&output).contains("title=PF009::`form.pf` is this form itself"), "{}", out(&output));
@@ -389,7 +392,7 @@ fn new_forms_are_clean_laid_out_and_print() {
         let output = folder.run(&["render", job.to_str().unwrap(), "--form", &name]);
         assert_eq!(output.status.code(), Some(0), "{control}: {}", err(&output));
         assert!(out(&output).lines().count() > 10);
-        // somebody's work stays
+        // an existing file is not replaced
         let again = folder.run(&["new", "--control", control, "-o", &name]);
         assert_eq!((again.status.code(), err(&again).contains("exists already")), (Some(2), true));
     }
@@ -410,7 +413,7 @@ fn shells_and_manuals() {
     }
 }
 
-/// Of thousands of findings the first are drawn, and all are counted.
+/// Of thousands of findings, only the first are drawn, but all are counted.
 #[test]
 fn thousands_of_findings_are_counted() {
     let folder = Folder::new("thousands");

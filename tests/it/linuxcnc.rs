@@ -1,4 +1,4 @@
-//! The LinuxCNC post through the interpreter of LinuxCNC itself, run as a separate program where it is installed.
+//! The LinuxCNC post, tested with LinuxCNC's own interpreter as a separate program, if it is installed.
 
 use crate::support;
 use crate::support::control;
@@ -13,9 +13,9 @@ use postform::internals::render::{Cycles, Options};
 use postform::internals::verify::{Comparer, Expectation, Verdict};
 use postform::toolpath::Sink;
 
-/// What the interpreter makes of a program: its canonical calls, or its error.
+/// The interpreter's output for a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> String {
-    // the interpreter keeps its tools in one place for all of its processes
+    // all processes of the interpreter share one file for its tools
     let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
     let arguments = ["-t".as_ref(), table.as_os_str(), "-g".as_ref(), program.as_os_str()];
     let output = nc::rs274(&[(&table, tools)], &arguments);
@@ -29,7 +29,7 @@ fn the_bracket_runs_to_its_end() {
     let tools: String = [1, 2, 3, 4, 5, 11].map(|n| format!("T{n} P{n} Z0 D0.5\n")).concat();
     let calls = interpreted(&program, &tools);
     assert!(calls.contains("PROGRAM_END()"), "{}", calls.lines().rev().take(4).collect::<Vec<_>>().join("\n"));
-    // every hole of the job is fed to its bottom
+    // every hole of the job is drilled to its bottom
     let fed = |x: &str, y: &str, z: &str| calls.contains(&format!("STRAIGHT_FEED({x}, {y}, {z}, "));
     for (x, y) in [("0.3750", "0.3750"), ("0.3750", "2.1250"), ("2.6250", "2.1250"), ("2.6250", "0.3750")] {
         assert!(fed(x, y, "-0.1000"), "spot at {x} {y}");
@@ -39,8 +39,8 @@ fn the_bracket_runs_to_its_end() {
     assert!(!fed("2.6250", "2.1250", "-0.8000"), "and no deeper");
 }
 
-/// Positions of the motions between the first and the end, by whether they feed; parts of one straight rapid are joined,
-/// so that up-and-across is one place.
+/// Positions of the motions before the end, each with whether it is a feed. Parts of one straight rapid are joined: up
+/// and across becomes one position.
 fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
     let mut list: Vec<(bool, [f64; 3])> = Vec::new();
     for line in calls.lines() {
@@ -61,7 +61,7 @@ fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
     list
 }
 
-/// What the real interpreter makes of its own cycles is what it makes of the moves: same bottoms, same planes.
+/// The interpreter must drill the same bottoms and planes by its own cycles as by single moves.
 #[test_with::executable(rs274)]
 #[test]
 fn cycles_of_the_control_go_where_the_moves_go() {
@@ -87,8 +87,8 @@ fn cycles_of_the_control_go_where_the_moves_go() {
     }
 }
 
-/// Every sample that this post can print: the interpreter's motions are those of the simulator, and the simulator's are
-/// those of the job. So the real interpreter does what the job asks for.
+/// For every sample that this post can print, the interpreter's motions must be those of the simulator, and the
+/// simulator's those of the job. The real interpreter then carries out the job.
 #[test_with::executable(rs274)]
 #[test]
 fn samples_run_in_the_interpreter_as_their_jobs_ask() {
@@ -113,14 +113,14 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
                 .is_ok()
             }
         };
-        // registers of diameters are tools of the table too
+        // diameter registers are also rows of the tool table
         let tools: String = (1..40).map(|n| format!("T{n} P{n} Z0 D0.0001\n")).collect();
         for cycles in [Cycles::Form, Cycles::Emulated] {
             let options = Options { cycles, program: Some(1), ..Options::default() };
-            // jobs for other machines, and what this post refuses
+            // jobs for other machines, and jobs that this post refuses
             let Ok(rendered) = support::render_sample_with(&folder, &form, options) else { continue };
             if rendered.notes.iter().any(|note| note.code == postform::diag::Code::PR023) {
-                continue; // ends under compensation, where no control goes home
+                continue; // ends with compensation on, in which case no control moves home
             }
             let name = folder.file_name().unwrap().to_string_lossy().into_owned();
             let mut comparer = Comparer::new(
@@ -132,7 +132,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             read(&mut comparer);
             let verdict = comparer.verdict().unwrap();
             if matches!(verdict, Verdict::NotProven(_)) || name.starts_with("custom") {
-                continue; // nothing that can be proven, as a subprogram; and what another form's custom cycle prints
+                continue; // not proven: for example subprograms, or custom cycles of another form
             }
             assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{}", rendered.text);
             let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sample-{name}-{cycles:?}.ngc"));
@@ -141,7 +141,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
             let (ours, ended, _) = simulated(rendered.text.as_bytes(), RunSettings::new(control("linuxcnc")));
             assert_eq!(ended, Ok(()), "{name}");
-            // the interpreter offsets the path under compensation, the simulator only follows it
+            // the interpreter outputs the compensated path, the simulator the programmed one
             if rendered.text.contains("G41") || rendered.text.contains("G42") {
                 compensated += 1;
             } else {
@@ -154,7 +154,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
     assert!(run >= 20, "{run} programs compared, {compensated} with compensation");
 }
 
-/// Rigid taps by G33.1: the interpreter's one call is the simulator's way in and out.
+/// Rigid taps by G33.1: the interpreter's single call must match the simulator's moves in and out.
 #[test_with::executable(rs274)]
 #[test]
 fn rigid_taps_run_as_in_the_interpreter() {

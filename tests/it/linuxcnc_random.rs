@@ -1,5 +1,5 @@
-//! Random programs through the simulator and through LinuxCNC's interpreter, where it is installed: the same motions,
-//! or a refusal at the same block.
+//! Random programs in the simulator and in LinuxCNC's interpreter, if it is installed: both must make the same motions,
+//! or refuse the same block.
 
 use crate::support::control;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::nc::{self, difference, interpreted, simulated};
 use postform::internals::nc::RunSettings;
 
-/// A generator of its own, so that a failing program can be made again from its number.
+/// A random generator with a seed, so that a failing program can be made again from its number.
 struct Random(u64);
 
 impl Random {
@@ -28,7 +28,7 @@ impl Random {
 fn program(number: u64) -> String {
     let mut random = Random(number * 7919 + 13);
     let mut text = String::from("G21 G17 G90 G40 G49 G80 F200 S1000\nG0 X1 Y2 Z3\n");
-    // the interpreter loses places where a shift meets a rotation, and units where they meet a dynamic tool offset
+    // the interpreter has faults if a shift meets a rotation, and if a change of units meets a dynamic tool offset
     let (shifts, units) = (random.below(2) == 0, random.below(2) == 0);
     for line in 0..random.below(14) + 3 {
         let mut words: Vec<String> = Vec::new();
@@ -75,7 +75,7 @@ fn program(number: u64) -> String {
                 ));
             }
             17 => {
-                // half circles about a centre in the plane, so that radii agree; and whole ones
+                // half circles about a centre in the plane, so that the radii agree; and full circles
                 let (i, j) = (random.below(9) + 1, random.below(9));
                 let word = random.pick(&["G2", "G3"]);
                 let end = random.pick(&["", "X[#5420 + 2 * I] ", "P2 "]).replace('I', &i.to_string());
@@ -106,7 +106,7 @@ fn random_programs_run_as_in_the_interpreter() {
     for number in 0..count {
         let text = program(number);
         let path = folder.join("random.ngc");
-        // what earlier programs left in its parameters must not matter
+        // the parameters are reset, so that values of earlier programs have no effect
         let parameters = folder.join("random.var");
         let arguments = ["-v".as_ref(), parameters.as_os_str(), "-g".as_ref(), path.as_os_str()];
         let output = nc::rs274(&[(&path, &text), (&parameters, PARAMETERS)], &arguments);
@@ -126,7 +126,7 @@ fn random_programs_run_as_in_the_interpreter() {
     assert!(run > 0 && refused > 0, "{run} programs run, {refused} refused");
 }
 
-/// Parameters that the interpreter wants in its file, all zero.
+/// Parameters that the interpreter requires in its file, all zero.
 const PARAMETERS: &str = "5161 0\n5162 0\n5163 0\n5164 0\n5165 0\n5166 0\n5181 0\n5182 0\n5183 0\n5184 0\n5185 0\n5186 0\n\
 5210 0\n5211 0\n5212 0\n5213 0\n5214 0\n5215 0\n5216 0\n5220 1\n5221 0\n5222 0\n5223 0\n5224 0\n5225 0\n5226 0\n5230 0\n\
 5241 0\n5242 0\n5243 0\n5244 0\n5245 0\n5246 0\n5250 0\n5261 0\n5262 0\n5263 0\n5264 0\n5265 0\n5266 0\n5270 0\n\

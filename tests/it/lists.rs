@@ -1,4 +1,5 @@
-//! What lies ahead: lists of tools, operations and work offsets, extents and sums, the next tool; what is refused.
+//! Values from later in the job: lists of tools, operations and work offsets, extents and sums, the next tool; and
+//! errors.
 
 use crate::support::{check, mill, program};
 use postform::{ErrorKind, Job, NoFiles, Options, Post, Source};
@@ -8,7 +9,7 @@ fn form(lines: &str) -> String {
     mill("Units both\nX->4.>4\nY->4.>4\nZ->4.>4", "").replacen("%0\n", &format!("%0\nG[unitmode]\n{lines}\n"), 1)
 }
 
-/// Options that prove nothing.
+/// Options without a proof.
 fn unproven() -> Options {
     let mut options = Options::default();
     options.proof = None;
@@ -23,7 +24,7 @@ fn codes(form: &str) -> Vec<&'static str> {
     codes
 }
 
-/// A job of these operations: the tool, its work offset, the path.
+/// A job of these operations: tool, work offset, path.
 fn job(operations: &[(u32, u32, &str)]) -> String {
     let operations = operations.iter().enumerate().map(|(i, (tool, work, path))| {
         format!(
@@ -41,7 +42,7 @@ fn job(operations: &[(u32, u32, &str)]) -> String {
 const LINE: &str = "{\"line\":[10,0,-1]}";
 const HOLES: &str = "{\"cycle\":{\"kind\":\"drill\",\"depth\":8,\"clear\":2,\"feed\":30,\"points\":[[1,2,0],[5,2,0]]}}";
 
-/// What lines of StartCode print.
+/// The output of these lines in StartCode.
 fn lines(lines: &str, job: &str) -> Vec<String> {
     let printed = program(&form(lines), job);
     match printed.iter().position(|line| line == "T1 M6") {
@@ -55,7 +56,7 @@ fn lists_print_once_for_each() {
     let job = job(&[(1, 54, LINE), (2, 54, HOLES), (1, 54, LINE), (3, 54, LINE)]);
     assert_eq!(
         lines("@for tool\n  (T[tool] [toolname] D[toold] S[speed] [opcount])\n@end", &job),
-        ["(T1 MILL D10 S1000 2)", "(T2 DRILL D5 S2000 1)"] // the third has no name, and a comment without its texts is left out
+        ["(T1 MILL D10 S1000 2)", "(T2 DRILL D5 S2000 1)"] // the third has no name: a comment with only empty texts is left out
     );
     assert_eq!(lines("@for tool\n(T[tool])\n@end", &job), ["(T1)", "(T2)", "(T3)"]);
     assert_eq!(
@@ -79,7 +80,7 @@ fn conditions_inside_a_list_are_asked_for_each() {
 #[test]
 fn sums_are_those_of_the_whole_program() {
     let job = job(&[(1, 54, LINE), (2, 54, HOLES)]);
-    // from 0 0 5 to 10 0 -1, then two holes of 2+8 at 30 mm/min
+    // from 0 0 5 to 10 0 -1, then two holes, each with 2 + 8 mm at 30 mm/min
     let length = (100.0_f64 + 36.0).sqrt() + 20.0;
     let seconds = ((100.0_f64 + 36.0).sqrt() / 60.0 + 20.0 / 30.0) * 60.0;
     let printed = lines("([toolcount] [opcount] [holecount] [round(cutlength*100)] [round(cuttime*100)])", &job);
@@ -93,9 +94,9 @@ fn extents_are_those_of_the_cuts_arcs_among_them() {
     assert_eq!(lines(extents, &job(&[(1, 54, arc)])), ["X-10. X10. Y0 Y10. Z0 Z5."]);
     let moves = "X[rhmin] X[rhmax] Y[rvmin] Y[rvmax] Z[rdmin] Z[rdmax]";
     assert_eq!(lines(moves, &job(&[(1, 54, arc)])), ["X-20. X10. Y0 Y10. Z0 Z50."]);
-    // a hole is cut from its clearance plane down
+    // the extents of a hole begin at its clearance plane
     assert_eq!(lines(extents, &job(&[(1, 54, HOLES)])), ["X1. X5. Y2. Y2. Z-8. Z2."]);
-    // the program's units
+    // in the program's units
     let post = Post::compile(Source::from_text("form.pf", form(extents)), &NoFiles).unwrap();
     let mut options = unproven();
     options.units = Some(postform::toolpath::Units::Inch);
@@ -115,7 +116,7 @@ fn each_work_offset_has_extents_of_its_own() {
     assert_eq!(lines("(X[hmin])", &job), [error]);
     assert_eq!(lines("X[hmin]", &job), [error]);
     assert_eq!(lines("@if [hmin]\n(X[hmin])\n@else\n(TWO PARTS)\n@end", &job), ["(TWO PARTS)"]);
-    // the first fixture and its code are one offset, and so is the form's own
+    // fixture number 1 and its code are the same offset, and so is the form's own number
     let one = job.replacen("\"work\":54", "\"work\":1", 1).replacen("\"work\":55", "\"work\":54", 1);
     assert_eq!(lines("(X[hmin] TO [hmax])", &one), ["(X0 TO 20)"]);
     let none = job.replacen(",\"work\":54", "", 1).replacen("\"work\":55", "\"work\":54", 1);
@@ -145,19 +146,19 @@ fn the_order_inside_a_list_is_that_of_its_items() {
         lines(text, &job),
         ["(T1 BEHIND T-, 1 0)", "(T2 BEHIND T1, 0 0)", "(T1 BEHIND T2, 0 0)", "(T3 BEHIND T1, 0 1)"]
     );
-    // in a tool change, too, where the program has its own
+    // also in a tool change, if the program has its own units
     let form = mill("Units both", "")
         .replace("T[tool] M6\n", "T[tool] M6\n@for tool\n@if [islasttool]\n(LAST IS T[tool])\n@end\n@end\n");
     let printed = program(&form.replace("%0\nEnd", "%0\nG[unitmode]\nEnd"), &job);
     assert_eq!(printed.iter().filter(|line| *line == "(LAST IS T3)").count(), 4, "{printed:?}");
 }
 
-/// A job in 54 with these subprograms whose operation goes this way.
+/// A job in work offset 54 with these subprograms, and this path of its operation.
 fn job_with(subprograms: &str, path: &str) -> String {
     job(&[(1, 54, path)]).replacen("\"operations\"", &format!("\"subprograms\":[{subprograms}],\"operations\""), 1)
 }
 
-/// What lines of StartCode print, by a form that has subprograms.
+/// The output of these lines in StartCode, by a form with subprograms.
 fn lines_with_subs(lines: &str, job: &str) -> Vec<String> {
     let subs = "SubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nM98 P[sub] L[times]\nEnd\n";
     let printed = program(&(form(lines) + subs), job);
@@ -173,7 +174,7 @@ fn a_work_offset_that_a_subprogram_says_is_its_own() {
     let own = job_with(sub, path);
     assert_eq!(lines_with_subs(each, &own), ["(G54: X0 TO 100 Y0 TO 0, 1)", "(G56: X0 TO 7 Y0 TO 7, 1)"]);
     assert_eq!(lines_with_subs("(X[hmin])", &own), ["PR052 [hmin] in a job with several work offsets"]);
-    // of a subprogram that a subprogram calls, of a call, and of a call in a subprogram
+    // work offsets of a subprogram inside a subprogram, of a call, and of a call in a subprogram
     let plain = sub.replace("{\"work\":56},", "");
     let calls = |before: &str| format!("{{\"number\":6,\"path\":[{before}{{\"call\":{{\"sub\":5}}}}]}}");
     let (knows, through) = (calls("{\"work\":54},"), path.replace("\"sub\":5", "\"sub\":6"));
@@ -193,7 +194,7 @@ fn a_work_offset_that_a_subprogram_says_is_its_own() {
 
 #[test]
 fn subprograms_that_call_each_other_are_counted_once_each() {
-    // each of twelve calls the next one thirty times: 30^11 runs of the last
+    // each of twelve subprograms calls the next one thirty times: the last one runs 30^11 times
     let sub = |number: u32| {
         let call = format!("{{\"call\":{{\"sub\":{}}}}}", number + 1);
         let path = if number == 12 {
@@ -220,11 +221,11 @@ fn a_point_without_its_height_is_as_high_as_the_one_before() {
         lines("([dmin] TO [dmax], [rdmax], [cutlength])", &job(&[(1, 54, &cycle(more, points))]))
     };
     assert_eq!(heights("", "[0,0,0],[10,0],[20,0]"), ["(-5 TO 2, 5, 21)"]);
-    // a return plane is that of the first point, whatever the others are
+    // the return plane is that of the first point for all points
     assert_eq!(heights(",\"return\":20", "[0,0,0],[10,0,10]"), ["(-5 TO 12, 20, 14)"]);
 }
 
-/// A lathe's form whose StartCode prints these lines; X is a diameter.
+/// A form for a lathe whose StartCode prints these lines; X is a diameter.
 fn lathe(lines: &str) -> String {
     format!(
         "Machine Lathe\nUnits both\nX->4.>4\nZ->4.>4\nI->4.>4\nK->4.>4\n\nStartCode\n%0\nG[unitmode] G18\n{lines}\nEnd\n\
@@ -244,7 +245,7 @@ fn a_time_that_nobody_knows_is_none() {
         let printed = program(&lathe(text), &job.replace("10,0,-1", to));
         printed.into_iter().filter(|line| line.starts_with('(')).collect()
     };
-    // on the axis of the part a surface speed means no turns, unless the job says the most
+    // at radius 0, a surface speed gives no spindle speed, unless the job has a limit
     assert_eq!(remarks("10,0"), ["(LONG)", "(10 MM IN - S)"]);
     assert_eq!(remarks("10,5"), ["(.1054 S)", "(11 MM IN .1054 S)"]);
 }
@@ -296,7 +297,7 @@ fn a_job_is_read_twice_only_where_the_form_asks() {
     once.one_pass = true;
     let (readings, refused) = count(&compile(form("([opcount])")), &once);
     assert_eq!((readings, refused.unwrap_err().kind()), (0, ErrorKind::Usage));
-    // a stream is held
+    // a stream is kept in memory
     let post = compile(form("([opcount])"));
     let stream = Job::stream(postform::Format::Json, job.as_bytes());
     assert!(post.render(stream, &Options::default()).unwrap().text().contains("(1)"));
@@ -324,7 +325,7 @@ fn wrong_lists_are_refused() {
     }
 }
 
-/// An operation that only says something has the offset in which it begins.
+/// An operation with only a comment has the work offset in which it begins.
 #[test]
 fn an_operation_without_moves_has_its_offset() {
     let job = job(&[(1, 55, LINE)]);
@@ -333,7 +334,8 @@ fn an_operation_without_moves_has_its_offset() {
     assert_eq!(lines("@for operation\n([opname] G[work])\n@end", &job), ["(OP 0 G55)", "(NOTE G56)"]);
 }
 
-/// A job that is read once and does not list its tools: a form that asks which come is no other program, but an error.
+/// If a job is read only once and does not list its tools, a form that uses the next tools gives an error, not another
+/// program.
 #[test]
 fn tools_ahead_are_not_guessed() {
     let text = mill(
@@ -353,7 +355,7 @@ fn tools_ahead_are_not_guessed() {
     assert!(!post.render(Job::json(&plain), &once).unwrap().text().contains("M9"));
 }
 
-/// A rigid tap goes in and out at its feed.
+/// The time of a rigid tap includes both the feed in and the feed out.
 #[test]
 fn a_rigid_tap_has_its_time() {
     let tap = "{\"cycle\":{\"kind\":\"tap\",\"rigid\":true,\"depth\":8,\"clear\":2,\"feed\":600,\"points\":[[0,0,0]]}}";
@@ -367,7 +369,8 @@ fn a_rigid_tap_has_its_time() {
     );
 }
 
-/// `[tool.holder]` is what the job says of the tool under `data`; what a tool does not have is empty, also after one that has it.
+/// `[tool.holder]` is the value under `data` of the tool. It is empty for a tool without the value, also after a tool
+/// that has it.
 #[test]
 fn fields_of_tools_are_those_of_the_tool() {
     let jobs = [LINE, LINE, LINE].map(|path| path.to_owned());
@@ -375,17 +378,17 @@ fn fields_of_tools_are_those_of_the_tool() {
     let data = "\"data\":{\"holder\":\"ER32\",\"stickout\":38.5},";
     let job = job.replacen("{\"number\":1,", &format!("{{\"number\":1,{data}"), 1);
     assert!(job.contains("ER32"), "{job}");
-    // a comment whose texts are all empty is left out
+    // a comment with only empty texts is left out
     let list = "@for tool\n  (T[tool] [tool.holder] [Tool.Stickout])\n@end";
     assert_eq!(lines(list, &job), ["(T1 ER32 38.5)"]);
     let asked = "@for tool\n@if [tool.holder] = \"ER32\"\n  (T[tool] IN ER32)\n@elif [tool.holder]\n  (OTHER)\n@else\n  (T[tool] IN WHAT)\n@end\n@end";
     assert_eq!(lines(asked, &job), ["(T1 IN ER32)", "(T2 IN WHAT)"]);
-    // at each operation, also the second of a tool
+    // in each operation, also in the second one of a tool
     let form = mill("Units both\nX->4.>4\nY->4.>4\nZ->4.>4", "Operation\n(AT [tool.holder] [opname])\nEnd\n");
     let printed = program(&form, &job);
     let said: Vec<&String> = printed.iter().filter(|line| line.starts_with("(AT")).collect();
     assert_eq!(said, ["(AT ER32 OP 0)", "(AT ER32 OP 1)", "(AT  OP 2)"], "{printed:?}");
-    // a name that is none is still said
+    // an invalid name is still reported
     let wrong = crate::support::check("StartCode\n(X [tool.])\nEnd\n");
     assert!(wrong.diags.iter().any(|diag| diag.message.contains("`tool.` is not a variable")), "{:?}", wrong.diags);
 }

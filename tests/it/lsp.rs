@@ -1,4 +1,4 @@
-//! `postform lsp` as an editor uses it: each feature by a client over standard input and output.
+//! `postform lsp` as an editor uses it: a test client checks each feature over standard input and output.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ const HAAS: &str = include_str!("../../postforms/haas.pf");
 const BRACKET: &str = include_str!("../../samples/bracket/job.json");
 const SETTINGS: &str = "form = \"my.pf\"\ncontrol = \"haas\"\njobs = [\"bracket/job.json\"]\n";
 
-/// A shop's folder: a form, a job, the settings.
+/// The folder of a shop: a form, a job, settings.
 fn shop(name: &str) -> Folder {
     let folder = Folder::new(&format!("lsp-{name}"));
     folder.write("postform.toml", SETTINGS);
@@ -21,7 +21,7 @@ fn shop(name: &str) -> Folder {
     folder
 }
 
-/// An editor in a shop's folder with a form open; the mark `|` in `to` is where the cursor is.
+/// An editor with an open form in a shop's folder. The mark `|` in `to` is the cursor position.
 struct Desk {
     editor: Editor,
     folder: Folder,
@@ -55,7 +55,7 @@ impl Desk {
         json!({ "textDocument": { "uri": self.editor.uri("my.pf") } })
     }
 
-    /// The text of a range of the form.
+    /// The text of a range in the form.
     fn text_of(&self, range: &Value) -> &str {
         slice(&self.text, range)
     }
@@ -88,7 +88,7 @@ fn a_form_is_linted_as_it_is_typed_with_the_levels_of_its_folder() {
     assert_eq!((codes(&found), &found[0]["severity"]), (vec!["PF202"], &json!(1)));
     let asked = |message: &&Value| message["method"] == "client/registerCapability";
     assert!(desk.editor.others.iter().find(asked).is_some_and(|message| message.to_string().contains("postform.toml")));
-    // another level in postform.toml, after it was saved
+    // with another level in postform.toml after it was saved
     desk.folder.write("postform.toml", format!("{SETTINGS}[rules]\nPF102 = \"error\"\n"));
     desk.editor.tell("workspace/didChangeWatchedFiles", &json!({ "changes": [] }));
     let uri = desk.editor.uri("my.pf");
@@ -105,7 +105,7 @@ fn a_part_is_looked_at_where_it_is_called() {
     folder.write("my.pf", format!("{}{tail}", head.replacen("Units both", "Units both\nCall cycles.pf", 1)));
     let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
     folder.write("cycles.pf", "");
-    // by itself it is no form: nothing of a StartCode is missed, and the open text of the caller counts
+    // alone it is not a whole form: no StartCode is required, and the caller's open text is used
     let found = editor.show("cycles.pf", "postform", "# cycles of all mills\n");
     assert_eq!(codes(&found), Vec::<&str>::new(), "{found:?}");
     folder.write("cycles.pf", "Q >3.>3\nX[h\n");
@@ -124,14 +124,14 @@ fn a_program_is_read_as_its_control_reads_it() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!((&found[0]["severity"], &found[0]["source"]), (&json!(1), &json!("postform (grbl)")));
     assert_eq!(found[0]["range"]["start"]["line"], 2);
-    // the same by the control that the program names, under another extension
+    // the control that the program names is used, for other file extensions too
     let found = editor.show("part.tap", "plaintext", &format!("(postform: control haas)\n{program}"));
     assert_eq!((codes(&found), &found[0]["severity"]), (vec!["PN017"], &json!(2)), "a Haas has G81, and minds points");
     let found = editor.show("part.ngc", "plaintext", &format!("(postform: control hass)\n{program}"));
     assert!(found[0]["message"].as_str().unwrap().contains("there is no control `hass`"), "{found:?}");
     let lens = editor.ask("textDocument/codeLens", &json!({ "textDocument": { "uri": editor.uri("part.nc") } }));
     assert_eq!(lens[0]["command"]["title"], "grbl (of postform.toml) refuses 1 block");
-    // the settings of the editor, where nobody else says it
+    // the editor's setting applies if no other source names a control
     folder.write("postform.toml", "");
     editor.tell("workspace/didChangeConfiguration", &json!({ "settings": { "postform": { "control": "linuxcnc" } } }));
     let uri = editor.uri("part.nc");
@@ -169,7 +169,7 @@ fn a_job_of_the_folder_is_read_and_printed() {
     assert_eq!(found[0]["severity"], 1, "{found:?}");
     let line = found[0]["range"]["start"]["line"].as_u64().unwrap() as usize;
     assert!(wrong.lines().nth(line).unwrap().contains("\"fed\""), "{found:?}");
-    // a file that no postform.toml names is nobody's job
+    // a file that postform.toml does not name is not checked as a job
     assert!(editor.show("other.json", "json", "{").is_empty());
     editor.quit();
 }
@@ -181,7 +181,7 @@ fn postform_toml_is_looked_at() {
     assert!(editor.show("postform.toml", "toml", SETTINGS).is_empty());
     let found = editor.change("postform.toml", &format!("{SETTINGS}contrl = \"haas\"\n"));
     assert_eq!(found[0]["range"]["start"]["line"], 3, "{found:?}");
-    // the form says so, too
+    // the form shows the error too
     folder.write("postform.toml", "contrl = 1\n");
     let found = editor.show("my.pf", "postform", HAAS);
     assert!(found[0]["message"].as_str().unwrap().contains("postform.toml"), "{found:?}");
@@ -207,7 +207,7 @@ fn commands_that_are_not_there_yet_come_with_their_shape() {
 
 #[test]
 fn variables_come_with_unit_meaning_and_value_in_the_current_job() {
-    // the word is half typed: the values are those of the last time the form printed
+    // the word is incomplete: the values are those of the last printed program
     let mut desk = Desk::new("variables", "", "");
     let half = HAAS.replacen("Z[d] R[vclear] F[frate]", "Z[d] R[vc", 1);
     desk.editor.ask("textDocument/codeLens", &desk.whole());
@@ -342,7 +342,7 @@ fn hints_show_what_words_print_and_lenses_the_verdict() {
     let labels: Vec<&str> = hints.as_array().unwrap().iter().map(|hint| hint["label"].as_str().unwrap()).collect();
     assert_eq!(labels, ["→ G98", "→ X1.5", "→ Y.3", "→ Z-.15", "→ R.1", "→ F6."]);
     assert_eq!(hints[1]["position"], json!({ "line": line, "character": "G[retplane] G81 X[h]".len() }));
-    // a long form has none unless somebody wants them
+    // hints are off in a long form unless the setting is `on`
     let long = format!("{}{HAAS}", "# a comment\n".repeat(500));
     desk.editor.change("my.pf", &long);
     let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 9999, "character": 0 } });
@@ -350,7 +350,7 @@ fn hints_show_what_words_print_and_lenses_the_verdict() {
     assert_eq!(desk.editor.ask("textDocument/inlayHint", &params), json!([]));
     desk.editor.tell("workspace/didChangeConfiguration", &json!({ "settings": { "inlayHints": "on" } }));
     assert!(desk.editor.ask("textDocument/inlayHint", &params).as_array().unwrap().len() > 50);
-    // a form with errors says so
+    // a form with errors shows that it has errors
     desk.editor.change("my.pf", &HAAS.replacen("X[h]", "X[hh]", 1));
     let lens = desk.editor.ask("textDocument/codeLens", &desk.whole());
     assert_eq!(lens[0]["command"]["title"], "1 error: prints nothing");
@@ -400,7 +400,7 @@ fn actions_mend_allow_and_show_what_they_do_to_the_program() {
         let after = edited(&desk.text, &named(&actions, name)["edit"]["changes"][&uri]);
         assert!(desk.editor.change("my.pf", &after).is_empty(), "{name}");
     }
-    // a safe fix, one by one and all at once
+    // safe fixes, one at a time and all at once
     let text = HAAS.replace("X[h] Y[v]", "X[h]Y[v]");
     let found = desk.editor.change("my.pf", &text);
     assert!(found.len() > 5);
@@ -437,7 +437,7 @@ fn formats_are_organised_and_forms_laid_out() {
     assert_eq!(laid_out, postform::internals::fmt::format(&postform::Source::from_text("my.pf", text)));
     editor.change("my.pf", &laid_out);
     assert_eq!(editor.ask("textDocument/formatting", &params), json!([]));
-    // of two lines that are laid out otherwise, the one of the range
+    // two lines need another layout; only the line in the range changes
     let twice = laid_out.replacen("Machine   Mill", "machine   Mill", 1).replacen("End Cancel", "end Cancel", 1);
     editor.change("my.pf", &twice);
     let line = twice.lines().position(|line| line == "machine   Mill").unwrap();
@@ -529,11 +529,11 @@ fn a_line_leads_to_its_blocks_and_a_block_to_its_line_and_its_item() {
     let program = fs::read_to_string(&path).unwrap();
     let number = blocks[0]["range"]["start"]["line"].as_u64().unwrap() as usize;
     assert!(program.lines().nth(number).unwrap().contains("G98 G81 X1.5 Y.3"), "{program}");
-    // what the command of the lens opens is the same file, and the editor is asked to show it
+    // the command of the lens opens the same file: the editor is asked to show it
     let params = json!({ "command": "postform.openProgram", "arguments": [desk.editor.uri("my.pf"), 0] });
     assert_eq!(desk.editor.ask("workspace/executeCommand", &params), json!(name));
     assert!(desk.editor.others.iter().any(|message| message["method"] == "window/showDocument"));
-    // back
+    // from the block back to the form
     let item = json!({ "uri": name, "languageId": "nc", "version": 1, "text": program });
     desk.editor.tell("textDocument/didOpen", &json!({ "textDocument": item }));
     assert!(desk.editor.findings(&name).is_empty());
@@ -542,7 +542,7 @@ fn a_line_leads_to_its_blocks_and_a_block_to_its_line_and_its_item() {
     assert!(desk.text_of(&lines[0]["range"]).starts_with("G[retplane] G81"), "{lines}");
     let items = desk.editor.ask("textDocument/implementation", &at);
     assert!(items[0]["uri"].as_str().unwrap().ends_with("bracket/job.json"), "{items}");
-    // a program that was printed into the folder leads back, too
+    // a program that was printed into the folder is also linked to the form
     let name = desk.editor.uri("bracket.nc");
     desk.editor.show("bracket.nc", "nc", &program);
     let at = json!({ "textDocument": { "uri": name }, "position": blocks[0]["range"]["start"] });
@@ -694,7 +694,7 @@ fn every_form_that_ships_is_served() {
         for method in ["documentSymbol", "foldingRange", "semanticTokens/full", "codeLens"] {
             assert!(!editor.ask(&format!("textDocument/{method}"), &document).is_null(), "{name}: {method}");
         }
-        // here and there: none of them may have no answer
+        // at many positions; every request must get an answer
         for at in (0..text.len()).step_by(211).filter(|at| text.is_char_boundary(*at)) {
             let params = json!({ "textDocument": { "uri": editor.uri(&name) }, "position": place(&text, at) });
             for method in ["hover", "completion", "signatureHelp", "definition", "references"] {
@@ -705,7 +705,7 @@ fn every_form_that_ships_is_served() {
     editor.quit();
 }
 
-/// The shop's values of properties hold in the editor as they do for `render`.
+/// The shop's property values apply in the editor as in `render`.
 #[test]
 fn properties_of_the_shop_hold() {
     let blocks = |name: &str, settings: &str| {

@@ -1,4 +1,4 @@
-//! Programs in machines: travels, fixtures, feeds, tools; files of machines and what is wrong in them.
+//! Checks of programs on machines: travels, fixtures, feeds, tools; and errors in machine files.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -24,7 +24,7 @@ fn fitted(program: &str, machine: &Machine) -> Fitted {
     preflight(Cursor::new(program), settings, machine, &[]).unwrap()
 }
 
-/// What is found: code, line, message.
+/// The findings: code, line, message.
 fn found(program: &str, file: &str) -> Vec<String> {
     let findings = fitted(program, &machine(file)).findings;
     findings.iter().map(|found| format!("{} {} {}", found.code.name(), found.line, found.message)).collect()
@@ -39,14 +39,15 @@ fn finds(program: &str, more: &str, expected: &[&str]) {
     }
 }
 
-/// What a block does not say as a position moves on from where the axis stands, whatever was on when it went there. Each was
-/// found beside LinuxCNC's interpreter, whose machine positions these are.
+/// An axis without a position in the block continues from its current position, regardless of the offsets that were
+/// active when it moved there. Each case was found by comparison with LinuxCNC's interpreter, whose machine positions
+/// these are.
 #[test]
 fn what_a_block_does_not_say_stays_or_moves_on() {
     let file = "control = \"linuxcnc\"\n[axes.X]\ntravel = [-1000, 1000]\n[axes.Y]\ntravel = [-1000, 1000]\n[axes.Z]\ntravel = [-1000, 1000]\n[axes.A]\ntravel = [10, 100]\n[reference]\nG28 = [-1, -2, -3]\n[offsets]\nG54 = [-100, -100, -100]\nG55 = [-200, -200, -200]\n[tools]\nfile = \"tool.tbl\"\n";
     let table = "T1 Z10\nT2 Z50\nT3 Z66.5 Y-14.5\n";
     let machine = read("m.toml", file, &|_| Ok(table.to_owned())).unwrap_or_else(|wrong| panic!("{wrong}"));
-    // the last row of an axis: from, to
+    // the blocks, an axis, and the last reported extent of this axis (from, to)
     let cases = [
         ("G55\nG91 G0 X5", 'X', [-99.0, -94.0]),
         ("F100 G55\nG91 G2 X5 Y0 I2.5 J0", 'X', [-99.0, -94.0]),
@@ -74,7 +75,8 @@ fn what_a_block_does_not_say_stays_or_moves_on() {
         let said = fitted.fit.not_checked.join("; ");
         assert!(said.contains("increments from an unknown machine position"), "{blocks}: {said}");
     }
-    // a helix in G19 whose frame is turned: the machine's X has its least within it, by LinuxCNC at -6.3332 inch
+    // a helix in G19 with a rotated frame: the machine's X has its minimum inside the helix, at -6.3332 inch in
+    // LinuxCNC
     let inch = "control = \"linuxcnc\"\nunits = \"inch\"\n[axes.X]\ntravel = [-100, 100]\n[offsets]\nG55 = [-4.12, -8.782, -3.94]\n";
     let program = "G20 G90 G94 F9\nG10 L2 P2 R45\nG55 G0 X0 Y0 Z0\nG19\nG1 Y-0.23 Z-0.8892 X-1.5596\nG3 Y-0.3534165 Z-0.1860424 X-1.5196 J0.8381818 K0.5095253\nM2\n";
     let turned = fitted(program, &read("m.toml", inch, &|_| Err(String::new())).unwrap());
@@ -100,19 +102,19 @@ fn an_axis_ends() {
         &["PM001 7 T5 needs X5 in machine coordinates, but the travel ends at X0: 5 mm too short; it fits with G54 \
              X 5 lower; beyond the travel from line 6 on"],
     );
-    // the middle of an arc: about 390, 0 with a radius of 20, from below to above
+    // the middle of an arc about 390, 0 with a radius of 20, from Y-20 to Y20
     finds("X390 Y-20 Z1\nG1 Z-1 F100\nG3 X390 Y20 J20", "", &["PM001 7 T5 needs X10 "]);
     finds("X370 Y0 Z1\nG1 Z-1 F100\nG3 X370 Y0 I10", "", &[]);
-    // a cycle and its return
+    // a cycle and its return height
     finds("G98 G81 X1 Y1 Z-251 R2 F100\nG80", "", &["PM001 5 T5 needs Z-511 "]);
-    // machine coordinates: without offset and length
+    // machine coordinates: without work offset and length
     finds("G53 G0 Z0\nG53 X-762 Y-406", "", &[]);
     finds("G53 G0 Z0\nG53 X-763", "", &["PM001 6 T5 needs X-763 "]);
     finds("G53 G0 Z10", "", &["PM001 5 T5 needs Z10 "]);
-    // the way to a reference point, and the point itself
+    // the intermediate position of G28, and the reference point itself
     finds("G28 Z300", "[reference]\nG28 = [0, 0, -10]\n", &["PM001 5 T5 needs Z40 "]);
     finds("G91 G28 Z0\nG90", "[reference]\nG28 = [0, 0, -10]\n", &[]);
-    // a shift, and the length taken off
+    // a shift of the frame, and a cancelled tool length
     finds("G52 X300.\nG0 X150", "", &["PM001 6 T5 needs X50 "]);
     finds("G49\nG0 Z-128\nZ-129", "", &["PM001 7 T5 needs Z-509 "]);
     finds("G44 H5 Z0", "", &[]);
@@ -141,10 +143,10 @@ fn what_is_not_known_is_an_interval() {
     let (all, codes) = sentences("", "[tools.6]\nlength = 100\n[offsets]\nG54 = [-400, -200, -380]\n");
     assert_eq!(all, "this program fits if the length H5 lies between -178 and 330");
     assert_eq!(codes, "PM011");
-    // longer than the travel: nothing would do
+    // longer than the travel: no offset would fit
     let (all, codes) = sentences("X800", "");
     assert!(codes == "PM001" && !all.contains("G54 X"), "{codes}\n{all}");
-    // the program sets its own offset
+    // the program sets its own work offset
     let (all, codes) = sentences("G10 L2 P1 X-400. Y-200. Z-380.\nG54 X10 Y10 Z10", "[tools.5]\nlength = 100\n");
     assert_eq!((all.lines().count(), codes.as_str()), (3, ""), "{all}");
 }
@@ -157,10 +159,10 @@ fn a_rapid_goes_through_a_clamp() {
     finds("Y16 Z10\nX60", clamp, &[]);
     finds("Y14.9 Z10\nX60", clamp, &["PM002 6"]);
     finds("Z10\nG1 X60 F100", clamp, &[]);
-    // from another offset, both being known
+    // from another work offset; both are known
     let other = format!("G55 = [-380, -200, -380]\n{clamp}");
     finds("G55\nX-20 Y0 Z10\nX40", &other, &["PM002 7"]);
-    // down on it in machine coordinates, with the tool's length
+    // down onto the clamp in machine coordinates, with the tool's length
     finds("G53 G0 Z0\nX30\nG53 Z-250\n", clamp, &["PM002 7"]);
 }
 
@@ -213,7 +215,7 @@ fn a_wrong_file_is_named_by_line_and_column() {
     assert!(read("vf2.toml", "", &|_| Err(String::new())).is_ok(), "a file may say nothing");
 }
 
-/// What the commands do with it: nothing printed, and the way around.
+/// Commands with a program that does not fit: it is not printed, and the message explains what can be done.
 #[test]
 fn a_program_that_does_not_fit_is_not_printed() {
     let folder = Folder::new("machine-fit");
@@ -235,7 +237,7 @@ fn a_program_that_does_not_fit_is_not_printed() {
     let document: serde_json::Value = serde_json::from_str(&out(&verify)).unwrap();
     assert_eq!(document["machine"]["findings"][0]["code"], "PM001");
     assert_eq!(document["verdict"], "identical");
-    // a longer machine by an option, which counts before the form
+    // a longer machine as an option, which ranks before the form's machine
     folder.write("long.toml", "units = \"inch\"\n[axes.X]\ntravel = [-30, 30]\n[offsets]\nG54 = [-15, 0, 0]\n");
     let printed = folder.run(&[&render[..], &["--machine", "long.toml"]].concat());
     assert_eq!(printed.status.code(), Some(0), "{}", err(&printed));
@@ -243,7 +245,7 @@ fn a_program_that_does_not_fit_is_not_printed() {
     assert_eq!(fit.status.code(), Some(1));
     assert!(out(&fit).ends_with("a.nc does not fit into vf2.toml: 1 error\n"), "{}", out(&fit));
     assert_eq!(folder.run(&["simulate", "a.nc", "--control", "haas", "--machine", "vf2.toml"]).status.code(), Some(1));
-    // a wrong file stops the form, at its line
+    // an error in the machine's file is reported at its line, and the form can't print
     folder.write("vf2.toml", "[axes.X]\ntravel = [0, -30]\n");
     let wrong = folder.run(&render);
     assert!(wrong.status.code() == Some(1) && err(&wrong).contains("PF021"), "{}", err(&wrong));
@@ -251,12 +253,12 @@ fn a_program_that_does_not_fit_is_not_printed() {
     assert!(gone.status.code() == Some(2) && err(&gone).contains("none.toml"), "{}", err(&gone));
 }
 
-/// A move of a random program: what it is, and where it goes.
+/// A move of a random program: its kind and its target.
 #[derive(Clone, Debug)]
 enum Step {
     Rapid([f64; 3]),
     Feed([f64; 3]),
-    /// An arc about a centre beside the tool, by an angle.
+    /// An arc about a centre next to the tool, by an angle.
     Arc([f64; 2], f64, bool),
     Work(usize),
     Length(Option<usize>),
@@ -279,7 +281,8 @@ fn step() -> impl Strategy<Value = Step> {
     ]
 }
 
-/// Least and greatest machine position of each axis, by the test's own sums: arcs in many small steps.
+/// Least and greatest machine position of each axis, computed by the test itself: arcs are divided into many small
+/// steps.
 struct Reach {
     program: String,
     reached: [[f64; 2]; 3],
@@ -324,7 +327,7 @@ fn reach(steps: &[Step]) -> Reach {
                 let code = if *left { 3 } else { 2 };
                 _ = writeln!(program, "G{code} X{:.9} Y{:.9} I{:.3} J{:.3}", at[0], at[1], centre[0], centre[1]);
             }
-            // after each change of a frame the next block says all axes
+            // after each change of a frame, the next block contains all axes
             Step::Work(number) => {
                 work = *number;
                 at = [1.0, 2.0, 3.0];
@@ -366,14 +369,15 @@ fn reach(steps: &[Step]) -> Reach {
     Reach { program, reached }
 }
 
-/// A position in machine coordinates is noted in a comment, for whoever reads a failing program.
+/// Writes a machine position into a comment, as information about a failing program.
 fn reached_at(program: &mut String, axis: usize, value: f64) {
     _ = writeln!(program, "({} {value})", ["X", "Y", "Z"][axis]);
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
-    /// Against the test's own sums: travels that end where the program does are enough, and a hair shorter they are not.
+    /// Compares with the test's own extents: travels that end at the program's extents are enough, and slightly shorter
+    /// ones are not.
     #[test]
     fn travels_are_judged_as_by_hand(steps in prop::collection::vec(step(), 1..25), which in 0..6usize, over in prop_oneof![Just(0.0), -0.5..0.5f64]) {
         let Reach { program, reached } = reach(&steps);
@@ -384,7 +388,7 @@ proptest! {
             *limit = reached[axis][usize::from(above)] + if above { -over } else { over };
             limits
         };
-        // far enough from the arcs' own steps, which come within a thousandth
+        // the difference must be larger than the error of the arc steps, which is below a thousandth
         prop_assume!(over == 0.0 || over.abs() > 0.002);
         let over = if over == 0.0 { 0.002 } else { over };
         let limits = limits(over);

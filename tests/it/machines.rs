@@ -1,4 +1,4 @@
-//! Subprograms, lathes, wire EDM and rotary axes beyond what the samples show.
+//! Subprograms, lathes, wire EDM and rotary axes: cases that the samples do not contain.
 
 use crate::support::{job, mill, path_lines, program};
 
@@ -23,7 +23,7 @@ fn subprograms_stand_after_the_main_program_by_default() {
     assert_eq!(kept[4..], ["M98 P7 L3", "M30", "O7", "G0 X0 Y0 Z1.", "M99"]);
 }
 
-/// Each subprogram calls the two before it: a look at each way through them would never end.
+/// Each subprogram calls the two before it. A check of every chain of calls would never end.
 #[test]
 fn shared_subprograms_are_looked_at_once() {
     let call = |number: u32| format!(",{{\"call\":{{\"sub\":{number}}}}}");
@@ -41,16 +41,16 @@ fn a_call_is_known_to_move_the_tool() {
     assert_eq!(lines[4..6], ["M98 P1 L3", "G0 X1."]);
 }
 
-/// A subprogram is written before the operations, and none of what it changes is so in the main program.
+/// A subprogram is printed before the operations. Its changes do not apply in the main program before it is called.
 #[test]
 fn a_subprogram_changes_nothing_but_where_it_is_called() {
     let inside = "{\"work\":55},{\"coolant\":\"off\"},{\"spindle\":{\"speed\":500}},{\"rapid\":[0,0,1]}";
     let lines = program(&mill("", SUBS), &with_subs(&sub(7, inside), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
-    // three runs that each begin as the first
+    // three runs that each begin in the same state
     assert_eq!(lines[4..10], ["M98 P1 L1", "G54", "S1000 M3", "M98 P1 L1", "G54", "S1000 M3"]);
     assert_eq!(lines[10..14], ["M98 P1 L1", "G54", "S1000 M3", "G0 X1. Y1. Z1."]);
     assert_eq!(lines[15..], ["O1", "G55", "S500", "M9", "G0 X0 Y0 Z1.", "M99"]);
-    // a subprogram in between must know what to put back
+    // a subprogram that calls another one must contain the values to restore
     let nested = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, inside));
     let form = mill("RenumSubs? N", SUBS);
     assert!(program(&form, &with_subs(&nested, CALL))[0].starts_with("PR033 subprogram 8 changes"));
@@ -61,7 +61,7 @@ fn a_subprogram_changes_nothing_but_where_it_is_called() {
     assert_eq!(lines[4..8], ["M98 P7 L1", "G54", "G97 S1000 M3", "M9"]);
     let at = lines.iter().position(|line| line == "O7").unwrap() + 1;
     assert_eq!(lines[at..at + 8], ["G56", "S700", "M8", "M98 P8 L1", "G56", "S700", "M8", "G0 X0 Y0 Z2."]);
-    // what it does not change is not said again
+    // a value that the subprogram does not change is not printed again
     let plain = program(&mill("", SUBS), &with_subs(&sub(7, MOVE), &format!("{CALL},{{\"rapid\":[1,1,1]}}")));
     assert_eq!(plain[4..6], ["M98 P1 L3", "G0 X1. Y1. Z1."]);
 }
@@ -76,7 +76,7 @@ fn a_call_says_how_often_and_where() {
     assert_eq!(program(&mill("", &says), &with_subs(&sub(7, MOVE), at))[4..6], ["G0 X5. Y6.", "M98 P1 L2"]);
 }
 
-/// A call may come in any plane: it returns in the first, where the next arcs and cycles are.
+/// A call from any plane first selects the XY plane, which is also active after it.
 #[test]
 fn calls_are_made_in_the_first_plane_without_compensation() {
     let arc = "{\"arc\":{\"to\":[1,0,0],\"center\":[0,0,0],\"direction\":\"cw\",\"plane\":\"xz\"}}";
@@ -116,7 +116,7 @@ fn lathe(head: &str, sequences: &str) -> String {
     )
 }
 
-/// The lines between tool change and end; the tool starts at z 0.2, radius 0.5.
+/// The lines between tool change and end. The tool starts at Z 0.2, radius 0.5.
 fn turned(head: &str, sequences: &str, path: &str) -> Vec<String> {
     let text = job(path).replace("[0,0,1]", "[0.2,0.5]").replace("\"units\"", "\"machine\":\"lathe\",\"units\"");
     let lines = program(&lathe(head, sequences), &text.replace("\"work\":54,", ""));
@@ -168,7 +168,7 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     assert_eq!(lines[1..], ["G33 X.84 Z-1. I0 F.2", "G0 Z.3 X1.", "G33 X.84 Z-1. I0 F.2"]);
     let taper = THREAD.replace("\"to\":[-1]", "\"to\":[-1,0.45]");
     assert_eq!(turned("Thread G33", "", &taper)[1], "G33 X.82 Z-1. I.05 F.1");
-    // a taper says the radius at the end; a start further back on the cone has more of it
+    // with a taper, the radius is that at the end; further starts begin further back on the cone
     let cone = THREAD.replace("\"to\":[-1]", "\"to\":[-1],\"taper\":0.12,\"starts\":2").replace("4", "1");
     let lines = turned("Thread G33", "", &cone);
     assert_eq!(lines[1..], ["G33 X.6 Z-1. I.12 F.2", "G0 Z.3 X1.", "G33 X.6 Z-1. I.13 F.2"]);
@@ -178,7 +178,7 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     assert_eq!(turned("Thread G33", "", &inner)[1..2], ["G33 X1.08 Z-1. I0 F.1"]);
 }
 
-/// What a thread asks for is printed, or stands in the packed parameters, or is an error.
+/// Every value of a thread is printed as a word or in the packed parameters; otherwise it is an error.
 #[test]
 fn a_thread_cycle_loses_none_of_its_parameters() {
     let auto = "P 010060\nAutoThread\nG76 P[tparams]\nG76 X[v] Z[h] K[depth] F[frate]\nEnd";
@@ -243,7 +243,7 @@ fn rotary_travel_needs_an_unwind() {
     let path = "{\"line\":[0,0,1,300]},{\"line\":[0,0,1,400]}";
     assert!(path_lines("Limits A -360 360", "", path)[0].starts_with("PR007"));
     assert_eq!(path_lines("", "", path), ["G1 A300. F10.", "A400."]);
-    // no whole turn to take off: unwinding would not help
+    // there is no whole turn to remove, so unwinding would not help
     let unwind = "Unwind\nG0 Z5\nA[lastrotangle]\nEnd";
     assert!(path_lines("Limits A -360 360", unwind, path)[0].starts_with("PR007"));
     let far = "{\"line\":[0,0,1,360]},{\"line\":[0,0,1,400]},{\"line\":[0,0,1,450]}";
@@ -258,7 +258,7 @@ fn a_lathe_drills_beside_its_axis_only_where_the_tool_goes() {
     assert_eq!(lines[2..], ["Z.1", "G81 Z-1. R.1 F5.", "G80", "G0 X1.", "G81 Z-1. R.1 F5.", "G80"]);
 }
 
-/// A turret on the other side sees arcs and compensation in a mirror.
+/// For a turret on the other side, arcs and compensation are mirrored.
 #[test]
 fn a_mirrored_turret_turns_arcs_round() {
     let arc = "{\"arc\":{\"to\":[0.1,0.6],\"center\":[0.1,0.5],\"direction\":\"cw\"}}";
@@ -270,7 +270,7 @@ fn a_mirrored_turret_turns_arcs_round() {
     assert_eq!(program(&lathe("RevTurret2? Y", ""), &text)[4], "G3 Z.1 X-1.2 K-.1 I0 F10.");
 }
 
-/// The tool's surface speed is not the next tool's.
+/// The surface speed of a tool does not apply to the next tool.
 #[test]
 fn constant_surface_speed_ends_with_its_tool() {
     let says = "ToolChange\nT[tool]\nG[speedtype] S[speed] M[direct]\nEnd\nEndCode";
@@ -301,7 +301,8 @@ fn threads_are_approached_from_their_own_side() {
     assert!(turned("Thread G33", "", &outer)[0].starts_with("PR031 the tool is inside the crest of an outer thread"));
 }
 
-/// A wire that stands upright has no words for its upper guide; one that leans has them also where compensation begins.
+/// A vertical wire has no words for its upper guide. A tilted one has them, even in the block that turns on
+/// compensation.
 #[test]
 fn a_leaning_wire_leans_from_its_lead_in() {
     let form =
@@ -315,7 +316,7 @@ fn a_leaning_wire_leans_from_its_lead_in() {
     assert_eq!(program(form, &text("[5,0,4,1]"))[2], "G1 G41 X5. Y0 U4. V1. F2.");
 }
 
-/// Revolutions are their own limit; a surface speed without one is an error.
+/// A speed in revolutions is its own limit. A surface speed without a limit is an error.
 #[test]
 fn revolutions_need_no_limit() {
     let form = lathe("", "").replace("S[speed] M[direct]\nEnd", "G50 S[maxrpm]\nG[speedtype] S[speed] M[direct]\nEnd");
@@ -326,7 +327,7 @@ fn revolutions_need_no_limit() {
     assert_eq!(program(&form, &text)[2..4], ["G50 S1000", "G97 S1000 M3"]);
     let surface = text.replace("\"speed\":1000", "\"speed\":100,\"mode\":\"css\"");
     assert!(program(&form, &surface)[0].starts_with("PR001 [maxrpm]"));
-    // and for no more than those, because the control keeps it
+    // later speeds must not exceed this limit either, because the control keeps it
     for later in ["{\"speed\":2000}", "{\"speed\":100,\"mode\":\"css\"}"] {
         let path = format!("{{\"rapid\":[0.2,0.5]}},{{\"spindle\":{later}}},");
         let faster = text.replace("{\"rapid\":[0.2,0.5]},", &path);
@@ -334,7 +335,7 @@ fn revolutions_need_no_limit() {
     }
 }
 
-/// What a job does with the wire is printed or refused: else the wire is dragged to the next start hole.
+/// An action on the wire is printed or refused. Without it, the wire would be dragged to the next start hole.
 #[test]
 fn wire_actions_need_their_sequences() {
     let form = |sequences: &str| format!("Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\n{sequences}");
@@ -349,7 +350,7 @@ fn wire_actions_need_their_sequences() {
     }
 }
 
-/// The rapid after a thread cycle in force would be a pass.
+/// The thread cycle is cancelled, because the next rapid would otherwise be a pass.
 #[test]
 fn a_thread_cycle_is_cancelled() {
     let cycles = ["AutoThread\nG76 X[v] Z[h] P[depth] Q[peck1] F[frate]", "CanThread 1\nG92 X[v] Z[h] F[frate]\nX[v]"];
@@ -359,7 +360,7 @@ fn a_thread_cycle_is_cancelled() {
     }
 }
 
-/// A form that says what stands between means subprograms first.
+/// A form with a Between sequence prints subprograms first.
 #[test]
 fn between_means_subprograms_first() {
     let form = mill("", &format!("{SUBS}\nBetween\nM17\nEnd"));
@@ -368,7 +369,8 @@ fn between_means_subprograms_first() {
     assert!(at("M17").is_some() && at("M17") < at("T1 M6") && at("M99") < at("M17"), "{lines:?}");
 }
 
-/// What a speed counts is said by the tool change, typed or not; in a block of its own it has its speed with it.
+/// The tool change prints the speed mode, typed or not. In a separate block, the mode is printed together with its
+/// speed.
 #[test]
 fn a_surface_speed_is_not_said_without_its_speed() {
     let text = job("{\"line\":[-1,0.5]}")
@@ -382,7 +384,7 @@ fn a_surface_speed_is_not_said_without_its_speed() {
     assert_eq!(program(&lathe("", ""), &text)[1..4], ["G96 S100", "T1", "S100 M3"]);
 }
 
-/// A wire has no tool that says its offset: the job does.
+/// A wire has no tool with an offset register: the job contains the register.
 #[test]
 fn a_wire_without_a_tool_has_its_offset_from_the_job() {
     let form = "Machine EDM\nStartCode\n%0\nEnd\nInFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd\nOutFeed\nG1 G40 X[h] Y[v] F[frate]\nEnd\nEndCode\nM2\nEnd\n";

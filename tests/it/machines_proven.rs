@@ -1,4 +1,4 @@
-//! Lathes, rotary axes, subprograms: right programs that must be proven, and each kind of wrong one that must not.
+//! Lathes, rotary axes, subprograms: correct programs must be proven, and each kind of wrong program must not.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use crate::support::root;
 use postform::internals::verify::Verdict;
 use postform::{Job, NoFiles, Options, Post, Source};
 
-/// The form's file, what stands in its program, what is put there instead, and the finding that comes of it.
+/// The file of the form, a text of its program, its replacement, and the expected finding.
 type Change<'t> = (&'t str, &'t str, &'t str, &'t str);
 
 fn form(name: &str) -> String {
@@ -14,7 +14,7 @@ fn form(name: &str) -> String {
     fs::read_to_string(root().join(folder).join(name)).unwrap()
 }
 
-/// The program of each form is proven, and each changed one is called different.
+/// The program of each form is proven, and each changed program is called different.
 #[track_caller]
 fn changes_are_found(job: &str, changes: &[Change<'_>]) {
     let mut options = Options::default();
@@ -78,7 +78,8 @@ fn lathes() {
     );
 }
 
-/// Lathes of G code system A have G98 and G99; G95 is system B's, and a tap of a live tool on a Haas.
+/// Lathes of G code system A have G98 and G99 for the feed mode. G95 belongs to system B; on a Haas it is a tap with a
+/// live tool.
 #[test]
 fn lathes_have_no_mills_feed_per_revolution() {
     let part = fs::read_to_string(root().join("samples/lathe-part/job.json")).unwrap();
@@ -134,7 +135,7 @@ fn wires() {
     );
 }
 
-/// A wire goes home in its plane: it has no axis that takes it away from the part.
+/// A wire moves home in its plane, because no axis can move it away from the part.
 #[test]
 fn a_wire_that_goes_home() {
     let text = form("wire-edm.pf") + "\nMoveHome\nG91 G28 X0 Y0\nG90\nEnd\n";

@@ -1,4 +1,4 @@
-//! What machines want said beyond the manual's words: each thing by two posts, one with G codes and one in conversation.
+//! Features of machines beyond the manual's words. Each is tested with two posts: one with G codes and one in Klartext.
 
 use crate::support::{check, render_checked};
 use postform::internals::render::{Clock, Options};
@@ -13,7 +13,7 @@ const JOB: &str = r#"{"postform": 1, "name": "flange-7", "part": "Flange", "unit
      "path": [{"rapid": [0, 0, 30]}, {"rapid": [0, 0, 2]}, {"line": [0, 0, -2]}, {"arc": {"to": [0, 0, -2], "center": [20, 0], "direction": "ccw"}}]}
   ]}"#;
 
-/// A post with G codes; the lines stand in its head, in StartCode, in its tool changes and after all sequences.
+/// A post with G codes. The lines are inserted in its head, in StartCode, in its tool changes and after all sequences.
 fn codes(head: &str, start: &str, change: &str, more: &str) -> String {
     let change =
         format!("T[tool] M6\n{change}\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd\n");
@@ -46,7 +46,7 @@ fn print(form: &str) -> Vec<String> {
     rendered.text.lines().map(str::to_owned).collect()
 }
 
-/// Each of these forms prints its lines.
+/// Checks that each of these forms prints its lines.
 fn say(cases: [(String, &[&str]); 2]) {
     for (form, lines) in cases {
         let printed = print(&form);

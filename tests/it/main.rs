@@ -1,4 +1,4 @@
-//! All tests of the library and of the commands, as one program.
+//! All tests of the library and of the commands, in one test binary.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod allocations;

@@ -6,7 +6,7 @@ use std::time::{Duration, SystemTime};
 use crate::support::folder::{Folder, err, out};
 use crate::support::root;
 
-/// A folder with `haas.pf` and the jobs of two samples, in folders of their own.
+/// A folder with `haas.pf`, and the jobs of two samples in separate folders.
 fn shop(test: &str) -> Folder {
     let folder = Folder::new(&format!("many-{test}"));
     fs::copy(root().join("postforms/haas.pf"), folder.0.join("haas.pf")).unwrap();
@@ -52,7 +52,7 @@ fn programs_are_the_same_however_many_are_printed_at_a_time() {
     assert_eq!(said[0], said[2]);
 }
 
-/// A control that stores programs by their numbers keeps only one of two with the same number.
+/// A control that stores programs by their numbers keeps only one of two programs with the same number.
 #[test]
 fn equal_program_numbers_are_warned_of() {
     let folder = shop("numbers");
@@ -67,7 +67,7 @@ fn equal_program_numbers_are_warned_of() {
     let said = run("haas.pf", &[]);
     let warning = "warning: nc/cover.nc and nc/plate.nc have the same program number";
     assert!(said.contains(warning) && said.contains("number all programs upwards: --program"), "{said}");
-    // with numbers of their own, without messages, and for a form that prints no number
+    // no warning with different numbers, and for a form that prints no number
     assert!(!run("haas.pf", &["--program", "10"]).contains("same program number"));
     assert!(!run("haas.pf", &["--quiet"]).contains("same program number"));
     fs::copy(root().join("postforms/grbl.pf"), folder.0.join("grbl.pf")).unwrap();
@@ -126,7 +126,7 @@ fn changed_leaves_out_what_is_newer_than_job_and_form() {
     set("haas.pf", 20);
     set("nc/bracket.nc", 10);
     assert_eq!(last(&run()), "1 program, none failed");
-    // the same moment is not newer
+    // a file with the same time does not count as newer
     let moment = SystemTime::now() - Duration::from_secs(5);
     for file in ["haas.pf", "nc/plate.nc"] {
         fs::File::options().write(true).open(folder.0.join(file)).unwrap().set_modified(moment).unwrap();
@@ -224,7 +224,7 @@ fn a_change_of_a_form_is_shown_by_its_kinds() {
     );
 }
 
-/// What was tried by somebody who wanted to break it.
+/// Attempts to break the commands: each is reported by name, and no job is skipped silently.
 #[test]
 fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
     let folder = shop("wrong");
@@ -240,7 +240,7 @@ fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
     assert_eq!(err(&output).matches("{tool} has no value here").count(), 1);
     let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "haas.pf"]);
     assert_eq!((output.status.code(), err(&output).as_str()), (Some(2), "error: haas.pf is not a folder\n"));
-    // a folder, or a link, of a program's name
+    // a folder or a link with the name of a program
     fs::create_dir_all(folder.0.join("nc/plate.nc")).unwrap();
     let output = run(&["jobs", "--form", "haas.pf", "--out-dir", "nc"]);
     assert_eq!(last(&output), "2 programs, 1 failed: jobs/plate/job.json", "{}", err(&output));
@@ -254,12 +254,12 @@ fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
         assert_eq!(output.status.code(), Some(1), "{}", err(&output));
         assert_eq!(folder.read("target.nc"), "mine");
     }
-    // names are spelt as forms spell them
+    // file names are converted as in names from a form
     folder.write("odd/it's a part.json", folder.read("jobs/plate/job.json"));
     let output = run(&["odd", "--form", "haas.pf", "--out-dir", "odd-nc", "--name", "{job}.nc.gz"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(fs::read(folder.0.join("odd-nc/it_s_a_part.nc.gz")).unwrap().starts_with(b"\x1f\x8b"));
-    // what is no job by its beginning is said, and a compressed job is one
+    // a file that does not begin like a job is reported; a compressed job is used
     folder.write("mixed/other.json", "{\"name\": 1}");
     folder.write("mixed/empty.json", "");
     let gz = fs::read(folder.0.join("odd-nc/it_s_a_part.nc.gz")).unwrap();
@@ -279,7 +279,7 @@ fn compressed_jobs_and_programs() {
     let output =
         folder.run(&["diff", "bracket.nc.gz", root().join("samples/bracket/expected.haas.nc").to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
-    // a compressed program is a job, and a compressed job is proven
+    // a compressed program can be a job, and a compressed job can be proven
     let output = folder.run(&["check", "bracket.nc.gz", "--job-control", "haas"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     folder.write("cut.nc.gz", &packed[..packed.len() / 2]);

@@ -1,4 +1,5 @@
-//! Programs and what LinuxCNC 2.9's interpreter made of them when they were recorded: the same motions, the same refusals at the same block.
+//! Programs with recorded results of LinuxCNC 2.9's interpreter. The simulator must make the same motions and refuse at
+//! the same block.
 
 use crate::support::{control, root};
 use std::fs;
@@ -8,7 +9,7 @@ use crate::support::nc::{difference, interpreted, simulated};
 use postform::internals::nc::{RunSettings, Simulator};
 use serde_json::Value;
 
-/// What is wrong with one program, if anything.
+/// The first difference in a program, if there is one.
 fn compare(program: &str, canon: &str) -> Option<String> {
     let settings = RunSettings::new(control("linuxcnc"));
     let (ours, ended, _) = simulated(program.as_bytes(), settings);
@@ -28,7 +29,7 @@ fn compare(program: &str, canon: &str) -> Option<String> {
     difference(&ours, &interpreted(canon))
 }
 
-/// The cases of a file, each with what is wrong with it.
+/// The cases of a file, each with its difference.
 fn cases(file: &str) -> Vec<(Value, Option<String>)> {
     let path = root().join("tests/data").join(file);
     let cases: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
@@ -40,14 +41,14 @@ fn cases(file: &str) -> Vec<(Value, Option<String>)> {
     cases.into_iter().map(compared).collect()
 }
 
-/// The recorded programs of this repository: each pins a rule.
+/// The recorded programs of this repository; each tests one rule.
 #[test]
 fn every_rule_has_its_case() {
     let cases = cases("nc.json");
     let mut wrong = Vec::new();
     for (case, problem) in &cases {
         let text = |key: &str| case[key].as_str().unwrap();
-        // the path under compensation is tracked, not offset
+        // the simulator tracks the compensated path, but does not offset it
         let offset = text("name").starts_with("comp_");
         if let Some(problem) = problem.as_ref().filter(|problem| !(offset && problem.starts_with("call"))) {
             wrong.push(format!("{} ({}): {problem}", text("name"), text("pins")));
@@ -57,7 +58,7 @@ fn every_rule_has_its_case() {
     assert!(cases.len() > 140);
 }
 
-/// What a machinist should be told, though the control does it.
+/// Warnings about code that the control runs, but that may surprise a machinist.
 #[test]
 fn surprises_are_warned_of() {
     let warned = |program: &str| -> Vec<String> {

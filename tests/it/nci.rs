@@ -1,4 +1,4 @@
-//! Mastercam NCI files: what becomes of their records, and what is refused.
+//! Mastercam NCI files: the events from their records, and refusals.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use postform::{Format, Job};
 use crate::support::folder::{Folder, err};
 use crate::support::root;
 
-/// Events as lines.
+/// Events as lines of text.
 #[derive(Default)]
 struct Lines(Vec<String>);
 
@@ -78,7 +78,7 @@ fn sample() -> String {
     fs::read_to_string(root().join("tests/data/nci/holes-and-arcs.nci")).unwrap()
 }
 
-/// As the second reader, written from the same sources, reads it.
+/// The expected result comes from a second reader, written from the same sources.
 #[test]
 fn motions_arcs_compensation_and_holes() {
     let lines = read(&sample()).unwrap();
@@ -107,7 +107,7 @@ fn motions_arcs_compensation_and_holes() {
         "Finish",
     ];
     assert_eq!(lines, expected, "{lines:#?}");
-    // lines of Windows
+    // with Windows line ends
     assert_eq!(read(&sample().replace('\n', "\r\n")).unwrap(), expected);
 }
 

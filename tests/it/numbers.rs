@@ -1,17 +1,17 @@
-//! The number writer against decimal arithmetic on text: another way to the same digits, slow and plain.
+//! Compares the number writer with decimal arithmetic on text, which is slow but simple and shares no code with it.
 
 use postform::internals::number::{LetterFormat, Point, Sign, quantise, write_number};
 
-/// The shortest decimal of a value, as digits before and after the point.
+/// The shortest decimal form of a value, as the digits before and after the point.
 fn decimal(value: f64) -> (String, String) {
-    let text = format!("{}", value.abs()); // std prints the shortest decimal that reads back, without exponent
+    let text = format!("{}", value.abs()); // std prints the shortest decimal of the value, without exponent
     match text.split_once('.') {
         Some((whole, fraction)) => (whole.to_owned(), fraction.to_owned()),
         None => (text, String::new()),
     }
 }
 
-/// Adds one to a number written in digits.
+/// Adds one to a number in digits.
 fn increment(digits: &str) -> String {
     let mut bytes: Vec<u8> = digits.bytes().collect();
     for byte in bytes.iter_mut().rev() {
@@ -24,7 +24,7 @@ fn increment(digits: &str) -> String {
     format!("1{}", String::from_utf8(bytes).unwrap_or_default())
 }
 
-/// What the text of language.md section 2 says, done on digits. `None`: it does not fit.
+/// The rules of `docs/language.md`, Letter formats, applied to digits. `None`: the value does not fit.
 fn oracle(value: f64, format: &LetterFormat, leading_zero: bool) -> Option<String> {
     let places = usize::from(format.dec.count);
     let (whole, fraction) = decimal(value);
@@ -81,7 +81,7 @@ fn written(value: f64, format: &LetterFormat, leading_zero: bool) -> Option<Stri
     String::from_utf8(out).ok()
 }
 
-/// A small generator, so that every run sees the same values.
+/// A small generator with a fixed seed, so that every run uses the same values.
 struct Values(u64);
 
 impl Values {
@@ -92,7 +92,7 @@ impl Values {
         self.0
     }
 
-    /// Values as jobs hold them: few decimals, ties and carries among them, and doubles next to them.
+    /// Values as in jobs: few decimals, some of them ties or carries, and the double next to such a value.
     fn value(&mut self) -> f64 {
         let bits = self.next();
         let places = bits % 8;

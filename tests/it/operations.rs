@@ -1,8 +1,8 @@
-//! Sequences for what is generated otherwise: operations, comments, stops, dwells, changes of conditions.
+//! Sequences for blocks that are otherwise generated: operations, comments, stops, dwells, changes of conditions.
 
 use crate::support::{mill, program};
 
-/// A job of these operations: the tool, further keys, the path after the first rapid.
+/// A job of these operations: tool, further keys, path after the first rapid.
 fn job(operations: &[(u32, &str, &str)]) -> String {
     let operations = operations.iter().map(|(tool, keys, path)| {
         format!("{{\"tool\":{tool},\"feed\":10,{keys}\"path\":[{{\"rapid\":[0,0,1]}},{path}]}}")
@@ -16,7 +16,7 @@ fn job(operations: &[(u32, &str, &str)]) -> String {
 const TURNS: &str = "\"work\":54,\"spindle\":{\"speed\":1000,\"direction\":\"cw\"},";
 const LINE: &str = "{\"line\":[1,0,0]}";
 
-/// What stands after the first tool change, up to the end.
+/// The blocks after the first tool change, up to the end.
 fn path(sequences: &str, job: &str) -> Vec<String> {
     let printed = program(&mill("", sequences), job);
     match printed.iter().position(|line| line.starts_with("G0 G54")) {
@@ -68,10 +68,10 @@ fn comments_stops_and_dwells_are_the_forms_own() {
     for line in ["MSG(\"look\")", "M0 (STOP)", "M01 P1", "G4 X2.5"] {
         assert!(printed.contains(&line.to_owned()), "{line}: {printed:?}");
     }
-    // one Stop serves both
+    // one Stop sequence prints both kinds of stops
     let printed = path("Stop\nM[stop] (HALT)\nEnd", &job);
     assert!(printed.contains(&"M0 (HALT)".to_owned()) && printed.contains(&"M1 (HALT)".to_owned()), "{printed:?}");
-    // what a sequence leaves unsaid is generated
+    // if the sequence does not print the dwell, a generated block prints it
     let printed = path("DwellBlock\n(WAIT)\nEnd", &job);
     let at = printed.iter().position(|line| line == "(WAIT)").unwrap();
     assert_eq!(printed[at + 1], "G4 P2.5");
@@ -87,7 +87,7 @@ fn changes_of_conditions_are_the_forms_own() {
     for line in ["(NEW SPEED) S500", "M8 (COOLANT)", "G55 (OFFSET)"] {
         assert_eq!(printed.iter().filter(|own| *own == line).count(), 1, "{line}: {printed:?}");
     }
-    // left unsaid: generated after it, once
+    // not printed by the sequence, so generated once after it
     let printed = path("CoolantChange\n(COOLANT)\nEnd", &job);
     let at = printed.iter().position(|line| line == "(COOLANT)").unwrap();
     assert_eq!(printed[at + 1], "M8", "{printed:?}");
@@ -109,7 +109,7 @@ fn numbers_may_have_no_letter_and_lines_another_end() {
     assert!(printed.ends_with("\r\n") && !printed.replace("\r\n", "").contains(['\r', '\n']));
 }
 
-/// What a branch does not print counts as not printed there.
+/// A comment that the selected branch does not print is generated, even if another branch prints it.
 #[test]
 fn a_comment_that_only_another_branch_says_is_not_lost() {
     let keys = format!("{TURNS}\"name\":\"slot\",\"comment\":\"mind the clamp\",");
@@ -119,17 +119,17 @@ fn a_comment_that_only_another_branch_says_is_not_lost() {
     assert_eq!(comments, ["(MIND THE CLAMP)", "(X)"]);
 }
 
-/// Where home is, the form says; from there on nobody knows the place, and every axis is said again.
+/// Only the form defines the home position. Afterwards the position is unknown, so every axis is printed again.
 #[test]
 fn home_is_a_place_of_the_machine() {
     let home = |form: &str, items: &str| path(form, &job(&[(1, TURNS, items)]));
     let goes = "MoveHome\nG91 G28 Z0\nG90\nEnd";
     let path = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"home\":true}},{{\"rapid\":[1,0,1]}},{LINE}");
     assert_eq!(home(goes, &path), ["G1 X1. Z0 F10.", "G0 Z1.", "G91 G28 Z0", "G90", "X1. Y0 Z1.", "G1 Z0"]);
-    // changes that wait come before it
+    // waiting changes are printed before it
     let off = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"spindle\":{{\"direction\":\"off\"}}}},{{\"home\":true}}");
     assert_eq!(home(goes, &off)[1..], ["G0 Z1.", "M5", "G91 G28 Z0", "G90"]);
-    // a cut after it has no beginning
+    // a cut directly after it has no known start
     let cut = format!("{LINE},{{\"home\":true}},{{\"line\":[0,0,0]}}");
     assert!(home(goes, &cut)[0].starts_with("PR012 the operation begins with a cut"), "{:?}", home(goes, &cut));
     assert!(home("", &path)[0].starts_with("PR008 the tool goes home here"), "{:?}", home("", &path));

@@ -1,11 +1,11 @@
-//! A shop's own control: one file, no program of ours changed. Lint, render, simulate and verify go by it.
+//! A shop's own control: only a control file is needed. Lint, render, simulate and verify all use it.
 
 use std::fs;
 
 use crate::support::folder::{Folder, err, out};
 use crate::support::{mill, root};
 
-/// A Haas with coolant through the spindle, and two codes of its builder.
+/// A Haas with coolant through the spindle and two codes of the machine's builder.
 const VF2: &str = r#"name = "vf2"
 title = "Our VF-2"
 like = "haas"
@@ -16,7 +16,7 @@ like = "haas"
 "G187" = { is = "harmless", words = "PE" }
 "#;
 
-/// The Haas post for another control, with M88 for its coolant, and G201 and G187 at the start.
+/// The Haas post for another control, with M88 for coolant, and G201 and G187 at the start.
 fn form(control: &str) -> String {
     let text = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
     let text = text.replacen("Control haas", &format!("Control {control}\nCoolant 88 9 7"), 1);
@@ -65,7 +65,7 @@ fn every_command_goes_by_the_file() {
     }
 }
 
-/// The file that `new` writes is one, and its commented rows are right.
+/// The file that `new` writes is valid, and so are the rows in its comments.
 #[test]
 fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     let folder = folder("own_control_new");
@@ -75,7 +75,7 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     assert_eq!(folder.run(&["lint", "own.pf"]).status.code(), Some(0));
     let rows = folder.read("new.toml").replace("# \"", "\"");
     assert_eq!(rows.matches("\n\"").count(), 4, "{rows}");
-    // the tables besides codes, with their marks taken away
+    // the tables other than codes, with their comment marks removed
     let (head, rest) = rows.split_once("where your control differs.\n").unwrap();
     let (tables, codes) = rest.split_once("\n# The codes").unwrap();
     let tables: String = tables.lines().map(|line| format!("{}\n", line.strip_prefix("# ").unwrap())).collect();
@@ -96,7 +96,7 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     );
 }
 
-/// A language without G codes: the form prints it, and no word of it is taken for a code.
+/// A language without G codes that postform can't read: the form prints it, no word is taken for a code, and nothing is proven.
 #[test]
 fn a_control_whose_language_is_not_read_is_printed_and_not_proven() {
     let folder = folder("own_control_none");
@@ -187,7 +187,7 @@ fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
     }
 }
 
-/// A code does what its meaning says, under any number: the same program with other numbers makes the same motions.
+/// The meaning of a code determines its effect, not its number: a program with other numbers makes the same motions.
 #[test]
 fn codes_of_other_numbers_do_what_their_meaning_says() {
     let folder = Folder::new("own_control_numbers");
@@ -279,7 +279,7 @@ M30
         };
         let (mut text, mut rest) = (String::new(), line);
         while !rest.is_empty() {
-            // G2 is not the beginning of G20
+            // the longest matching code is replaced: G2 is not the start of G20
             let found = longest(rest).filter(|(own, _)| {
                 !rest[own.len()..].starts_with(|next: char| next.is_ascii_digit()) || own.ends_with('P')
             });
@@ -313,7 +313,7 @@ M30
     assert!(own.len() > 1000, "{own}");
 }
 
-/// A form that prints the codes of such a control is proven as any other.
+/// A form that prints the codes of such a control is proven like any other form.
 #[test]
 fn a_form_of_other_numbers_is_proven() {
     let folder = Folder::new("own_control_form");
@@ -340,7 +340,7 @@ fn a_form_of_other_numbers_is_proven() {
     assert!(err(&run).starts_with("equivalent: ") && err(&run).contains("20 holes"), "{}", err(&run));
     let program = folder.read("own.nc");
     assert!(["G98 G781 X", "G98 G783 X", "G91 G728 Z0"].iter().all(|block| program.contains(block)), "{program}");
-    // without the row that says how it drills, there is no proof, and the reason is that row
+    // without the motions of its peck cycle in the file, nothing is proven, and the message names the missing entry
     folder.write(
         "own.toml",
         format!(
@@ -357,7 +357,7 @@ fn a_form_of_other_numbers_is_proven() {
     );
 }
 
-/// What a file does not say of a code is asked for by name, and nothing is guessed from a number.
+/// If the file lacks a property of a code, the error names the property. It is never guessed from the number.
 #[test]
 fn a_row_that_lacks_something_is_not_run_and_says_what() {
     let folder = Folder::new("own_control_lacks");
@@ -404,14 +404,14 @@ fn a_row_that_lacks_something_is_not_run_and_says_what() {
     }
 }
 
-/// A code whose meaning the file gives is run, or refused by its name: under any number, as a G code and as an M code.
+/// A code with a meaning from the file is run, or refused by name. This applies to every number, as a G code and as an M code.
 #[test]
 fn no_meaning_is_passed_over() {
     use postform::internals::control::{Code, Control, Meaning};
     use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
     use std::io::Cursor;
 
-    // they change nothing that is simulated, and are told as left out; the proof looks at the first two
+    // these codes have no effect in the simulator and are reported as left out; the proof uses the first two
     use Meaning as M;
     let nothing = [
         M::RigidAhead,
@@ -455,7 +455,7 @@ fn no_meaning_is_passed_over() {
                 }
                 ended => {
                     let passed_over = here.clone().any(|action| matches!(action, Action::LeftOut(..)));
-                    // a dwell without its time is refused as a dwell, a length without H as a length
+                    // a dwell without a time is refused as a dwell, a length without H as a length
                     let lacks_word = matches!(&ended, Err(RunError::Refused(diag, 4)) if ["PN006", "PN007"].contains(&diag.code.name()));
                     assert!(ended.is_ok() || lacks_word, "{row}: {ended:?}");
                     assert!(!passed_over || nothing.contains(&meaning), "{row} is passed over");
@@ -469,7 +469,7 @@ fn no_meaning_is_passed_over() {
     assert!(!run.contains(&"to-r M777".to_owned()) && !run.contains(&"tool-change G777".to_owned()), "{run:?}");
 }
 
-/// The unit of dwells in a control's file is that of its cycles, too.
+/// The unit of dwells in a control's file also applies to dwells in cycles.
 #[test]
 fn dwells_of_cycles_count_as_the_file_says() {
     use postform::internals::control::Control;
@@ -488,7 +488,7 @@ fn dwells_of_cycles_count_as_the_file_says() {
     assert_eq!([dwell("s"), dwell("ms")], [Some(2.0), Some(0.002)]);
 }
 
-/// How a control turns lengths on is run as its file gives it.
+/// Tool lengths are turned on as the control's file defines.
 #[test]
 fn lengths_of_tools_are_those_of_the_file() {
     let folder = folder("own_lengths");
@@ -512,7 +512,7 @@ fn lengths_of_tools_are_those_of_the_file() {
     }
 }
 
-/// An address of another language beside the axes of an arc is part of its move: nothing is printed again after it.
+/// An address of another language next to the axes of an arc belongs to the move, so no words are printed again after it.
 #[test]
 fn an_address_with_its_value_is_part_of_its_move() {
     let folder = folder("own_arcs");
@@ -532,26 +532,25 @@ fn an_address_with_its_value_is_part_of_its_move() {
     assert!(err(&render).contains("in the language of Siemens controls"), "{}", err(&render));
 }
 
-/// What a control says of a program, or what it refuses.
+/// The actions of a program on a control, or the refusal.
 fn simulated(folder: &Folder, control: &str, program: &str) -> Result<String, String> {
     folder.write("program.nc", program);
     let run = folder.run(&["simulate", "program.nc", "--control", control, "--format", "json"]);
     if run.status.success() { Ok(out(&run)) } else { Err(err(&run)) }
 }
 
-/// G77 of a Brother: I is the pitch in a program in millimetres, J the threads an inch in one in inches; L is a speed, and no
-/// number of repeats.
+/// G77 of a Brother: I is the pitch in a metric program, J is threads per inch in an inch program. L is a speed, not a number of repeats.
 #[test]
 fn a_brother_taps_by_its_pitch() {
     let folder = Folder::new("own_control_brother");
     let mm =
         "%\nG21 G90 G94\nT1 M6\nG0 G43 H1 Z50.\nG0 X0 Y0 S800 M3\nG98 G77 X1. Y1. Z-9. R2. I1.25 L3000\nG80\nM30\n%\n";
     let tap = simulated(&folder, "brother", mm).unwrap();
-    // 800 turns of 1.25 mm
+    // 800 revolutions per minute with a pitch of 1.25 mm
     let fanuc = mm.replace("G77", "G84").replace("I1.25 L3000", "F1000.");
     assert!(tap.contains("\"feed\":[1,1,-9,0,0,0],\"f\":1000}"), "{tap}");
     assert_eq!(tap, simulated(&folder, "fanuc", &fanuc).unwrap());
-    // 16 threads an inch at 400 turns: 25 inches a minute
+    // 16 threads per inch at 400 revolutions per minute: 25 inches per minute
     let inch = mm.replace("G21", "G20").replace("S800", "S400").replace("I1.25", "J16.");
     let tap = simulated(&folder, "brother", &inch).unwrap();
     assert!(tap.contains("\"feed\":[1,1,-9,0,0,0],\"f\":25}"), "{tap}");
@@ -566,7 +565,8 @@ fn a_brother_taps_by_its_pitch() {
     }
 }
 
-/// The drills of a bank have codes, and no T: a form that prints them is proven, and one that brings in another drill is not.
+/// The drills of a bank are selected by M codes instead of T. A form that prints these codes is proven; a program with
+/// the code of another drill is not.
 #[test]
 fn a_code_brings_in_a_tool_of_a_bank() {
     let folder = Folder::new("own_control_bank");
@@ -594,7 +594,7 @@ fn a_code_brings_in_a_tool_of_a_bank() {
     folder.write("wrong.nc", program.replace("M204", "M205"));
     let run = folder.run(&["verify", "job.json", "--form", "router.pf", "--nc", "wrong.nc"]);
     assert!(!run.status.success() && out(&run).contains("PV012") || err(&run).contains("PV012"), "{}", err(&run));
-    // such a code names its tool
+    // a code with this meaning must have its tool in the file
     folder.write("router.toml", bank.replace(", tool = 101", ""));
     let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
     assert!(err(&run).contains("the control file of router does not give its tool"), "{}", err(&run));
@@ -603,7 +603,7 @@ fn a_code_brings_in_a_tool_of_a_bank() {
     assert!(err(&run).contains("`tool` belongs to codes that mean `tool-number`"), "{}", err(&run));
 }
 
-/// `T3 T7 M6` of a Mazak changes to tool 3 and gets tool 7 ready; other controls take one T in a block.
+/// `T3 T7 M6` of a Mazak changes to tool 3 and prepares tool 7. Other controls accept only one T in a block.
 #[test]
 fn a_second_t_names_the_next_tool() {
     let folder = Folder::new("own_control_twice");
@@ -624,8 +624,8 @@ fn a_second_t_names_the_next_tool() {
     }
 }
 
-/// Where nothing public says how a control repeats a cycle, what a number without a point counts, or what a word means, a program
-/// that depends on it is refused.
+/// A program is refused if it depends on a behaviour that no public source defines: repeats of a cycle, numbers without
+/// a point, the meaning of a word.
 #[test]
 fn what_nothing_public_says_is_not_run() {
     let folder = Folder::new("own_control_unsaid");
@@ -647,7 +647,7 @@ fn what_nothing_public_says_is_not_run() {
         let refused = simulated(&folder, control, &program(block)).unwrap_err();
         assert!(refused.contains(said), "{control} {block}: {refused}");
     }
-    // a dwell of a Brother counts seconds
+    // a dwell of a Brother is in seconds
     let dwell = |control: &str| simulated(&folder, control, &program("G4 P2")).unwrap();
     assert!(
         dwell("brother") != dwell("mazak")

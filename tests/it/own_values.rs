@@ -1,4 +1,4 @@
-//! Properties of forms: who gives their values, what they print, what is refused.
+//! Properties of forms: the sources of their values, their output, and errors.
 
 use crate::support::{check, mill};
 use postform::internals::lint::lint;
@@ -11,7 +11,7 @@ fn form(head: &str, lines: &str) -> String {
     mill(head, "").replace("T[tool] M6\n", &format!("T[tool] M6\n{lines}\n"))
 }
 
-/// A job of two operations with two tools; the keys stand in its head and in its operations.
+/// A job of two operations with two tools. The given keys are in its head and in its operations.
 fn job(head: &str, operations: [&str; 2]) -> String {
     let operation = |i: usize| {
         format!(
@@ -37,14 +37,14 @@ fn print(form: &str, job: &str, options: Options) -> Result<Vec<String>, Error> 
     Ok(program.text().lines().filter(change).map(str::to_owned).collect())
 }
 
-/// A value that the caller gives.
+/// A value from the caller.
 fn caller(name: &str, value: &str) -> Options {
     let mut options = Options::default();
     options.properties.push((name.to_owned(), value.to_owned()));
     options
 }
 
-/// A value of the shop.
+/// A value from the shop.
 fn shop(name: &str, value: &str) -> Options {
     let mut options = Options::default();
     options.shop_properties.push((name.to_owned(), value.to_owned()));
@@ -62,11 +62,11 @@ fn the_first_who_says_it_counts() {
     let of_shop = shop("through", "high");
     assert_eq!(print(&plain, of_shop.clone()), ["(HIGH)", "(HIGH)"]);
     assert_eq!(print(&of_job, of_shop), ["(ON)", "(ON)"]);
-    // what an operation sets is over with it
+    // a value of an operation ends with it
     assert_eq!(print(&of_operation, Options::default()), ["(HIGH)", "(ON)"]);
     let caller = caller("through", "OFF");
     assert_eq!(print(&of_operation, caller), ["(OFF)", "(OFF)"]);
-    // a shop's value for a form that has no such property
+    // a shop's value for a property that this form lacks is ignored
     let other = shop("header", "no");
     assert_eq!(print(&plain, other), ["(OFF)", "(OFF)"]);
 }
@@ -189,11 +189,11 @@ fn a_form_keeps_texts_in_properties() {
     let lines = "@if [opname] like \"pocket*\"\n  @set note = [opname]\n  @set mode = rough\n  @set on = yes\n@end\n\
                  @if [mode] = rough and [on]\n  (NOTE [note])\n@else\n  (PLAIN)\n@end\n@set mode = \"FINE\"";
     let printed = self::print(&form(head, lines), &job, Options::default()).unwrap();
-    // the first tool change sees what it sets itself; the second what is left of it
+    // the first tool change prints the values that it sets; in the second, `mode` is `fine` again
     assert_eq!(printed, ["(NOTE POCKET 1)", "(PLAIN)"]);
     let refused = |line: &str| {
         let found = lint(&check(&form(head, line)), &Default::default()).diags;
-        // once in each tool change
+        // reported once for each tool change
         let mut codes: Vec<_> = found.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
         codes.dedup();
         codes
@@ -221,7 +221,8 @@ fn a_choice_is_one_of_its_words() {
     assert_eq!(print(&form(THROUGH, lines), &job, caller("through", "high")).unwrap(), ["M88", "M88"]);
 }
 
-/// The form's default counts in the form's units, which are inches where it is for both; what is given counts in the program's.
+/// The form's default is in the form's units, which are inches for a form of both units. Other values are in the
+/// program's units.
 #[test]
 fn lengths_of_a_form_for_both_units() {
     let form = form("Units both\nProperty gap length .25 Gap\nX->4.>4\nQ->4.>3", "Q[gap]");
@@ -232,7 +233,7 @@ fn lengths_of_a_form_for_both_units() {
     assert_eq!(of(&metric, shop("gap", "5")), "Q5.");
     let of_job = metric.replacen("\"units\"", "\"set\":{\"gap\":5},\"units\"", 1);
     assert_eq!(of(&of_job, Options::default()), "Q5.");
-    // a job counts in its own units, whatever the program's are
+    // lengths in a job are in its own units, whatever the program's units are
     let mut inches = Options::default();
     inches.units = Some(postform::toolpath::Units::Inch);
     assert_eq!(of(&of_job.replace("\"gap\":5", "\"gap\":25.4"), inches), "Q1.");

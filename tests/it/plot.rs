@@ -1,4 +1,4 @@
-//! `postform plot`: what is drawn, of right programs and of hostile ones, and how the command ends.
+//! `postform plot`: pictures of correct and of malicious programs, and the exit status.
 
 use std::fs;
 use std::io::Cursor;
@@ -26,7 +26,7 @@ fn plot(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_postform")).arg("plot").args(arguments).current_dir(root()).output().unwrap()
 }
 
-/// The picture of the README: `SAMPLES=overwrite cargo test plot::` draws it again; look at it then.
+/// The picture in the README. `SAMPLES=overwrite cargo test plot::` draws it again; check the new picture.
 #[test]
 fn the_bracket_is_drawn_as_in_the_readme() {
     let output = plot(&["samples/bracket/job.json", "--form", "postforms/fanuc.pf", "--quiet"]);
@@ -38,7 +38,7 @@ fn the_bracket_is_drawn_as_in_the_readme() {
     assert!(fs::read(&path).unwrap() == output.stdout, "docs/images/bracket.svg is another picture");
 }
 
-/// All programs of the samples, from all sides: every point is on the sheet, and nothing is no number.
+/// Programs of all samples, in all views: every point is on the sheet, and every coordinate is a number.
 #[test]
 fn what_is_drawn_is_on_the_sheet() {
     let mut programs = 0;
@@ -62,7 +62,7 @@ fn on_the_sheet(text: &str, width: f64, what: &str) {
     for path in text.split(" d=\"").skip(1) {
         let path = path.split('"').next().unwrap();
         if path.contains('h') {
-            continue; // the legend's
+            continue; // a line of the legend
         }
         for point in path.split(['M', 'L', 'Z']).filter(|point| !point.is_empty()) {
             let (x, y) = point.split_once(' ').unwrap();
@@ -72,7 +72,7 @@ fn on_the_sheet(text: &str, width: f64, what: &str) {
     }
 }
 
-/// An arc is drawn on its circle, a helix on its cylinder, and both end where they should.
+/// An arc is drawn on its circle, a helix on its cylinder, and both end at the right points.
 #[test]
 fn arcs_are_round() {
     let found = picture("G21 G90 G0 X10 Y0 Z5\nG1 Z0 F100\nG3 X10 Y0 I-10 J0 Z-2 F100\nG2 X-10 Y0 R10\nM2\n");
@@ -89,7 +89,7 @@ fn arcs_are_round() {
     assert_eq!(strips.extents[0].map(f64::round), [-10.0, -10.0, -2.0], "with what the arc passes");
 }
 
-/// Where a move goes to the machine's own place, nobody knows where that is: it goes up, over everything.
+/// The position after a move to a machine position is unknown, so the move is drawn upwards, above everything else.
 #[test]
 fn a_way_home_goes_over_everything() {
     let found = picture("G21 G90 G54 G0 X0 Y0\nG43 H1 Z50.\nG1 Z-5 F100\nG1 X100\nG0 G53 Z0\nX50 Y50\nM2\n");
@@ -114,7 +114,7 @@ fn a_program_in_both_units_is_drawn_in_the_first() {
     assert!((to[0] - 2.0).abs() < 1e-9, "{to:?}");
 }
 
-/// What is modal after a block, and which block said it.
+/// The modal state after a block, and the block that set each value.
 #[test]
 fn every_part_of_the_state_has_its_block() {
     let found = picture(
@@ -137,8 +137,7 @@ fn every_part_of_the_state_has_its_block() {
     assert_eq!((found.holes[1].line, found.holes[1].bottom), (6, [2.0, 1.0, -0.1]));
 }
 
-/// Hostile programs: a picture comes of each, and nothing in it is markup of the program's or no number.
-/// U and V of a wire are the upper guide: a second line, at a height that only the machine knows.
+/// U and V of a wire are the upper guide. It is drawn as a second line at an unknown height, above the part.
 #[test]
 fn a_wire_has_two_guides() {
     let program = "G21 G90\nG0 X0 Y0 U0 V0\nG1 X10. Y0 U11. V1. F3.\nG3 X10. Y10. I0 J5. U11. V11.\nM2\n";
@@ -148,7 +147,7 @@ fn a_wire_has_two_guides() {
     assert_eq!(ends, [[10.0, 0.0], [11.0, 1.0], [10.0, 10.0], [11.0, 11.0]]);
     let heights: Vec<bool> = cuts.iter().map(|found| found.to[2].is_nan()).collect();
     assert_eq!(heights, [false, true, false, true]);
-    // the upper guide goes the same arc beside the lower one
+    // the arc of the upper guide is next to that of the lower one
     assert_eq!(
         found.arcs.iter().map(|arc| [arc.center[0], arc.center[1]]).collect::<Vec<_>>(),
         [[10.0, 5.0], [11.0, 6.0]]
@@ -160,7 +159,8 @@ fn a_wire_has_two_guides() {
     assert_eq!((held(Register::U), held(Register::V)), (11.0, 11.0));
 }
 
-/// A positive angle turns the tool about the part by the right hand: what is drilled from above at A90 is on the side of -Y.
+/// By the right-hand rule, a positive angle turns the tool about the part: a hole that is drilled from above at A90 is
+/// on the -Y side.
 #[test]
 fn rotary_axes_turn_the_points_about_them() {
     let found = picture("G21 G90 G94 F100\nG0 X0 Y0 Z10\nA90\nG1 Z5\nA450 X20\nM2\n");
@@ -172,7 +172,7 @@ fn rotary_axes_turn_the_points_about_them() {
     near(end(3), [0.0, -10.0, 0.0]);
     near(end(4), [0.0, -5.0, 0.0]);
     near(end(5), [20.0, -5.0, 0.0]);
-    // a whole turn is a helix: all of its points are as far from the axis, and none is far from the next
+    // a full turn is a helix: all its points are equally far from the axis, and neighbouring points are close
     let turn: Vec<_> = strips.pieces.iter().filter(|piece| found.moves[piece.of as usize].line == 5).collect();
     assert!(turn.len() >= 120, "{}", turn.len());
     assert!(turn.iter().all(|piece| (piece.to[1].hypot(piece.to[2]) - 5.0).abs() < 1e-9));
@@ -181,7 +181,7 @@ fn rotary_axes_turn_the_points_about_them() {
     assert_eq!((angle.value, angle.line), (450.0, 5));
 }
 
-/// Each post with the samples that it prints: its programs have a picture, by the machine of the form.
+/// The programs of each post for each sample have a picture, drawn with the form's machine.
 #[test]
 fn every_post_has_a_picture() {
     let samples = ["bracket", "first", "plate", "lathe-part", "wire", "four-axis", "plasma"];
@@ -194,7 +194,7 @@ fn every_post_has_a_picture() {
             let Ok(program) = form.render(Job::json(&bytes), &Options::default()) else { continue };
             let settings = form.run_settings(&Proof::default(), Units::Mm);
             let found = draw(Cursor::new(program.text()), settings).unwrap();
-            // a control whose file leaves open what a word means ends the picture there, as it ends the proof
+            // if the control's file leaves the meaning of a word open, the picture ends there, as the proof does
             let refused = found.refused.filter(|(diag, _)| !diag.message.contains("does not give"));
             assert!(refused.is_none(), "{}: {sample}: {refused:?}", post.display());
             assert!(found.moves.len() > 3, "{}: {sample}", post.display());
@@ -230,7 +230,7 @@ fn hostile_programs_make_pictures() {
     assert!(title.contains("&lt;b&gt;&amp;\\u{202e}"), "{title}");
 }
 
-/// Moves that are nearer to each other than a tenth of a pixel make no picture of a gigabyte.
+/// Moves closer than a tenth of a pixel are drawn together, so that the picture stays small.
 #[test]
 fn a_hundred_thousand_moves_in_one_place_are_a_small_picture() {
     let mut program = "G21 G90 G0 X0 Y0 Z0\nG1 X100 F100\n".to_owned();
@@ -241,7 +241,7 @@ fn a_hundred_thousand_moves_in_one_place_are_a_small_picture() {
     assert!(text.len() < 20_000, "{} bytes", text.len());
 }
 
-/// A page stands alone: its scene is in it, and it asks nobody.
+/// A page is self-contained: it contains its scene and loads nothing.
 #[test]
 fn a_page_stands_alone() {
     let folder = Folder::new("plot-page");
@@ -274,7 +274,7 @@ fn how_plot_ends() {
     };
     assert_eq!(status(&[&program, "-o", &out]), (0, String::new()));
     assert!(fs::read_to_string(&out).unwrap().contains("3 blocks"));
-    // refused: drawn as far as it was run
+    // refused: the picture shows the program up to the refused block
     let (code, said) = status(&[&refused, "-o", &out, "--control", "linuxcnc"]);
     assert!(code == 1 && said.contains("G123"), "{said}");
     assert!(fs::read_to_string(&out).unwrap().contains("refused at line 3"));

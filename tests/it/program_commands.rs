@@ -1,4 +1,4 @@
-//! `simulate` and `verify` as commands: exit status, streams, files that are none.
+//! `simulate` and `verify` as commands: exit status, streams, and files that are not programs.
 
 use std::fs;
 use std::io::Write;
@@ -35,7 +35,7 @@ fn a_program_for_a_lathe_asks_which_one() {
     let message = text(&refused.stderr);
     assert!(message.contains("the program is for a lathe, but no lathe control is named"), "{message}");
     assert!(message.contains("`--control fanuc-lathe` or `haas-lathe`"), "{message}");
-    // X as the program counts it
+    // X as the program contains it
     let run = fed(&["simulate", "-", "--control", "fanuc-lathe"], program);
     let shown = "     1  units   mm\n     2  tool    1\n     3  spindle cw S800\n     4  rapid   X50 Z2\n     5  feed    X50 Z-18 F0.2\n\
         \u{20}    5  cw      X54 Z-20 F0.2  centre X54 Z-18 in zx\n     6  feed    X60 Z-20 F0.2\n     7  end\n";
@@ -66,7 +66,7 @@ fn exit_status_and_streams_of_simulate() {
     assert_eq!(clean.status.code(), Some(0));
     assert_eq!(text(&clean.stdout), "     2  units   mm\n     2  rapid   X1 Y2 Z0\n     3  end\n");
     assert!(clean.stderr.is_empty());
-    // what was run before the refusal stands, and the refusal is the last object
+    // the actions before the refusal are printed, and the refusal is the last object
     let refused = fed(&["simulate", "-", "--format", "json"], b"G21\nG0 X1.\nG0 X#7\nM30\n");
     assert_eq!(refused.status.code(), Some(1));
     let lines: Vec<serde_json::Value> =
@@ -96,7 +96,7 @@ fn exit_status_and_streams_of_simulate() {
     assert!(text(&empty.stderr).contains("incomplete"));
 }
 
-/// Control characters of a program never reach a terminal, and a comment may hold anything.
+/// Control characters in a program are never sent to a terminal. A comment may contain any characters.
 #[test]
 fn programs_are_shown_safely() {
     let output = fed(&["simulate", "-"], b"G21 (\x1b[31mred \xff)\nG0 X1. \x1b[2J\nM30\n");
@@ -104,7 +104,7 @@ fn programs_are_shown_safely() {
     assert!(!output.stdout.contains(&0x1b) && !output.stderr.contains(&0x1b), "{}", text(&output.stderr));
 }
 
-/// C0, C1, marks of bidirectional text and line separators are shown as escapes, whatever file they come from.
+/// C0, C1, marks of bidirectional text and line separators are shown as escapes, from files of every kind.
 #[test]
 #[cfg(target_os = "linux")]
 fn nothing_from_a_file_steers_the_terminal() {
@@ -156,11 +156,11 @@ fn nothing_from_a_file_steers_the_terminal() {
         }
         assert!(!output.stdout.is_empty() || !output.stderr.is_empty(), "{arguments:?}");
     }
-    // JSON reads back as it was
+    // after JSON is parsed, the text is unchanged
     let json = run(&["diff", "a.nc", "b.nc", "--format", "json"]).stdout;
     let json = serde_json::from_slice::<serde_json::Value>(&json).unwrap().to_string();
     assert!(json.contains('\u{202e}') && json.contains('\u{9b}'), "{json}");
-    // a line of a form is shown with its escapes
+    // a line of a form is shown with escapes
     let shown = text(&run(&["lint", "form.pf"]).stdout);
     assert!(shown.contains("\\u{1b}]0;a\\u{7}\\u{9b}31m\\u{202e}"), "{shown}");
 }
@@ -197,7 +197,7 @@ fn a_full_disk_is_an_error_of_simulate() {
     assert!(text(&output.stderr).contains("can't write"));
 }
 
-/// Job and program through pipes.
+/// The job and the program come through pipes.
 #[test]
 fn verify_reads_standard_input() {
     let job = fs::read(root().join("samples/plate/job.json")).unwrap();
@@ -207,17 +207,17 @@ fn verify_reads_standard_input() {
     let program = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
     let output = fed(&["verify", "samples/bracket/job.json", "--nc", "-"], &program);
     assert!(text(&output.stdout).starts_with("equivalent: standard input"), "{}", text(&output.stdout));
-    // a program that calls parts of itself is printed once more, into a file
+    // a program that calls parts of itself is printed again into a file
     let job_of_subs = fs::read(root().join("samples/pattern/job.json")).unwrap();
     let output = fed(&["verify", "-", "--form", "postforms/fadal-subs.pf"], &job_of_subs);
     assert!(text(&output.stdout).starts_with("identical: "), "{}", text(&output.stdout));
-    // half a job is no proof of half a program
+    // a truncated job gives an error, not a proof
     let output = fed(&["verify", "-", "--form", "postforms/grbl.pf"], &job[..job.len() / 2]);
     assert_eq!(output.status.code(), Some(1));
     assert!(output.stdout.is_empty() && text(&output.stderr).contains("PJ"), "{}", text(&output.stderr));
 }
 
-/// What lint knows of a form is said where its program is made, once, in lines; levels and allowances hold.
+/// `render` shows lint's warnings about the form once, one per line. Levels and allowances apply.
 #[test]
 fn render_says_what_lint_knows() {
     let run = |more: &[&str]| {
@@ -236,7 +236,7 @@ fn render_says_what_lint_knows() {
     assert!(text(&denied.stderr).contains("1 warning, nothing was printed"), "{}", text(&denied.stderr));
 }
 
-/// Words that are lost are said, and the program is printed without them.
+/// `render` warns about lost words of the form, and prints the program without them.
 #[test]
 fn render_says_what_a_form_loses() {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -248,7 +248,7 @@ fn render_says_what_a_form_loses() {
     assert!(text(&output.stderr).contains("warning PF101: `T[tool] M6` is lost"), "{}", text(&output.stderr));
 }
 
-/// The manual's tool change on a lathe prints Z under X: said for each word, wherever the form prints.
+/// The manual's tool change, used on a lathe, prints Z for X. `render` warns about each of these words.
 #[test]
 fn render_says_that_lathe_axes_are_the_other_way_round() {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -265,7 +265,7 @@ fn render_says_that_lathe_axes_are_the_other_way_round() {
     assert_eq!((output.status.code(), told.matches("warning PF314: ").count()), (Some(0), 4), "{told}");
 }
 
-/// Warnings of the renderer are denied where a program is made for verify and diff, too.
+/// `--deny warnings` also applies to the renderer's warnings if `verify` or `diff` prints the program.
 #[test]
 fn verify_hears_what_the_renderer_warns_of() {
     let job = concat!(env!("CARGO_TARGET_TMPDIR"), "/slow.json");
@@ -276,7 +276,8 @@ fn verify_hears_what_the_renderer_warns_of() {
     assert!(!text(&run(&[]).stderr).contains("PR025"), "{}", text(&run(&[]).stderr));
 }
 
-/// A program of which nothing shows the control is Fanuc's only where each word is a Fanuc's: `G56 H1` may be a length.
+/// Without any sign of its control, a program is read as Fanuc's only if each word is certain: `G56 H1` may be a
+/// length.
 #[test]
 fn an_assumed_control_reads_no_word_of_another() {
     let program = b"G21\nG0 G56 H1 X1.\nM30\n";
@@ -289,7 +290,7 @@ fn an_assumed_control_reads_no_word_of_another() {
     assert!(text(&other.stderr).contains("Klartext of a Heidenhain control, but fanuc reads another"));
 }
 
-/// Each refused block is reported, and those after it are run.
+/// A refused block is reported, and the blocks after it are run.
 #[test]
 fn a_refused_block_is_passed_over() {
     let refused = fed(&["simulate", "-", "--format", "json"], b"G21\nG0 X#7\nG0 X#8\nG0 X1.\nM30\n");
@@ -298,7 +299,7 @@ fn a_refused_block_is_passed_over() {
     let errors: Vec<_> = rows.iter().filter(|row| row.get("error").is_some()).map(|row| row["line"].clone()).collect();
     assert_eq!(errors, [2, 3]);
     assert!(rows.iter().any(|row| row.get("rapid").is_some()) && refused.status.code() == Some(1), "{rows:?}");
-    // what only the machine knows is shown as such
+    // unknown positions are shown as `?`
     let shown = fed(&["simulate", "-", "--start", "unknown"], b"G21 G90\nG0 X1.\nM30\n");
     assert!(text(&shown.stdout).contains("X1 Y? Z?"), "{}", text(&shown.stdout));
 }

@@ -1,4 +1,4 @@
-//! NC programs read as jobs and printed by the Haas post: what comes out, what is warned of, what is refused.
+//! NC programs that are read as jobs and printed by the Haas post: the output, the warnings, the refusals.
 
 use crate::support::control;
 use std::io::Cursor;
@@ -11,12 +11,12 @@ use postform::toolpath::ReadError;
 
 const HEAD: &str = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M8\n";
 
-/// The new program with its warnings, or the code of the refusal.
+/// The new program with its warnings, or the error code of the refusal.
 fn printed(program: &str) -> Result<(String, Vec<String>), String> {
     printed_by(&plain_post("haas.pf"), program)
 }
 
-/// The same of another form.
+/// The new program of another form with its warnings, or the error code of the refusal.
 fn printed_by(form: &str, program: &str) -> Result<(String, Vec<String>), String> {
     let checked = check(form);
     let form = compile(&checked.form);
@@ -33,7 +33,7 @@ fn printed_by(form: &str, program: &str) -> Result<(String, Vec<String>), String
     }
 }
 
-/// The blocks of the path, without their numbers.
+/// The blocks of the path, without block numbers.
 fn path(blocks: &str) -> Vec<String> {
     let (text, _) = printed(&format!("{HEAD}{blocks}\nM30\n")).unwrap_or_else(|code| panic!("{blocks}: {code}"));
     let lines = text.lines().map(|line| line.split_once(' ').map_or(line, |(_, rest)| rest).to_owned());
@@ -42,7 +42,8 @@ fn path(blocks: &str) -> Vec<String> {
     lines[..end].to_vec()
 }
 
-/// G43 holds on over a tool change: a tool that cuts with another's length does so in the new program, and it is said.
+/// G43 stays active after a tool change. A tool that cuts with another tool's length does so in the new program too,
+/// with a warning.
 #[test]
 fn a_tool_keeps_the_length_offset_that_it_cuts_with() {
     let second = "G1 Z-.1 F5.\nG0 Z1.\nT2 M6\nS500 M3\nG0 X1. Y1.\n";
@@ -53,14 +54,14 @@ fn a_tool_keeps_the_length_offset_that_it_cuts_with() {
     assert!(text.contains("G43 H2 Z.5") && warnings.is_empty(), "{warnings:?}\n{text}");
 }
 
-/// A tool that cuts with its length and without it cuts in two frames.
+/// A tool must not cut both with and without its length offset, because these are two frames.
 #[test]
 fn a_tool_has_its_length_or_none() {
     assert_eq!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG49\nG1 Z-.2\nM30\n")).unwrap_err(), "PN036");
     assert!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG0 Z1.\nG49\nM30\n")).is_ok());
 }
 
-/// G53 goes straight, at rapid: no control has an arc to a position of the machine.
+/// G53 moves straight at rapid. No control has an arc to a machine position.
 #[test]
 fn an_arc_in_machine_coordinates_is_refused() {
     assert_eq!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG53 G2 I1.\nM30\n")).unwrap_err(), "PN006");
@@ -88,7 +89,8 @@ fn motions_feeds_and_switches_stay_what_they_were() {
     }
 }
 
-/// Stops stay, also where a feed mode changes; before one the tool goes up, as it went home.
+/// Stops are kept, even where a feed mode changes. Before a stop, the tool moves up, as it went home in the old
+/// program.
 #[test]
 fn stops_and_the_way_before_them_stay() {
     let lines = path("G81 X1. Z-1. R.1 F5.\nG80 G94\nM1\nG81 X2. Z-1. R.1");
@@ -153,27 +155,28 @@ fn what_is_left_out_is_warned_of() {
     assert!(warnings.iter().any(|warning| warning.contains("M99")), "{warnings:?}");
 }
 
-/// Between the holes of a pattern a program may end its cycle and go on by rapids at the return height: it is one cycle.
+/// If a program ends its cycle between the holes of a pattern and moves by rapids at the return height, the holes still
+/// become one cycle.
 #[test]
 fn a_pattern_of_holes_stays_one_cycle() {
     let each = |x: u32| format!("G81 X{x}. Z-1. R.1 F5.\nG80\n");
     let one = ["G98 G81 X1. Y0 Z-1. R.1 F5.", "X2.", "X3.", "G80"];
     assert_eq!(path(&format!("G0 X1.\n{}G0 X2.\n{}G0 Y0\nX3.\n{}", each(1), each(2), each(3)))[1..], one);
-    // a way round something, a lift over a clamp, a stop
+    // a detour, a lift over a clamp, a stop
     for between in ["G0 Y5.\nX2.\nY0", "G0 Z4.\nX2.\nZ1.", "M0\nM3"] {
         let lines = path(&format!("G0 X1.\n{}{between}\n{}", each(1), each(2)));
         assert_eq!(lines.iter().filter(|line| line.contains("G81")).count(), 2, "{between}: {lines:?}");
         let said = between.lines().next().unwrap().rsplit(' ').next().unwrap();
         assert!(lines.iter().any(|line| line.contains(said)), "{between}: {lines:?}");
     }
-    // what is switched on the way is switched there
+    // a state that changes between two holes changes at the same position in the new program
     let lines = path(&format!("G0 X1.\n{}G0 X2.\nG55\nZ1.\n{}", each(1), each(2)));
     let [moved, work] = ["X2.", "G55"].map(|word| lines.iter().position(|line| line.contains(word)).unwrap());
     assert!(moved < work, "{lines:?}");
-    // another depth is a hole of the pattern, another feed is not
+    // a hole with another depth belongs to the pattern, one with another feed does not
     let deeper = path(&format!("G0 X1.\n{}G0 X2.\nG81 X2. Z-2. R.1 F6.\nG80", each(1)));
     assert_eq!(deeper.iter().filter(|line| line.contains("G81")).count(), 2, "{deeper:?}");
-    // what is after the last hole is done
+    // moves after the last hole are kept
     assert_eq!(path(&format!("G0 X1.\n{}G0 X7.\nG1 Z.5 F9.", each(1))).last().unwrap(), "G1 Z.5 F9.");
     assert!(path(&format!("G0 X1.\n{}G0 X7.\nG1 Z.5 F9.", each(1))).contains(&"G0 X7.".to_owned()));
 }
@@ -202,7 +205,8 @@ fn a_warning_is_counted() {
     assert!(both[0].ends_with("(3 times, the first here)"), "{both:?}");
 }
 
-/// A program may begin with a cut, or cut from the machine's Z0, as Fusion's free licence has it: the caller says where that is.
+/// A program may begin with a cut, or cut from the machine's Z0, as with Fusion's free licence. The caller gives the
+/// start position.
 #[test]
 fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
     let read = |program: &str, start| {
@@ -227,11 +231,12 @@ fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
     let from = lines.iter().position(|line| line.contains("X0 Y0")).unwrap_or_else(|| panic!("{lines:?}"));
     let cuts: Vec<&str> =
         lines[from..].iter().map(String::as_str).filter(|line| line.contains('X') || line.contains('Z')).collect();
-    // the height is the caller's until the program says one
+    // the caller's height applies until the program sets one
     assert_eq!(cuts[..6], ["G0 G54 X0 Y0", "Z40. M9", "G1 X10. Y5. F500.", "X20.", "Z0 F50.", "X30."], "{lines:?}");
 }
 
-/// A frame that G52 or G92 moves between moves is followed: a job counts all places in that of the first move.
+/// A frame that G52 or G92 moves between moves is converted: all positions of the job are in the frame of the first
+/// move.
 #[test]
 fn frames_that_move_between_moves_are_followed() {
     let lines = path(
@@ -243,7 +248,7 @@ fn frames_that_move_between_moves_are_followed() {
     assert_eq!(path("G1 Z-.1 F5.\nG92 X5.\nG1 X6.\nG92 X0\nG1 X2."), ["G1 Z-.1 F5.", "X1.", "X3."]);
 }
 
-/// The comment after the O number is the name of the program.
+/// The comment after the O number becomes the name of the program.
 #[test]
 fn the_comment_of_the_number_is_the_name() {
     let form = mill("", "").replacen("%0\n", "%0\n(NAME [progname])\n", 1);

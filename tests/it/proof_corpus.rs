@@ -1,5 +1,6 @@
-//! Programs with their jobs and verdicts, a file each in `tests/data/proofs`: random ones, kept because a small change of the
-//! comparison would give them another verdict. A file is `form NAME`, `units UNITS` of the program, `verdict WORDS`, the job on a line, and the program.
+//! Random programs with their jobs and verdicts, a file each in `tests/data/proofs`. Each was kept because a small
+//! change of the comparison would change its verdict. A file contains `form NAME`, `units UNITS` (of the program),
+//! `verdict WORDS`, the job on one line, and the program.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,14 +12,14 @@ use postform::{Error, Job, NoFiles, Options, Post, Proof, Proven, Source, Verdic
 
 use crate::support::root;
 
-/// A form that ships, or one of `tests/data/forms`.
+/// A shipped form, or one of `tests/data/forms`.
 fn post(name: &str) -> Post {
     let folders = ["postforms", "tests/data/forms"].map(|folder| root().join(folder).join(name).with_extension("pf"));
     let path = folders.iter().find(|path| path.exists()).unwrap_or_else(|| panic!("{name} is no form"));
     Post::compile(Source::from_bytes(name, &fs::read(path).unwrap()), &NoFiles).unwrap()
 }
 
-/// A verdict in one line, with all that is counted.
+/// A verdict in one line, with its counts.
 fn shown(proven: Result<Proven, Error>) -> String {
     match proven.map(|proven| proven.verdict) {
         Ok(Verdict::Identical) => "identical".into(),

@@ -1,4 +1,4 @@
-//! What verify must not say: right programs that are called different, wrong ones that are called right.
+//! Wrong verdicts that must not occur: correct programs called different, and wrong programs called correct.
 
 use std::fs;
 use std::io::Cursor;
@@ -15,14 +15,14 @@ use postform::internals::verify::{
 };
 use postform::toolpath::{Event, Flow, Place, Sink, Units};
 
-/// A metric job of two tools.
+/// A metric job with two tools.
 pub fn mm(operations: &str) -> String {
     format!(
         r#"{{"postform":1,"program":7,"units":"mm","tools":[{{"number":1,"diameter":6}},{{"number":2,"diameter":5}}],"operations":[{operations}]}}"#
     )
 }
 
-/// An operation of the first tool.
+/// An operation with the first tool.
 pub fn one(path: &str) -> String {
     mm(&format!(
         r#"{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"coolant":"flood","feed":100,"path":[{path}]}}"#
@@ -46,7 +46,7 @@ fn is_right(name: &str, (program, verdict): (String, Verdict)) {
     assert!(verdict.is_proven(), "{name}: {verdict:#?}\n{program}");
 }
 
-/// Are the programs of these posts for these jobs proven?
+/// Checks that the programs of these posts for these jobs are proven.
 #[track_caller]
 fn all_are_right(jobs: &[(&str, String)], posts: &[&str]) {
     let mut wrong = String::new();
@@ -61,7 +61,7 @@ fn all_are_right(jobs: &[(&str, String)], posts: &[&str]) {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// Programs of the posts that once were called different.
+/// Correct programs of the posts that were once called different.
 #[test]
 fn right_programs_are_proven() {
     let jobs = [
@@ -243,7 +243,7 @@ fn right_programs_are_proven() {
     all_are_right(&oriented, &["fanuc.pf", "haas.pf", "linuxcnc.pf"]);
 }
 
-/// Ways of a lathe that are no longer than its digits, or straight on through a corner.
+/// Paths on a lathe that are no longer than its last digit, or that continue straight through a corner.
 #[test]
 fn right_ways_of_lathes_are_proven() {
     let job = |path: &str| {
@@ -268,7 +268,7 @@ fn right_ways_of_lathes_are_proven() {
     all_are_right(&jobs.map(|(name, path)| (name, job(&path))), &["fanuc-lathe.pf", "haas-lathe.pf"]);
 }
 
-/// Threads one after the other: the passes of the second are its own.
+/// Two threads in a row: the passes of the second belong to the second.
 #[test]
 fn right_threads_are_proven() {
     let job = |path: &str| {
@@ -290,7 +290,7 @@ fn right_threads_are_proven() {
         ),
         ("a stop before the same", format!("{},{{\"stop\":\"program\"}},{}", thread(11, four), thread(11, four))),
     ];
-    // each pass a block of its own, as on a control without a cycle
+    // each pass is a separate block, as on a control without a thread cycle
     let passes = include_str!("../data/forms/lathe-radius.pf");
     for (name, path) in &jobs {
         is_right(name, of_post("haas-lathe.pf", &job(path)));
@@ -298,7 +298,7 @@ fn right_threads_are_proven() {
     }
 }
 
-/// A helix of no width to speak of, which a form with radius words divides where its centre would move.
+/// A helix of almost no width. A form with radius words divides it, because rounding would move its centre.
 #[test]
 fn a_steep_helix_in_parts_is_proven() {
     let helix = r#"{"rapid":[1,1,1]},{"rapid":[0.9621,-0.05,0.1]},{"line":[0.9620692,-0.05,-0.1432692]},{"arc":{"to":[0.96283,-0.0500907,-0.2],"center":[0.91,-0.49,-0.1432692],"direction":"cw"}}"#;
@@ -308,7 +308,7 @@ fn a_steep_helix_in_parts_is_proven() {
     is_right("a steep helix", (program, verdict));
 }
 
-/// Forms of shops: dwells for the spindle, other letters, a move home before the next tool.
+/// Forms of shops: a dwell for the spindle, renamed axes, a move home before the next tool.
 #[test]
 fn right_programs_of_other_forms_are_proven() {
     let fanuc = post("fanuc.pf");
@@ -317,7 +317,7 @@ fn right_programs_of_other_forms_are_proven() {
     let (program, verdict) = of_form(&spin_up, &one(path));
     assert_eq!(verdict, Verdict::Equivalent(Equivalences { dwells: 1, ..Equivalences::default() }), "{program}");
 
-    // a feed of the form's own, from 0.2 to 2 times the job's 100
+    // a feed of the form's own, from 0.2 to 2 times the job's feed of 100
     for (word, printed) in [("F150.", "F150."), ("F200.", "F200."), ("F20.", "F20."), ("F[frate*2]", "F200.")] {
         let typed = fanuc.replacen("EndCode", &format!("LineCode\nG1 X[h] Y[v] Z[d] {word}\nEnd\n\nEndCode"), 1);
         let (program, verdict) = of_form(&typed, &one(path));
@@ -332,7 +332,7 @@ fn right_programs_of_other_forms_are_proven() {
         |by: &str| of_form(&fanuc.replace("S[speed] M[direct]", &format!("S[speed*{by}] M[direct]")), &one(path)).1;
     assert!(matches!(faster("2"), Verdict::Equivalent(_)) && matches!(faster("2.1"), Verdict::Different(_)));
 
-    // a machine that turns no faster, and a form that slows its cuts: both are the form's, and counted
+    // a form that limits the speed, and one that reduces feeds: both changes are the form's and are counted
     let limited = fanuc.replace("S[speed] M[direct]", "S[min(speed,800)] M[direct]");
     let (program, verdict) = of_form(&limited, &one(path));
     let speeds = matches!(verdict, Verdict::Equivalent(Equivalences { speeds: 2, .. }));
@@ -341,7 +341,7 @@ fn right_programs_of_other_forms_are_proven() {
     let (program, verdict) = of_form(&slower, &one(path));
     let feeds = matches!(verdict, Verdict::Equivalent(Equivalences { feeds: 2, .. }));
     assert!(feeds && program.contains("F50."), "{verdict:?}\n{program}");
-    // a tap would cut another thread
+    // with another speed, a tap would cut another thread
     let tap = one(
         r#"{"rapid":[0,0,25]},{"cycle":{"kind":"tap","depth":9,"clear":2,"feed":1250,"points":[[1,1,0]]}},{"rapid":[1,1,25]}"#,
     );
@@ -357,7 +357,7 @@ fn right_programs_of_other_forms_are_proven() {
     );
     is_right("another offset with another tool", of_form(&home, &offsets));
 
-    // the last part of an arc, which no digits of its end show, before a full circle the other way
+    // a last part of an arc that is shorter than the last digit, followed by a full circle in the other direction
     let unusual = |name: &str| std::fs::read_to_string(root().join(format!("tests/data/forms/{name}.pf"))).unwrap();
     let inch = |path: &str| {
         format!(
@@ -368,18 +368,18 @@ fn right_programs_of_other_forms_are_proven() {
         r#"{"rapid":[2.1991,0.974,1.2191]},{"line":[-1.6529,3.6587,-0.25]},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"radius":0.25383784193850994,"direction":"ccw"}},{"arc":{"to":[-1.6310425,3.6577622,-0.25],"center":[-1.9185,3.4783,-0.25],"direction":"cw"}}"#,
     );
     is_right("a circle after the rest of an arc", of_form(&unusual("spin-up"), &arcs));
-    // two cuts of one digit, one along X and the other along Y, of which digits show one
+    // two cuts of about one digit, along X and along Y; only one of them is printed
     let across = inch(
         r#"{"rapid":[93.788,84.085,46.211]},{"line":[93.78775,84.085,46.211]},{"rapid":[93.78775,84.086,46.211]},{"line":[93.78775,84.0835,46.211]},{"rapid":[68.733,82.644,46.211]},{"line":[68.733,82.644,-1.199]}"#,
     )
     .replacen("\"units\":\"inch\"", "\"units\":\"mm\"", 1);
     is_right("a cut across one that no digits show", of_form(&unusual("metric"), &across));
-    // from home down at first, and then across: nobody knows from where
+    // from home first down, then across: the start is unknown
     let home = inch(
         r#"{"rapid":[0.7375,-2.0667,1.6584]},{"home":true},{"rapid":[null,null,1.0876]},{"rapid":[0.6466,-2.2204,1.6921]},{"line":[-3.1394,-1.7077,-0.3154]}"#,
     );
     is_right("down after home", of_form(&unusual("no-return-plane"), &home));
-    // the control leaves the hole higher than the job, and comes back for a cut that no digits show
+    // the control leaves the hole higher than the job does, and moves back for a cut that is shorter than the last digit
     let tapped = inch(
         r#"{"rapid":[1.0698,1.7598,0.8441]},{"cycle":{"kind":"tap","clear":0.2746,"depth":0.7718,"feed":18.9,"points":[[-0.7609,0.351,-0.2594]]}},{"line":[-0.7609,0.351,0.01521]},{"rapid":[-0.7609,0.351,1.7092]}"#,
     );
@@ -395,7 +395,7 @@ fn right_programs_of_other_forms_are_proven() {
     is_right("an axis by another name", (program, verdict));
 }
 
-/// A program as its own job.
+/// A program is identical to itself as a job.
 #[test]
 fn programs_are_identical_to_themselves() {
     let head = "%\nO1\nG20 G17 G40 G49 G80 G90\nT1 M6\nG0 G54 X0. Y-3.9 S1000 M3\nG43 H1 Z1.\n";
@@ -418,14 +418,14 @@ fn programs_are_identical_to_themselves() {
     }
 }
 
-/// Right programs, changed in one place: each once was called identical or equivalent.
+/// Correct programs, changed in one place. Each was once called identical or equivalent.
 #[test]
 fn wrong_programs_are_different() {
     let back = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"back","depth":0.5,"rapto":0.9,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[null,null,2]},{"line":[3,3,1.9]},{"rapid":[3,3,2]}"#;
     let bore = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"bore","depth":0.5,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let deep = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"step":0.4,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let pecks = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"pecks":[{"to":0.4,"feed":5},{"to":0.7,"feed":4},{"to":1,"feed":3}],"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
-    // each peck begins above the one before: in the material of both lies its first way alone
+    // each peck begins higher than the one before, so only its first part is in the material
     let chips = pecks.replace("deep", "chipbreak").replace("\"clear\"", "\"back\":0.05,\"clear\"");
     let chips = chips.as_str();
     let gap = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"dwell":3},{"rapid":[0,0,2]},{"rapid":[1,1,2]},{"dwell":2},{"rapid":[1,1,1]},{"line":[1,1,-1]},{"rapid":[1,1,2]}"#;
@@ -489,7 +489,7 @@ fn wrong_programs_are_different() {
     assert!(quiet.is_empty(), "{quiet}");
 }
 
-/// A rapid in a work offset in which nothing is cut.
+/// A low rapid in a work offset in which nothing is cut.
 #[test]
 fn low_rapids_of_other_offsets_are_found() {
     let job = r#"{"postform":1,"program":1,"units":"inch","tools":[{"number":1,"diameter":0.5}],"operations":[{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":10,"path":[{"rapid":[0,0,2]},{"work":55},{"rapid":[2,2,2]},{"line":[2,2,-1]},{"rapid":[2,2,2]}]}]}"#;
@@ -502,7 +502,7 @@ fn low_rapids_of_other_offsets_are_found() {
     assert!(matches!(verified(&form, &low, &job), Verdict::Different(_)), "{low}");
 }
 
-/// Identical is identical: what is allowed is counted.
+/// Only a program without any difference is identical. Allowed differences are counted.
 #[test]
 fn what_is_otherwise_is_counted() {
     let form = check(&post("haas.pf"));
@@ -527,7 +527,7 @@ fn what_is_otherwise_is_counted() {
     assert_eq!(verified(&form, &longer, &job), Verdict::Equivalent(Equivalences { tails: 1, ..none() }), "{longer}");
 }
 
-/// One cause is one finding, however often it is met.
+/// Differences with the same cause are one finding with a count.
 #[test]
 fn differences_of_one_cause_are_counted() {
     let form = check(&post("haas.pf"));
@@ -543,7 +543,7 @@ fn differences_of_one_cause_are_counted() {
     assert_eq!(told, [("PV006", 4), ("PV004", 4)], "{findings:#?}");
 }
 
-/// What the file of a control does not know is no difference: nothing is proven from there on.
+/// A code that the control's file does not define is no difference, but nothing is proven after it.
 #[test]
 fn unknown_codes_are_not_proven() {
     let form = check(&post("fanuc.pf"));
@@ -554,14 +554,14 @@ fn unknown_codes_are_not_proven() {
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
     assert_eq!(unproven.why, "G201 is unknown for fanuc");
     assert!(unproven.from().starts_with(" from N") && unproven.line > 0, "{unproven:?}");
-    // LinuxCNC has no other codes than those of its file, and refuses them itself
+    // LinuxCNC has only the codes of its file, and refuses all others itself
     let form = check(&post("linuxcnc.pf"));
     let program = rendered(&form, &job, Cycles::Form);
     let changed = program.replacen("G1 Z-1.", "G201 P1\nG1 Z-1.", 1);
     assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
 }
 
-/// A form that names no control is never different: by whose rules?
+/// A program of a form without a control is not proven, and never different, because the rules of its control are unknown.
 #[test]
 fn forms_without_a_control_are_not_proven() {
     let run = |more: &[&str]| {
@@ -576,7 +576,7 @@ fn forms_without_a_control_are_not_proven() {
     assert!(run(&["--control", "fanuc"]).1.starts_with("different: "));
 }
 
-/// Holes of custom cycles: their depth is the job's, or nothing is proven.
+/// Holes of custom cycles are proven only if they have the depth of the job.
 #[test]
 fn custom_cycles_are_holes() {
     let custom = "Custom1\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd\n\nEndCode";
@@ -593,7 +593,7 @@ fn custom_cycles_are_holes() {
     assert!(matches!(verified(&form, &changed, &job), Verdict::NotProven(_)), "{changed}");
 }
 
-/// Programs of unusual forms that once were called different.
+/// Programs of unusual forms that were once called different.
 #[test]
 fn right_programs_of_unusual_forms_are_proven() {
     let inch = |path: &str| one(path).replace("\"mm\"", "\"inch\"");
@@ -639,7 +639,7 @@ fn right_programs_of_unusual_forms_are_proven() {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// The tables of the docs are those of the code.
+/// docs/verify.md lists the allowances, tolerances and reasons that the code contains.
 #[test]
 fn docs_list_what_is_proven() {
     let page = fs::read_to_string(root().join("docs/verify.md")).unwrap();
@@ -657,7 +657,7 @@ fn docs_list_what_is_proven() {
     }
 }
 
-/// Real programs and paths that were called different.
+/// Real programs and paths that were once called different.
 #[test]
 fn findings_of_others_stay_found() {
     let lines = r#"{"start":{"units":"mm","program":1,"tools":[{"number":1,"length_offset":1}]}}
@@ -680,7 +680,7 @@ fn findings_of_others_stay_found() {
     }
 }
 
-/// Beside the renderer, events and text in small pieces come to the same verdict.
+/// A proof during printing, with events and text in small pieces, has the same verdict.
 #[test]
 fn a_proof_beside_the_renderer_is_the_same() {
     struct Tap<'p> {
@@ -712,7 +712,7 @@ fn a_proof_beside_the_renderer_is_the_same() {
         let outcome = beside(tap.batches.clone());
         assert!(outcome.verdict.is_proven() && outcome.counts.holes == 20, "{name}: {outcome:?}");
         assert_eq!(outcome.verdict, verified(&form, std::str::from_utf8(&text).unwrap(), &job), "{name}");
-        // a digit that changes on its way
+        // a digit that changes between the renderer and the proof
         let wrong = |batch: Batch| {
             let text = batch.text.iter().map(|&byte| if byte == b'5' { b'6' } else { byte }).collect();
             Batch { text, ..batch }
@@ -721,7 +721,7 @@ fn a_proof_beside_the_renderer_is_the_same() {
     }
 }
 
-/// Memory does not grow where a program prints nothing for a long part of its job.
+/// Memory does not grow if a program prints nothing for a long part of its job.
 #[test]
 fn a_proof_beside_the_renderer_holds_no_long_job() {
     let form = check(&post("fanuc.pf"));
@@ -750,7 +750,7 @@ fn a_proof_beside_the_renderer_holds_no_long_job() {
     assert!(matches!(&outcome.verdict, Verdict::NotProven(why) if why.in_a_file), "{:?}", outcome.verdict);
 }
 
-/// What lies between two cuts of a program is bounded too, and text after a block that the control refuses is not held.
+/// The number of moves between two cuts of a program is limited too, and text after a refused block is not kept.
 #[test]
 fn a_proof_holds_no_long_way_of_the_program() {
     let form = check(&post("fanuc.pf"));
@@ -762,15 +762,15 @@ fn a_proof_holds_no_long_way_of_the_program() {
         let Verdict::NotProven(unproven) = verified(&form, &many, &job) else { panic!("{block}") };
         assert_eq!(unproven.why, "too many rapids, stops and dwells between two cuts");
     }
-    // each change of the offset is compared with each
+    // each change of the work offset is compared with each other one
     let there = r#"{"work":55},{"rapid":[0,0,50]},{"work":54},{"rapid":[0,0,50]},"#.repeat(2000);
     let job =
         one(&format!(r#"{{"rapid":[0,0,25]}},{{"line":[0,0,1]}},{{"rapid":[0,0,50]}},{there}{{"line":[0,0,40]}}"#));
     assert!(matches!(of_post("fanuc.pf", &job).1, Verdict::NotProven(_)));
 }
 
-/// The proof ends where the job can't be planned, and what it did not compare is not proven: a control drills what the planner
-/// refuses.
+/// If a cycle of the job can't be planned, the proof ends there, and the rest is not proven: a control drills what the
+/// planner refuses.
 #[test]
 fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
     let job = one(
@@ -787,7 +787,7 @@ fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
     let told = postform(&["verify", &file, "--form", "postforms/fanuc.pf", "--nc", &out]);
     assert!(text(&told.stderr).contains("PC028"), "{}", text(&told.stderr));
     assert_eq!(told.status.code(), Some(1));
-    // events that end before the job does
+    // events that stop before the end of the job
     let mut comparer = Comparer::new(
         Cursor::new("%\nM30\n%\n"),
         RunSettings::new(control("fanuc")),
@@ -806,7 +806,7 @@ fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
     assert!(matches!(comparer.verdict().unwrap(), Verdict::NotProven(_)));
 }
 
-/// A back bore as the first hole of a tool whose place the job has not told yet.
+/// A back bore may be the first hole of a tool, when the job has not yet given its position.
 #[test]
 fn a_back_bore_may_come_first() {
     let job = one(
@@ -815,13 +815,13 @@ fn a_back_bore_may_come_first() {
     let form = fs::read_to_string(root().join("tests/data/forms/advanced.pf")).unwrap();
     let (program, verdict) = of_form(&form, &job);
     assert!(verdict.is_proven(), "{verdict:?}\n{program}");
-    // straight down at the wall
+    // without the move off the wall, straight down
     let (form, job) = (check(&form), document(&job));
     let down = program.lines().filter(|line| !line.contains("X-61.9")).collect::<Vec<_>>().join("\n");
     assert!(matches!(verified(&form, &down, &job), Verdict::Different(_)), "{down}");
 }
 
-/// On a machine without tool changes the first M0 of a job without cuts is the job's, where the form has none for its first tool.
+/// On a machine without tool changes, the first M0 may be a stop of the job. It must not be taken for a tool change.
 #[test]
 fn a_stop_of_the_job_is_not_the_first_tool_change() {
     let job = one(
@@ -834,7 +834,7 @@ fn a_stop_of_the_job_is_not_the_first_tool_change() {
     assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
 }
 
-/// A stop or a dwell before the first cut is the form's own, also before the first tool and after a way home.
+/// A stop or a dwell before the first cut belongs to the form, even before the first tool and after a move home.
 #[test]
 fn stops_before_the_first_cut_are_the_forms() {
     let fanuc = post("fanuc.pf");
@@ -845,7 +845,7 @@ fn stops_before_the_first_cut_are_the_forms() {
         assert_ne!(form, fanuc);
         is_right(own, of_form(&form, &cut));
     }
-    // after the cut, in it
+    // after the cut has begun
     let (program, _) = of_form(&fanuc, &cut);
     let (form, job) = (check(&fanuc), document(&cut));
     for own in ["M1", "G4 P2000"] {
@@ -855,7 +855,7 @@ fn stops_before_the_first_cut_are_the_forms() {
     }
 }
 
-/// An author who goes up after G49, as the manual does, is told what to write.
+/// If a form moves up after G49, as the manual does, the finding explains what to print instead.
 #[test]
 fn up_without_the_length_is_explained() {
     let form = post("fanuc.pf");
@@ -872,7 +872,7 @@ fn up_without_the_length_is_explained() {
     assert!(format!("{found:?}").contains("`G91 G28 Z0`"), "{found:#?}\n{manual}");
 }
 
-/// A form may drill in pecks, and dwell at them.
+/// A form may drill a hole in pecks, and dwell at each peck.
 #[test]
 fn drilled_holes_may_be_pecked() {
     let drill = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -893,7 +893,7 @@ fn drilled_holes_may_be_pecked() {
         let changed = program.replacen(from, to, 1);
         assert!(changed != program && matches!(verified(&checked, &changed, &job), Verdict::Different(_)), "{changed}");
     }
-    // a dwell at each step is none at the bottom
+    // dwells at the pecks do not count as the dwell at the bottom
     let deep = one(
         r#"{"rapid":[0,0,25]},{"cycle":{"kind":"deep","emulate":true,"depth":8,"step":4,"dwell":0.5,"clear":3,"feed":100,"points":[[10,10,0]]}},{"rapid":[10,10,25]}"#,
     );
@@ -903,7 +903,7 @@ fn drilled_holes_may_be_pecked() {
     }
 }
 
-/// A floating tap goes in with the spindle turning; a rigid one turns it.
+/// With a floating holder, the spindle must already turn. For a rigid tap, the control turns it.
 #[test]
 fn floating_taps_want_the_spindle_turning() {
     let text = post("fanuc.pf");
@@ -928,12 +928,12 @@ fn floating_taps_want_the_spindle_turning() {
     for word in ["M5\n", "M4\n"] {
         let Verdict::Different(found) = verdict(&floats, own, word) else { panic!("{word}") };
         assert!(found.iter().all(|found| found.code.name() == "PV011"), "{found:?}");
-        // by M29 or by itself the control turns it
+        // with M29, or without it on a Haas, the control turns the spindle
         assert!(verdict(&haas, own, word).is_proven() && verdict(&text, "", word).is_proven());
     }
 }
 
-/// A tap that the control pecks is over with its cycle: what is fed up after it is the next cut.
+/// A tap that the control pecks ends with its cycle. A feed move up after it is the next cut.
 #[test]
 fn a_feed_after_a_pecking_tap_is_the_next_cut() {
     let job = one(
@@ -942,7 +942,7 @@ fn a_feed_after_a_pecking_tap_is_the_next_cut() {
     is_right("up after the tap", of_post("fanuc.pf", &job));
 }
 
-/// A speed of an operation counts revolutions unless it says otherwise, also after one at the surface.
+/// The speed of an operation is in revolutions unless it has a mode, even after a surface speed.
 #[test]
 fn a_speed_without_its_mode_counts_revolutions() {
     let job = r#"{"postform":1,"program":7,"units":"mm","machine":"lathe","tools":[{"number":1},{"number":3}],"operations":[
@@ -955,7 +955,7 @@ fn a_speed_without_its_mode_counts_revolutions() {
     }
 }
 
-/// A feed that a sequence types is that of the cuts which it prints, and none of a job that it never prints for.
+/// A typed feed in a sequence applies to the cuts which that sequence prints, and to no other cut.
 #[test]
 fn a_typed_feed_counts_where_its_sequence_prints() {
     let form = check(&post("fanuc.pf").replacen(
@@ -975,12 +975,12 @@ fn a_typed_feed_counts_where_its_sequence_prints() {
         verified(&form, &changed, &job)
     };
     assert!(feeds(&infeed, "", "").is_proven() && feeds(&plain, "", "").is_proven());
-    // of another cut of a job that has infeeds, and of a job that has none
+    // another cut of the same job, and a job without infeeds
     assert!(matches!(feeds(&infeed, "Y9. F100.", "Y9."), Verdict::Different(_)));
     assert!(matches!(feeds(&plain, "F100.", "F150."), Verdict::Different(_)));
 }
 
-/// A last peck that is shorter than the digits has its own feed.
+/// A last peck that is shorter than the last digit has its own feed.
 #[test]
 fn the_feed_of_a_short_last_peck_is_its_own() {
     let job = one(
@@ -989,7 +989,7 @@ fn the_feed_of_a_short_last_peck_is_its_own() {
     is_right("pecks with feeds", of_post("fanuc.pf", &job));
 }
 
-/// Without H, LinuxCNC takes the length of the tool in the spindle, not of one that T has chosen for later.
+/// G43 without H uses the length of the tool in the spindle, not that of a tool selected for later.
 #[test]
 fn a_length_without_its_register_is_that_of_the_tool_in_the_spindle() {
     let form = check(&post("linuxcnc.pf"));
@@ -1006,7 +1006,7 @@ fn a_length_without_its_register_is_that_of_the_tool_in_the_spindle() {
     assert!(found.iter().all(|found| found.code.name() == "PV014"), "{found:?}");
 }
 
-/// What a job leaves out is what the form has for the job's units, whatever the program counts in.
+/// A missing value of a job is the form's default for the job's units, whatever the program's units are.
 #[test]
 fn defaults_are_those_of_the_jobs_units_in_any_program() {
     let posts = ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"];

@@ -1,11 +1,11 @@
-//! Right programs changed in one place: what verify calls them, and how often it met it.
+//! Correct programs, changed in one place: the verdict, and the counts of findings.
 
 use crate::proofs::{mm, of_post, one};
 use crate::support::check;
 use crate::verify::{document, post, verified};
 use postform::internals::verify::Verdict;
 
-/// A program that a post printed, changed, and its verdict: its codes with how often each was met, or what was allowed.
+/// The verdict on a program of a post after a change: the codes with their counts, or the allowances.
 fn after(post_name: &str, job: &str, changes: &[(&str, &str)]) -> String {
     let (mut program, _) = of_post(post_name, job);
     let (form, job) = (check(&post(post_name)), document(job));
@@ -21,7 +21,7 @@ fn after(post_name: &str, job: &str, changes: &[(&str, &str)]) -> String {
     }
 }
 
-/// What leads to no cut is compared, too: a tool or a work offset that only goes somewhere, and whole programs of that kind.
+/// Paths without a cut are compared, too: a tool or work offset that only moves, and whole programs without cuts.
 #[test]
 fn ways_to_no_cut_are_compared() {
     let last = mm(
@@ -57,7 +57,8 @@ fn ways_to_no_cut_are_compared() {
     );
 }
 
-/// Stops and dwells stand where the job has them: at home, or elsewhere on the way, which is counted.
+/// Stops and dwells must be at the job's positions: at home, or elsewhere on the path to the next cut, which is
+/// counted.
 #[test]
 fn pauses_keep_their_places() {
     let home = one(
@@ -74,7 +75,7 @@ fn pauses_keep_their_places() {
     assert_eq!(after("grbl.pf", &way, &[("M1\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nM1\n")]), behind);
 }
 
-/// Where the job sends the tool home, it crosses the part from there, and not before.
+/// If the job sends the tool home, the tool moves across the part only afterwards.
 #[test]
 fn nothing_crosses_the_part_before_the_way_home() {
     let home = one(
@@ -85,7 +86,7 @@ fn nothing_crosses_the_part_before_the_way_home() {
     assert_eq!(after("linuxcnc.pf", &home, &[swapped]), "PV001 1");
 }
 
-/// Nobody stops with the tool in a hole, and who does outside is counted.
+/// A stop with the tool in a hole is a difference. A stop outside the hole is counted.
 #[test]
 fn stops_between_pecks_are_seen() {
     let hole = r#"{"cycle":{"kind":"deep","depth":5,"clear":1,"return":10,"feed":50,"pecks":[{"to":2},{"to":5}],"points":[[0,0,0]]}}"#;
@@ -102,7 +103,7 @@ fn stops_between_pecks_are_seen() {
     }
 }
 
-/// Each difference of one cause is counted, and those after it are met still.
+/// Differences with one cause are counted, and the cuts after them are still compared.
 #[test]
 fn cuts_behind_a_difference_are_compared() {
     let path: Vec<String> = (0..5)
@@ -122,7 +123,7 @@ fn cuts_behind_a_difference_are_compared() {
     assert_eq!(after("linuxcnc.pf", &job, &[("G0 Z20.\nX", "G1 Z20.\nG0 X")]), "PV008 4");
 }
 
-/// Nothing stands inside a cut that a program makes in parts, and between two cuts only what the job has there.
+/// No stop or other action may be inside a cut that is printed in parts; between two cuts, only those of the job.
 #[test]
 fn nothing_stands_inside_a_cut() {
     let cuts =
@@ -157,7 +158,7 @@ fn nothing_stands_inside_a_cut() {
     assert_eq!(after("haas.pf", &pauses, &[("M1\n", "(none)\n")]), "PV019 1");
 }
 
-/// A reamed hole may be left at feed up to the highest position to which the job goes with this tool since its last cut.
+/// A reamed hole may be left at feed up to the highest position of the job with this tool since its last cut.
 #[test]
 fn holes_are_left_at_feed_up_to_the_return_plane() {
     let ream =
@@ -174,10 +175,10 @@ fn holes_are_left_at_feed_up_to_the_return_plane() {
     assert_eq!(left("Z10.003"), "PV004 1");
     assert_eq!(left("Z90."), "PV004 1");
     assert_eq!(left("Z1."), "PV004 1, PV009 1");
-    // that allows nothing on the way down
+    // this allows no difference on the way down
     let cut = |down: &str| after("haas.pf", &job, &[("N90 G1 Z-5. F50.\n", &format!("N90 G1 {down} F50.\n"))]);
     assert_eq!([cut("Z-4."), cut("Z-6."), cut("Z3.")], ["PV004 1"; 3].map(str::to_owned));
-    // a cut or another tool between: how high the job went before allows nothing
+    // after another cut or tool, earlier heights of the job no longer count
     let path =
         format!(r#"{{"rapid":[0,0,50]}},{drill},{{"line":[0,4,30]}},{{"rapid":[0,0,50]}},{ream},{{"rapid":[8,4,50]}}"#);
     let cut = one(&path);
@@ -191,7 +192,7 @@ fn holes_are_left_at_feed_up_to_the_return_plane() {
     assert_eq!(after("haas.pf", &tools, &[("N210 Z2.\n", "N210 Z40.\n")]), "PV004 1");
 }
 
-/// A form dwells and stops outside of holes, not in them.
+/// A form may dwell and stop outside holes, but not inside them.
 #[test]
 fn nothing_waits_in_a_hole() {
     let taps = mm(
@@ -211,13 +212,13 @@ fn nothing_waits_in_a_hole() {
         after("fanuc.pf", &tap, &[("N100 M3\n", "N100 M3\nG4 P9000\n")]),
         "equivalent: 1 dwell added by the form"
     );
-    // a spindle that stood needs its time, one that is turned round in the cut does not
+    // after a stop the spindle needs time to start, but it must not be reversed in the cut
     let cuts =
         one(r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[40,0,-1]},{"line":[40,30,-1]},{"rapid":[40,30,25]}"#);
     let between = |what: &str| after("haas.pf", &cuts, &[("Y30.\n", &format!("{what}Y30.\n"))]);
     assert_eq!(between("M5\nM3\nG4 P1.\n"), "equivalent: 1 dwell added by the form");
     assert_eq!(between("M4\nG4 P1.\nM3\n"), "PV010 1");
-    // between webs, at the bottom of a bore, below a back bore; out of each it is counted
+    // between webs, at the bottom of a bore, below a back bore; outside the hole it is counted
     let hole = |cycle: &str| {
         one(&format!(
             r#"{{"rapid":[0,0,50]}},{{"cycle":{{{cycle},"clear":5,"feed":300,"points":[[10,10,0]]}}}},{{"rapid":[10,10,50]}}"#
@@ -242,7 +243,7 @@ fn nothing_waits_in_a_hole() {
     }
 }
 
-/// A chip is broken where the tool leaves the bottom by a digit, and brought out as often as the job does.
+/// A chip break must lift the tool by at least one digit, and the tool must retract as often as in the job.
 #[test]
 fn pecks_leave_the_bottom() {
     let chips = |more: &str| {
@@ -272,7 +273,7 @@ fn pecks_leave_the_bottom() {
     assert_eq!(made(&times, &[second]), other, "12 of 10: within 1.5");
 }
 
-/// A short line at an arc lies on the arc.
+/// A short straight cut before an arc must be on the arc.
 #[test]
 fn a_short_line_at_an_arc_lies_on_it() {
     let arc = one(
@@ -287,7 +288,7 @@ fn a_short_line_at_an_arc_lies_on_it() {
     }
 }
 
-/// A speed alone starts no spindle: after a tap it stands where no code started it before.
+/// S alone does not start the spindle. Without an M3 before, the spindle is stopped after a tap.
 #[test]
 fn a_speed_alone_starts_no_spindle() {
     let taps = mm(
@@ -300,7 +301,7 @@ fn a_speed_alone_starts_no_spindle() {
     }
 }
 
-/// On the way to the first place the tool comes down over it, and nowhere else.
+/// On the path to its first position, the tool moves down only over that position.
 #[test]
 fn the_tool_comes_down_over_the_first_place() {
     let low = mm(
@@ -321,7 +322,7 @@ fn the_tool_comes_down_over_the_first_place() {
     assert_eq!(after("fanuc.pf", &home, &[("X0 Y80. Z-10.", "X0 Z-10.")]), "PV009 1");
 }
 
-/// What a text of the job switches the program must switch.
+/// A state that a text of the job changes must also change in the program.
 #[test]
 fn what_a_text_of_the_job_switches_counts() {
     let texts = one(
@@ -334,7 +335,7 @@ fn what_a_text_of_the_job_switches_counts() {
     }
 }
 
-/// A tool that cuts nothing is loaded all the same: its length under another tool is none.
+/// A tool that cuts nothing must still be loaded: the length register of another tool is a difference.
 #[test]
 fn a_lost_change_is_seen_at_the_length() {
     let changes = mm(
@@ -349,7 +350,7 @@ fn a_lost_change_is_seen_at_the_length() {
     }
 }
 
-/// A control without registers of lengths turns none on.
+/// G43 on a control without length registers is a difference.
 #[test]
 fn a_length_where_there_are_none_is_wrong() {
     let cut = one(r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[9,0,-1]},{"rapid":[9,0,25]}"#);
@@ -357,7 +358,7 @@ fn a_length_where_there_are_none_is_wrong() {
     assert!(changed.contains("PV014"), "{changed}");
 }
 
-/// After a last cut the tool goes down where the job does, and nowhere else.
+/// After the last cut, the tool moves down only where the job does.
 #[test]
 fn the_way_out_goes_down_where_the_jobs_does() {
     let leave = mm(

@@ -1,4 +1,4 @@
-//! Properties: what must hold for every form and job.
+//! Properties that must hold for every form and job.
 
 use crate::support;
 use std::io::Read;
@@ -10,7 +10,7 @@ use postform::internals::render::{Options, Renderer};
 use postform::internals::syntax::{Head, Tail};
 use proptest::prelude::*;
 
-/// Gives its bytes in pieces, as a pipe does.
+/// A reader that returns its bytes in pieces, as a pipe does.
 struct Pieces<'a> {
     bytes: &'a [u8],
     size: usize,
@@ -57,7 +57,7 @@ fn form() -> postform::internals::sema::Checked {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// A document and JSON Lines of the same job print the same program, however the bytes arrive.
+    /// A JSON document and JSON Lines of the same job print the same program, whatever the sizes of the pieces.
     #[test]
     fn both_readers_print_the_same(items in prop::collection::vec(item(), 1..30), size in 1usize..60) {
         let checked = form();
@@ -76,7 +76,7 @@ proptest! {
         }
     }
 
-    /// Taking the text as it comes gives the same program as taking it at the end.
+    /// Taking the text during rendering gives the same program as taking it at the end.
     #[test]
     fn text_taken_in_pieces_is_the_same(items in prop::collection::vec(item(), 1..30)) {
         let checked = form();
@@ -96,7 +96,8 @@ proptest! {
         prop_assert_eq!(whole.as_bytes(), &taking.1);
     }
 
-    /// Any text is a form with findings: nothing panics, every line is in the tree, every place is in the text.
+    /// Any text can be read as a form with findings: nothing panics, every line is in the tree, every location is
+    /// inside the text.
     #[test]
     fn any_text_is_read_to_its_end(text in "(([A-Za-z0-9#;%:()\\[\\]<>.+~ \t\"-]{0,20}|End|Drill|StartCode|X->3.>4|Rapid G0|End Cancel|X\\[h\\] Y\\[v\\])\n){0,30}") {
         let checked = check(&text);
@@ -118,7 +119,7 @@ proptest! {
         }
     }
 
-    /// A form that is changed anywhere in a byte still gets findings or a program, never a panic.
+    /// A form with one changed byte gives findings or a program, and never a panic.
     #[test]
     fn mutated_posts_do_not_panic(at in 0usize..3000, byte: u8, post in 0usize..5) {
         let names = ["fanuc", "haas", "fadal", "linuxcnc", "grbl"];
@@ -136,7 +137,7 @@ proptest! {
     }
 }
 
-/// A reader that fails is not a job that ends.
+/// An error of the input is reported. It must not look like the end of the job.
 #[test]
 fn read_errors_are_no_empty_jobs() {
     struct Failing;

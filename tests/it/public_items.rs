@@ -1,13 +1,13 @@
-//! The items of the library that other programs may use, as a list that is read before it grows.
+//! The public items of the library, as a list that is reviewed before it grows.
 
 use std::fs;
 
 use crate::support::root;
 
-/// Most public items, of the library and of what this repository alone uses.
+/// Maximum number of public items: of the library, and of `internals`, which only this repository uses.
 const MOST: [usize; 2] = [95, 30];
 
-/// Names that a file makes public: `pub use`, and items of its own.
+/// The public names of a file: `pub use`, and its own items.
 fn public(path: &str, text: &str) -> Vec<String> {
     let mut names = Vec::new();
     let mut rest = text;

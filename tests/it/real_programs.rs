@@ -1,5 +1,5 @@
-//! Programs of several CAM systems, where they lie beside the checkout: they run under `fanuc` or are refused for a
-//! reason that a machinist accepts, and printed by another form they make the same motions.
+//! Programs of several CAM systems, if they are next to the checkout. Each runs under `fanuc`, or is refused for a
+//! reason that a machinist accepts. Printed by another form, it makes the same motions.
 
 use crate::support;
 use crate::support::control;
@@ -13,18 +13,18 @@ use postform::internals::render::{Options, Renderer};
 use postform::internals::verify::{Comparer, Expectation, Verdict};
 use postform::toolpath::{Sink, Units};
 
-/// Holes and tools, or the code and line of a refusal.
+/// Number of holes and of tools, or code and line of a refusal.
 type Outcome = Result<(u64, u64), (&'static str, u64)>;
 
-/// A program with how it is run and what comes of it.
+/// A program, its settings, and the expected outcome.
 type Program = (&'static str, Vec<u8>, RunSettings, Option<Units>, Outcome);
 
-/// File, what it counts in where it does not say so, holes and tools, or its refusal.
+/// File, its units if it contains none, and the number of holes and tools or the refusal.
 const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
     ("gct_CGIP09902-2.NC", Some(Units::Inch), Ok((24, 5))),
     ("gct_CGIP09902.NC", Some(Units::Inch), Ok((633, 4))),
     ("gct_Fusion_360_Gcode.nc", None, Ok((32, 31))),
-    // a PathPilot program: no Fanuc has G91.1
+    // a PathPilot program: a Fanuc has no G91.1
     ("lmhd_Titan1M_1001_NoEdit.nc", None, Err(("PN003", 13))),
     ("nist_827-9999-904_FIXT.NC", None, Ok((18, 7))),
     ("nist_827-9999-904_OP1.NC", None, Ok((22, 11))),
@@ -35,7 +35,7 @@ const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
 fn programs() -> Vec<Program> {
     let folder = root().join("../shared/data/nc");
     let with = |(name, units, expected): (&'static str, Option<Units>, _)| {
-        // two of them end with a G53 X12, whose units only the shop knows
+        // two of them end with G53 X12, whose meaning without a decimal point only the shop knows
         let unpointed = if units.is_some() { Unpointed::Whole } else { Unpointed::Refused };
         let settings =
             RunSettings { units: units.unwrap_or(Units::Mm), unpointed, ..RunSettings::new(control("fanuc")) };
@@ -79,7 +79,7 @@ fn real_programs_printed_by_another_form_make_the_same_motions() {
         let read = |sink: &mut dyn Sink| read_program(Cursor::new(&bytes), &options, &mut Vec::new(), sink);
         let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
         if let Err(error) = read(&mut renderer) {
-            // a rigid tap with a dwell that the Haas form does not print
+            // a rigid tap with a dwell that the Haas form can't print
             assert!(name == "rawdog_1401.nc" && format!("{error:?}").contains("PC021"), "{name}: {error:?}");
             continue;
         }

@@ -1,5 +1,5 @@
-//! Pages that are made from tables are current, and everything that has a name is explained.
-//! `SAMPLES=overwrite cargo test reference::` writes the pages again.
+//! Pages that are made from tables are up to date, and every name has an explanation. `SAMPLES=overwrite cargo test
+//! reference::` writes the pages again.
 
 use crate::support;
 use std::fs;
@@ -33,7 +33,7 @@ fn generated_pages_are_current() {
     }
 }
 
-/// The lines of the example that `explain` gives of a command.
+/// The lines of the example that `explain` shows for a command.
 fn example(command: &str) -> String {
     let text = explain(command).unwrap();
     let example = text.split("Example, ").nth(1).unwrap_or_else(|| panic!("{command} has no example"));
@@ -55,12 +55,12 @@ fn everything_is_explained() {
     for row in COMMANDS {
         let text = explain(&row.name.to_uppercase()).unwrap();
         assert!(text.contains(row.meaning) && text.contains("standing"), "{}", row.name);
-        // the example is one: a form with it has no error of its own
+        // the example is valid: a form with it has no additional error
         let lines = example(row.name);
         let machine = if row.meaning.contains("torch") { "Machine Torch\n" } else { "" };
         let form = support::check(&format!("{machine}{lines}{}", support::mill("", "")));
         let errors: Vec<_> = form.diags.iter().filter(|diag| diag.is_error()).map(|diag| diag.code.name()).collect();
-        let elsewhere = ["PF005", "PF009", "PF019", "PF021", "PF603", "PF604"]; // a file that is not there, another machine
+        let elsewhere = ["PF005", "PF009", "PF019", "PF021", "PF603", "PF604"]; // a missing file, another machine
         assert!(errors.iter().all(|code| elsewhere.contains(code)), "{}: {errors:?}\n{lines}", row.name);
     }
     for (code, function, control) in
@@ -93,7 +93,7 @@ fn everything_is_explained() {
     assert!(explain("None").unwrap().contains("prints no block"));
 }
 
-/// Whatever is written for one argument of a command, alone, before it or after its first letter: findings, not a panic.
+/// Any text as one argument of a command, alone, before it or after its first letter, gives findings and never a panic.
 #[test]
 fn every_argument_of_a_command_may_be_wrong() {
     let wrong = ["\u{a1}", "", "\"", "1e999", "-1", "99999999999999999999", ".", "\u{1f529}", "NaN"];
@@ -119,7 +119,7 @@ fn every_argument_of_a_command_may_be_wrong() {
     assert!(tried > 36 * COMMANDS.len(), "{tried}");
 }
 
-/// What a form has without a command is what the reference and `explain` say: said in so many words, it changes nothing.
+/// The defaults in the reference and in `explain` are correct: if a form contains them as commands, nothing changes.
 #[test]
 fn defaults_are_those_of_the_reference() {
     let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
@@ -143,14 +143,14 @@ fn defaults_are_those_of_the_reference() {
     }
 }
 
-/// The cells of a table's row, without the marks of code.
+/// The cells of a row in a table, without code marks.
 fn cells(line: &str) -> Vec<&str> {
     line.trim_matches('|').split(" | ").map(|cell| cell.trim().trim_matches('`')).collect()
 }
 
-/// What a cell of defaults says, as a form's lines: `X; lathe Z`, `inch deep 1, thru 1; mm deep 2, thru 2`.
+/// The commands for a cell of defaults, such as `X; lathe Z`, `inch deep 1, thru 1; mm deep 2, thru 2`.
 fn commands_of(name: &str, cell: &str, machine: &str, units: &str) -> Vec<String> {
-    // those are told in words, and depend on other commands
+    // their defaults are described in words, or depend on other commands
     if ["Machine", "Units", "Control", "ModalLetters", "CycleSinkClear"].contains(&name) || cell == "-" {
         return vec![];
     }
@@ -162,7 +162,7 @@ fn commands_of(name: &str, cell: &str, machine: &str, units: &str) -> Vec<String
     arguments.split(", ").filter(|said| !said.is_empty()).map(|said| format!("{name} {said}\n")).collect()
 }
 
-/// Settings in words, but for how codes were typed.
+/// Settings as text, without the original spelling of codes.
 fn without_typed(settings: &str) -> String {
     let mut parts = settings.split("text: Some(");
     let first = parts.next().unwrap_or("").to_owned();

@@ -1,4 +1,4 @@
-//! `render` proves what it prints: what is said, what is printed, and how it ends.
+//! `render` proves the program that it prints: messages, output and exit status.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use postform::{ErrorKind, Job, NoFiles, Options, Post, Source, Verdict};
 use crate::support::folder::{Folder, err, out};
 use crate::support::{job, mill, plain_post, root};
 
-/// A post whose drill begins to feed at another height than the job says, and one that is right.
+/// Two posts: the drill cycle of one begins to feed at another height than the job; the other one is correct.
 fn posts(folder: &Folder) {
     let right = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
     folder.write("wrong.pf", right.replace("R[vclear]", "R[rplane]"));
@@ -23,7 +23,7 @@ fn what_differs_is_not_printed() {
     let output = folder.run(&["render", "job.json", "--form", "wrong.pf", "-o", "out.nc"]);
     let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    // the three sides of the finding, and what came of it
+    // the finding names job item, form line and program block, and the result
     for part in [
         "PV005",
         "operations[2].path[0].cycle.points[0]",
@@ -38,7 +38,7 @@ fn what_differs_is_not_printed() {
     assert_eq!(folder.read("out.nc"), "the program of last year\n");
     let output = folder.run(&["render", "job.json", "--form", "wrong.pf", "--quiet"]);
     assert!(output.stdout.is_empty() && err(&output).contains("PV005"), "{}", err(&output));
-    // who wants it all the same gets it, without a word
+    // with --no-verify, the program is printed without a message
     let output = folder.run(&["render", "job.json", "--form", "wrong.pf", "-o", "out.nc", "--no-verify"]);
     assert_eq!((output.status.code(), err(&output)), (Some(0), String::new()));
     assert!(folder.read("out.nc").starts_with('%'));
@@ -64,7 +64,7 @@ fn what_is_right_is_printed_with_a_line_that_says_so() {
     assert!(err(&refused).contains("or with --set header=no"), "{}", err(&refused));
     let streamed = folder.run(&["render", "job.json", "--form", "right.pf", "--stream", "--set", "header=off"]);
     assert!(streamed.status.code() == Some(0) && err(&streamed).starts_with("not verified: "), "{}", err(&streamed));
-    // a job that can be read once
+    // a job that can be read only once
     let given = folder.read("job.json");
     let output = folder.feed(&["render", "-", "--form", "right.pf"], given.as_bytes());
     assert_eq!(out(&output), expected);
@@ -74,8 +74,8 @@ fn what_is_right_is_printed_with_a_line_that_says_so() {
     assert!(err(&output).contains("[wrong.pf:"), "{}", err(&output));
 }
 
-/// Printer and proof hand some thirty batches of a long job to and fro, and its program and source map are those that are
-/// printed alone; what is wrong at its end is found there.
+/// For a long job, printer and proof exchange about thirty batches. Program and source map must be the same as without
+/// a proof, and an error at the end must be found.
 #[test]
 fn a_long_job_is_proven_in_parts() {
     let folder = Folder::new("proof-long");
@@ -117,12 +117,12 @@ fn what_is_not_proven_is_printed_unless_a_proof_is_required() {
     folder.write("postform.toml", "require-proof = true\n");
     assert_eq!(run(&[]).status.code(), Some(1));
     assert_eq!(out(&run(&["--no-verify"])), program);
-    // whose rules hold is known then, and they have no M6 for this tool change without G43
+    // the control is then known, and its rules do not allow this tool change without G43
     let output = run(&["--control", "fanuc"]);
     assert!(err(&output).contains("different: "), "{}", err(&output));
 }
 
-/// The machine's own subprograms are called by going back in the program.
+/// A call of the program's own subprograms needs to go back in the program.
 #[test]
 fn a_program_that_calls_parts_of_itself_is_gone_through_as_a_file() {
     let folder = Folder::new("proof-file");
@@ -156,7 +156,7 @@ fn a_verdict_is_a_document_for_programs() {
     assert!(finding["program_line"].is_u64() && finding["job"]["line"].is_u64(), "{wrong}");
 }
 
-/// In the library a program that differs is none.
+/// The library returns no program that differs from its job.
 #[test]
 fn the_library_gives_no_program_that_differs() {
     let right = include_str!("../../postforms/haas.pf");

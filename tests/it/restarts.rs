@@ -1,4 +1,4 @@
-//! Programs that begin in the middle of another one, and jobs of which a part is taken.
+//! Programs that begin in the middle of another one, and selected parts of jobs.
 
 use std::fs;
 use std::path::Path;
@@ -6,13 +6,13 @@ use std::path::Path;
 use crate::support::folder::{Folder, err, out};
 use crate::support::{nc, root};
 
-/// The program that begins there, or what was said.
+/// The program that begins at this entry, or the message.
 fn restarted(folder: &Folder, control: &str, at: &[&str]) -> Result<(String, String), String> {
     let run = folder.run(&[&["restart", "a.nc", "--control", control], at].concat());
     if run.status.success() { Ok((out(&run), err(&run))) } else { Err(err(&run)) }
 }
 
-/// From each line of the programs of the samples: the rest of the program as it is, or a sentence.
+/// Every line of the samples' programs as an entry: the rest of the program is unchanged, or there is a message.
 #[test]
 fn every_line_of_the_samples_is_an_entry_or_has_a_reason() {
     let folder = Folder::new("restart-samples");
@@ -55,7 +55,7 @@ fn what_is_in_force_is_put_in_force() {
     let folder = Folder::new("restart-force");
     folder.write("a.nc", PROGRAM);
     let at = |at: &[&str]| restarted(&folder, "fanuc", at).unwrap();
-    // in the middle of a contour under compensation: before its way down
+    // in the middle of a compensated contour: the entry is before the tool moves down
     let (program, said) = at(&["--at", "N13"]);
     assert!(said.contains("the program begins at line 13, where the tool is clear, not at line 15"), "{said}");
     let own: Vec<&str> = program.lines().skip(3).take_while(|line| !line.starts_with("N11")).collect();
@@ -76,12 +76,12 @@ fn what_is_in_force_is_put_in_force() {
             "G98"
         ]
     );
-    // at the change of a tool
+    // at a tool change
     let (program, _) = at(&["--tool", "2"]);
     assert!(program.contains("G98\nN17 G90 T2 M6\nN18 G55"), "{program}");
     assert!(!program.contains("T1 M6"), "the tool before is not loaded");
     assert!(!program.contains("G0 X"), "the blocks after the change say where they go");
-    // a hole of a cycle: from the height before it
+    // a hole of a cycle: the tool starts at the height before it
     let (program, _) = at(&["--at", "21"]);
     assert!(program.contains("G55\nS2000 M3\nM9\nG0 X5. Y5.\nG43 H2 Z20.\n"), "{program}");
     assert!(program.contains("\nN20 G98 G81"), "{program}");
@@ -89,13 +89,13 @@ fn what_is_in_force_is_put_in_force() {
     assert!(said.contains("begins at line 11"), "{said}");
 }
 
-/// Blocks after the mark of the new program, up to those of the old one.
+/// The blocks between the mark of the new program and the first old block.
 fn way_in(program: &str, first_old: &str) -> String {
     let own = program.split("RESTART AT LINE").nth(1).unwrap_or_else(|| panic!("{program}"));
     own.split(first_old).next().unwrap().lines().skip(1).collect::<Vec<_>>().join(" / ")
 }
 
-/// The tool comes out before anything turns: what starts the spindle or the coolant is no part of the head.
+/// The tool retracts before the spindle or coolant starts. Blocks that start them do not belong to the head.
 #[test]
 fn nothing_turns_before_the_tool_is_out() {
     let folder = Folder::new("restart-still");
@@ -107,14 +107,14 @@ fn nothing_turns_before_the_tool_is_out() {
     assert!(program.starts_with("G21 G90\n(RESTART AT LINE 8)\n"), "{program}");
     let way = way_in(&program, "X10.");
     assert!(way.find("G53").unwrap() < way.find("M3").unwrap() && way.contains("M8"), "{way}");
-    // to a change of the tool the spindle stands, where the old program did not stop it
+    // before a tool change the spindle is stopped, even if the old program did not stop it
     folder.write("a.nc", "G21 G90 G94\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nG0 G53 Z0\nT2 M6\nX5. S500 M3\nG43 H2 Z50.\nG1 Z-2.\nG0 Z50.\nM30\n");
     let (program, _) = restarted(&folder, "haas", &["--tool", "T2"]).unwrap();
     let way = way_in(&program, "T2 M6");
     assert!(way.contains("M5") && !way.contains("M3"), "{way}");
 }
 
-/// A height that was said with another length, or with none, is no place to go down to.
+/// The tool must not move down to a height that the old program gave with another length offset, or without one.
 #[test]
 fn a_height_counts_with_its_own_length() {
     let folder = Folder::new("restart-length");
@@ -126,7 +126,7 @@ fn a_height_counts_with_its_own_length() {
     }
 }
 
-/// A control without a change of tools stops for one: with the tool at the machine's zero the program can be begun there.
+/// On a control without tool change codes, a stop for changing the tool can be an entry, with the tool at machine zero.
 #[test]
 fn a_stop_for_a_tool_is_an_entry_where_no_code_changes_it() {
     let folder = Folder::new("restart-stops");
@@ -140,7 +140,7 @@ fn a_stop_for_a_tool_is_an_entry_where_no_code_changes_it() {
         assert!(said.contains(&format!("begins at line {stop} ")) && said.contains("home the machine first"), "{said}");
         assert!(way_in(&program, "M0").contains("M5"), "{program}");
     }
-    // a height is that of the offset, above the way in, and no answer where lengths count
+    // `--clear-z` is a height in the work offset, above the rapids; it is refused if tool lengths are active
     let way = restarted(&folder, "grbl", &["--line", "60", "--clear-z", "40"]).unwrap().0;
     assert!(way.find("G54").unwrap() < way.find("G0 Z40.").unwrap(), "{way}");
     let low = restarted(&folder, "grbl", &["--line", "58", "--clear-z", "-5"]).unwrap_err();
@@ -150,7 +150,7 @@ fn a_stop_for_a_tool_is_an_entry_where_no_code_changes_it() {
     assert!(long.contains("is a height of the tool tip") && long.contains("leave --clear-z out"), "{long}");
 }
 
-/// What the program never said is the machine's own: it is not written. A lathe goes home along one axis after the other.
+/// A state that the old program never set is not written. A lathe moves home along one axis after the other.
 #[test]
 fn what_was_never_said_is_not_written() {
     let folder = Folder::new("restart-unsaid");
@@ -165,7 +165,7 @@ fn what_was_never_said_is_not_written() {
     assert!(said.contains("along X first"), "{said}");
 }
 
-/// A cut whose X and Y are those of before the entry is one at the same place: the way in goes there, or there is none.
+/// If a cut takes its X and Y from before the entry, the new program moves to them. If they are unknown, it is refused.
 #[test]
 fn a_cut_is_where_it_was() {
     let folder = Folder::new("restart-where");
@@ -176,13 +176,13 @@ fn a_cut_is_where_it_was() {
     folder.write("a.nc", program.replace("G0 G53 Z0.", "G0 G53 Z0.\nG53 X-10. Y-10."));
     let said = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap_err();
     assert!(said.contains("goes down at an X and Y that are given only before the entry"), "{said}");
-    // what ends the program changes what is in force before it
+    // before a program end, the modal state at the entry is restored
     folder.write("a.nc", "G21 G90 G17 G94\nG0 G56 X0 Y0 S1000 M3\nZ5.\nX10.\nM30\n");
     let (new, _) = restarted(&folder, "grbl", &["--line", "5"]).unwrap();
     assert!(way_in(&new, "M30").contains("G56 / S1000 M3"), "{new}");
 }
 
-/// Subprograms, a tool that is named long before its change, and lists of operations in a header.
+/// Subprograms, a T word long before its M6, and lists of operations in a header.
 #[test]
 fn subprograms_and_tools_named_before_are_no_obstacle() {
     let folder = Folder::new("restart-subs");
@@ -190,12 +190,12 @@ fn subprograms_and_tools_named_before_are_no_obstacle() {
     let (program, said) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
     assert!(said.contains("begins at line 11") && way_in(&program, "\nM6").contains("T2"), "{said}{program}");
     assert!(restarted(&folder, "fanuc", &["--line", "14"]).unwrap().1.contains("begins at line 14"));
-    // not the one of the header
+    // the comment in the header does not count
     let said = restarted(&folder, "fanuc", &["--operation", "second"]).unwrap().1;
     assert!(said.contains("begins at line 10") || said.contains("begins at line 9"), "{said}");
 }
 
-/// `--exactly` begins inside a cut: down at feed.
+/// With `--exactly`, the program begins inside a cut and moves down at feed.
 #[test]
 fn exactly_goes_down_at_feed() {
     let folder = Folder::new("restart-exactly");
@@ -242,7 +242,7 @@ fn what_cant_be_rebuilt_is_refused() {
     assert_eq!(folder.run(&["restart", "a.nc", "--control", "fanuc"]).status.code(), Some(2), "nowhere");
     let same = folder.run(&["restart", "a.nc", "--control", "fanuc", "--tool", "2", "-o", "a.nc"]);
     assert!(same.status.code() == Some(2) && folder.read("a.nc") == PROGRAM, "{}", err(&same));
-    // before what computes values or moves the frame: it is run again
+    // before a block that computes values or moves the frame: this block is run again
     for block in ["#1=5", "G52 X1."] {
         folder.write("a.nc", PROGRAM.replace("N9 (SECOND)", &format!("N9 {block}")));
         let (_, said) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
@@ -251,13 +251,13 @@ fn what_cant_be_rebuilt_is_refused() {
     folder.write("a.nc", PROGRAM.replace("N7 X50. F300.", "N7 X50. F300.\n#1=5").replace("N2 T1", "#2=1\nN2 T1"));
     let (program, _) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
     assert!(program.contains("#2=1") && program.contains("\nT1 M6"), "{program}");
-    // a code that no state keeps is named
+    // a code whose effect is not tracked is named in the message
     folder.write("a.nc", PROGRAM.replace("N9 (SECOND)", "N9 M31"));
     let (_, said) = restarted(&folder, "haas", &["--tool", "2"]).unwrap();
     assert!(said.contains("M31 of line 11 is not run again"), "{said}");
 }
 
-/// What the interpreter of LinuxCNC does from each entry on is what it does there in the whole program.
+/// LinuxCNC's interpreter makes the same motions after each entry as in the whole program.
 #[test_with::executable(rs274)]
 #[test]
 fn the_interpreter_goes_on_as_in_the_whole_program() {
@@ -282,7 +282,7 @@ fn the_interpreter_goes_on_as_in_the_whole_program() {
         let Ok((program, _)) = restarted(&folder, "linuxcnc", &["--line", &line.to_string()]) else { continue };
         let own = calls(&program);
         let same = own.iter().rev().zip(whole.iter().rev()).take_while(|(one, two)| one == two).count();
-        // what it does before is the way in: no cut
+        // before them are only the approach moves, which do not cut
         let before = &own[..own.len() - same];
         assert!(same > 0 && before.len() < 7, "{line}: {before:?}\n{program}");
         assert!(!before.iter().any(|call| call.contains("FEED")), "{line}: {before:?}");
@@ -291,7 +291,7 @@ fn the_interpreter_goes_on_as_in_the_whole_program() {
     assert!(made > 15, "{made}");
 }
 
-/// A part of a job by its tools: it is proven as a job of its own, and carries what holds on.
+/// Part of a job, selected by tools. It is proven like a job, and includes the modal state of the operations before it.
 #[test]
 fn a_part_of_a_job_is_taken() {
     let folder = Folder::new("select");
@@ -313,7 +313,7 @@ fn a_part_of_a_job_is_taken() {
     assert_eq!(tools(&["--skip", "1,3", "--until", "4"]), "T2 T4");
     let none = folder.run(&["render", "job.json", "--form", &form, "--only", "9"]);
     assert!(none.status.code() == Some(1) && err(&none).contains("the job has T1, T2, T3, T4, T5"), "{}", err(&none));
-    // what an operation that is left out said holds on, and the position is filled in
+    // values of a skipped operation still apply, and missing axes of the position are filled in
     folder.write(
         "job.json",
         r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1},{"number":2}],"operations":[

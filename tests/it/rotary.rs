@@ -1,4 +1,4 @@
-//! Rotary axes: the part turns before the tool goes down, and no angle is lost.
+//! Rotary axes: the part turns before the tool moves down, and no angle is lost.
 
 use crate::support::{job, mill, path_lines, plain_post, program};
 
@@ -30,13 +30,13 @@ fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
     let path = format!("{{\"line\":[0,0,1,360]}},{}", holes("[1,1,0,400]"));
     let lines = path_lines("Limits A -360 360", DRILL, &path);
     assert_eq!(lines[1..], ["G0 X1. Y1. A40.", "Z.1", "G81 X1. Y1. Z-1. R.1 F5.", "G80"]);
-    // and counts from there: 760 is 400 of the axis, which is 40 again
+    // later angles count from the unwound position: 760 is 400 on the axis, which equals 40
     let on = format!("{path},{{\"rapid\":[1,1,1,760]}},{{\"line\":[1,1,1,770]}}");
     let lines = path_lines("Limits A -360 360", DRILL, &on);
     assert_eq!(lines[5..], ["G0 Z1.", "G1 A50. F10."]);
 }
 
-/// A form that goes down in its tool change must turn the part before.
+/// A form whose tool change moves down must turn the part before.
 #[test]
 fn a_tool_change_turns_the_part_before_it_goes_down() {
     let turned = job("{\"line\":[1,0,1]}").replace("[0,0,1]", "[0,0,1,90]");
@@ -44,12 +44,12 @@ fn a_tool_change_turns_the_part_before_it_goes_down() {
     assert!(error.starts_with("PR017 the tool begins at A90"), "{error}");
     let says = mill("", INDEX).replace("X[h] Y[v] Z[d]\nEnd", "X[h] Y[v] A[rotangle]\nZ[d]\nEnd");
     assert_eq!(program(&says, &turned)[3..5], ["G0 G54 X0 Y0 A90.", "Z1."]);
-    // one that stays up leaves the turning to Index
+    // if the tool change stays up, Index turns the part
     let high = mill("", INDEX).replace(" Z[d]\nEnd", "\nEnd");
     assert_eq!(program(&high, &turned)[3..8], ["G0 G54 X0 Y0", "G0 Z9.", "A90.", "X0 Y0", "Z1."]);
 }
 
-/// What an Index does not print is moved to after it; an angle that it does not print is an error.
+/// Axes that Index does not print are moved after it. An angle that it does not print is an error.
 #[test]
 fn index_loses_no_axis() {
     let short = "Index\nG0 Z9.\nA[rotangle]\nEnd";
@@ -72,7 +72,7 @@ fn a_motion_sequence_prints_the_angle_or_refuses() {
     assert_eq!(path_lines("", says, path), ["G1 X2. Y1. A90. F10."]);
 }
 
-/// The angle stands before the height, and an arc turns the part along its whole way.
+/// The angle is printed before the height. An arc turns the part evenly along its path.
 #[test]
 fn the_angle_comes_before_the_height_and_arcs_turn_evenly() {
     let turned = job("{\"line\":[1,0,1]}").replace("[0,0,1]", "[0,0,1,90]");
@@ -85,7 +85,7 @@ fn the_angle_comes_before_the_height_and_arcs_turn_evenly() {
     assert!(angles.len() > 2 && angles.windows(2).all(|w| w[0] < w[1]) && angles[0] < 90.0, "{lines:?}");
 }
 
-/// A tool change keeps the angle that a cut left.
+/// A tool change keeps the angle of the previous cut.
 #[test]
 fn the_part_stays_turned_at_a_tool_change() {
     let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3,1]}]}";
@@ -94,7 +94,7 @@ fn the_part_stays_turned_at_a_tool_change() {
     assert!(program(&form, &text).contains(&"G0 G54 X3. Y3. A20.".to_owned()), "{:?}", program(&form, &text));
 }
 
-/// A cycle turns no part: the next move does not say the angle again.
+/// A cycle does not turn the part, so the next move does not print the angle again.
 #[test]
 fn an_angle_is_known_behind_a_cycle() {
     let path = format!("{{\"rapid\":[0,0,1,90]}},{},{{\"rapid\":[3,0,2]}}", holes("[1,1,0],[2,1,0]"));
@@ -102,7 +102,8 @@ fn an_angle_is_known_behind_a_cycle() {
     assert_eq!(lines.last().unwrap(), "G0 X3. Y0 Z2.", "{lines:?}");
 }
 
-/// Another work offset may turn the part at the same angle: the Haas post says the angle while the tool is up.
+/// Another work offset may need another turn at the same angle. The Haas post prints the angle again while the tool is
+/// up.
 #[test]
 fn another_work_offset_turns_the_part_before_the_tool_goes_down() {
     let operation = |work: u8| {

@@ -1,5 +1,5 @@
-//! docs/rules: each page is a test of its rule. The example is found, the better form is clean, and the fix does what the
-//! page says of it. Fixes and suppressions over all forms that ship.
+//! The pages of docs/rules as tests. The example has the finding, the corrected form is clean, and the fix has the
+//! described effect. Fixes and suppressions are tested with all shipped forms.
 
 use crate::support;
 use std::collections::BTreeSet;
@@ -16,7 +16,7 @@ fn forms() -> impl Iterator<Item = &'static CodeRow> {
     CODES.iter().filter(|row| row.name.starts_with("PF"))
 }
 
-/// The rules whose pages are tested: all, or the one that the variable RULE names, while it is written.
+/// The rules to test: all, or only the one in the variable RULE, for use while a rule is written.
 fn tested() -> Vec<&'static CodeRow> {
     let only = std::env::var("RULE").ok();
     let rows: Vec<_> = forms().filter(|row| only.as_deref().is_none_or(|only| only == row.name)).collect();
@@ -99,7 +99,7 @@ fn fixes_do_what_their_pages_say() {
     }
 }
 
-/// The program of a sample by a form, or why there is none.
+/// The program of a sample by a form, or the error.
 fn program(folder: &std::path::Path, form: &postform::internals::sema::Checked) -> Result<String, String> {
     let options = Options { program: Some(1), ..Options::default() };
     match support::render_checked_sample(folder, form, options) {
@@ -108,7 +108,7 @@ fn program(folder: &std::path::Path, form: &postform::internals::sema::Checked) 
     }
 }
 
-/// Every form that ships or stands on a page.
+/// All shipped forms and all forms on the pages.
 fn all_forms() -> Vec<(String, Vec<u8>)> {
     let mut forms: Vec<(String, Vec<u8>)> = Vec::new();
     let posts = fs::read_dir(root().join("postforms")).unwrap().map(|e| e.unwrap().path());
@@ -132,7 +132,7 @@ fn safe_fixes_remove_their_findings_and_change_no_byte_of_any_sample() {
         assert!(found(&after).diags.iter().all(|diag| diag.fix.as_ref().is_none_or(|fix| !fix.safe)), "{name}");
         for folder in samples() {
             let (before, now) = (program(&folder, &form), program(&folder, &after));
-            // places in messages move with the text, codes and programs don't
+            // locations in messages change with the text, codes and programs do not
             assert_eq!(before, now, "{name} with {}", folder.display());
         }
     }
@@ -151,7 +151,7 @@ fn unsafe_fixes_remove_their_findings() {
     assert!(fixed >= 15, "only {fixed} forms had something to fix");
 }
 
-/// What the manual misprints in form text, and its five examples that are dangerous as they stand.
+/// The rules find the manual's misprints in forms, and its five dangerous examples.
 #[test]
 fn misprints_and_dangerous_examples_of_the_manual_have_their_rules() {
     let table = [
@@ -185,7 +185,7 @@ fn misprints_and_dangerous_examples_of_the_manual_have_their_rules() {
             "Bore\nG0 X[h] Y[v]\nZ[rplane]\nG1 Z[d] F[plunge]\nZ[rplane]\nEnd Cancel",
             "PF403",
         ),
-        // the dangerous ones
+        // the dangerous examples
         (
             "Upon [work] prints X Y Z while G91 is on",
             "Upon [work]\nG91 G28 Z0\nG[work]\nX[h] Y[v] Z[d]\nG90\nEnd",
@@ -216,7 +216,7 @@ fn misprints_and_dangerous_examples_of_the_manual_have_their_rules() {
         let diags = found(&checked(mill("", sequences).as_bytes())).diags;
         assert!(codes(&diags).contains(&code), "{what}: {:?}", codes(&diags));
     }
-    // the fifth: a tool change that prints H without G43
+    // the fifth one: a tool change that prints H without G43
     let text = mill("", "").replace("X[h] Y[v] Z[d]", "X[h] Y[v]\nZ[d] H[Lcomp]");
     assert!(codes(&found(&checked(text.as_bytes())).diags).contains(&"PF426"));
 }
@@ -255,9 +255,9 @@ fn a_comment_at_the_head_allows_findings_of_the_whole_file() {
     assert!(plain.0.contains(&"PF418") && plain.1 == 0, "{plain:?}");
     let head = "# our router\n\n# postform: allow-file PF418 its feed is set by hand\n";
     assert_eq!(allowed(head, twice), (vec![], plain.0.len()));
-    // an allowance of a place beside it is not lost
+    // an allowance for another location next to it is not lost
     assert_eq!(allowed(head, &format!("# postform: allow PF418\n{twice}")), (vec![], plain.0.len()));
-    // nothing to allow, an error, and a comment that stands too late
+    // nothing to allow, an error, and a comment at a wrong position
     assert_eq!(allowed(head, "").0, ["PF108"]);
     let error = "LineCode\nG1 X[h] Y[v]. Z[d] F[frate]\nEnd";
     assert_eq!(allowed("# postform: allow-file PF001\n", error).0, ["PF001", "PF108"]);
@@ -282,8 +282,8 @@ static FORMS: std::sync::LazyLock<Vec<(String, Vec<u8>)>> = std::sync::LazyLock:
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
-    /// Whatever becomes of a form that ships: lint, its fixes and the layout end, and none panics. The fuzz target does
-    /// this by the million.
+    /// For randomly changed shipped forms, lint, fixes and layout all end without a panic. The fuzz target tests this
+    /// by the million.
     #[test]
     fn mutated_forms_are_looked_at_to_their_end(
         which in any::<prop::sample::Index>(),
@@ -316,7 +316,7 @@ proptest! {
     }
 }
 
-/// What is unusual and right: post authors must be able to trust a warning.
+/// Correct but unusual forms have no warnings, so that authors can trust a warning.
 #[test]
 fn right_forms_are_left_alone() {
     let cycle = "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]";
@@ -367,7 +367,7 @@ fn right_forms_are_left_alone() {
     for (kind, text) in table {
         let fence = Fence { kind: kind.to_owned(), text };
         let mut found = found(&fence.checked()).diags;
-        found.retain(|diag| diag.code != Code::PF608); // a code that nobody described is no wrong one
+        found.retain(|diag| diag.code != Code::PF608); // a code that is not described anywhere may be correct
         assert!(
             found.is_empty(),
             "{}\n{:?}",
@@ -377,7 +377,7 @@ fn right_forms_are_left_alone() {
     }
 }
 
-/// A dwell that DwellBlock prints needs no decimals of the letter of `Dwell`.
+/// If DwellBlock prints the dwells, the letter of `Dwell` needs no decimals.
 #[test]
 fn a_dwell_by_its_sequence_needs_no_format() {
     let fanuc = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
@@ -389,7 +389,7 @@ fn a_dwell_by_its_sequence_needs_no_format() {
     assert!(seconds(&plain) && !seconds(&format!("{plain}\nDwellBlock\n(WAIT [dwell])\nEnd\n")));
 }
 
-/// The same mistakes in other words.
+/// Variants of the same mistakes.
 #[test]
 fn mistakes_are_found_in_other_words_too() {
     let table = [
@@ -462,7 +462,7 @@ fn mistakes_are_found_in_other_words_too() {
         ("PF503", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[depth] F[frate]\nG0 Z[rplane]\nEnd"),
         ("PF505", "Drill\nG[retplane] G80 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
         ("PF015", "EndCode\nM9\n%0\nM30\nEnd"),
-        // words after a mark that comments out the rest of the block do nothing
+        // words after a mark that makes the rest of the block a comment have no effect
         ("PF014", "Comment ;\n\nEndCode\nM9\n; no M30 here\nEnd"),
         ("PF017", "Comment ;\n\nSubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\n; end of sub\nEnd"),
         (
@@ -484,7 +484,7 @@ fn mistakes_are_found_in_other_words_too() {
     }
 }
 
-/// A line of so many words, a comment of as many values: each is answered. How the work grows, benches/growth.py measures.
+/// A very long line, and a comment with as many values, are processed. benches/growth.py measures how the time grows.
 #[test]
 fn long_lines_are_answered() {
     let parts = ["M0 ", "X[h] ", "[h]", "(a) ", "a#b ", "G ", "S[speed] "];

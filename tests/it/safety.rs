@@ -1,5 +1,4 @@
-//! The safety rules of rendering, each with the part that it saves. Every test prints a short program and reads it
-//! as a machine would.
+//! The safety rules of rendering. Every test prints a short program for one rule and checks its blocks.
 
 use crate::support;
 use crate::support::{job, mill, path_lines, program, render, wrong};
@@ -13,14 +12,14 @@ use postform::{NoFiles, Post, Source};
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 const RETURNS: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 
-/// After a tool change the first position is not repeated, the motion code is: the tool change may have left another.
+/// After a tool change, the first position is not printed again, but the motion code is: the tool change may have left another motion.
 #[test]
 fn motion_code_is_unknown_after_a_tool_change() {
     assert_eq!(path_lines("", "", "{\"rapid\":[0,0,0.5]}"), ["G0 Z.5"]);
 }
 
-/// A position that a tool change prints where its words mean another place, or before the machine is moved, is said again
-/// by the next move. One that nothing disturbs is not.
+/// A position that a tool change prints in another frame, or before the machine is moved, is printed again by the next
+/// move. A position that nothing invalidates is not.
 #[test]
 fn positions_in_another_frame_are_unknown() {
     const CHANGE: &str = "G0 G[work] X[h] Y[v] Z[d]";
@@ -30,28 +29,28 @@ fn positions_in_another_frame_are_unknown() {
         lines[from..lines.len() - 1].to_vec()
     };
     let cut = "G1 X1. F10.";
-    // the reference point comes before, in increments that end
+    // the reference point comes before the position, and the increments are ended
     assert_eq!(after(&format!("G91 G28 Z0\nG90\n{CHANGE}")), [cut]);
     assert_eq!(after(&format!("G53 G0 Z0\n{CHANGE}")), [cut]);
-    // still increments, another frame, a place that the machine leaves
+    // increments that stay active, another frame, a position that the machine leaves
     assert_eq!(after(&format!("G92 X0\n{CHANGE}")), ["G0 X0 Y0 Z1.", cut]);
     assert_eq!(after(&format!("{CHANGE}\nG28 X0")), ["G28 X0", "G0 X0", cut]);
     assert_eq!(after(&format!("{CHANGE}\nG28")), ["G28", "G0 X0 Y0 Z1.", cut]);
     assert_eq!(after(&format!("{CHANGE}\nM6")), ["M6", "G0 X0 Y0 Z1.", cut]);
-    // another length register moves the depth alone
+    // another length register invalidates only the depth axis
     assert_eq!(after(&format!("{CHANGE}\nG43 H[lcomp]")), ["G43 H1", "G0 Z1.", cut]);
     assert_eq!(after(&format!("{CHANGE}\nH[lcomp]")), ["H1", "G0 Z1.", cut]);
     assert_eq!(after("G0 G[work] X[h] Y[v]\nG43 H[lcomp] Z[d]"), ["G43 H1 Z1.", cut]);
 }
 
-/// A new work offset makes every position another place.
+/// A new work offset invalidates all positions.
 #[test]
 fn a_work_offset_makes_positions_unknown() {
     let path = "{\"line\":[1,1,0]},{\"work\":55},{\"rapid\":[1,1,0]},{\"work\":55},{\"rapid\":[1,1,1]}";
     assert_eq!(path_lines("", "", path), ["G1 X1. Y1. Z0 F10.", "G55", "G0 X1. Y1. Z0", "Z1."]);
 }
 
-/// Text as it stands may have done anything.
+/// After unchanged text of a job, no state is known.
 #[test]
 fn nothing_is_known_after_verbatim_text() {
     let path = "{\"line\":[1,1,0]},{\"text\":\"G65 P9001\"},{\"line\":[1,2,0]}";
@@ -61,7 +60,7 @@ fn nothing_is_known_after_verbatim_text() {
     );
 }
 
-/// Text in backquotes changes what is known as the same words do when they are typed.
+/// Text in backquotes has the same effect on the known state as the same words without backquotes.
 #[test]
 fn text_in_backquotes_is_read() {
     let row = "{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}";
@@ -70,7 +69,7 @@ fn text_in_backquotes_is_read() {
         quoted[quoted.iter().position(|line| line == text.trim_matches('`')).unwrap() + 1..].join(", ")
     };
     let unknown = "G54, S1000 M3, G94, G1 X2. Y0 Z0 F10.";
-    // a macro, a text that is more than words, a code that the control's file knows and does not run
+    // a macro, a text that contains more than words, a code that the control's file lists but the simulator does not run
     for text in ["`G65 P9000 Z-5. F10.`", "`#3006=1(CHECK)`", "`IF[#1EQ0]GOTO10`", "`M98 P8000`", "`G12 I1. F50`"] {
         assert_eq!(after(text), unknown, "{text}");
     }
@@ -87,12 +86,12 @@ fn text_in_backquotes_is_read() {
     ] {
         assert_eq!(after(text), expected, "{text}");
     }
-    // a value in the text is a part of its word
+    // a value inside the text belongs to its word
     let lines = path_lines("Control fanuc", "BeginRow\n`F`[frate*2]\nEnd", row);
     assert_eq!(lines[1..], ["F20", "X2. F10."]);
 }
 
-/// A feed-mode code makes the feed mean something else.
+/// After a feed mode code, the feed is unknown, because its unit has changed.
 #[test]
 fn a_feed_mode_makes_the_feed_unknown() {
     let form = mill("", "BeginRow\nG94\nEnd");
@@ -100,14 +99,14 @@ fn a_feed_mode_makes_the_feed_unknown() {
     assert_eq!(lines[4..7], ["G1 X1. Z0 F10.", "G94", "X2. F10."]);
 }
 
-/// An operation that begins with a cut must not rapid to the end of that cut.
+/// If an operation begins with a cut, the tool change must not move at rapid to the end of that cut.
 #[test]
 fn a_tool_change_does_not_rapid_to_the_end_of_a_cut() {
     let text = job("{\"line\":[1,1,-1]}").replace("{\"rapid\":[0,0,1]},", "");
     assert!(program(&mill("", ""), &text)[0].starts_with("PR012"), "{:?}", program(&mill("", ""), &text));
 }
 
-/// Changes that no Upon serves are printed before the next move, not lost.
+/// Changes for which the form has no Upon are printed before the next move.
 #[test]
 fn changes_that_no_upon_serves_are_printed() {
     let path = "{\"line\":[1,0,0]},{\"spindle\":{\"speed\":2000}},{\"coolant\":\"mist\"},{\"work\":56},{\"line\":[2,0,0]},\
@@ -116,7 +115,7 @@ fn changes_that_no_upon_serves_are_printed() {
     assert_eq!(path_lines("", "", path), expected);
 }
 
-/// With an Upon the change is the Upon's alone, and it comes before the move.
+/// A change for which the form has an Upon is printed only by the Upon, before the move.
 #[test]
 fn changes_that_an_upon_serves_are_printed_by_it() {
     let upon = "Upon [speed]\nG4 P1\nS[speed]\nEnd";
@@ -124,7 +123,7 @@ fn changes_that_an_upon_serves_are_printed_by_it() {
     assert_eq!(path_lines("", upon, path), ["G1 X1. Z0 F10.", "G4 P1", "S2000", "X2."]);
 }
 
-/// A work offset that the form has no word for is an error, never G1 for fixture 1.
+/// A work offset for which the form has no word is an error. It must never become G1 for fixture 1.
 #[test]
 fn a_work_offset_without_a_word_is_an_error() {
     let form = mill("Work 1\nWorkDefault 1", "").replace(" G[work]", "");
@@ -132,7 +131,7 @@ fn a_work_offset_without_a_word_is_an_error() {
     assert!(lines[0].starts_with("PR037"), "{lines:?}");
 }
 
-/// A second operation with the same tool prints no tool change, but what it changes.
+/// A second operation with the same tool prints only the changes, and no tool change.
 #[test]
 fn the_same_tool_again_prints_only_changes() {
     let text = job("{\"line\":[1,0,0]}").replace(
@@ -142,7 +141,7 @@ fn the_same_tool_again_prints_only_changes() {
     assert_eq!(program(&mill("", ""), &text)[4..7], ["G1 X1. Z0 F10.", "S1500 M3", "X2. F7."]);
 }
 
-/// A cycle of the control begins with the tool at the return plane: up alone first, or across first and down last.
+/// A cycle of the control begins with the tool at the return plane: the tool first moves up alone, or first across and down last.
 #[test]
 fn a_cycle_begins_at_its_return_plane() {
     let cycle =
@@ -153,7 +152,7 @@ fn a_cycle_begins_at_its_return_plane() {
     assert_eq!(path_lines("", RETURNS, &format!("{{\"line\":[0,0,0]}},{cycle}")), up);
 }
 
-/// A control would rapid to a higher hole through the material: the cycle is closed, raised and started again.
+/// The control would move at rapid through the material to a higher hole: the cycle is ended, the tool raised, and the cycle started again.
 #[test]
 fn a_cycle_is_raised_to_a_higher_hole() {
     let cycle =
@@ -171,7 +170,7 @@ fn a_cycle_is_raised_to_a_higher_hole() {
     assert_eq!(path_lines("", DRILL, cycle), expected);
 }
 
-/// The last level is what counts: after the higher hole the tool is above the next one already.
+/// The height of the previous hole counts: after a higher hole, the tool is already above the next one.
 #[test]
 fn generated_holes_go_up_first_and_down_last() {
     let cycle =
@@ -184,16 +183,16 @@ fn generated_holes_go_up_first_and_down_last() {
         "Z3.1",
         "X2.",
         "G1 Z2. F5.",
-        "G0 Z3.1", // up before it goes across
+        "G0 Z3.1", // up before it moves across
         "X3.",
         "Z.1",
         "G1 Z-1. F5.",
-        "G0 Z.1", // across before it goes down
+        "G0 Z.1", // across before it moves down
     ];
     assert_eq!(path_lines("", "", cycle), expected);
 }
 
-/// Holes with a depth of their own print it; the others print theirs again.
+/// A hole with its own depth prints it, and the next hole prints the cycle's depth again.
 #[test]
 fn a_changed_depth_is_printed_at_each_hole_that_changes_it() {
     let points = "[[1,1,0],{\"at\":[2,1,0],\"depth\":0.5},[3,1,0],[3,1,0]]";
@@ -202,7 +201,7 @@ fn a_changed_depth_is_printed_at_each_hole_that_changes_it() {
     assert_eq!(path_lines("", DRILL, &cycle), expected);
 }
 
-/// Two cycles of one kind in a row: the first is cancelled, the second starts with its whole line.
+/// Two cycles of one kind in a row: the first one is cancelled, and the second one prints its whole first line.
 #[test]
 fn a_new_cycle_starts_with_its_whole_line() {
     let cycle = |depth: &str| {
@@ -212,7 +211,7 @@ fn a_new_cycle_starts_with_its_whole_line() {
     assert_eq!(path_lines("", DRILL, &format!("{},{},{{\"rapid\":[0]}}", cycle("1"), cycle("2"))), expected);
 }
 
-/// After a cycle only the last hole's position is known: the feed prints again.
+/// After a cycle only the position of the last hole is known, so the feed is printed again.
 #[test]
 fn the_feed_is_unknown_after_a_cycle() {
     let path = "{\"line\":[1,1,1]},{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":10,\"points\":[[1,1,0]]}},\
@@ -221,7 +220,7 @@ fn the_feed_is_unknown_after_a_cycle() {
     assert_eq!(path_lines("", DRILL, path), expected);
 }
 
-/// A return plane that the control is not told of is a warning: clamps stand between holes.
+/// If the form does not print the return plane, there is a warning, because a clamp may be between the holes.
 #[test]
 fn a_return_plane_that_is_not_reached_is_a_warning() {
     let cycle =
@@ -231,7 +230,7 @@ fn a_return_plane_that_is_not_reached_is_a_warning() {
     assert!(notes(&mill("", RETURNS)).is_empty());
 }
 
-/// What a cycle's sequence can't say is printed as moves, never left out: here the dwell at the bottom.
+/// If the sequence of a cycle does not print a value, the cycle is printed as moves. Here the value is the dwell at the bottom.
 #[test]
 fn a_dwell_that_the_form_does_not_print_becomes_moves() {
     let cycle =
@@ -242,7 +241,7 @@ fn a_dwell_that_the_form_does_not_print_becomes_moves() {
     assert_eq!(path_lines("", &dwells, cycle), ["G81 X1. Y1. Z-1. R1. P.5 F5.", "G80"]);
 }
 
-/// A rigid tap keeps step with the spindle: single moves can't, and never try.
+/// A rigid tap is never printed as single moves, because they are not synchronised with the spindle.
 #[test]
 fn a_rigid_tap_is_never_made_of_moves() {
     let tap = "{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"clear\":1,\"feed\":50,\"rigid\":true,\"points\":[[1,1,0]]}}";
@@ -251,7 +250,7 @@ fn a_rigid_tap_is_never_made_of_moves() {
     assert_eq!(path_lines("", "", &floating), ["G0 X1. Y1.", "G1 Z-1. F50.", "M4", "Z1.", "M3"]);
 }
 
-/// Arc words are never dropped, although they did not change: no control keeps them.
+/// Centre words of arcs are always printed, even with unchanged values, because no control keeps them.
 #[test]
 fn centre_words_are_always_printed() {
     let path = "{\"line\":[0,0,0]},{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"}},\
@@ -259,28 +258,28 @@ fn centre_words_are_always_printed() {
     assert_eq!(path_lines("", "", path), ["G1 Z0 F10.", "G17 G2 X2. I1. J0", "X4. I1. J0"]);
 }
 
-/// An arc so short that its ends print alike would be a full circle at the machine.
+/// A very short arc whose ends print the same position would become a full circle on the machine.
 #[test]
 fn a_tiny_arc_does_not_become_a_full_circle() {
     let path = "{\"line\":[1,0,0]},{\"arc\":{\"to\":[0.9999999,0.00001],\"center\":[0,0],\"direction\":\"ccw\"}},{\"line\":[0,0,0]}";
     assert_eq!(path_lines("", "", path), ["G1 X1. Z0 F10.", "X0"]);
 }
 
-/// A number that does not fit its letter is an error: a control would alarm or, worse, misread it.
+/// A number that does not fit its letter's format is an error, because the control would stop with an alarm or misread it.
 #[test]
 fn a_number_that_does_not_fit_is_an_error() {
     assert!(path_lines("X->2.>4", "", "{\"line\":[100,0,0]}")[0].starts_with("PR002"));
     assert!(path_lines("X >2.>4", "", "{\"line\":[-1,0,0]}")[0].starts_with("PR003"));
     assert!(path_lines("F >3", "", "{\"line\":[1,0,0],\"feed\":0.4}")[0].starts_with("PR002"));
     assert!(path_lines("G 2", "", "{\"work\":59.1},{\"line\":[1,0,0]}")[0].starts_with("PR002"));
-    // a speed that its format rounds to 0
+    // a speed that its format would round to 0
     let slow = path_lines("S >5", "", "{\"spindle\":{\"speed\":0.4}},{\"line\":[1,0,0]}");
     assert!(slow[0].starts_with("PR002 [speed] is 0.4, but prints as 0"), "{slow:?}");
     let slow = program(&mill("S >5", ""), &job("{\"line\":[1,0,0]}").replace("\"speed\":1000", "\"speed\":0.4"));
     assert!(slow[0].starts_with("PR002 [speed]"), "{slow:?}");
 }
 
-/// A mill that cuts with its spindle off is seldom meant: a warning for each operation.
+/// A cut on a mill with the spindle off is usually a mistake: there is one warning for each operation.
 #[test]
 fn a_cut_with_the_spindle_off_is_warned_of() {
     let told = |path: &str| {
@@ -293,7 +292,7 @@ fn a_cut_with_the_spindle_off_is_warned_of() {
     assert_eq!(told("{\"line\":[1,0,0]},{\"spindle\":{\"direction\":\"off\"}},{\"rapid\":[2,0,1]}"), [""; 0]);
 }
 
-/// A floating tap whose form taps rigidly is told: the holder is another.
+/// If a sequence with rigid tapping prints a tap for a floating holder, there is a warning, because the holders differ.
 #[test]
 fn a_floating_tap_by_a_rigid_sequence_is_told() {
     let form = mill("RigidTap? Y", "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel");
@@ -302,7 +301,7 @@ fn a_floating_tap_by_a_rigid_sequence_is_told() {
     assert!(notes.iter().any(|note| note.code.name() == "PR021"), "{notes:?}");
 }
 
-/// Metric lengths in an inch program move 25.4 times as far.
+/// In an inch program, metric lengths would move 25.4 times as far.
 #[test]
 fn other_units_need_a_printed_unit_code() {
     let metric = job("{\"line\":[25.4,0,0]}").replace("inch", "mm");
@@ -311,14 +310,14 @@ fn other_units_need_a_printed_unit_code() {
     assert_eq!(program(&form, &metric)[..5], ["G21", "T1 M6", "S1000 M3", "G0 G54 X0 Y0 Z1.", "G1 X25.4 Z0 F10."]);
 }
 
-/// A comment can't end early and let its rest move the machine.
+/// A text must not end its comment early, because the control would execute the rest.
 #[test]
 fn comments_keep_their_marks() {
     assert_eq!(path_lines("", "", "{\"comment\":\"a) G0 Z-9 (b\\u0007é%\"}"), ["(A] G0 Z-9 [B?E_)"]);
     assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
 }
 
-/// Words after a mark that comments out the rest of the block are for people: they set nothing, and hide nothing.
+/// After a mark that makes the rest of the block a comment, words have no effect and do not prevent other words.
 #[test]
 fn values_in_a_comment_to_the_end_of_the_block_are_not_positions() {
     let drill = "Drill\n; HOLE AT X[h] Y[v]\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate] ; to Z[d]\nG0 Z[rplane]\nEnd";
@@ -327,14 +326,14 @@ fn values_in_a_comment_to_the_end_of_the_block_are_not_positions() {
     assert_eq!(lines, ["; HOLE AT X1 Y2", "G0 X1. Y2.", "Z.1", "G1 Z-1. F5. ; to Z-1", "G0 Z.1"]);
 }
 
-/// Travel limits of the form are checked.
+/// The travel limits of the form are checked.
 #[test]
 fn travel_limits_are_kept() {
     assert!(path_lines("Limits Z -5 5", "", "{\"line\":[1,0,-5.001]}")[0].starts_with("PR007"));
     assert_eq!(path_lines("Limits Z -5 5", "", "{\"line\":[0,0,-5]}"), ["G1 Z-5. F10."]);
 }
 
-/// A feed move without a feed is an error, not the last tool's feed.
+/// A feed move without a feed is an error. The feed of the previous tool is not used.
 #[test]
 fn a_move_needs_a_feed() {
     let text = job("{\"line\":[1,0,0]}").replace("\"feed\":10,", "");
@@ -348,7 +347,7 @@ fn compensation_needs_its_offset() {
     assert_eq!(path_lines("", "", path), ["G1 G41 X1. D21 F10.", "X2.", "G40 X3."]);
 }
 
-/// The letter of a dwell may be that of an axis: the axis is then unknown, and the move after it is not lost.
+/// If a dwell uses an axis letter, the position of that axis is unknown afterwards, so the next move prints it.
 #[test]
 fn a_dwell_does_not_count_as_a_position() {
     let path = "{\"line\":[0,0,0]},{\"dwell\":2},{\"line\":[2,0]},{\"line\":[3,0]}";
@@ -357,7 +356,7 @@ fn a_dwell_does_not_count_as_a_position() {
     assert_eq!(path_lines("Dwell G4 F s", "", feed), ["G1 Z0 F10.", "G4 F10.", "X2. F10."]);
 }
 
-/// A sequence that prints an arc's radius alone says at most half a turn: longer arcs are split.
+/// An arc sequence with only a radius prints at most half a turn: longer arcs are split.
 #[test]
 fn a_radius_sequence_prints_long_arcs_in_parts() {
     let sequence = "CcwCode\nG3 X[h] Y[v] R[arcrad]\nEnd";
@@ -365,7 +364,7 @@ fn a_radius_sequence_prints_long_arcs_in_parts() {
     assert_eq!(path_lines("", sequence, path)[1..], ["G3 X-.7071 Y.7071 R1.", "X0 Y-1. R1."]);
 }
 
-/// An arc sequence that prints no plane gets the plane's code before it, and so does what follows in another plane.
+/// If an arc sequence prints no plane, the plane's code is printed before it, and also before a later block in another plane.
 #[test]
 fn planes_are_said_where_a_sequence_does_not() {
     let sequence = "CwCode\nG2 X[h] Y[v] Z[d] R[arcrad]\nEnd";
@@ -375,7 +374,7 @@ fn planes_are_said_where_a_sequence_does_not() {
     assert_eq!(lines, ["G18", "F10.", "G2 X1. R.5", "G17", "G81 X1. Y0 Z-1. R1. F5.", "G80"]);
 }
 
-/// A cycle that prints no position would drill one hole and skip the others: it is printed as moves.
+/// A cycle sequence without positions would drill only one hole, so the cycle is printed as moves.
 #[test]
 fn a_cycle_without_a_position_becomes_moves() {
     let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":1,\"feed\":5,\"points\":[[1,1,0],[2,1,0]]}}";
@@ -384,18 +383,18 @@ fn a_cycle_without_a_position_becomes_moves() {
     assert_eq!(path_lines("", sequence, cycle), expected);
 }
 
-/// A motion sequence that leaves out an axis that moves would lose the move.
+/// A motion sequence must print every axis that moves; otherwise the move would be lost.
 #[test]
 fn a_motion_sequence_must_print_what_moves() {
     let sequence = "RapidCode\nG0 X[h] Y[v]\nEnd";
     assert!(path_lines("", sequence, "{\"rapid\":[0,0,2]}")[0].starts_with("PR017"));
     assert_eq!(path_lines("", sequence, "{\"rapid\":[1,0]}"), ["G0 X1."]);
-    // a sequence without a feed gets it before
+    // if the sequence has no feed, it is printed before it
     let line = "LineCode\nG1 X[h] Y[v] Z[d]\nEnd";
     assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["F10.", "G1 X1.", "X2."]);
 }
 
-/// Limits hold where an arc reaches farthest and at the bottom of a hole.
+/// The limits are checked at the extreme points of an arc and at the bottom of a hole.
 #[test]
 fn travel_limits_hold_along_arcs_and_in_holes() {
     let arc = "{\"line\":[0,0,1]},{\"arc\":{\"to\":[0,1],\"center\":[0.8,0.5],\"direction\":\"ccw\"}}";
@@ -412,7 +411,7 @@ fn a_cycle_under_cutter_compensation_is_an_error() {
     assert!(path_lines("", DRILL, path)[0].starts_with("PC041"));
 }
 
-/// Another tool has no last position: its first rapid must say how high it goes.
+/// The position of a new tool is unknown, so its first rapid must contain a height.
 #[test]
 fn a_new_tool_does_not_keep_the_last_ones_depth() {
     let second = "{\"tool\":2,\"spindle\":{\"speed\":1,\"direction\":\"cw\"},\"path\":[{\"rapid\":[3,3]}]}";
@@ -420,7 +419,7 @@ fn a_new_tool_does_not_keep_the_last_ones_depth() {
     assert!(program(&mill("", ""), &text)[0].starts_with("PR001 [d]"), "{:?}", program(&mill("", ""), &text));
 }
 
-/// What is left out or contradicts itself without being wrong is a warning.
+/// Missing or contradictory values of a cycle that are no errors give a warning.
 #[test]
 fn odd_cycles_are_warned_of() {
     let warned = |cycle: &str, code: &str| {
@@ -434,7 +433,7 @@ fn odd_cycles_are_warned_of() {
     );
 }
 
-/// A surface speed without its code would be revolutions.
+/// Without its code, a surface speed would be read as revolutions.
 #[test]
 fn a_surface_speed_prints_its_code() {
     let css = "{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}";
@@ -443,7 +442,7 @@ fn a_surface_speed_prints_its_code() {
     assert!(path_lines("", "", limited)[0].starts_with("PR038"));
 }
 
-/// An Upon Every prints where its variable is used, and nowhere else.
+/// An Upon Every prints only where its variable is used.
 #[test]
 fn upon_every_prints_at_uses_alone() {
     let form = mill("", "Upon Every [work]\n(UPON)\nEnd");
@@ -453,7 +452,7 @@ fn upon_every_prints_at_uses_alone() {
     assert_eq!(feeds, ["G0 X1.", "(FEED)", "G1 X2. F10."]);
 }
 
-/// Under VRapid the depth part has its own code even where the form has a RapidCode.
+/// With VRapid, the depth part has its own code, even if the form has a RapidCode.
 #[test]
 fn vrapid_splits_before_a_rapid_sequence() {
     let sequence = "RapidCode\nG0 X[h] Y[v] Z[d]\nEnd";
@@ -461,20 +460,20 @@ fn vrapid_splits_before_a_rapid_sequence() {
     assert_eq!(lines, ["G0 X2. Y2.", "Z.5"]);
 }
 
-/// Text without anything in it prints no block.
+/// A text with no words prints no block.
 #[test]
 fn empty_text_prints_nothing() {
     assert_eq!(path_lines("Sequence#s N 1 1", "", "{\"text\":\" \"},{\"line\":[1,0,1]}").len(), 1);
 }
 
-/// A work offset that comes before the first rapid is the one in which the tool change goes there.
+/// A work offset that is set before the first rapid is used for the position of the tool change.
 #[test]
 fn the_first_position_is_in_its_own_work_offset() {
     let text = job("{\"line\":[1,0,1]}").replace("[{\"rapid\"", "[{\"work\":56},{\"rapid\"");
     assert_eq!(program(&mill("", ""), &text)[3..5], ["G0 G56 X0 Y0 Z1.", "G1 X1. F10."]);
 }
 
-/// Feet a minute are metres a minute in a metric program.
+/// A surface speed in feet per minute is converted to metres per minute in a metric program.
 #[test]
 fn a_surface_speed_follows_the_units() {
     let text = job("{\"spindle\":{\"speed\":100,\"mode\":\"css\"}},{\"line\":[1,0,1]}");
@@ -484,7 +483,7 @@ fn a_surface_speed_follows_the_units() {
     assert!(rendered.text.contains("\nG96 S30.5 M3\n"), "{}", rendered.text);
 }
 
-/// A tool change that prints no work offset gets it before: its position counts from there.
+/// If the tool change prints no work offset, it is printed before, because the position is relative to it.
 #[test]
 fn a_tool_change_goes_to_its_own_work_offset() {
     let form = mill("", "").replace("G0 G[work] X[h]", "G0 X[h]");
@@ -494,7 +493,7 @@ fn a_tool_change_goes_to_its_own_work_offset() {
     assert_eq!(program(&form, &text)[5..9], ["G55", "T2 M6", "S1 M3", "G0 X3. Y3. Z1."]);
 }
 
-/// A variable inside a comment is for people: what it stands for is printed all the same.
+/// A variable in a comment does not count as printed, so its value is printed in a word.
 #[test]
 fn a_comment_prints_no_word() {
     let lines = path_lines("", "LineCode\nG1 X[h] Y[v] Z[d] (FEED [frate])\nEnd", "{\"line\":[1,0,1]}");
@@ -504,7 +503,7 @@ fn a_comment_prints_no_word() {
     assert_eq!(path_lines("", begin, path)[..2], ["(AT 55)", "G55"]);
 }
 
-/// Work offset, spindle and coolant stand before text, and codes in text count as printed and as wanted.
+/// Work offset, spindle and coolant are printed before a text. Codes in the text count as printed, and as requested by the job.
 #[test]
 fn text_comes_after_what_goes_before_it() {
     let path = "{\"spindle\":{\"direction\":\"off\"}},{\"coolant\":\"on\"},{\"text\":\"M0 (M9)\"},{\"line\":[1,0,1]}";
@@ -513,32 +512,32 @@ fn text_comes_after_what_goes_before_it() {
     assert_eq!(path_lines("", "", stopped)[..2], ["M5", "S1000 M3"]);
     let coolant = "{\"text\":\"M8\"},{\"line\":[1,0,1]},{\"work\":55},{\"rapid\":[1,0,2]}";
     assert_eq!(path_lines("", "", coolant), ["M8", "G1 X1. Y0 Z1. F10.", "G55", "G0 X1. Y0 Z2."]);
-    // what would be read otherwise is put back, or refused
+    // a code that would change the meaning of later words is reversed, or refused
     assert_eq!(path_lines("", "", "{\"text\":\"G95\"},{\"line\":[1,0,1]}")[1], "G94");
     assert!(path_lines("", "", "{\"text\":\"G91\"},{\"line\":[1,0,1]}")[0].starts_with("PR040 the control is in G91"));
     assert!(path_lines("", "", "{\"text\":\"G22 G21\"}")[0].starts_with("PR035 the text changes the units"));
 }
 
-/// An Upon body that does not print its change does not hide it.
+/// If an Upon does not print the change, the change is printed elsewhere.
 #[test]
 fn an_upon_that_says_nothing_serves_nothing() {
     let lines = path_lines("", "Upon [work]\nG0 G53 Z0\nEnd", "{\"work\":55},{\"rapid\":[1,0,1]}");
     assert_eq!(lines, ["G0 G53 Z0", "G55", "X1. Y0 Z1."]);
 }
 
-/// An Upon that moves the tool would leave out a part of the cut that follows.
+/// An Upon that moves the tool before a cut is refused, because part of the cut would be lost.
 #[test]
 fn a_cut_does_not_begin_with_an_upon_that_moves() {
     let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
     for cut in ["{\"line\":[1,1]}", "{\"infeed\":[1,1],\"side\":\"left\"}"] {
         assert!(path_lines("", upon, &format!("{{\"work\":55}},{cut}"))[0].starts_with("PR012 this sequence"), "{cut}");
     }
-    // at a stop it goes nowhere
+    // at a stop, such an Upon does not move
     let lines = path_lines("", upon, "{\"line\":[4,4]},{\"work\":55},{\"stop\":\"program\"}");
     assert_eq!(lines[1..], ["G0 G53 Z0", "G55 X4. Y4.", "M0"]);
 }
 
-/// An increment is dropped when it is zero, not when the position was printed before.
+/// An increment is left out if it is zero, not if the position was printed before.
 #[test]
 fn increments_of_a_sequence_are_no_positions() {
     let sequence = "LineCode\nG91 G1 X[hdist] Y[vdist] F[frate]\nG90\nEnd";
@@ -546,7 +545,7 @@ fn increments_of_a_sequence_are_no_positions() {
     assert_eq!(lines[1..], ["G91 G1 X1. Y2. F10.", "G90", "G91 X1.", "G90"]);
 }
 
-/// InFeed and OutFeed print every axis that moves, and the feed.
+/// InFeed and OutFeed must print every axis that moves, and the feed.
 #[test]
 fn compensation_sequences_lose_nothing() {
     let infeed = "InFeed\nG1 G[side] D[dcomp] X[h] Y[v]\nEnd";
@@ -556,7 +555,7 @@ fn compensation_sequences_lose_nothing() {
     assert_eq!(lines, ["F3.", "G1 G41 D21 X1. Y0"]);
 }
 
-/// An arc sequence that has no word for the centre in this plane is not used for it.
+/// An arc sequence without a centre word for the arc's plane is not used.
 #[test]
 fn an_arc_sequence_without_its_centre_word_gives_lines() {
     let sequence = "CwCode\nG2 X[h] Y[v] Z[d] I[ival] J[jval] F[frate]\nEnd";
@@ -570,7 +569,7 @@ fn an_arc_sequence_without_its_centre_word_gives_lines() {
     assert_eq!(notes("xy"), []);
 }
 
-/// A fixture number whose code is no work offset is refused.
+/// A fixture number whose code is not a work offset is refused.
 #[test]
 fn fixture_numbers_end_where_work_offsets_do() {
     assert!(
@@ -580,7 +579,7 @@ fn fixture_numbers_end_where_work_offsets_do() {
     assert_eq!(path_lines("", "", "{\"work\":59.1},{\"rapid\":[1,0,1]}")[0], "G59.1");
 }
 
-/// A tap goes in turning its own way, and afterwards the spindle turns as before.
+/// A tap turns the spindle in the tap's direction. Afterwards the spindle turns as before.
 #[test]
 fn a_tap_turns_the_spindle_its_own_way() {
     let tap = "{\"cycle\":{\"kind\":\"ltap\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0]]}}";
@@ -592,21 +591,21 @@ fn a_tap_turns_the_spindle_its_own_way() {
     assert_eq!(path_lines("", "", &after)[lines.len()], "S1000 M3");
     let ltap = "LTap\nG74 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
     assert_eq!(path_lines("", ltap, tap)[0], "S1000 M4");
-    // the control of a rigid tap turns it itself
+    // for a rigid tap, the control turns the spindle
     let rigid = path_lines("RigidTap? Y", ltap, &after);
     assert!(!rigid.contains(&"S1000 M4".to_owned()) && rigid.contains(&"S1000 M3".to_owned()), "{rigid:?}");
     let off = format!("{{\"spindle\":{{\"direction\":\"off\"}}}},{tap}");
     assert!(path_lines("", ltap, &off)[0].starts_with("PR032 the spindle does not turn"));
 }
 
-/// What a sequence switches off is on again before the next move.
+/// If a sequence switches something off, it is switched on again before the next move.
 #[test]
 fn what_a_sequence_switches_is_put_back() {
     let lines = path_lines("", "EndRow\nM5 M9\nM0\nEnd", "{\"begin\":\"row\"},{\"end\":\"row\"},{\"line\":[1,0,1]}");
     assert_eq!(lines, ["M5 M9", "M0", "S1000 M3", "G1 X1. F10."]);
 }
 
-/// Parts of an arc share its time; a cycle has no inverse time.
+/// The parts of an arc share its time. A cycle can't have inverse time.
 #[test]
 fn inverse_time_is_that_of_the_whole_arc() {
     let inverse = |path: &str| job(path).replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
@@ -617,7 +616,7 @@ fn inverse_time_is_that_of_the_whole_arc() {
     assert!(program(&mill("", ""), &inverse(hole))[0].starts_with("PR006 a canned cycle"));
 }
 
-/// After text nobody knows the height: the tool goes up before it goes across.
+/// After a text, the height is unknown, so the tool moves up before it moves across.
 #[test]
 fn the_tool_goes_up_first_also_after_text() {
     let path = "{\"line\":[0,0,-1]},{\"text\":\"M1\"},\
@@ -625,7 +624,7 @@ fn the_tool_goes_up_first_also_after_text() {
     assert_eq!(path_lines("", DRILL, path)[1..5], ["M1", "S1000 M3", "G0 Z.1", "G81 X5. Y5. Z-1. R.1 F5."]);
 }
 
-/// A sequence that took the tool away is no place to cut from, whatever stands between.
+/// A cut must not begin at a position to which a sequence moved the tool, whatever comes between.
 #[test]
 fn a_cut_begins_where_the_path_says() {
     let upon = "Upon [work]\nG0 G53 Z0\nG[work] X[h] Y[v]\nEnd";
@@ -639,7 +638,7 @@ fn a_cut_begins_where_the_path_says() {
     assert_eq!(path_lines("", lifts, &format!("{row},{{\"rapid\":[1,1,1]}}")), ["G0 Z9", "X1. Y1. Z1."]);
 }
 
-/// What an Upon does for the next tool is not done with the one before.
+/// An Upon for the next tool must not move the current tool.
 #[test]
 fn a_tool_change_needs_no_upon_that_moves() {
     let upon = "Upon [work]\nG[work] X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd";
@@ -649,7 +648,7 @@ fn a_tool_change_needs_no_upon_that_moves() {
     assert_eq!(program(&mill("", upon), &text)[5..8], ["T2 M6", "S1 M3", "G0 G55 X3. Y3. Z1."]);
 }
 
-/// Inside a control's cycle every axis word is a hole: an Upon ends the cycle first.
+/// In a control's cycle, every axis word makes a hole, so an Upon first ends the cycle.
 #[test]
 fn an_upon_stands_outside_the_cycle() {
     let upon = format!("{DRILL}\nUpon [vclear]\nM8 X[h] Y[v]\nEnd");
@@ -670,7 +669,7 @@ fn compensation_has_its_tool_and_height() {
     assert!(path_lines("", infeed, path)[0].starts_with("PR017 the height is unknown"));
 }
 
-/// Inverse time stands in the block of its move.
+/// With inverse time, the feed word must be in the block of its move.
 #[test]
 fn inverse_time_needs_its_word_in_the_block() {
     let text = job("{\"line\":[1,0,1]}").replace("\"feed\":10", "\"feed\":10,\"feed_mode\":\"inverse_time\"");
@@ -678,14 +677,14 @@ fn inverse_time_needs_its_word_in_the_block() {
     assert!(program(&form, &text)[0].starts_with("PR017 in inverse time"));
 }
 
-/// Many controls stop spindle and coolant with the program; the cut after it must find them on.
+/// Many controls stop spindle and coolant at a program stop, so both are printed again before the next cut.
 #[test]
 fn spindle_and_coolant_are_said_again_after_a_stop() {
     let path = "{\"coolant\":\"on\"},{\"line\":[1,0,1]},{\"stop\":\"program\"},{\"line\":[2,0,1]}";
     assert_eq!(path_lines("", "", path), ["M8", "G1 X1. F10.", "M0", "S1000 M3", "M8", "X2."]);
 }
 
-/// Turns of a helix end where they begin, to the last digit; else a turn would be printed as an arc of no length.
+/// The full turns of a helix end at their start to the last digit. Otherwise a turn would be printed as an arc of zero length.
 #[test]
 fn whole_turns_end_where_they_begin() {
     let path = r#"{"rapid":[3.25,3.78125,0.1]},{"arc":{"to":[3.25,3.78125,-0.6],"center":[3.75,3.78125],"direction":"cw","turns":5}}"#;
@@ -695,7 +694,7 @@ fn whole_turns_end_where_they_begin() {
     assert!(arcs.iter().all(|line| !line.contains('X') && !line.contains('Y')), "{lines:?}");
 }
 
-/// Two whole circles after each other: controls want the code of a block without axis words.
+/// After a full circle, the next one prints its code too: controls need a code in a block without axis words.
 #[test]
 fn a_whole_circle_says_its_code() {
     let circles = r#"{"rapid":[2,0,1]},{"arc":{"to":[2,0],"center":[1,0],"direction":"ccw"}},{"arc":{"to":[2,0],"center":[1.5,0],"direction":"ccw"}}"#;
@@ -703,7 +702,7 @@ fn a_whole_circle_says_its_code() {
     assert_eq!(lines[1..], ["G17 G3 I-1. J0 F10.", "G3 I-.5 J0"]);
 }
 
-/// After G99 the tool stands at R: a higher hole needs the cycle ended, and the tool raised.
+/// After G99 the tool is at R. Before a higher hole, the cycle must be ended and the tool raised.
 #[test]
 fn a_higher_hole_after_a_lower_one_is_approached_from_above() {
     let drill = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -714,7 +713,7 @@ fn a_higher_hole_after_a_lower_one_is_approached_from_above() {
     assert_eq!(before, ["G80", "G0 Z.3"], "{lines:?}");
 }
 
-/// A feed that its format rounds to nothing is an error in a cycle as it is in a move.
+/// A feed that its format rounds to zero is an error, in cycles as in moves.
 #[test]
 fn a_feed_that_prints_as_nothing_is_an_error() {
     let tap = "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -723,7 +722,7 @@ fn a_feed_that_prints_as_nothing_is_an_error() {
     assert!(lines.len() == 1 && lines[0].starts_with("PR002"), "{lines:?}");
 }
 
-/// What a cycle switches for itself waits for its end: a block between its holes would be taken for a hole.
+/// Changes that a cycle makes for itself are reversed after its end, because a block between its holes would be read as a hole.
 #[test]
 fn nothing_stands_between_the_holes_of_a_cycle() {
     let tap = "Tap\nG95 G84 X[h] Y[v] Z[d] R[vclear] F[pitch]\nEnd Cancel";
@@ -733,7 +732,7 @@ fn nothing_stands_between_the_holes_of_a_cycle() {
     assert_eq!(lines[at..], ["G95 G84 X1. Y1. Z-.5 R.1 F.05", "X2.", "G80", "G94", "G1 X3. Z0 F10."]);
 }
 
-/// A fixture that is the parameter of a code is never said without it; codes of the same number are something else then.
+/// A fixture number that is the parameter of a code is always printed with the code. A code with the same number is something else then.
 #[test]
 fn a_work_offset_is_said_with_its_code() {
     let form =
@@ -742,7 +741,7 @@ fn a_work_offset_is_said_with_its_code() {
     assert_eq!(lines[3..], ["G15 H1 G56", "G0 X0 Y0 Z1.", "G15 H2", "G0 X1. Y0 Z1.", "M30"]);
 }
 
-/// What Cancel switches is put back before the control goes into the next cycle.
+/// If Cancel switches something off, it is switched on again before the control enters the next cycle.
 #[test]
 fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
     let form = mill("", RETURNS).replace("Cancel\nG80", "Cancel\nG80 M5");
@@ -754,7 +753,7 @@ fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
     assert!(shifted[0].starts_with("PR040"), "{shifted:?}");
 }
 
-/// Where offsets have a word of their own, another code that selects one makes that word due again.
+/// If work offsets have their own word, another code that selects an offset makes the word necessary again.
 #[test]
 fn codes_of_work_offsets_beside_a_word_of_their_own() {
     let changes = "G0 G[work] X[h] Y[v] Z[d]";
@@ -763,17 +762,17 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
     let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
     let lines = program(&start("G154 P[work]\nG0 X[h] Y[v] Z[d]", "BeginRow\nG54\nEnd"), &own(row));
     assert_eq!(lines[5..], ["G54", "G154 P3", "G0 X1. Y0 Z1.", "M30"], "{lines:?}");
-    // a number of the text is none of the form's
+    // the code in the text is not a number of the form's own offset word
     let text = own(r#"{"text":"G54"},{"rapid":[1,0,1]}"#);
     let lines = program(&start("E[work] X[h] Y[v]\nG0 Z[d]", ""), &text);
     assert!(!lines.iter().any(|line| line.contains("E54")), "{lines:?}");
-    // the positions after it count in the new offset
+    // positions after the word are in the new offset
     let upon = start("G0 X[h] Y[v] Z[d]", "Upon [work]\nG15 H[work]\nEnd");
     let path = r#"{"work":2},{"rapid":[0,0,1]},{"line":[1,0,-1]}"#;
     let lines = program(&upon, &own(path));
     let at = lines.iter().position(|line| line == "G15 H2").unwrap();
     assert_eq!(lines[at..at + 3], ["G15 H2", "G0 X0 Y0 Z1.", "G1 X1. Z-1. F10."], "{lines:?}");
-    // an argument of a macro is none of them
+    // an argument of a macro does not select an offset
     let lines = path_lines(
         "",
         "BeginRow\nG65 P9810 W[work]\nEnd",
@@ -782,7 +781,7 @@ fn codes_of_work_offsets_beside_a_word_of_their_own() {
     assert_eq!(lines, ["G65 P9810 W54.", "G55", "S1000 M3", "G94", "G0 X1. Y0 Z1."]);
 }
 
-/// After the slash of block delete the control reads a word or not: what it says is known of neither.
+/// The control may skip words after a block delete slash, so their effect is unknown.
 #[test]
 fn block_delete_leaves_nothing_known() {
     let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
@@ -793,7 +792,7 @@ fn block_delete_leaves_nothing_known() {
     assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);
 }
 
-/// What no reader may push is refused, not left out: a hole that nobody prints is a hole that is missing.
+/// Events that a reader must not push are refused: a hole that is not printed would be missing.
 #[test]
 fn events_that_can_not_be_are_faults_of_postform() {
     let checked = support::check(&mill("", DRILL));
@@ -801,7 +800,7 @@ fn events_that_can_not_be_are_faults_of_postform() {
     let mut renderer = Renderer::new(&compiled, Options::default());
     let head = "{\"start\":{\"program\":1,\"tools\":[{\"number\":1}]}}\n\
         {\"operation\":{\"tool\":1,\"spindle\":{\"speed\":9,\"direction\":\"cw\"},\"feed\":5}}\n{\"rapid\":[0,0,1]}\n";
-    _ = read_lines(head.as_bytes(), &mut renderer); // cut off: it has no end
+    _ = read_lines(head.as_bytes(), &mut renderer); // cut off before its end
     let hole = || Event::Hole(Hole { at: Axes::new(&[1.0, 1.0, 0.0]), depth: None });
     let place = Place { line: 7, column: 1, ..Place::default() };
     let error = wrong(renderer.event(hole(), place));
@@ -811,7 +810,7 @@ fn events_that_can_not_be_are_faults_of_postform() {
     assert_eq!(wrong(Summary::default().event(hole(), place)).code.name(), "PX001");
 }
 
-/// A bore that is to stop at an angle does, whichever it is: out without it the tool would score the wall.
+/// An oriented bore must stop the spindle at the requested angle; otherwise the tool would score the wall during the retract.
 #[test]
 fn an_oriented_bore_is_oriented_at_any_angle() {
     let bore = |orient: &str| {
@@ -828,22 +827,22 @@ fn an_oriented_bore_is_oriented_at_any_angle() {
     }
 }
 
-/// After holes of several heights the control stands higher than the job: a cut begins where the job has it.
+/// After holes of several heights, the control is higher than the job. The next cut begins at the job's height.
 #[test]
 fn a_cut_after_a_cycle_begins_at_the_jobs_height() {
     let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"return\":0.3,\"feed\":5,\
                  \"points\":[[0,0,0],[1,0,1],[2,0,0]]}}";
     let lines = path_lines("", RETURNS, &format!("{cycle},{{\"line\":[5,0,0]}}"));
     assert_eq!(lines[lines.len() - 3..], ["G80", "G0 Z.3", "G1 X5. Z0 F10."], "{lines:?}");
-    // a rapid needs nothing
+    // before a rapid, no other move is needed
     let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,0,2]}}"));
     assert_eq!(lines.iter().filter(|line| *line == "G0 Z.3").count(), 1, "only the way to the first hole: {lines:?}");
-    // and a cut after a rapid across begins there too
+    // a cut after a rapid in X and Y also begins there
     let lines = path_lines("", RETURNS, &format!("{cycle},{{\"rapid\":[5,5]}},{{\"line\":[5,5,0]}}"));
     assert_eq!(lines[lines.len() - 4..], ["G80", "G0 X5. Y5.", "Z.3", "G1 Z0 F10."], "{lines:?}");
 }
 
-/// A form that tells its control no return plane leaves the tool low; in another work offset it comes down to the job's height.
+/// Without a return plane in the form, the tool stays low after a cycle. In another work offset it moves to the job's height.
 #[test]
 fn in_another_offset_the_tool_stays_at_the_jobs_height() {
     let form = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\nUpon [work]\nG[work]\nEnd";
@@ -857,7 +856,7 @@ fn in_another_offset_the_tool_stays_at_the_jobs_height() {
     assert_eq!(lines[at + 1], "G0 X5. Y5. Z.8", "{lines:?}");
 }
 
-/// Cycles that are made as others use their sequences.
+/// Some cycles are printed by the sequences of other cycles.
 #[test]
 fn some_cycles_are_made_as_others() {
     let forms = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel\n\
@@ -877,7 +876,7 @@ fn some_cycles_are_made_as_others() {
     assert!(moves.starts_with('['), "moves: {moves}");
 }
 
-/// A face takes the last dwell of an earlier cycle, then the form's; pecks say how deep they go.
+/// A facing cycle without a dwell uses the last dwell of an earlier cycle, else the form's default. Pecks use their default depths.
 #[test]
 fn what_a_cycle_leaves_out_is_known() {
     let cycle = |kind: &str, x: u8| {
@@ -892,7 +891,7 @@ fn what_a_cycle_leaves_out_is_known() {
     assert!(pecks.iter().any(|line| line.starts_with("G1 Z-.4")), "{pecks:?}");
 }
 
-/// How a tap pecks no word of a form says: it is noted.
+/// The form has no word for how a tap pecks: there is a note.
 #[test]
 fn how_a_tap_pecks_is_the_controls_setting() {
     let form = mill("RigidTap? Y", "Tap\nG84 X[h] Y[v] Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel");
@@ -902,7 +901,7 @@ fn how_a_tap_pecks_is_the_controls_setting() {
     assert!(notes.iter().any(|note| note.code.name() == "PR021" && note.message.contains("`deep`")), "{notes:?}");
 }
 
-/// Each start of a thread is a tap of its own, which begins a part of the lead lower than the one before.
+/// Each start of a thread is a separate tap, which begins a fraction of the lead lower than the one before.
 #[test]
 fn a_tap_of_several_starts_is_made_once_for_each() {
     let forms = "Tap\nG84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -913,19 +912,19 @@ fn a_tap_of_several_starts_is_made_once_for_each() {
     assert_eq!(taps, ["G84 X1. Y1. Z-.5 R.2 F100.", "X1. Y1. R.15"], "{lines:?}");
 }
 
-/// A cycle of the control on several lines is cancelled like any other: the next position would be a hole.
+/// A cycle of the control in several lines is cancelled too; otherwise the next position would be a hole.
 #[test]
 fn a_cycle_on_several_lines_is_cancelled() {
     let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,2,0]]}}";
     let path = format!("{cycle},{{\"rapid\":[3,3,1]}}");
     let lines = path_lines("", "Drill\nG99\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel", &path);
     assert_eq!(lines[lines.len() - 2], "G80", "{lines:?}");
-    // moves end by themselves
+    // moves need no Cancel
     let lines = path_lines("", "Drill\nG0 X[h] Y[v]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd Cancel", &path);
     assert!(!lines.contains(&"G80".to_owned()), "{lines:?}");
 }
 
-/// LinuxCNC stops at a line that is too long, in the middle of the part: a comment goes on in the next block.
+/// LinuxCNC stops at a line that is too long, in the middle of the part. A long comment is continued in the next block.
 #[test]
 fn long_comments_keep_to_the_controls_line() {
     let text = "WORD ".repeat(80) + &"X".repeat(300);
@@ -939,7 +938,8 @@ fn long_comments_keep_to_the_controls_line() {
     assert_eq!(path_lines("", "", &path).iter().filter(|line| line.contains("WORD")).count(), 1);
 }
 
-/// An Upon of the bottom prints before the hole that has another one, outside the control's cycle; one that moves would go down.
+/// An Upon for the bottom prints before a hole with another bottom, outside the control's cycle. An Upon that would
+/// move to the bottom is left out.
 #[test]
 fn an_upon_of_the_bottom_prints_before_its_hole() {
     let points = "[[1,1,0],[2,2,0],[3,3,-0.2]]";
@@ -954,7 +954,7 @@ fn an_upon_of_the_bottom_prints_before_its_hole() {
     assert!(!moving.iter().any(|line| line.starts_with("G1 Z-")), "{moving:?}");
 }
 
-/// Centre, radius and end angle say an arc whole; the next move says its position.
+/// Centre, radius and end angle define an arc completely. The next move prints its position.
 #[test]
 fn a_polar_arc_is_whole() {
     let path = "{\"line\":[0,0,0]},{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"cw\"}},{\"line\":[0,0,0]}";
@@ -964,7 +964,7 @@ fn a_polar_arc_is_whole() {
     assert!(lines[lines.len() - 1].contains("X0 Y0"), "{lines:?}");
 }
 
-/// A speed that vanishes in its digits would leave the spindle standing.
+/// If a format would round the speed to zero, the spindle would not turn: this is an error.
 #[test]
 fn a_speed_does_not_vanish() {
     let slow = job("{\"line\":[1,0,1]}").replace("\"speed\":1000", "\"speed\":0.4");
@@ -976,12 +976,12 @@ fn a_speed_does_not_vanish() {
         );
     }
     assert!(program(&mill("S >4.>1", ""), &slow).contains(&"S.4 M3".to_owned()));
-    // no speed is none
+    // a speed of 0 in the job is allowed
     let none = slow.replace("\"speed\":0.4", "\"speed\":0");
     assert!(program(&mill("", ""), &none).contains(&"S0 M3".to_owned()));
 }
 
-/// A cut with the spindle off is said, once an operation.
+/// A cut with the spindle off has one warning for each operation.
 #[test]
 fn a_cut_with_the_spindle_off_is_told() {
     let notes = |path: &str| -> Vec<&'static str> {
@@ -994,7 +994,7 @@ fn a_cut_with_the_spindle_off_is_told() {
     assert_eq!(notes(&format!("{off}{on}")), [""; 0]);
 }
 
-/// An argument of a macro or of a code of the builder says no work offset: before the positions stands the form's own.
+/// An argument of a macro, or of a builder's code, is not the work offset, so the form's own word is printed before the positions.
 #[test]
 fn positions_count_from_the_offset_that_was_said() {
     for line in ["G65 P9000 W[work]", "M100 W[work]"] {
@@ -1014,13 +1014,13 @@ fn positions_count_from_the_offset_that_was_said() {
         let at = lines.iter().position(|line| line == "G55").unwrap_or_else(|| panic!("{lines:?}"));
         let place = lines.iter().position(|line| line == "G0 X1. Y0 Z1.").unwrap_or_else(|| panic!("{lines:?}"));
         assert!(at < place, "{lines:?}");
-        // a macro may have left another offset
+        // a macro may have left another work offset
         let again = lines[place..].iter().any(|line| line == "G55");
         assert_eq!(again, line.starts_with("G65"), "{lines:?}");
     }
 }
 
-/// `MoreWork` names the words of the fixtures for which `G[work]` has no code; the tool changes and blocks of their own print them.
+/// `MoreWork` defines the words of fixtures for which `G[work]` has no code. Tool changes and separate blocks print them.
 #[test]
 fn more_work_names_further_offsets() {
     let path = "{\"line\":[1,0,0]},{\"work\":9},{\"rapid\":[1,0,1]},{\"work\":2},{\"rapid\":[2,0,1]}";
@@ -1030,10 +1030,10 @@ fn more_work_names_further_offsets() {
     assert_eq!(program(&last, &job(path))[5], "G154 P1");
     let first = job("{\"line\":[1,0,0]}").replace("\"work\":54", "\"work\":8");
     assert_eq!(program(&more, &first)[3], "G0 G54.1 P2 X0 Y0 Z1.");
-    // G505 of a Siemens is the fifth
+    // on a Siemens, G505 is the fifth offset
     let siemens = mill("Control siemens\nMoreWork 5 G505", "");
     assert_eq!(program(&siemens, &job(path))[5], "G509");
-    // without it, or where the control has no such code, the job is refused
+    // without `MoreWork`, or if the control lacks the code, the job is refused
     for commands in ["", "Control fanuc\nMoreWork 7 G400"] {
         let lines = program(&mill(commands, ""), &first);
         assert!(lines[0].starts_with("PR037"), "{commands}: {lines:?}");
@@ -1045,7 +1045,7 @@ fn more_work_names_further_offsets() {
     }
 }
 
-/// A form may have several words for its offsets, and say them after a text.
+/// A form may have several words for work offsets, and may print them after a text.
 #[test]
 fn a_form_has_several_words_for_its_offsets() {
     let more = "@if [work] > 59\nG54.1 P[work-59]\n@else\nG[work]\n@end\nG0 X[h] Y[v] Z[d]";

@@ -1,5 +1,5 @@
-//! Every folder of samples/ is a test: its job rendered by its form is its expected program, byte for byte.
-//! `SAMPLES=overwrite cargo test samples::` writes what is printed now; look at the difference before committing.
+//! Tests every folder of samples/: the program that its form prints for its job must be the expected one, byte for
+//! byte. `SAMPLES=overwrite cargo test samples::` writes the printed programs; check the differences before a commit.
 
 use crate::program_commands::{postform, text};
 use crate::support;
@@ -12,7 +12,7 @@ use postform::internals::render::Options;
 use postform::toolpath::Place;
 use serde_json::Value;
 
-/// The command tries them: a person's own cases are tried the same way.
+/// Runs `postform test`, which tests a user's own cases in the same way.
 #[test]
 fn samples_print_what_they_say() {
     for folder in samples() {
@@ -38,7 +38,7 @@ fn every_post_that_ships_is_clean_and_prints_its_part() {
         posts += 1;
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         if checked.form.settings.machine == postform::internals::lang::Machine::Mill {
-            // a control without compensation prints the part by the path of the tool's centre
+            // a control without compensation prints the path of the tool's centre
             let control = checked.form.settings.control();
             let part = match checked.form.settings.beam {
                 Some(_) => "plasma",
@@ -70,17 +70,18 @@ fn every_program_line_has_its_place_in_the_job_and_traces_lose_nothing() {
                 let path = line.place.path();
                 assert!(item(job, &path).is_some(), "{at}: the job has no {path}");
                 items.insert((folder.clone(), path));
-                // blocks come in the order of the job, those of subprograms as the form asks; start and end are no item's
+                // blocks follow the order of the job; subprograms are placed by the form; start and end belong to no
+                // item
                 if job.get("subprograms").is_none() && line.place.operation > 0 {
                     assert!(!before(line.place, last), "{at}: {} after {last}", line.place);
                     last = line.place;
                 }
             }
-            // a block has no letter that its line of the form does not write
+            // every letter of a block is in its line of the form
             if let Some(span) = line.form {
                 let words = checked.files[span.file as usize].slice(span).to_ascii_uppercase();
                 assert!(!words.is_empty() && !words.contains('\n'), "{at}: `{words}`");
-                // text in backquotes may hold texts of the job
+                // text in backquotes may contain texts of the job
                 if words.contains('`') {
                     continue;
                 }
@@ -93,7 +94,7 @@ fn every_program_line_has_its_place_in_the_job_and_traces_lose_nothing() {
     assert!(items.len() > 250 && of_forms > 500, "{} items, {of_forms} lines of forms", items.len());
 }
 
-/// What stands in a job at a path as `operations[0].path[3].cycle.points[2]`.
+/// The value in a job at a path such as `operations[0].path[3].cycle.points[2]`.
 fn item<'a>(job: &'a Value, path: &str) -> Option<&'a Value> {
     let steps = path.split(['.', '[', ']']).filter(|step| !step.is_empty());
     steps.into_iter().try_fold(job, |value, step| match step.parse::<usize>() {
@@ -102,7 +103,8 @@ fn item<'a>(job: &'a Value, path: &str) -> Option<&'a Value> {
     })
 }
 
-/// Whether a place comes before another one in the job. A cycle's end has the place of its item, after all points.
+/// Is a location before another one in the job? The end of a cycle has the location of its item, and comes after all
+/// points.
 fn before(place: Place, other: Place) -> bool {
     let item = |place: Place| (place.operation, place.item);
     item(place) < item(other) || item(place) == item(other) && place.point > 0 && place.point < other.point
@@ -114,8 +116,8 @@ fn letters(block: &str) -> impl Iterator<Item = char> {
     words.chars().filter(|letter| letter.is_ascii_uppercase())
 }
 
-/// Grbl refuses what others read: arcs without an axis word of their plane, mist, two motions in a block; and it acts on some
-/// characters at once, in comments too.
+/// Grbl refuses some blocks that other controls accept: an arc without an axis word of its plane, mist, two motions in
+/// one block. Grbl also acts on some characters immediately, even in comments.
 #[test]
 fn the_grbl_post_prints_what_grbl_reads() {
     let form = root().join("postforms/grbl.pf");

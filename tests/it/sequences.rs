@@ -1,4 +1,4 @@
-//! docs/sequences.md: every sequence is there with its machines and a sample, and the sample prints it.
+//! docs/sequences.md lists every sequence with its machines and a sample, and the sample prints the sequence.
 
 use std::fs;
 
@@ -19,7 +19,7 @@ fn no_sequence_is_without_a_sample_that_prints_it() {
     }
 }
 
-/// Does some line of a sample's program come from this sequence?
+/// Does this sequence print a line of a sample's program?
 fn printed(sample: &str, id: postform::internals::lang::SequenceId) -> bool {
     let folder = root().join("samples").join(sample);
     let own = sample_form(&folder);

@@ -1,4 +1,4 @@
-//! The setup sheet: what it says, in each format, and that nothing of a job runs in it.
+//! The setup sheet: its contents in each format. Texts of a job must not be executed in it.
 
 use crate::support::folder::{Folder, err, out};
 use crate::support::root;
@@ -42,7 +42,7 @@ fn a_sheet_has_offsets_tools_operations_and_stops() {
     assert!(text.contains("| T2 |") && !text.contains("| T1 |"), "{text}");
 }
 
-/// What a job says of a tool under names of its own stands on the sheet, and with a machine the time of each tool.
+/// The sheet contains the job's own fields of a tool and, with a machine, the time of each tool.
 #[test]
 fn a_sheet_has_what_a_job_says_of_tools_and_their_times() {
     let folder = Folder::new("sheet-data");
@@ -61,7 +61,7 @@ fn a_sheet_has_what_a_job_says_of_tools_and_their_times() {
     assert!((tools - whole).abs() < 1e-6 && whole > seconds(&json["minutes"]) * 60.0, "{json:#}");
 }
 
-/// A lathe's sheet has X as its programs count it, no Y, and the time of cuts at a constant surface speed.
+/// The sheet of a lathe has X as in its programs, no Y, and the time of cuts at a constant surface speed.
 #[test]
 fn the_sheet_of_a_lathe_has_its_own_axes() {
     let folder = Folder::new("sheet-lathe");
@@ -73,7 +73,8 @@ fn the_sheet_of_a_lathe_has_its_own_axes() {
     assert_eq!(json["x"], "diameters");
     assert_eq!(json["works"][0]["cuts"], serde_json::json!([[0.0, 1.2], null, [-1.125, 0.2]]));
     assert_eq!(json["tools"][0]["length_register"], serde_json::Value::Null);
-    // 400 ft/min at 0.008 a turn: 1.1 inch at a radius of 0.375, a quarter of 0.125 inch at its middle, 0.1 inch at 0.55
+    // 400 ft/min at 0.008 inch per revolution: 1.1 inch at a radius of 0.375, a quarter of 0.125 inch at its middle,
+    // 0.1 inch at 0.55
     let turns = |radius: f64| 400.0 * 12.0 / (std::f64::consts::TAU * radius);
     let quarter = std::f64::consts::FRAC_PI_2 * 0.125;
     let minutes = 1.1 / turns(0.375) + quarter / turns(0.4375) + 0.1 / turns(0.55);
@@ -83,7 +84,7 @@ fn the_sheet_of_a_lathe_has_its_own_axes() {
     assert!(!page.contains("Y of cuts"), "a lathe has none");
 }
 
-/// Names and texts of a job are text, whatever they hold.
+/// Names and texts of a job are shown as text, whatever they contain.
 #[test]
 fn hostile_texts_are_text() {
     let folder = Folder::new("sheet-hostile");
@@ -95,7 +96,7 @@ fn hostile_texts_are_text() {
     assert!(!page.contains("<script") && page.contains("&lt;script&gt;"), "{page}");
     let text = sheet(&folder, &["--form", &form, "--format", "md"]);
     assert!(text.contains("\\<script\\>alert(1)\\</script\\>\\|\\`x\\`"), "{text}");
-    // the stop says what the job says before it
+    // a stop is shown with the job's comment before it
     assert!(text.contains("| M0 | T1 | \\<script"), "{text}");
 }
 

@@ -1,4 +1,4 @@
-//! Programs that once came out wrong without a word, each with the block that must stand in it.
+//! Programs that were once wrong without a message, each with the block that must be in it.
 
 use crate::support;
 use crate::support::{job, mill, path_lines, program, root};
@@ -12,7 +12,7 @@ fn post(name: &str, text: &str) -> Vec<String> {
     }
 }
 
-/// Whoever prints the stop: a cycle, the job's text, a sequence of the form. The next cut finds the spindle turning.
+/// After a stop from a cycle, the job's text or a sequence of the form, the spindle is started before the next cut.
 #[test]
 fn after_every_stop_the_spindle_turns_again() {
     let manual = "{\"cycle\":{\"kind\":\"manual\",\"clear\":0.1,\"points\":[[1,1,0]]}},{\"line\":[1,1,-1]}";
@@ -27,15 +27,15 @@ fn after_every_stop_the_spindle_turns_again() {
     let row = "{\"begin\":\"row\"},{\"line\":[1,0,1]},{\"end\":\"row\"}";
     assert_eq!(path_lines("", "BeginRow\nM0\nEnd", row), ["M0", "S1000 M3", "G1 X1. F10."]);
     assert_eq!(path_lines("", "BeginRow\n/M1\nEnd", row), ["/M1", "S1000 M3", "G1 X1. F10."]);
-    // what the sequence itself says after its stop is not said twice
+    // if the sequence prints the spindle after its stop, it is not printed twice
     let own = "BeginRow\nM0\nS[speed] M[direct]\nEnd";
     assert_eq!(path_lines("", own, row), ["M0", "S1000 M3", "G1 X1. F10."]);
-    // what the job itself has switched off stays off
+    // a spindle that the job turned off stays off
     let off = "{\"text\":\"M5\"},{\"text\":\"M0\"},{\"rapid\":[1,0,1]}";
     assert_eq!(path_lines("", "", off), ["M5", "M0", "G0 X1. Y0 Z1."]);
 }
 
-/// A sequence of moves that prints no motion code is a cut, whatever came before it.
+/// A sequence of moves without a motion code must cut, whatever motion came before it.
 #[test]
 fn a_cut_is_no_rapid() {
     let infeed = "InFeed\nG[side] X[h] Y[v] D[dcomp] F[frate]\nEnd\nOutFeed\nG40 X[h] Y[v]\nEnd";
@@ -46,7 +46,7 @@ fn a_cut_is_no_rapid() {
     assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["G1 F10.", "X1.", "X2."]);
     let rapid = "RapidCode\nX[h] Y[v] Z[d]\nEnd";
     assert_eq!(path_lines("", rapid, "{\"line\":[1,0,1]},{\"rapid\":[2,0,1]}"), ["G1 X1. F10.", "G0", "X2."]);
-    // an arc can't be a block of its own; a form without G codes has none to say
+    // an arc code can't be a separate block; a form without G codes has no code to print
     let arc = "{\"arc\":{\"to\":[1,1],\"center\":[0,1],\"direction\":\"ccw\"}}";
     let lines = path_lines("", "CcwCode\nX[h] Y[v] I[ival] J[jval] F[frate]\nEnd", arc);
     assert_eq!(lines, ["PR017 the sequence does not print G3, but another motion code is active"]);
@@ -55,7 +55,7 @@ fn a_cut_is_no_rapid() {
     assert_eq!(lines[lines.len() - 2], "L X1. F10.");
 }
 
-/// A torch that the form switches, and a laser whose moves say their power: no block of the spindle stands between.
+/// A torch that the form switches, and a laser whose moves contain its power: no generated block of the spindle is printed.
 #[test]
 fn forms_that_switch_the_tool_themselves_do_so_alone() {
     let torch = "BeginLeadin\nM3\nG4 P.4\nEnd\nEndLeadout\nM5\nEnd";
@@ -69,7 +69,7 @@ fn forms_that_switch_the_tool_themselves_do_so_alone() {
     assert_eq!(lines[4..7], ["G1 X1. F10. S1000", "G0 X2. S0", "G1 X3. S1000"]);
 }
 
-/// Values at the head of an operation are those of its tool change, also as a key of the operation.
+/// Values at the beginning of an operation apply to its tool change, also as a key of the operation.
 #[test]
 fn values_come_with_their_tool_change() {
     let form = mill("", "").replace("T[tool] M6", "T[tool] M6\nM[val1]");
@@ -87,7 +87,7 @@ fn values_come_with_their_tool_change() {
     assert!(said(&jobs("", ",\"set\":{\"vall\":68}"))[..].is_empty(), "an unknown name is an error");
 }
 
-/// The height first and then the place, or the other way: the tool change waits for both.
+/// A job may give the height before the position, or after it: the tool change waits for both.
 #[test]
 fn a_tool_change_waits_for_the_axes_that_it_prints() {
     let path = |items: &str| job("@").replace("{\"rapid\":[0,0,1]},@", items);
@@ -99,15 +99,15 @@ fn a_tool_change_waits_for_the_axes_that_it_prints() {
         let lines = program(&mill("", ""), &path(items));
         assert_eq!(lines[3..], ["G0 G54 X5. Y6. Z2.", "(UP)", "G1 Z0 F10.", "M30"], "{items}");
     }
-    // the height of a rapid, over the first hole
+    // the height of the rapid, over the first hole
     let items = "{\"rapid\":[null,null,2]},{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[5,6,0]]}}";
     assert_eq!(program(&mill("", ""), &path(items))[3..5], ["G0 G54 X5. Y6. Z2.", "G0 Z.1"]);
-    // without a place at all it is as it was
+    // without a position in X and Y, it is still an error
     let items = "{\"rapid\":[null,null,2]},{\"line\":[5,6,0]}";
     assert!(program(&mill("", ""), &path(items))[0].starts_with("PR001 [h] has no value here"));
 }
 
-/// A fixture's number or its code: the form's word says neither 54 as a number nor a number that nobody has.
+/// A job has the number or the code of a fixture. The form's word prints its own number, never 54, and never a number that does not exist.
 #[test]
 fn work_offsets_are_counted_as_the_form_counts() {
     let form = mill("Work 1", "").replace("G0 G[work]", "G15 H[work]\nG0");
@@ -119,7 +119,7 @@ fn work_offsets_are_counted_as_the_form_counts() {
     assert_eq!(error, ["PR037 the work offset 59.1 is a code, but this form counts its offsets from 1"]);
 }
 
-/// A call in another work offset uses it: what an Upon does before it is not left out.
+/// A call in another work offset selects it first. The Upon before it is not left out.
 #[test]
 fn a_call_in_another_work_offset_goes_up_first() {
     let subs = "Upon [work]\nG53 G0 Z0\nG[work] X[h] Y[v]\nEnd\nSubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nG[work] M98 P[sub]\nEnd";
@@ -130,7 +130,7 @@ fn a_call_in_another_work_offset_goes_up_first() {
     assert!(lines[at + 1].starts_with("G55 X1. Y1."), "{lines:?}");
 }
 
-/// A block of a control's cycle without an axis word drills on no control, or only on some.
+/// In a cycle, a block without an axis word makes no hole on some controls.
 #[test]
 fn a_hole_that_differs_in_its_clearance_has_its_place() {
     let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -139,7 +139,7 @@ fn a_hole_that_differs_in_its_clearance_has_its_place() {
     assert!(lines.contains(&"X1. Y1. R-.4".to_owned()), "{lines:?}");
 }
 
-/// Digits that a letter does not have change a feed: that is said.
+/// If the format of a letter has too few digits for a feed, there is a warning.
 #[test]
 fn feeds_that_lose_digits_are_said() {
     let notes = |head: &str, feed: &str| {
@@ -150,11 +150,11 @@ fn feeds_that_lose_digits_are_said() {
     assert_eq!(notes("F >4.>2", "0.0055"), ["PR025 [frate] is 0.00550, but prints as F0.01: +81.8 %"]);
     assert_eq!(notes("F >4.>4", "0.0055"), [""; 0]);
     assert_eq!(notes("F >4.>2", "1.004"), [""; 0]);
-    // a sequence's own word too
+    // also for a word in a sequence
     let line = mill("F >4", "LineCode\nG1 X[h] F[frate]\nEnd");
     let rendered = support::render(&line, &job("{\"line\":[1,0,1],\"feed\":1.4}")).unwrap();
     assert_eq!(rendered.notes[0].code.name(), "PR025");
-    // the pitch of a tap is to be as near as comparing wants it
+    // for the pitch of a tap, the limit is the tolerance of the proof
     let hole =
         |kind: &str| format!("{{\"cycle\":{{\"kind\":\"{kind}\",\"depth\":1,\"feed\":0.01905,\"points\":[[1,1,0]]}}}}");
     let notes = |kind: &str| support::render(&mill("F >4.>3", ""), &job(&hole(kind))).unwrap().notes;
@@ -162,7 +162,7 @@ fn feeds_that_lose_digits_are_said() {
     assert!(notes("drill").iter().all(|note| note.code.name() != "PR025"));
 }
 
-/// A tap in a subprogram is a right-hand one for any caller, and the caller's spindle turns that way.
+/// A tap in a subprogram must be right-handed for every caller, and the caller's spindle must turn in that direction.
 #[test]
 fn a_tap_in_a_subprogram_needs_its_turn() {
     let tap = "{\"rapid\":[0,0,1]},{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"feed\":5,\"points\":[[0,0,0]]}}";
@@ -177,7 +177,7 @@ fn a_tap_in_a_subprogram_needs_its_turn() {
     assert!(lines[at + 1..].iter().any(|line| line.contains("M4")), "{lines:?}");
 }
 
-/// A lathe's T word holds station and offset register.
+/// The T word of a lathe contains station and offset register.
 #[test]
 fn a_lathe_indexes_its_turret() {
     let text = |tool: &str| {
@@ -198,7 +198,7 @@ fn a_lathe_indexes_its_turret() {
     }
 }
 
-/// Near half a turn the last digit of R moves the centre: the arc is said in parts that R can say.
+/// Near half a turn, the last digit of R moves the centre. The arc is printed in parts for which R is exact enough.
 #[test]
 fn arcs_by_their_radius_stay_on_the_circle() {
     let head = "Units mm\nX->4.>3\nY->4.>3\nZ->4.>3\nR->4.>3\nCtrCode R";
@@ -218,7 +218,7 @@ fn arcs_by_their_radius_stay_on_the_circle() {
             let word = |letter: char| line.split(' ').find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok());
             let to = [word('X').unwrap_or(at[0]), word('Y').unwrap_or(at[1])];
             if let Some(r) = word('R') {
-                // the control's centre: on the left of the chord, farther than half of it
+                // the control's centre is to the left of the chord, at more than half its length
                 let chord = (to[0] - at[0]).hypot(to[1] - at[1]);
                 let height = (r * r - chord * chord / 4.0).sqrt() * r.signum();
                 let centre = [
@@ -232,11 +232,11 @@ fn arcs_by_their_radius_stay_on_the_circle() {
         }
         assert!(arcs >= 2, "{degrees} {radius}: {arcs} arcs");
     }
-    // exactly half a turn is said as it was
+    // exactly half a turn stays one block
     assert_eq!(arc(180.0, [0.0, 0.0], 28.0).iter().filter(|line| line.contains('R')).count(), 1);
 }
 
-/// Another work offset together with another view: Index takes the tool up and goes over the new place.
+/// A new work offset together with a new angle: Index retracts the tool, and the tool moves over the new position.
 #[test]
 fn an_index_serves_a_new_work_offset() {
     let text = "{\"postform\":1,\"program\":7,\"units\":\"inch\",\"tools\":[{\"number\":1}],\"operations\":[{\"tool\":1,\"work\":54,\
@@ -248,7 +248,7 @@ fn an_index_serves_a_new_work_offset() {
     assert_eq!(lines[at..at + 6], ["G55", "G0 G53 Z0", "A90.", "X2. Y3.", "Z1.", "G1 Z0 F5."]);
 }
 
-/// The height is told last: the tool goes down where it is told, and crosses nothing at that height.
+/// If the job gives the height last, the tool moves down only at the last position, and does not move across at that height.
 #[test]
 fn a_tool_change_goes_down_at_the_last_place() {
     let path = |items: &str| job("@").replace("{\"rapid\":[0,0,1]},@", items);
@@ -259,7 +259,7 @@ fn a_tool_change_goes_down_at_the_last_place() {
     assert_eq!(lines[3..5], ["G0 G54 X5. Y6. Z.1", "G1 Z-1. F5."]);
 }
 
-/// Values before the first move keep their order where something between them is printed.
+/// Values before the first move keep their order with the blocks between them.
 #[test]
 fn values_before_the_first_move_keep_their_order() {
     let form = mill("", "BeginRow\nM[val1]\nEnd");
@@ -277,7 +277,7 @@ fn with_sub(sub: &str, path: &str) -> String {
     job(path).replace("\"operations\"", &format!("\"subprograms\":[{{\"number\":1,\"path\":[{sub}]}}],\"operations\""))
 }
 
-/// The way to a call, and that of an Upon, is a rapid also where the form does not say so.
+/// The move to a call, and that of an Upon, is a rapid even if the form prints no motion code.
 #[test]
 fn the_way_to_a_call_is_a_rapid() {
     let text = with_sub("{\"rapid\":[3,3,1]}", "{\"line\":[1,0,0]},{\"call\":{\"sub\":1,\"at\":[3,3]}}");
@@ -290,7 +290,7 @@ fn the_way_to_a_call_is_a_rapid() {
     assert_eq!(lines[1..3], ["G0", "G55 X5. Y5."]);
 }
 
-/// A stop in a subprogram is one for its caller too; what goes on in it must know its spindle.
+/// A stop in a subprogram also stops the caller's spindle. A cut after the stop in the subprogram needs its own spindle values.
 #[test]
 fn a_stop_in_a_subprogram_is_known_behind_its_call() {
     let path = "{\"call\":{\"sub\":1}},{\"rapid\":[0,0,1]},{\"line\":[1,0,0]}";
@@ -304,7 +304,7 @@ fn a_stop_in_a_subprogram_is_known_behind_its_call() {
     assert!(lines.windows(2).any(|pair| pair == ["M0", "S9 M3"]), "{lines:?}");
 }
 
-/// A lathe's T word has two digits for the station and two for the register.
+/// The T word of a lathe has two digits for the station and two for the register.
 #[test]
 fn a_turret_has_no_other_registers() {
     let text = |tool: &str, number: u32| {
@@ -317,12 +317,12 @@ fn a_turret_has_no_other_registers() {
     {
         assert!(post("fanuc-lathe", &text(tool, number))[0].starts_with("PR039"), "{tool}");
     }
-    // nobody knows where another tool stands: it does not begin with a cut
+    // the position of another tool is unknown, so it can't begin with a cut
     for path in ["{\"line\":[-1,0.5]}", "{\"rapid\":[null,0.5]},{\"line\":[-1]}"] {
         let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", path);
         assert!(post("haas-lathe", &job)[0].starts_with("PR012"), "{path}");
     }
-    // nor along an axis on which only the tool before had a place
+    // nor with a cut along an axis for which only the previous tool had a position
     let two = text("{\"number\":1},{\"number\":2}", 1);
     for path in ["{\"line\":[null,0.2]}", "{\"arc\":{\"to\":[null,0.2],\"radius\":0.3,\"direction\":\"cw\"}}"] {
         let second = format!(
@@ -336,7 +336,7 @@ fn a_turret_has_no_other_registers() {
     assert!(post("haas-lathe", &job)[0].starts_with("PR006"), "{:?}", post("haas-lathe", &job));
 }
 
-/// What a macro does, and codes that nobody described, leave no position certain.
+/// After a macro or an undefined code, all positions are unknown.
 #[test]
 fn after_a_macro_the_place_is_said_again() {
     let lines = |head: &str, line: &str| {
@@ -352,8 +352,8 @@ fn after_a_macro_the_place_is_said_again() {
     }
 }
 
-/// What a code does that the control's file does not know, nobody knows: the next block says its motion again, also
-/// where the code stood beside words of axes.
+/// The effect of a code that the control's file lacks is unknown: the next block prints its motion code again, even if
+/// the code was next to axis words.
 #[test]
 fn after_an_unknown_code_the_motion_is_said_again() {
     for code in ["G6", "G6 X[h]", "G199 X[h]"] {
@@ -364,20 +364,20 @@ fn after_an_unknown_code_the_motion_is_said_again() {
     }
 }
 
-/// An axis with the other sign has its arcs' centre and turn with it.
+/// If an axis is reversed, the centres and directions of its arcs must be reversed too.
 #[test]
 fn reversed_axes_reverse_their_arcs() {
     let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0.5],\"direction\":\"ccw\"}}";
     assert!(path_lines("RevSigns X", "", arc)[0].starts_with("PR036"));
     assert!(path_lines("RevSigns X I", "", arc)[0].starts_with("PR036"));
     assert_eq!(path_lines("RevSigns X I\nCW G3\nCCW G2", "", arc), ["G17 G2 X-2. I-1. J.5 F10."]);
-    // a control that counts from the centre to the start of the arc
+    // a control that measures from the centre to the start of the arc
     assert_eq!(path_lines("RevSigns I J", "", arc), ["G17 G3 X2. I-1. J-.5 F10."]);
     let own = "CcwCode\nG3 X[h] Y[v] I[ival] J[jval] F[frate]\nEnd";
     assert!(path_lines("RevSigns X I", own, arc)[0].starts_with("PR036"));
 }
 
-/// An arc of the lower wire guide with a move of the upper one is no helix.
+/// An arc of the lower wire guide during a move of the upper one is not a helix.
 #[test]
 fn an_arc_of_one_guide_is_printed_as_lines() {
     let text = "{\"postform\":1,\"program\":7,\"units\":\"mm\",\"machine\":\"edm\",\"operations\":[{\"work\":54,\"feed\":3,\"path\":[\
@@ -386,7 +386,7 @@ fn an_arc_of_one_guide_is_printed_as_lines() {
     assert!(lines.len() > 5 && lines.iter().all(|line| !line.contains("G3")), "{lines:?}");
 }
 
-/// Increments of a sequence count between printed positions, as generated ones do: they add up without a rest.
+/// Increments in a sequence are differences of printed positions, as in generated blocks, so they add up exactly.
 #[test]
 fn increments_of_a_sequence_add_up() {
     let line = "LineCode\nG1 X[hdist] Y[vdist] Z[ddist] F[frate]\nEnd";
@@ -402,7 +402,7 @@ fn increments_of_a_sequence_add_up() {
 
 const HOLES: &str = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":";
 
-/// What Cancel switches off between two holes is on again at the next.
+/// If Cancel stops the spindle between two holes, it is started again before the next hole.
 #[test]
 fn a_cancel_between_holes_leaves_the_spindle_turning() {
     let drill = "Drill\nG0 X[h] Y[v]\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -412,7 +412,7 @@ fn a_cancel_between_holes_leaves_the_spindle_turning() {
     assert!(lines[stop.unwrap()..hole.unwrap()].iter().any(|line| line.ends_with("M3")), "{lines:?}");
 }
 
-/// A counted cycle whose first lines only set it up drills its first hole by its other lines.
+/// If the first lines of a counted cycle only set it up, its other lines drill the first hole.
 #[test]
 fn a_cycle_that_waits_for_its_holes_drills_the_first() {
     let first_hole = |first: &str| {
@@ -423,7 +423,7 @@ fn a_cycle_that_waits_for_its_holes_drills_the_first() {
     assert!(first_hole(" K0") && first_hole(" L0") && !first_hole(""));
 }
 
-/// Increments after a cycle count from a height that somebody knows, or are an error.
+/// Increments after a cycle need a known height; otherwise they are an error.
 #[test]
 fn no_increment_from_a_height_that_nobody_knows() {
     let drill = "Drill\nG90\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -432,12 +432,12 @@ fn no_increment_from_a_height_that_nobody_knows() {
         .replace("G0 G[work] X[h] Y[v] Z[d]", "G90 G0 G[work] X[h] Y[v] Z[d]\nG91");
     let path = format!("{{\"rapid\":[0,0,4]}},{HOLES}[[1,1,0]],\"return\":2}}}},{{\"line\":[3,1,-0.5]}}");
     assert!(program(&form, &job(&path))[0].starts_with("PR001 an increment of Z"));
-    // G99 leaves it at the clearance
+    // with G99 the tool is at the clearance
     let lines = program(&form.replace("G98", "G99"), &job(&path));
     assert_eq!(lines[lines.len() - 4..lines.len() - 1], ["G80 G91", "G0 Z1.9", "G1 X2. Z-2.5 F10."]);
 }
 
-/// An arc is not printed in the plane that its sequence types when it lies in another.
+/// If an arc is in another plane than its sequence types, the sequence is not used.
 #[test]
 fn an_arc_of_another_plane_is_not_printed_in_the_sequences_own() {
     let arc =
@@ -448,7 +448,7 @@ fn an_arc_of_another_plane_is_not_printed_in_the_sequences_own() {
     }
 }
 
-/// The offset of a job that names none is counted as the form counts.
+/// The default work offset of a job is converted to the form's own numbers.
 #[test]
 fn the_default_offset_is_counted_as_the_form_counts() {
     let form = mill("Work 1", "").replace("G0 G[work]", "G15 H[work]\nG0");
@@ -456,7 +456,7 @@ fn the_default_offset_is_counted_as_the_form_counts() {
     assert_eq!(lines[3], "G15 H1");
 }
 
-/// A hole after an Index is reached across first and down last, and the part turns under no tool.
+/// To a hole after an Index, the tool moves across first and down last, and the part does not turn under a low tool.
 #[test]
 fn a_hole_behind_an_index_is_reached_across_first() {
     let form = "Index\nG0 G53 Z0\nA[rotangle]\nEnd\nDrill\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -470,7 +470,7 @@ fn a_hole_behind_an_index_is_reached_across_first() {
     assert!(lines[..turn].iter().any(|line| line.ends_with("Z.1")), "{lines:?}");
 }
 
-/// The way to a hole is a rapid, also where an emulated cycle begins without a motion code.
+/// The move to a hole is a rapid, even if an emulated cycle begins without a motion code.
 #[test]
 fn the_way_to_an_emulated_hole_is_a_rapid() {
     let drill = "Drill\nX[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd";
@@ -478,7 +478,7 @@ fn the_way_to_an_emulated_hole_is_a_rapid() {
     assert_eq!(lines[1..3], ["G0", "X1. Y1."], "{lines:?}");
 }
 
-/// A dwell does not vanish in the digits of its letter.
+/// If the format of a dwell's letter has too few digits, there is a warning.
 #[test]
 fn dwells_that_lose_digits_are_said() {
     let dwell = |head: &str, seconds: &str| path_lines(head, "", &format!("{{\"dwell\":{seconds}}}"));
@@ -486,7 +486,7 @@ fn dwells_that_lose_digits_are_said() {
     assert_eq!(dwell("P >4.>1", "0.4"), ["G4 P.4"]);
 }
 
-/// An arc whose radii differ only in the digits of the form is printed as lines, with a note; a wrong centre is an error.
+/// An arc whose radii differ only by the form's rounding is printed as lines, with a note. A wrong centre is an error.
 #[test]
 fn arcs_in_coarse_digits_are_lines() {
     let path = "{\"line\":[-0.28491,0.37034,1]},{\"arc\":{\"to\":[-0.65683,2.01101],\"center\":[-1.1415,1.03865],\"direction\":\"ccw\"}}";
@@ -496,7 +496,7 @@ fn arcs_in_coarse_digits_are_lines() {
     assert!(path_lines("", "", &path.replace("1.03865", "1.05"))[0].starts_with("PR005"));
 }
 
-/// A place that is told before another work offset belongs to the offset before it.
+/// A position before a change of the work offset belongs to the previous offset.
 #[test]
 fn places_belong_to_the_offset_in_which_they_are_told() {
     let items = "{\"rapid\":[20,20]},{\"work\":55},{\"rapid\":[null,null,5]},{\"line\":[20,20,0]}";
@@ -508,7 +508,7 @@ fn places_belong_to_the_offset_in_which_they_are_told() {
     assert_eq!(lines[at + 1], "G55", "{lines:?}");
 }
 
-/// G90 in front of the way to an emulated hole is no motion.
+/// A G90 before the move to an emulated hole is not a motion code.
 #[test]
 fn the_way_to_an_emulated_hole_is_a_rapid_behind_g90() {
     let drill = "Drill\nG90 X[h] Y[v] Z[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd";
@@ -516,7 +516,7 @@ fn the_way_to_an_emulated_hole_is_a_rapid_behind_g90() {
     assert_eq!(lines[1..3], ["G0", "G90 X1. Y1. Z.1"], "{lines:?}");
 }
 
-/// A wire with a tool of its own tapers from its first cut on.
+/// A wire with a tool definition can cut at an angle from its first cut on.
 #[test]
 fn a_wire_tapers_from_its_first_cut() {
     let text = "{\"postform\":1,\"program\":7,\"units\":\"mm\",\"machine\":\"edm\",\"tools\":[{\"number\":1}],\"operations\":[{\"tool\":1,\
@@ -524,7 +524,7 @@ fn a_wire_tapers_from_its_first_cut() {
     assert!(post("wire-edm", text).len() > 4, "{:?}", post("wire-edm", text));
 }
 
-/// G91 that a part of the path leaves is read by what prints axis words next; a G90 before them ends it.
+/// If a part of the path leaves G91 active, later axis words are an error, unless a G90 comes before them.
 #[test]
 fn increments_left_on_are_ended_by_the_sequence_itself() {
     let row = "{\"begin\":\"row\"},{\"end\":\"row\"}";
@@ -535,7 +535,7 @@ fn increments_left_on_are_ended_by_the_sequence_itself() {
     assert!(lines("G90 G0 G53 Z0").contains(&"M30".to_owned()) && lines("M9").contains(&"M30".to_owned()));
 }
 
-/// What an Upon of a cut prints is a cut: at feed, never a rapid into the part.
+/// An Upon of a cut moves at feed, never at rapid into the part.
 #[test]
 fn an_upon_of_a_cut_cuts() {
     let path = "{\"line\":[1,0,0]},{\"line\":[2,0,-1]},{\"line\":[3,0,-1]}";
@@ -543,7 +543,7 @@ fn an_upon_of_a_cut_cuts() {
     assert_eq!(lines, ["G1 F10.", "Z0 F10.", "X1.", "Z-1. F10.", "X2.", "X3."]);
 }
 
-/// A macro with arguments that are named as axes goes where it likes all the same.
+/// A macro with arguments named like axes may still move to any position.
 #[test]
 fn the_arguments_of_a_macro_are_no_position() {
     let lines = |line: &str| {
@@ -553,12 +553,12 @@ fn the_arguments_of_a_macro_are_no_position() {
     for line in ["G65 P9010 X1. Y2.", "G65 P9010 Z2.", "G66 P9010 X2."] {
         assert!(lines(line).iter().any(|line| line == "G0 X0 Y0 Z1."), "{line}: {:?}", lines(line));
     }
-    // and leaves any motion, feed, speed and offset
+    // and it may leave any motion, feed mode, speed and work offset
     let row = "{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}";
     assert_eq!(path_lines("", "BeginRow\nG65 P9010\nEnd", row)[2..], ["G54", "S1000 M3", "G94", "G1 X2. Y0 Z0 F10."]);
 }
 
-/// The way to a call, and that of an Upon, is a rapid whatever came before it: another call, text, a cycle.
+/// The move to a call, and that of an Upon, is a rapid after another call, after a text, and after a cycle.
 #[test]
 fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     let subs = SUBS.replace("M98", "X[h] Y[v]\nM98");
@@ -569,7 +569,7 @@ fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     };
     let calls = "{\"call\":{\"sub\":1,\"at\":[3,3]}},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, calls)), "X4. Y4."), "G0");
-    // the first run begins at the place, the next where the one before has ended
+    // the first run begins at the position of the call; before the next run, the tool moves back there from the end of the first
     let times = "{\"call\":{\"sub\":1,\"at\":[4,4],\"times\":2}},{\"rapid\":[0,0,1]}";
     let lines = program(&mill("", &subs), &with_sub(cuts, times));
     let at = lines.iter().position(|line| line == "M98 P1").unwrap();
@@ -588,7 +588,7 @@ fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     assert_eq!(before(&program(&mill("", &upon), &with_sub(cuts, path)), "G55 X5. Y5."), "G0");
 }
 
-/// A subprogram that stops is begun again as it began first; one that goes on knows its coolant too; a way is no cut.
+/// Each run of a subprogram that stops begins in the same state. A cut after the stop needs spindle and coolant; a rapid does not.
 #[test]
 fn a_stop_in_a_subprogram_is_one_for_its_next_run() {
     let cut = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5},{\"rapid\":[0,0,1]},{\"stop\":\"program\"}";
@@ -607,7 +607,7 @@ fn a_stop_in_a_subprogram_is_one_for_its_next_run() {
     assert!(program(&mill("", SUBS), &with_sub(&on, path))[0].starts_with("PR033"));
 }
 
-/// From where a subprogram left it the tool goes up first.
+/// After a subprogram that ends low, the tool moves up first.
 #[test]
 fn behind_a_call_the_tool_goes_up_before_it_crosses() {
     let low = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5}";
@@ -619,7 +619,7 @@ fn behind_a_call_the_tool_goes_up_before_it_crosses() {
     assert_eq!(lines[at + 1..at + 3], ["G0 Z1.", "X5. Y5."], "{lines:?}");
 }
 
-/// With an axis of the other sign the offset has another side, and the form's own arcs are looked at like generated ones.
+/// With a reversed axis, the compensation side must be reversed too, and the form's own arc sequences are checked like generated arcs.
 #[test]
 fn reversed_axes_reverse_sides_and_sequences() {
     let infeed = "{\"infeed\":[1,1],\"side\":\"left\"},{\"outfeed\":[3,1]}";
@@ -633,11 +633,11 @@ fn reversed_axes_reverse_sides_and_sequences() {
     assert_eq!(path_lines("RevSigns X I", &own("G2"), arc), ["G2 X-2. I-1. J.5 F10."]);
     let yz = "{\"arc\":{\"to\":[0,2,1],\"center\":[null,1,1],\"direction\":\"ccw\",\"plane\":\"yz\"}}";
     assert!(path_lines(head, "", yz)[0].starts_with("PR036"));
-    // controls that count from the centre to the start
+    // controls that measure from the centre to the start
     assert_eq!(path_lines("RevSigns I J", "", arc), ["G17 G3 X2. I-1. J-.5 F10."]);
 }
 
-/// G99 leaves the tool at the clearance: increments may count from there.
+/// G99 leaves the tool at the clearance, from which increments can start.
 #[test]
 fn increments_count_from_a_height_that_is_certain() {
     for drill in [
@@ -653,7 +653,7 @@ fn increments_count_from_a_height_that_is_certain() {
     }
 }
 
-/// After an arc a part of the path does not go on as an arc.
+/// A part of the path after an arc must not continue as an arc.
 #[test]
 fn a_part_behind_an_arc_is_no_arc() {
     let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"ccw\"}}";
@@ -662,7 +662,7 @@ fn a_part_behind_an_arc_is_no_arc() {
     assert_eq!(lines[1..3], ["G1", "X2. Y0"], "{lines:?}");
 }
 
-/// The angles of an arc are those that a turret on the other side sees; a thread begins where the way before it came to.
+/// For a turret on the other side, the angles of an arc are mirrored. A thread begins at the end of the rapid before it.
 #[test]
 fn a_mirrored_turret_has_mirrored_angles() {
     let lathe = |head: &str, seqs: &str| {
@@ -689,7 +689,7 @@ fn a_mirrored_turret_has_mirrored_angles() {
     assert!(lines.iter().any(|line| line.starts_with("G0 X1.2 Z.2")), "{lines:?}");
 }
 
-/// Ways of another tool in the offset before are not gone: it goes to its place in the last offset at once.
+/// Rapids of a new tool before a change of the work offset are skipped: the tool change moves directly to the position in the last offset.
 #[test]
 fn ways_before_another_offset_are_those_of_the_tool_change() {
     let items = "{\"rapid\":[1,1]},{\"work\":55},{\"rapid\":[2,2,1]},{\"line\":[2,2,0]}";
@@ -697,7 +697,7 @@ fn ways_before_another_offset_are_those_of_the_tool_change() {
     assert_eq!(lines[3..], ["G0 G55 X2. Y2. Z1.", "G1 Z0 F10.", "M30"]);
 }
 
-/// A rigid tap turns the spindle both ways and says neither: the next cut is told its own.
+/// A rigid tap turns the spindle in both directions without printing either, so the direction is printed before the next cut.
 #[test]
 fn after_a_tap_against_the_spindle_its_direction_is_said() {
     let rigid = "Tap\nM29\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -710,7 +710,7 @@ fn after_a_tap_against_the_spindle_its_direction_is_said() {
     assert!(lines[tap..cut].iter().any(|line| line.contains("M3")), "{lines:?}");
 }
 
-/// A control that was not told where to return to left its cycle lower than the job: the next rapid across goes up first.
+/// If the form prints no return plane, the control leaves a cycle lower than the job. The next rapid in X and Y first moves up.
 #[test]
 fn a_rapid_after_a_hole_is_as_high_as_the_jobs() {
     let form = support::check_file(&root().join("tests/data/forms/no-return-plane.pf"));
@@ -728,11 +728,11 @@ fn a_rapid_after_a_hole_is_as_high_as_the_jobs() {
     let high = drill(1.0, r#""return":2,"#);
     assert_eq!(printed(&format!("{high},{{\"rapid\":[5,5]}}")), ["G80", "G0 Z2.", "X5. Y5."]);
     assert_eq!(printed(&format!("{high},{}", drill(3.0, "")))[..3], ["G80", "G0 Z2.", "X3."]);
-    // straight up it goes at once
+    // a rapid straight up needs only one block
     assert_eq!(printed(&format!("{high},{{\"rapid\":[1,1,3]}}")), ["G80", "G0 Z3."]);
 }
 
-/// Without a return plane the tool comes back to each hole's own clearance.
+/// Without a return plane, the tool returns to the clearance of each hole.
 #[test]
 fn each_hole_has_its_own_clearance() {
     let points = "[1,1,0],[2,1,-0.5],[3,1,0.25]";
@@ -744,7 +744,7 @@ fn each_hole_has_its_own_clearance() {
     assert_eq!(heights, ["Z.1", "G0 Z.1", "Z-.4", "G0 Z-.4", "Z.35", "G0 Z.35"], "{lines:?}");
 }
 
-/// The last start of a thread begins lower, and the control comes back there: the tool goes up before it crosses or stops.
+/// The last start of a thread begins lower, and the control returns to that height: the tool moves up before it moves across or stops.
 #[test]
 fn the_last_start_of_a_thread_goes_up() {
     let taps = |after: &str| {
@@ -761,7 +761,7 @@ fn the_last_start_of_a_thread_goes_up() {
     }
 }
 
-/// A rigid tap that the control does not turn the spindle for finds it turning its own way.
+/// If the control does not turn the spindle for a rigid tap, the spindle is started in the tap's direction before it.
 #[test]
 fn a_tap_by_g33_1_turns_the_spindle_its_way() {
     let path = r#"{"spindle":{"direction":"ccw"}},{"rapid":[0,0,2]},{"cycle":{"kind":"tap","rigid":true,"depth":0.8,"clear":0.1,"feed":9,"points":[[0,1,0]]}}"#;

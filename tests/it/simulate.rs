@@ -1,6 +1,6 @@
-//! What controls make of programs: canned cycles of Fanuc mills and of EMC2's manual, subprograms, refusals.
+//! The motions that controls make of programs: canned cycles of Fanuc mills and of EMC2's manual, subprograms, refusals.
 //!
-//! LinuxCNC's own rules are held by recorded programs (`nc_golden.rs`) and by its interpreter (`linuxcnc_random.rs`).
+//! LinuxCNC's own rules are tested with recorded programs (`nc_golden.rs`) and with its interpreter (`linuxcnc_random.rs`).
 
 use crate::support::control;
 use postform::internals::control::Control;
@@ -58,13 +58,13 @@ const START: &str = "G21 G17 G90 G94\nS500 M3\nG0 X0. Y0. Z10.\n";
 
 fn fanuc(blocks: &str) -> Vec<String> {
     let lines = motions(control("fanuc"), &format!("{START}{blocks}\nM30\n"));
-    lines[2..].to_vec() // the spindle and the first rapid
+    lines[2..].to_vec() // without the spindle and the first rapid
 }
 
 #[test]
 fn cycles_of_a_fanuc() {
     let drill = |blocks| fanuc(blocks);
-    // G98 is the default: back to where the tool was at the series' first block
+    // G98 is the default: back to the height of the tool before the first block of the series
     assert_eq!(
         drill("G81 X1. Y1. Z-5. R2. F100.\nX2.\nG80"),
         ["T 1 1 10", "T 1 1 2", "F 1 1 -5", "T 1 1 10", "T 2 1 10", "T 2 1 2", "F 2 1 -5", "T 2 1 10"]
@@ -73,12 +73,12 @@ fn cycles_of_a_fanuc() {
         drill("G99 G82 X1. Z-5. R2. P500 F100.\nX2. P1.5\nG80"),
         ["T 1 0 10", "T 1 0 2", "F 1 0 -5", "dwell 0.5", "T 1 0 2", "T 2 0 2", "F 2 0 -5", "dwell 1.5", "T 2 0 2"]
     );
-    // words are kept over a change of the cycle
+    // the words stay active when the cycle changes
     assert_eq!(
         drill("G99 G81 X1. Z-5. R2. F100.\nG85 X2.\nG80"),
         ["T 1 0 10", "T 1 0 2", "F 1 0 -5", "T 1 0 2", "T 2 0 2", "F 2 0 -5", "F 2 0 2", "T 2 0 2"]
     );
-    // half a millimetre is the usual back-off
+    // the usual retract is 0.5 mm
     assert_eq!(
         drill("G99 G83 X1. Z-3. R0. Q2. F100.\nG80"),
         ["T 1 0 10", "T 1 0 0", "F 1 0 -2", "T 1 0 0", "T 1 0 -1.5", "F 1 0 -3", "T 1 0 0"]
@@ -115,17 +115,17 @@ fn cycles_of_a_fanuc() {
         ]
     );
     assert_eq!(drill("G99 G86 X1. Z-3. R2. F50.\nG80")[2..], ["F 1 0 -3", "dwell 0", "stop", "T 1 0 2", "cw"]);
-    // K holes one after another; K0 only keeps the words
+    // K is the number of holes in a row; K0 only stores the words
     assert_eq!(
         drill("G91 G99 G81 X1. Z-4. R-8. K2 F100.\nG80 G90"),
         ["T 1 0 10", "T 1 0 2", "F 1 0 -2", "T 1 0 2", "T 2 0 2", "F 2 0 -2", "T 2 0 2"]
     );
     assert_eq!(drill("G99 G81 X1. Z-5. R2. K0 F100.\nX2.\nG80").len(), 4);
-    // G80 brings the motion of before back
+    // G80 restores the motion before the cycle
     assert_eq!(drill("G1 X3. F100.\nG99 G81 X1. Z-5. R2.\nG80\nX9.").last().unwrap(), "F 9 0 2");
-    // a block without X, Y, Z or R drills nothing
+    // a block without X, Y, Z or R drills no hole
     assert_eq!(drill("G99 G81 X1. Z-5. R2. F100.\nM8\nF50.\nG4 P100\nG80").len(), 5);
-    // in G18 holes go along Y
+    // in G18 the holes are along Y
     assert_eq!(drill("G18\nG99 G81 X1. Y-5. Z0. R-2. F100.\nG80")[1..3], ["T 1 -2 0", "F 1 -5 0"]);
 }
 
@@ -134,7 +134,7 @@ fn programs_of_a_fanuc_and_their_subprograms() {
     let program = "%\nO1\nG21 G90 G0 X0. Y0. Z1.\nM98 P100 L2\nM98 P20200\nM30\nO100\nG91 X1.\nG90 M99\nO200\nG91 Y1.\nG90 M99\n%\n";
     assert_eq!(motions(control("fanuc"), program), ["T 0 0 1", "T 1 0 1", "T 2 0 1", "T 2 1 1", "T 2 2 1"]);
     assert_eq!(refused(control("fanuc"), "G21\nM98 P7\nM30\n"), ("PN016".into(), 2));
-    // the home of the axes that are named, by way of a place
+    // only the given axes move home, through the intermediate position
     let home = motions(control("fanuc"), "G21 G90 G0 X1. Y2. Z3.\nG91 G28 Z0\nG90\nM30\n");
     assert_eq!(home, ["T 1 2 3", "T 1 2 3", "T 1 2 0"]);
     assert_eq!(motions(control("fanuc"), "G90 G10 L2 P1 X5.\n#1=2.5\nG0 X#1 Y[#1*2]\nM30\n"), ["T 2.5 5 0"]);
@@ -152,7 +152,7 @@ fn lengths_without_a_point() {
     assert_eq!(motions(control("linuxcnc"), program), ["T 1000 0 0"]);
 }
 
-/// Where the old manual differs: the Z before each block counts, and pecks wait and come out all the way.
+/// Differences in the old manual: the height before each block counts, and pecks dwell and retract completely.
 #[test]
 fn cycles_of_emc2() {
     let emc2 = |program: &str| motions(control("emc2"), program);
@@ -181,7 +181,7 @@ fn cycles_of_emc2() {
     );
     let eight = "G90 G0 X0 Y0 Z0\nG1 F10 X0 G4 P0.1\nG81 X1 Y0 Z0 R1\nX2\nX3\nX4\nY1 Z0.5\nX3\nX2\nX1\nG80\nG0 X0\nY0\nZ0\nM2\n";
     assert_eq!(holes(eight)[1..], ["1 0 0", "2 0 0", "3 0 0", "4 0 0", "4 1 0.5", "3 1 0.5", "2 1 0.5", "1 1 0.5"]);
-    // no straight-up move of no length at each hole, and all twelve holes as deep
+    // no vertical move of zero length at each hole, and all twelve holes equally deep
     assert_eq!(emc2(eight).iter().filter(|line| line.starts_with('T')).count(), 1 + 1 + 8 * 2 + 3);
     let twelve = "G90 G0 X0 Y0 Z0\nG1 F50 X0 G4 P0.1\nG91 G81 X1 Y0 Z-0.5 R1 L4\nX0 Y1 R0 L3\nX-1 Y0 L3\nX0 Y-1 L2\nG80\nG90 G0 X0\nY0\nZ0\nM2\n";
     let bottoms = holes(twelve)[1..].to_vec();
@@ -260,7 +260,7 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     assert_eq!(refused(control("fanuc"), &long), ("PN001".into(), 1));
 }
 
-/// G0 beside G28 says how the blocks after it move: the axis words are of G28. Those beside G53 are of G0 or G1 alone.
+/// G0 next to G28 sets the motion of later blocks; the axis words belong to G28. Axis words next to G53 belong to G0 or G1.
 #[test]
 fn the_axis_words_of_a_block_have_one_code() {
     let went = fanuc("X1. Y1.\nG1 G28 X5. Y5.\nX7. F10.");
@@ -270,7 +270,7 @@ fn the_axis_words_of_a_block_have_one_code() {
     }
 }
 
-/// What a trial machinist and the real interpreter found.
+/// Cases that a machinist in a trial, or the real interpreter, found.
 #[test]
 fn rules_that_are_easily_missed() {
     let both = |program: &str| motions(control("linuxcnc"), program);
@@ -288,18 +288,18 @@ fn rules_that_are_easily_missed() {
     );
     assert_eq!(refused(control("fanuc"), "G81 X1. Z-1. R.1 F5.\nX3. G4 P200\nM30\n"), ("PN004".into(), 2));
     assert_eq!(refused(control("fanuc"), "G1 G41 X1. F9.\nM30\n"), ("PN007".into(), 1));
-    // the spindle stops when the motion is done
+    // the spindle stops after the motion
     assert_eq!(fanuc("G1 X1. F10. M5")[..], ["F 1 0 10", "stop"]);
-    // a whole circle by its centre alone
+    // a full circle with its centre alone
     assert_eq!(fanuc("G2 X0. I1. F10.\nI2.").len(), 2);
-    // blocks and loops whose moves nobody could wait for
+    // blocks and loops with too many moves
     let many = refused(control("linuxcnc"), "F10\nG91 G83 X1 Z-10000 R1 Q.011 L9999\nM2\n");
     assert_eq!(many, ("PN018".into(), 2));
     let deep = "F10. G91\nG81 X0. Y0. Z-.1 R.1\nM98 P2 L9999\nM30\nO2\nM98 P3 L9999\nM99\nO3\nX.0001 K9999\nM99\n";
     assert_eq!(refused(control("fanuc"), deep).0, "PN015");
 }
 
-/// Line ends, characters and case of all kinds are the same program.
+/// Programs that differ only in line ends, encoding or case are the same program.
 #[test]
 fn the_same_program_however_it_is_written() {
     let plain = "%\nN10 G21 G90\nN20 G0 X1.5 Y-2.\nG1 Z-1. F100.\nM30\n%\n";
@@ -328,7 +328,7 @@ fn the_same_program_however_it_is_written() {
     assert_eq!(calls.len(), 1, "the deleted block is left out");
 }
 
-/// A program cut off anywhere, or with any byte changed, is run or refused, and never stops the simulator.
+/// A program that is truncated or has any changed byte is run or refused. The simulator never panics or hangs.
 #[test]
 fn mutilated_programs_get_an_answer() {
     let program = "%\nO1\nG21 G17 G90\n#1=[2+3]\nG0 X#1 Y[SIN[30]*2]\nG99 G81 X1. Y1. Z-5. R2. F100.\nX2. K3\nG80\nG2 X5. I2. F10.\no1 if [1]\no1 endif\nM98 P2\nM30\nO2\nM99\n";
@@ -354,7 +354,7 @@ fn mutilated_programs_get_an_answer() {
     }
 }
 
-/// A call that a signal interrupts is made again.
+/// A read that a signal interrupts is repeated.
 #[test]
 fn interrupted_reads_are_made_again() {
     use std::io::{BufReader, Error, ErrorKind, Read, Result, Seek, SeekFrom};
@@ -378,7 +378,7 @@ fn interrupted_reads_are_made_again() {
     assert_eq!(items, simulated(program.as_bytes(), settings).2);
 }
 
-/// Q of a Fanuc's tap breaks the chip after each peck; without it the tap goes down in one.
+/// Q in a tap of a Fanuc breaks the chip after each peck. Without Q, the tap goes down in one stroke.
 #[test]
 fn a_tap_with_q_turns_back_after_each_peck() {
     let lines = fanuc("G99 G84 X0. Y0. Z-5. R1. Q2. F500.");
@@ -400,7 +400,7 @@ fn a_tap_with_q_turns_back_after_each_peck() {
     assert_eq!(fanuc("G99 G84 X0. Y0. Z-5. R1. F500.")[2..6], ["F 0 0 -5", "ccw", "F 0 0 1", "cw"]);
 }
 
-/// G33.1 of LinuxCNC follows the spindle in, turns it and follows it out to where it began.
+/// G33.1 of LinuxCNC moves in with the spindle, reverses it, and moves out to its start.
 #[test]
 fn rigid_taps_of_linuxcnc_come_back() {
     let program = "G21 G90\nS100 M3\nG0 X1 Y2 Z5\nG33.1 Z-10 K1.5\nG91\nZ-3 K2\nM2\n";
@@ -413,7 +413,7 @@ fn rigid_taps_of_linuxcnc_come_back() {
     assert_eq!(refused_with(RunSettings::new(control("fanuc")), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
 }
 
-/// Passing over lines is no loop, however many there are; passing over them in a loop is one.
+/// Skipped lines do not count as a loop, however many they are. Skipped lines inside an endless loop do.
 #[test]
 fn lines_passed_over_are_no_loop() {
     let lines = "G1 X1.\n".repeat(2_100_000);
@@ -426,7 +426,7 @@ fn lines_passed_over_are_no_loop() {
     assert_eq!(refused(control("linuxcnc"), &program).0, "PN015");
 }
 
-/// A hole of so many pecks is handed on in parts, whole and in order.
+/// A hole with very many pecks is passed on in parts, completely and in order.
 #[test]
 fn a_block_of_many_moves_is_not_held() {
     for (code, each) in [("G83", 1), ("G84", 2)] {
@@ -446,17 +446,17 @@ fn a_block_of_many_moves_is_not_held() {
             }
         }
         assert!(most < 5_000, "{most} actions at once");
-        // give or take the rounding of sums
+        // apart from rounding in the sums
         let wanted = 2 * each * 100_000;
         assert!(depths.len().abs_diff(wanted) < 4, "{code}: {} feeds", depths.len());
-        // the second hole is the first one again
+        // the second hole equals the first one
         let (first, second) = depths.split_at(depths.len() / 2);
         assert!(first == second && first.contains(&-100.0), "{code}");
     }
 }
 
-/// What an M code does is in the control's file: M13 turns the spindle with coolant, M198 calls what is not at hand, and
-/// a Haas takes one M code in a block.
+/// The control's file defines the effect of M codes: M14 starts the spindle, M198 calls a program that is not
+/// available, and a Haas allows one M code in a block.
 #[test]
 fn m_codes_do_what_the_file_of_the_control_says() {
     let started = motions(control("fanuc"), "G21 G90 G94\nS500 M14\nG0 X1.\nM30\n");
@@ -469,13 +469,13 @@ fn m_codes_do_what_the_file_of_the_control_says() {
     assert_eq!(refused(control("haas"), &format!("{START}G88 X1. Z-1. R1. F10.\nM30\n")), ("PN003".into(), 4));
 }
 
-/// What real Haas programs hold: high precision on and off, a G53 that moves nothing.
+/// Codes in real Haas programs: high precision on and off, a G53 without axis words.
 #[test]
 fn codes_that_real_programs_hold_are_read() {
     assert_eq!(motions(control("haas"), "G20 G5 P10000\nG0 X1.\nG53\nX2.\nG5 P0\nM30\n"), ["T 1 0 0", "T 2 0 0"]);
 }
 
-/// LinuxCNC refuses these while compensation is on; rs274 was asked for each.
+/// LinuxCNC refuses these codes while compensation is on; each was tested in rs274.
 #[test]
 fn compensation_forbids_what_linuxcnc_forbids() {
     let refused_by = |code: &str| {

@@ -1,4 +1,4 @@
-//! Slips that people make, each with what they are told to type instead.
+//! Common mistakes, each with the correction in the message.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,11 +13,11 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// What a command line says, and its exit status.
+/// The message of a command, and its exit status.
 fn said(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_postform")).current_dir(folder).args(arguments).output().unwrap();
     let text = [output.stdout, output.stderr].concat();
-    // messages are broken into lines, with a bar before each
+    // messages are wrapped, with a bar before each line
     let text = String::from_utf8(text).unwrap().replace('│', " ");
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     (output.status.code(), text)
@@ -58,7 +58,7 @@ fn slips_in_forms() {
     }
 }
 
-/// What a control reads in its own language is put in backquotes by a fix, which shows what is printed then.
+/// An unsafe fix puts statements in the control's own language into backquotes, and shows the program before and after.
 #[test]
 fn statements_of_the_control_are_put_in_backquotes() {
     let folder = folder("slips-statements");
@@ -76,7 +76,7 @@ fn statements_of_the_control_are_put_in_backquotes() {
     }
 }
 
-/// `None` where it makes no sense is said; a way through MoveHome that prints nothing is refused.
+/// `None` in a sequence where it loses a block is reported. A branch of MoveHome that prints nothing is an error.
 #[test]
 fn sequences_that_lose_what_the_job_says() {
     let folder = folder("slips-none");

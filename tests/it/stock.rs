@@ -1,4 +1,5 @@
-//! Rapids through the stock, `verify --stock`: examples, and random programs beside a judge that moves the tool in small steps.
+//! Rapids through the stock, `verify --stock`: examples, and random programs with a judge that moves the tool in small
+//! steps.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -32,7 +33,8 @@ fn checked(program: &str, stock: &str) -> StockCheck {
     check_stock(Cursor::new(program), settings, &block, &tools(), Units::Mm).unwrap()
 }
 
-/// The findings of a program after the head, as `LINE MESSAGE`, then everything that is not checked. Line 5 is its first.
+/// The findings of a program that follows the usual head, as `LINE MESSAGE`, then everything that is not checked. Its
+/// first line is line 5.
 fn found(program: &str, stock: &str) -> Vec<String> {
     let checked = checked(&format!("{HEAD}{program}\nM30\n"), stock);
     let found = checked.findings.iter().map(|found| format!("{} {}", found.line, found.message));
@@ -45,7 +47,7 @@ const STOCK: &str = "X0..100 Y0..60 Z-20..0";
 fn a_rapid_is_a_finding_where_nothing_was_cut() {
     let at_depth = found("G0 Z-5\nX120", STOCK);
     assert_eq!(at_depth, ["6 T1 goes through the stock at rapid: 5 mm below its surface at X0.125 Y0.125"]);
-    // over the top, beside the block and under it
+    // over the top of the block, beside it, and under it
     let nothing: [&str; 0] = [];
     assert_eq!(found("G0 Z0.1\nX120", STOCK), nothing);
     assert_eq!(found("G0 Y-10 Z-5\nX120", STOCK), nothing);
@@ -58,7 +60,7 @@ fn a_rapid_is_a_finding_where_nothing_was_cut() {
     // deeper than the slot
     let deeper = found("G0 Y30 Z-5\nG1 X120 F500\nG0 Z-6\nX-20", STOCK);
     assert_eq!(deeper, ["8 T1 goes through the stock at rapid: 1 mm below its surface at X0.125 Y25.375"]);
-    // down on the block, from a height that is unknown
+    // down into the block, from an unknown height
     let down = found("G28 G91 Z0\nG90 G0 X50 Y30\nZ-2", STOCK);
     assert_eq!(down.len(), 1, "{down:?}");
     assert!(down[0].starts_with("7 T1 goes through the stock at rapid: 2 mm"), "{down:?}");
@@ -111,7 +113,7 @@ fn an_arc_whose_ends_are_above_the_stock_cuts() {
     assert_eq!(found(&format!("{}Z-5\nZ50", bowl.replace("G18 G2", "G18 G3")), STOCK).len(), 2);
 }
 
-/// The cell under the axis of a thin tool is looked at, wherever the tool is in the grid.
+/// For a thin tool, the cell under its axis is checked at every position in the grid.
 #[test]
 fn thin_tools_are_checked() {
     for (x, cells) in [(50.0, STOCK), (50.1, STOCK), (50.125, STOCK), (50.0, "X-500..500 Y-500..500 Z-20..0")] {
@@ -123,7 +125,7 @@ fn thin_tools_are_checked() {
     }
 }
 
-/// A bar that is stopped at an angle moves away from its wall: this is not checked.
+/// A boring bar that is oriented moves away from the wall: this is not checked.
 #[test]
 fn a_fine_bore_is_not_checked_while_its_spindle_is_oriented() {
     let bore = found("G0 X50 Y30 Z5\nG98 G76 Z-10 R1 Q1 F50\nG80\nG0 X70\nZ-2", STOCK);
@@ -178,7 +180,7 @@ fn each_work_offset_has_its_own_stock_and_shifts_move_in_it() {
     let slot = "G0 X-20 Y30\nZ-5\nG1 X120 F500\nG0 X-20\nZ50\n";
     let nothing: [&str; 0] = [];
     assert_eq!(found(&format!("{slot}G55\n{slot}"), STOCK), nothing);
-    // G55 has not been cut
+    // nothing has been cut in G55
     let other = found(&format!("{slot}G55\nG0 X-20 Y30\nZ-5\nX120"), STOCK);
     assert_eq!(other.len(), 1, "{other:?}");
     // a shift moves the slot
@@ -264,7 +266,7 @@ fn the_command_says_where() {
     assert!(String::from_utf8_lossy(&existing.stdout).contains("part.nc makes rapids through the stock: 1 block"));
 }
 
-/// A random program on a small stock: words, and for the judge its moves.
+/// A move of a random program on a small stock: in the program as words, for the judge as data.
 #[derive(Clone, Debug)]
 struct Cut {
     rapid: bool,
@@ -281,7 +283,7 @@ fn cuts() -> impl Strategy<Value = Vec<Cut>> {
         let moves = moves.into_iter().map(|(rapid, change, (x, y, z))| {
             tool = if change < 3 { change } else { tool };
             let mut to = [f64::from(x), f64::from(y), f64::from(z)];
-            // many real moves are along one axis
+            // in real programs, many moves are along one axis
             match x.rem_euclid(4) {
                 0 => to = [at[0], at[1], to[2]],
                 1 => to[2] = at[2],
@@ -294,8 +296,7 @@ fn cuts() -> impl Strategy<Value = Vec<Cut>> {
     })
 }
 
-/// The judge: the tool is moved in steps of a fiftieth of a millimetre, and every cell is asked. Returns, for each move, the
-/// depth of a rapid in the stock.
+/// The judge moves the tool in steps of 0.02 mm and checks every cell. Returns the depth of each rapid in the stock.
 fn judged(moves: &[Cut], side: f64, cell: f64) -> Vec<f64> {
     let shapes = [(5.0, 0.0), (3.0, 3.0), (5.0, 2.0)];
     let count = (side / cell).round() as usize;
@@ -304,7 +305,7 @@ fn judged(moves: &[Cut], side: f64, cell: f64) -> Vec<f64> {
     moves
         .iter()
         .map(|cut| {
-            // a new tool comes down at the same point
+            // a new tool starts at the same X and Y, above the stock
             if std::mem::replace(&mut tool, cut.tool) != cut.tool {
                 from[2] = 3.0;
             }
@@ -347,7 +348,8 @@ fn judged(moves: &[Cut], side: f64, cell: f64) -> Vec<f64> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(debug_assertions) { 16 } else { 1000 }))]
 
-    /// The findings are those of a judge that moves the tool in small steps. A depth near the tolerance may be either.
+    /// The findings must be those of a judge that moves the tool in small steps. For a depth near the tolerance, both
+    /// results are accepted.
     #[test]
     fn random_rapids_are_judged_alike(moves in cuts()) {
         let numbers = [1, 2, 5];

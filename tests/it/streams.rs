@@ -1,4 +1,5 @@
-//! Standard error and output that are full, closed or gone, and work that is killed: exit status, and what is left.
+//! Standard error and output that are full, closed or missing, and work that is killed: the exit status, and the files
+//! that remain.
 #![cfg(target_os = "linux")]
 
 use std::collections::BTreeSet;
@@ -18,7 +19,7 @@ fn folder(name: &str) -> PathBuf {
     for (name, text) in [
         ("postform.toml", String::new()),
         ("form.pf", mill("", "")),
-        // a warning, and a layout of its own
+        // a form with a warning that is not in the canonical layout
         ("odd.pf", mill("", "Rapid G0\nBeginRow\nEnd")),
         ("wrong.pf", mill("Rapdi G0", "")),
         ("job.json", text.clone()),
@@ -36,13 +37,13 @@ fn shell(folder: &Path, line: &str) -> Output {
     shell.args(["-c", line, env!("CARGO_BIN_EXE_postform")]).current_dir(folder).output().unwrap()
 }
 
-/// Longer than a pipe holds.
+/// A job that is longer than the buffer of a pipe.
 fn long_job() -> String {
     let lines: String = (0..20_000).map(|i| format!(",{{\"line\":[{},1]}}", i % 1000)).collect();
     job(&lines[1..])
 }
 
-/// Each command with something to say.
+/// Commands with output.
 const LINES: [&str; 17] = [
     "render job.json --form odd.pf -o out.nc",
     "render job.json --form form.pf --require-proof -o out.nc",
@@ -87,7 +88,7 @@ fn standard_error_fails_no_work() {
     }
 }
 
-/// Killed in the middle of its work, a command leaves what was there and nothing else.
+/// A command that is killed during its work leaves only the files that existed before.
 #[test]
 fn a_kill_leaves_nothing_behind() {
     let folder = folder("killed");
@@ -101,7 +102,7 @@ fn a_kill_leaves_nothing_behind() {
         .spawn()
         .unwrap();
     let text = long_job();
-    // more than a pipe holds: it is being read, so the outputs are begun
+    // more text than the buffer of a pipe: the command is reading, and its outputs have been created
     child.stdin.as_mut().unwrap().write_all(&text.as_bytes()[..text.len() - 10]).unwrap();
     child.kill().unwrap();
     child.wait().unwrap();
@@ -109,7 +110,7 @@ fn a_kill_leaves_nothing_behind() {
     assert_eq!(fs::read_to_string(folder.join("out.nc")).unwrap(), "last year\n");
 }
 
-/// Of those who write one new form at once, one does.
+/// If several processes create the same new form, exactly one succeeds.
 #[test]
 fn a_new_form_is_written_once() {
     let folder = folder("new");
@@ -155,7 +156,7 @@ fn a_pipe_that_stops_reading_is_no_success() {
     assert!(output.status.code() == Some(1) && text.contains("the reader of pipe closed it"), "{text}");
 }
 
-/// A file that a process has open may have no name, or text of others: it is written, and nothing takes its place.
+/// A file that a process has open may have no name, or may contain other text: it is written to, and not replaced.
 #[test]
 fn an_open_file_is_written_and_its_link_stays() {
     let folder = folder("open");

@@ -1,4 +1,4 @@
-//! Backquoted text and texts of the job: what is printed, what is left out, what is refused.
+//! Backquoted text and texts of the job: output, omissions, errors.
 
 use crate::support::{check, mill, program, render, render_checked};
 use postform::internals::render::{Clock, Options};
@@ -8,7 +8,7 @@ fn form(head: &str, lines: &str) -> String {
     mill(head, "").replacen("1stToolChange\n", &format!("1stToolChange\n{lines}\n"), 1)
 }
 
-/// A job whose tool and operation have these keys.
+/// A job with these keys in its head, its tool and its operation.
 fn job(head: &str, tool: &str, operation: &str) -> String {
     format!(
         "{{\"postform\":1,\"units\":\"inch\",{head} \"tools\":[{{\"number\":1{tool}}}],\"operations\":[{{\"tool\":1,\"work\":54,\
@@ -16,7 +16,7 @@ fn job(head: &str, tool: &str, operation: &str) -> String {
     )
 }
 
-/// What the lines of a tool change print.
+/// The output of these lines in a tool change.
 fn lines(head: &str, lines: &str, job: &str) -> Vec<String> {
     let mut printed = program(&form(head, lines), job);
     if printed.len() > 1 {
@@ -148,7 +148,8 @@ fn wrong_texts_are_refused() {
     }
 }
 
-/// A closing bracket would end the comment, and let the rest move the machine, whatever marks the form's own comments have.
+/// A closing bracket in a text would end the comment, and the control would execute the rest, whatever comment marks
+/// the form has.
 #[test]
 fn a_text_stays_in_its_brackets() {
     let job = job("", ",\"name\":\"X)G0 Z-5(;\"", "");
@@ -158,7 +159,7 @@ fn a_text_stays_in_its_brackets() {
     assert_eq!(lines("Comment ;", "; TOOL [toolname]", &job), ["; TOOL X)G0 Z-5(;"]);
 }
 
-/// A name of the job is no code: a blank, a point or the slash of block delete before it holds nothing.
+/// A name of the job as a word of its own is refused, even after a blank, a decimal point or the slash of block delete.
 #[test]
 fn a_name_alone_is_refused_wherever_it_stands() {
     for word in ["` `[toolname]", "[toolname].", "`/`[toolname]", "[toolname]`_X`", "`/ . `[toolname]"] {
@@ -169,7 +170,8 @@ fn a_name_alone_is_refused_wherever_it_stands() {
     }
 }
 
-/// A block is no longer than any control reads, and a name is no reason to print nothing.
+/// Even if the control's limit is unknown, a block is not too long for any control. A long name is cut, and the program
+/// is printed.
 #[test]
 fn a_long_name_is_cut_where_no_control_says_how_long() {
     let name = format!(",\"name\":\"{}\"", "A".repeat(10_000));
@@ -178,17 +180,18 @@ fn a_long_name_is_cut_where_no_control_says_how_long() {
     assert!(printed[0].ends_with(" X)"));
 }
 
-/// Between quotation marks a text keeps its blanks and signs, but for what would end it, its block or begin a comment.
+/// Between quotation marks, a text keeps its blanks and signs, except those that would end the quotation or the block,
+/// or begin a comment.
 #[test]
 fn between_quotation_marks_blanks_stay() {
     let print = |line: &str, name: &str| lines("", line, &job("", "", &format!(",\"name\":\"{name}\"")))[0].clone();
     assert_eq!(print("`MSG(\"`[opname]`\")`", "rough, side 1: [2] + 3"), "MSG(\"rough, side 1: [2] + 3\")");
     assert_eq!(print("`MSG(\"`[opname]`\")`", "a\\\"b;c(d)e%f|g\\u00e9"), "MSG(\"a_b_c_d_e_f_g_\")");
-    // after the second mark it is over
+    // after the second quotation mark, the quotation has ended
     assert_eq!(print("`MSG(\"a\")_`[opname]", "b c"), "MSG(\"a\")_b_c");
 }
 
-/// Outside comments the control calls its tools by the names: each has one, and no two the same.
+/// Outside comments, the control selects tools by their names. Each tool needs a name, and no two names may be equal.
 #[test]
 fn a_tool_has_a_name_of_its_own() {
     let none = job("", "", "");
@@ -207,11 +210,11 @@ fn a_tool_has_a_name_of_its_own() {
             .starts_with("PR057 the tools `EM;12` and `EM_12` both print as EM_12")
     );
     assert!(program(&form, &two("EM;12", "EM;12")).contains(&"T=\"EM_12\"".to_owned()));
-    // a blank stays between quotation marks, so that these are two names
+    // a blank is kept between quotation marks, so these are two different names
     assert!(program(&form, &two("EM 12", "EM_12")).contains(&"T=\"EM 12\"".to_owned()));
 }
 
-/// Text in backquotes is one word with what sticks to it.
+/// Text in backquotes is one word, together with the text that touches it.
 #[test]
 fn a_backquoted_line_is_no_sixteen_words() {
     let call = "`MCALL CYCLE84(`[h]`,`[v]`,`[d]`,`[h]`,,0,`[v]`,,`[d]`,0,`[speed]`,`[speed]`)`";

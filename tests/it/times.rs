@@ -1,4 +1,4 @@
-//! How long programs take on axes that accelerate.
+//! The duration of programs on axes that accelerate.
 //!
 //! The recorded seconds are those of Grbl 1.1's own planner (planner.c, stepper.c, mc_arc of motion_control.c, with a junction
 //! deviation of 0.010 mm and an arc tolerance of 0.002 mm), run as a separate program.
@@ -14,7 +14,7 @@ use postform::internals::nc::RunSettings;
 use postform::internals::preflight::{Times, preflight, preflight_by_block};
 use proptest::prelude::*;
 
-/// A router and a heavy one: accelerations and rapids of X and Y, of Z.
+/// A router and a heavy machine: acceleration and rapid rate of X and Y, and of Z.
 const ROUTER: [[f64; 2]; 2] = [[500.0, 8000.0], [250.0, 3000.0]];
 const HEAVY: [[f64; 2]; 2] = [[50.0, 3000.0], [20.0, 1000.0]];
 
@@ -39,7 +39,7 @@ fn block_times(program: &str, file: &str) -> Vec<(u32, f64)> {
     fitted.block_times.into_iter().map(|block| (block.line, f64::from(block.seconds))).collect()
 }
 
-/// The times of the blocks add up to the time of the program, whatever the control plans ahead.
+/// The times of the blocks add up to the time of the program, although the control plans several blocks ahead.
 #[test]
 fn the_times_of_blocks_add_up() {
     let linuxcnc = machine(ROUTER, "").replace("grbl", "linuxcnc");
@@ -55,7 +55,7 @@ fn the_times_of_blocks_add_up() {
     }
 }
 
-/// Where the axes stop after each move, the time of a block is what it adds to the program before it.
+/// If the axes stop after each move, the time of a block is the difference that it makes to the time of the program.
 #[test]
 fn the_time_of_a_block_is_what_it_adds() {
     let linuxcnc = machine(HEAVY, "").replace("grbl", "linuxcnc");
@@ -83,7 +83,7 @@ fn square() -> String {
     "G21 G90 G94\nG0 X0 Y0 Z0\nG1 X50 F3000\nY50\nX0\nY0\nM2\n".into()
 }
 
-/// A circle in 200 lines, by G2, and a small one.
+/// A circle as 200 lines, a circle by G2, and a small circle.
 fn circle() -> String {
     let mut text = String::from("G21 G90 G94\nG0 X0 Y0 Z0\nG0 X20 Y0\n");
     for part in 1..=200 {
@@ -93,7 +93,7 @@ fn circle() -> String {
     text + "G2 X20 Y0 I-20 J0 F6000\nG3 X20 Y0 I-1 J0 F2000\nM2\n"
 }
 
-/// Corners of 90 degrees, with a slow way down, a dwell and a rapid after every twenty.
+/// Corners of 90 degrees. After every twenty there is a slow move down, a dwell and a rapid.
 fn zigzag() -> String {
     let mut text = String::from("G21 G90 G94\nG0 X0 Y0 Z0\nG0 X0 Y0 Z5\n");
     for step in 0..60 {
@@ -116,9 +116,9 @@ fn times_are_those_of_grbls_planner() {
     }
 }
 
-/// Programs and their seconds in each mode, as LinuxCNC 2.9's own simulator made them: periods of its servo thread between the
-/// first motion and the last, at 500 mm/s2 and 8000 mm/min along X and Y, 250 and 3000 along Z. A period is 1 ms, and the
-/// simulator ends each stop with a whole one, so that a few are always between.
+/// Programs and their times in each mode, from LinuxCNC 2.9's own simulator: periods of its servo thread from the first
+/// motion to the last, at 500 mm/s2 and 8000 mm/min along X and Y, 250 and 3000 along Z. A period is 1 ms. The
+/// simulator ends each stop with a whole period, so the times differ by a few.
 #[test]
 fn times_are_those_of_linuxcncs_simulator() {
     let folder = root().join("tests/data/times");
@@ -145,14 +145,14 @@ fn times_are_those_of_linuxcncs_simulator() {
 
 const ACCELERATIONS: [f64; 3] = [500.0, 300.0, 100.0];
 
-/// The greatest acceleration along a direction, whatever its length is.
+/// The greatest acceleration along a direction.
 fn limit(way: [f64; 3]) -> f64 {
     let length = way.iter().map(|part| part * part).sum::<f64>().sqrt();
     (0..3).map(|axis| ACCELERATIONS[axis] * length / way[axis].abs()).fold(f64::INFINITY, f64::min)
 }
 
-/// Seconds by two passes over all legs, from the formulas alone: as fast as the corner, the way before it and the way after it
-/// allow.
+/// The time in seconds by two passes over all legs, computed from the formulas alone. The speed is limited by the
+/// corners and by the legs before and after.
 fn two_passes(ways: &[([f64; 3], f64)], deviation: f64) -> f64 {
     let length = |way: &[f64; 3]| way.iter().map(|part| part * part).sum::<f64>().sqrt();
     let mut speeds = vec![0.0f64; ways.len() + 1];
@@ -207,7 +207,7 @@ proptest! {
         prop_assert!((own - other).abs() < 1e-9 * other.max(1.0), "{own} {other}");
     }
 
-    /// A control that sees less is never faster.
+    /// A control that plans fewer blocks ahead is never faster.
     #[test]
     fn less_ahead_is_not_faster(ways in prop::collection::vec((-20i32..=20, -20i32..=20), 1..80), ahead in 1usize..20) {
         let axes = [AxisRates { rapid: Some(100.0), feed: None, acceleration: Some(300.0) }; 6];
@@ -223,26 +223,27 @@ proptest! {
     }
 }
 
-/// What is not a move costs what the machine's file says of it; what is unknown is counted and said.
+/// Other actions take the times in the machine's file. If a time is unknown, the actions are counted and reported.
 #[test]
 fn dwells_tool_changes_and_the_spindle_take_their_time() {
     let file = format!("{}[spindle]\nspeed = [0, 8000]\nacceleration = 4\n[tools]\nchange = 5\n", machine(ROUTER, ""));
     let file = file.replace("grbl", "linuxcnc");
     let program = "G21 G90 G94\nG4 P1.5\nT1 M6\nS4000 M3\nS8000\nM5\nM4 S2000\nT2 M6\nM3 S1000\nM2\n";
     let times = times(program, &file);
-    // the first start is in the change from chip to chip; the control does not wait for a stop
+    // the time of the first start is part of the tool change (chip to chip); the control does not wait for the spindle
+    // to stop
     assert_eq!((times.dwells, times.changes, times.spindle), (1.5, 10.0, 2.0 + 1.0));
     assert_eq!(times.tools, [(None, 1.5), (Some(1), 5.0 + 3.0), (Some(2), 5.0)]);
 }
 
-/// Moves to and from places of the machine count where the file says where the offsets and the reference points are.
+/// Moves to and from machine positions have a time if the machine's file contains the offsets and reference points.
 #[test]
 fn the_way_home_counts_where_it_is_known() {
     let file = machine(ROUTER, "[reference]\nG28 = [0, 0, 0]\n[offsets]\nG54 = [-300, -200, -100]\n");
     let program = "G21 G90 G94 G54\nG53 G0 X0 Y0 Z0\nG0 Z50\nG28 G91 Z0\nM2\n";
     let known = times(program, &file);
     let way = |length: f64, acceleration: f64, speed: f64| length / speed + speed / acceleration;
-    // to the first position from where the machine stands; then 50 mm down, and up
+    // the first move has no time, because its start is unknown; then 50 mm down, and up
     assert_eq!(known.unplaced, 1);
     assert!((known.rapid - 2.0 * way(50.0, 250.0, 50.0)).abs() < 1e-9, "{known:?}");
     let unknown = times(program, &machine(ROUTER, ""));

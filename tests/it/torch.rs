@@ -1,4 +1,4 @@
-//! Torches and lasers: where cuts begin and end, heights that count for nothing, and what is found in a program.
+//! Torches and lasers: the start and end of cuts, heights that have no effect, and findings in programs.
 
 use crate::support::folder::{Folder, err, out};
 use crate::support::root;
@@ -13,7 +13,7 @@ fn posts(name: &str) -> String {
     root().join("postforms").join(format!("{name}.pf")).to_string_lossy().into_owned()
 }
 
-/// The program of a job, or what was said.
+/// The program of a job, or the message.
 fn printed(folder: &Folder, job: &str, form: &str, more: &[&str]) -> Result<String, String> {
     folder.write("job.json", job);
     let run = folder.run(&[&["render", "job.json", "--form", form, "--set", "header=off"], more].concat());
@@ -27,7 +27,7 @@ fn verified(folder: &Folder, program: &str, form: &str) -> String {
     format!("{}{}", out(&run), err(&run))
 }
 
-/// The torch goes on before the lead-in and off after the last move at feed; no block has a height of the job.
+/// The torch is turned on before the lead-in and off after the last feed move. No block contains a height of the job.
 #[test]
 fn a_cut_lies_between_two_rapids() {
     let folder = Folder::new("torch_cut");
@@ -57,14 +57,14 @@ fn a_cut_lies_between_two_rapids() {
     ];
     assert_eq!(lines, cuts);
     assert!(verified(&folder, &program, &form).contains("identical"));
-    // the form's own heights: down to the sheet, pierce, cut
+    // heights of the form: down to the sheet, pierce height, cutting height
     let program = printed(&folder, JOB, &form, &["--set", "pierce=0.8", "--set", "cutheight=2"]).unwrap();
     let begins =
         "G38.2 Z-50. F500.\nG92 Z0\nG0 Z3.8\nM3 S1\nG4 P.8\nG1 Z2. F2000.\nX5. Y0 F900.\nY5.\nM5\nG0 Z20.\nG92.1\n";
     assert!(program.contains(begins), "{program}");
 }
 
-/// What a torch does otherwise than it should is found by name.
+/// Every wrong action of a torch has its own finding.
 #[test]
 fn a_torch_is_on_in_cuts_alone() {
     let folder = Folder::new("torch_wrong");
@@ -89,11 +89,11 @@ fn a_torch_is_on_in_cuts_alone() {
         let verdict = verified(&folder, &program, &form);
         assert!(verdict.contains(code) && verdict.contains(said), "{program}\n{verdict}");
     }
-    // another height of the cut is nobody's: the form ignores Z
+    // another cutting height is accepted, because the form ignores Z
     assert!(verified(&folder, &right.replace("G1 Z1.5", "G1 Z1.2"), &form).contains("equivalent"));
 }
 
-/// A laser of no power is off; Grbl's laser is off in rapids, another control's is not.
+/// A laser with power 0 is off. Grbl turns off a laser in rapids, other controls do not.
 #[test]
 fn a_laser_has_a_power() {
     let folder = Folder::new("laser");
@@ -111,7 +111,7 @@ fn a_laser_has_a_power() {
     assert!(verified(&folder, &stays_on, "other.pf").contains("the laser is on in a rapid"));
 }
 
-/// What such a machine can't do is an error with its place.
+/// A path that the machine can't cut is an error with its location.
 #[test]
 fn what_no_torch_cuts_is_refused() {
     let folder = Folder::new("torch_refused");
@@ -138,7 +138,7 @@ fn what_no_torch_cuts_is_refused() {
             "{refused}"
         );
     }
-    // a mill's form has the axis
+    // a form for a mill does not ignore the axis
     let text = std::fs::read_to_string(&form).unwrap();
     for (wrong, said) in [
         (text.replace("Ignore Z", "Ignore X"), "only the depth axis, Z, can be ignored"),
@@ -152,14 +152,14 @@ fn what_no_torch_cuts_is_refused() {
     }
 }
 
-/// A flat job: no heights, one operation.
+/// A job without heights, with one operation.
 fn flat(path: &str) -> String {
     format!(
         r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1,"diameter":0.05}}],"operations":[{{"tool":1,"work":1,"feed":300.0,{path}}}]}}"#
     )
 }
 
-/// Along the depth that the form ignores nothing counts, along X and Y all does: frames too.
+/// Along the ignored depth axis nothing is compared, but along X and Y everything is, including frames.
 #[test]
 fn frames_of_a_flat_job_go_nowhere() {
     let folder = Folder::new("torch_frames");
@@ -186,7 +186,7 @@ fn frames_of_a_flat_job_go_nowhere() {
     }
 }
 
-/// The power of a laser is the job's speed.
+/// The power of a laser is the speed in the job.
 #[test]
 fn the_power_of_a_laser_is_the_jobs() {
     let folder = Folder::new("torch_power");
@@ -199,12 +199,12 @@ fn the_power_of_a_laser_is_the_jobs() {
         let said = verified(&folder, &right.replace("M4 S600\n", to), &form);
         assert!(said.contains("PV011") || said.contains("PV026"), "{to}: {said}");
     }
-    // without a speed it is the form's own
+    // without a speed in the job, the form's own power is used
     let right = printed(&folder, &flat(path), &form, &["--set", "beampower=300"]).unwrap();
     assert!(right.contains("M4 S300") && verified(&folder, &right, &form).contains("identical"), "{right}");
 }
 
-/// Feed and dwell of `BeginCut` are its own: no cut has them, and it waits once.
+/// Feed and dwell in `BeginCut` apply to it alone: cuts must not have this feed, and the dwell occurs once.
 #[test]
 fn what_a_torch_does_before_a_cut_is_no_excuse_for_it() {
     let folder = Folder::new("torch_begin");
@@ -217,7 +217,7 @@ fn what_a_torch_does_before_a_cut_is_no_excuse_for_it() {
         ("X10. Y5. F300.", "X10. Y5.", "PV006"),
         ("G4 P.5\n", "G4 P100\n", "PV010"),
         ("G4 P.5\n", "G4 P.5\nG4 P6\n", "PV010"),
-        // one with the torch off between them makes no difference
+        // a dwell with the torch off between them makes no difference
         ("G4 P.5\n", "G4 P.5\nM5\nG4 P1\nM3 S1\nG4 P6\n", "PV010"),
     ];
     for (from, to, code) in cases {

@@ -1,4 +1,4 @@
-//! The source map, both ways.
+//! The source map, in both directions.
 
 use crate::support;
 use crate::support::{check_file, render_sample, root};
@@ -21,7 +21,7 @@ fn a_program_line_leads_to_its_form_line_and_item_and_back() {
     assert_eq!(source.slice(span), "G81 X[h] Y[v] Z[d] R[vclear] F[frate]");
     assert_eq!(trace.printed_by_form(span).collect::<Vec<_>>(), [second_hole - 1, second_hole, second_hole + 1]);
     let item = Place { operation: 1, item: 1, ..Place::default() };
-    // the three holes; Cancel is printed at the item's end
+    // the three holes; Cancel is printed at the end of the item
     assert_eq!(
         trace.printed_by_item(item).collect::<Vec<_>>(),
         (second_hole - 1..=second_hole + 2).collect::<Vec<_>>()

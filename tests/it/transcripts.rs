@@ -1,5 +1,5 @@
-//! Command lines with what they print: those of the README, of docs/ and of `tests/cmd/`. After a change that is meant,
-//! `TRYCMD=overwrite cargo test transcripts::` writes them again; read the difference.
+//! Command lines with their output: those of the README, of docs/ and of `tests/cmd/`. After an intended change,
+//! `TRYCMD=overwrite cargo test transcripts::` writes the outputs again; check the difference.
 
 use std::fs;
 use std::process::Command;
@@ -8,12 +8,12 @@ use crate::support::root;
 
 #[test]
 fn transcripts() {
-    // commands in documents are typed at the top of the repository; no other test uses a relative path
+    // commands in documents are run at the top of the repository; no other test uses a relative path
     std::env::set_current_dir(root()).unwrap();
     trycmd::TestCases::new().case("README.md").case("docs/*.md").case("docs/sources/*.md").case("tests/cmd/*.trycmd");
 }
 
-/// The README's commands for a fresh machine: the first renders, the second is what CI runs.
+/// The README's commands for a new machine: the first one renders, the second one is run by CI.
 #[test]
 fn the_two_commands() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
@@ -30,7 +30,7 @@ fn the_two_commands() {
     assert!(ci.lines().any(|line| line.trim() == commands[1]), "CI runs `{}`", commands[1]);
 }
 
-/// Each problem of a cycle has its section, which `postform explain` prints.
+/// Each error of a cycle has a section in docs/cycles.md, which `postform explain` prints.
 #[test]
 fn every_problem_of_a_cycle_is_explained() {
     let page = fs::read_to_string(root().join("docs/cycles.md")).unwrap();
@@ -43,7 +43,7 @@ fn every_problem_of_a_cycle_is_explained() {
     }
 }
 
-/// So has each problem of a program, and each finding of verify, under the title that the table gives it.
+/// Each problem of a program and each finding of verify has a section, too, with the title in the table of codes.
 #[test]
 fn every_problem_of_a_program_is_explained() {
     for (file, family) in [("docs/programs.md", "PN"), ("docs/verify.md", "PV"), ("docs/machine.md", "PM")] {
@@ -58,7 +58,7 @@ fn every_problem_of_a_program_is_explained() {
     }
 }
 
-/// The published schema is the one that the types make, and the sample jobs are of its shape.
+/// The published schema is up to date with the types, and the sample jobs match it.
 #[test]
 fn the_job_schema_is_current() {
     let made = format!("{:#}\n", postform::internals::json::schema());

@@ -1,4 +1,4 @@
-//! Turning cycles of lathes: what the control makes of G70 to G75, G90 and G94.
+//! Turning cycles of lathes: the moves that the control makes of G70 to G75, G90 and G94.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 const HEAD: &str = "O1\nG21 G99 G97 S800 M3\nT0101\n";
 
-/// Moves as `r` or `f` with radius and Z, or what the control refuses.
+/// Moves as `r`, `f` or `a` with radius and Z, or the refusal.
 fn moves(control_name: &str, blocks: &str) -> Result<Vec<String>, String> {
     let program = format!("{HEAD}{blocks}\nM30\n");
     let mut run = Simulator::new(Cursor::new(program), RunSettings::new(control(control_name)));
@@ -46,7 +46,7 @@ fn g90_and_g94_make_a_pass_and_come_back() {
         "G0 X50. Z2.\nG90 X46. Z-20. F.2\nX42.\nG0 Z5.",
         &["r 25 2", "r 23 2", "f 23 -20", "f 25 -20", "r 25 2", "r 21 2", "f 21 -20", "f 25 -20", "r 25 2", "r 25 5"],
     );
-    // R: how much farther out the cone begins than it ends
+    // R is the difference of the cone's radius from end to start
     makes("G0 X50. Z2.\nG90 X46. Z-20. R-3. F.2", &["r 25 2", "r 20 2", "f 23 -20", "f 25 -20", "r 25 2"]);
     makes("G0 X50. Z2.\nG94 X10. Z-1. F.2", &["r 25 2", "r 25 -1", "f 5 -1", "f 5 2", "r 25 2"]);
     makes("G0 X50. Z2.\nG94 U-40. W-3. R-2. F.2", &["r 25 2", "r 25 -3", "f 5 -1", "f 5 2", "r 25 2"]);
@@ -79,7 +79,7 @@ fn g74_and_g75_peck() {
             "r 15 -10",
         ],
     );
-    // a Haas has lengths, in one block; it goes back 0.05 inch, as its settings have it from the factory
+    // a Haas has one block with lengths; its retract is 0.05 inch, the factory setting
     let haas = moves("haas-lathe", "G0 X0 Z2.\nG74 Z-2. K3. F.1").unwrap();
     assert_eq!(haas, ["r 0 2", "f 0 -1", "r 0 0.27", "f 0 -2", "r 0 2"]);
 }
@@ -95,15 +95,15 @@ fn g71_cuts_in_passes_and_g70_follows_the_profile() {
     .unwrap();
     let passes = [
         "r 26 2",
-        "r 26.2 2.1", // the start, and that with what is left for the finish
+        "r 26.2 2.1", // the start, then the start moved by the finishing allowance
         "r 20.2 2.1",
         "f 20.2 -29.9",
         "r 21.2 -28.9",
-        "r 21.2 2.1", // 6 deep, back at 45 degrees
+        "r 21.2 2.1", // 6 deep, with a retract at 45 degrees
         "r 14.2 2.1",
         "f 14.2 -14.799",
         "r 15.2 -13.799",
-        "r 15.2 2.1", // to the arc
+        "r 15.2 2.1", // up to the arc
         "r 10.2 2.1",
         "f 10.2 -9.9",
         "a 15.2 -14.9",
@@ -116,10 +116,10 @@ fn g71_cuts_in_passes_and_g70_follows_the_profile() {
         "f 20 -30",
         "f 25 -30",
         "r 26 2", // the finish
-        "r 50 2", // what comes after the profile
+        "r 50 2", // the block after the profile
     ];
     assert_eq!(found, passes);
-    // in one block a Haas says the depth as D
+    // a Haas has one block, with the depth as D
     let haas = moves("haas-lathe", &format!("G0 X52. Z2.\nG71 P10 Q20 U.4 W.1 D6. F.25\n{PROFILE}G0 X100.")).unwrap();
     assert_eq!(haas.len(), passes.len() - 6);
     assert_eq!(haas[4], "r 21.47 -28.63");
@@ -195,21 +195,21 @@ fn what_is_not_certain_is_refused() {
     }
 }
 
-/// A profile of steps: how far each goes along, how far across, and how: straight, a quarter of an arc, a shoulder.
+/// A profile of steps: length along the cuts, height across, and shape: straight, a quarter arc, or a shoulder.
 fn steps() -> impl Strategy<Value = Vec<(u32, u32, u8)>> {
     prop::collection::vec((1u32..60, 1u32..40, 0u8..4), 1..7)
 }
 
 proptest! {
-    /// No pass comes nearer than what is left for the finish, none is deeper than it may be, and the last one is the profile.
+    /// No pass is nearer to the profile than the allowance, none is deeper than allowed, and the last one follows the profile.
     #[test]
     fn passes_leave_the_profile(steps in steps(), depth in 3u32..60, left in 0u32..8, inside: bool, across: bool) {
-        // in tenths; the second coordinate is the one along which the passes are cut
+        // in tenths; the second coordinate is along the passes
         let out = if inside { -1.0 } else { 1.0 };
         let (depth, left) = (f64::from(depth) / 10.0, f64::from(left) / 10.0);
         let begin = [if inside { 60.0 } else { 30.0 }, 0.0];
         let mut at: [f64; 2] = begin;
-        // the way of the profile, sampled
+        // points on the path of the profile
         let mut path = vec![[at[0], 2.0], at];
         let mut blocks = String::new();
         let word = |letter: char, value: f64| format!("{letter}{:.4}", if letter == 'X' { value * 2.0 } else { value });
@@ -228,7 +228,7 @@ proptest! {
                 _ => [at[0] + out * away, at[1] - away],
             };
             if *how == 3 {
-                // a quarter about the point beside its beginning
+                // a quarter arc about a point beside its start
                 let centre = [to[0], at[1]];
                 for part in 1..=40 {
                     let (sine, cosine) = (std::f64::consts::FRAC_PI_2 * f64::from(part) / 40.0).sin_cos();
@@ -262,14 +262,14 @@ proptest! {
                 (is_rapid, if across { [z, x - offset] } else { [x, z] })
             })
             .collect();
-        // the nearest that the first coordinate may come at a second one: shoulders count by their outer end
+        // the least allowed first coordinate at a second one; at a shoulder, the smaller value
         let nearest = |second: f64| {
             let mut value = f64::NEG_INFINITY;
             for pair in path.windows(2) {
                 let [[a0, a1], [b0, b1]] = [pair[0], pair[1]];
                 if second <= a1 + 1e-4 && second >= b1 - 1e-4 {
                     let share = if a1 == b1 { 0.0 } else { ((a1 - second) / (a1 - b1)).clamp(0.0, 1.0) };
-                    // at a shoulder the tool stands beside it: its inner end counts
+                    // at a shoulder the tool is beside it, so its inner end counts
                     let here = (a0 + (b0 - a0) * share) * out;
                     value = if value == f64::NEG_INFINITY { here } else { value.min(here) };
                 }
@@ -277,7 +277,7 @@ proptest! {
             value
         };
         let mut levels = vec![(start[0] + out * left) * out];
-        // an arc is a piece of the profile itself, of which only the ends are in the list
+        // an arc is part of the profile itself, and only its ends are in the list
         let straight = ends.windows(2).zip(&made[1..]).filter(|(_, line)| !line.starts_with('a'));
         for (pair, _) in straight {
             let ([a, b], is_rapid) = ([pair[0].1, pair[1].1], pair[1].0);
@@ -300,14 +300,14 @@ proptest! {
         for pair in levels.windows(2).filter(|pair| pair[0] >= floor - 1e-6) {
             prop_assert!(pair[1] - pair[0] <= depth + 1e-3, "{pair:?}\n{program}\n{made:#?}");
         }
-        // the last cuts end where the blocks of the profile end, with what is left
+        // the last cuts end at the ends of the profile's blocks, moved by the allowance
         let cuts: Vec<[f64; 2]> = ends.iter().rev().skip(1).take_while(|(rapid, _)| !rapid).map(|(_, to)| *to).collect();
         let end = [at[0] + out * left, at[1]];
         prop_assert!((cuts[0][0] - end[0]).abs() < 1e-3 && (cuts[0][1] - end[1]).abs() < 1e-3, "{cuts:?} {end:?}\n{program}");
     }
 }
 
-/// What a profile computes is computed once, though it is read for the passes and run for the finish.
+/// Variables that a profile computes are computed once, although the profile is read for the passes and run for the finish.
 #[test]
 fn a_profile_computes_once() {
     let blocks =
@@ -319,23 +319,23 @@ fn a_profile_computes_once() {
 
 #[test]
 fn chamfers_and_rounded_corners() {
-    // I goes the way of the next block along X, on the radius; the corner itself is not reached
+    // I is in the direction of the next block along X, as a radius; the corner point itself is not reached
     makes(
         "G0 X20. Z2.\nG1 Z-20. I3. F.2\nX50. K-2.\nZ-40.",
         &["r 10 2", "f 10 -17", "f 13 -20", "f 23 -20", "f 25 -22", "f 25 -40"],
     );
-    // an arc of its own, as G3 and G2 with its radius cut it
+    // the rounded corner equals a G2 or G3 with its radius
     let corner = |blocks: &str| moves("fanuc-lathe", &format!("G0 X20. Z2.\n{blocks}")).unwrap();
     assert_eq!(
         corner("G1 Z-20. R3. F.2\nX50. R-2.\nZ-40."),
         corner("G1 Z-17. F.2\nG2 X26. Z-20. R3.\nG1 X46.\nG3 X50. Z-22. R2.\nG1 Z-40."),
     );
-    // increments count from the corner
+    // increments start at the corner point
     assert_eq!(
         corner("G1 Z-20. R3. F.2\nU30. (TO X50)\nW-5."),
         ["r 10 2", "f 10 -17", "a 13 -20", "f 25 -20", "f 25 -25"]
     );
-    // comments and empty blocks may stand between
+    // comments and empty blocks are allowed in between
     assert_eq!(corner("G1 Z-20. R3. F.2\n(STEP)\nN5\nX50."), ["r 10 2", "f 10 -17", "a 13 -20", "f 25 -20"]);
 }
 
@@ -405,7 +405,7 @@ fn lengths_of_threads_without_a_point_are_asked_for() {
     ] {
         is_refused("fanuc-lathe", blocks, "PN017");
     }
-    // P and Q of G76 count increments, Q of a thread is an angle
+    // P and Q of G76 are in increments; Q of a thread is an angle
     assert!(moves("fanuc-lathe", "G0 X40. Z2.\nG76 P010060 Q50 R.02\nG76 X38. Z-20. P1000 Q600 F2.").is_ok());
     assert!(moves("fanuc-lathe", "G0 X40. Z2.\nG92 X39. Z-20. Q180000 F2.").is_ok());
 }
@@ -430,7 +430,7 @@ fn a_pass_keeps_what_its_code_written_again_does_not_say() {
             "r 22 5",
         ],
     );
-    // a pass of another code, and one after a code that ends passes, keep nothing
+    // a pass with another code, or after a code that ends the passes, does not keep the words
     let head = "G0 X44. Z5.\nG90 X40. Z-20. F.2\n";
     for end in ["G92 X39.", "G94 Z-3.", "G28 U0 W0\nX39.", "G0 X44. Z5.\nG90 X39."] {
         is_refused("fanuc-lathe", &format!("{head}{end}"), "PN007");
@@ -441,7 +441,7 @@ fn a_pass_keeps_what_its_code_written_again_does_not_say() {
         "G0 X44. Z5.\nG90 X40. Z-20. R-1. F.2\nG90 X39.",
         "G90 is written again after a tapered pass",
     );
-    // a dwell ends nothing
+    // a dwell does not end the passes
     assert!(moves("fanuc-lathe", &format!("{head}G4 P500\nX39.")).is_ok());
 }
 
@@ -489,7 +489,7 @@ fn sizes_have_no_sign() {
     ] {
         is_refused("fanuc-lathe", blocks, "PN018");
     }
-    // a Haas has one block
+    // a Haas has only one block
     is_refused("haas-lathe", "G0 X50. Z2.\nG71 U2. R1.", "PN007");
 }
 
@@ -497,7 +497,7 @@ fn sizes_have_no_sign() {
 fn a_chamfer_may_be_as_long_as_its_cut() {
     makes("G0 X50. Z2.\nG1 X50.4 K-.2 F.2\nZ-9.", &["r 25 2", "f 25.2 1.8", "f 25.2 -9"]);
     makes("G0 X4.6 Z.3\nG1 X3.92 K-.02 F.15\nZ.28", &["r 2.3 0.3", "f 1.98 0.3", "f 1.96 0.28"]);
-    // what leaves the corner leaves nothing else
+    // the block after the corner must contain nothing else
     is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nG55 X50.", "does not move along the other axis");
     is_refused("fanuc-lathe", "G0 X20. Z2.\nG1 Z-20. R3. F.2\nT0202 X50.", "does not move along the other axis");
 }

@@ -1,4 +1,5 @@
-//! Programs of lathes read as jobs: printed by another lathe's post, and refused where no job has what they do.
+//! Programs for lathes that are read as jobs: printed by the post of another lathe, or refused if no job can express
+//! them.
 
 use std::io::Cursor;
 
@@ -32,7 +33,7 @@ fn printed(program: &str) -> Result<(Vec<String>, Vec<String>), String> {
     }
 }
 
-/// What is printed after the first tool's spindle.
+/// The blocks after the spindle of the first tool.
 fn path(blocks: &str) -> Vec<String> {
     let (lines, _) = printed(&format!("{HEAD}{blocks}\nM30\n%\n")).unwrap_or_else(|error| panic!("{blocks}: {error}"));
     let lines: Vec<String> = lines.into_iter().skip_while(|line| !line.starts_with("G97")).skip(1).collect();
@@ -40,7 +41,8 @@ fn path(blocks: &str) -> Vec<String> {
     lines[..end].to_vec()
 }
 
-/// X is a diameter, a radius in the job; arcs have their centre; surface speed and the spindle's limit are switched.
+/// X is a diameter in the program and a radius in the job. Arcs keep their centres; surface speed and spindle limit are
+/// kept.
 #[test]
 fn moves_compensation_and_speeds_stay_what_they_were() {
     let blocks = "G42 G1 X38. Z1. F.3\nG1 Z-20. F.2\nG2 X42. Z-22. R2.\nG40 G1 X46.\nG96 S180\nG0 Z3.";
@@ -57,7 +59,7 @@ fn moves_compensation_and_speeds_stay_what_they_were() {
     assert_eq!(path(blocks), expected);
 }
 
-/// G76 is one thread of the job; the Haas post prints its passes by G92, which end at the same radii.
+/// G76 becomes one thread of the job. The Haas post prints its passes by G92, and the radii are the same.
 #[test]
 fn a_thread_stays_a_thread() {
     let blocks = "G0 X28. Z4.\nG76 P010060 Q100 R0\nG76 X32. Z-20. R-.5 P1000 Q600 F1.5\nG0 Z10.";
@@ -65,7 +67,7 @@ fn a_thread_stays_a_thread() {
     assert_eq!(path(blocks), expected);
 }
 
-/// A way home before another tool is the form's own; inside a tool's work it is one of the job.
+/// A move home before another tool belongs to the form. During the work of a tool, it belongs to the job.
 #[test]
 fn ways_home_and_the_turret() {
     let (lines, warnings) = printed(&format!(
@@ -81,7 +83,7 @@ fn ways_home_and_the_turret() {
     assert!(warnings.iter().any(|warning| warning == home), "{warnings:?}");
 }
 
-/// Home along X and then along Z is home; along X alone before a stop it is so with a warning.
+/// A move home along X and then along Z is a move home. A move along X alone before a stop is one too, with a warning.
 #[test]
 fn ways_home_along_one_axis_after_the_other() {
     let (lines, warnings) =
@@ -93,7 +95,7 @@ fn ways_home_along_one_axis_after_the_other() {
     assert!(warnings.iter().any(|warning| warning.contains("along only X or Z before a stop")), "{warnings:?}");
 }
 
-/// What the job of a lathe does not have, by name.
+/// Features that the job of a lathe can't express, each refused by name.
 #[test]
 fn what_no_job_of_a_lathe_has_is_refused() {
     let cases = [

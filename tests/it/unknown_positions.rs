@@ -1,5 +1,5 @@
-//! Positions that only the machine knows: they are never 0, and what depends on them is not proven, no job and no motion
-//! that is the same.
+//! Positions that are unknown: they never count as 0. If something depends on them, nothing is proven, there is no job,
+//! and motions do not count as equal.
 
 use std::io::Cursor;
 
@@ -13,7 +13,8 @@ use postform::toolpath::{ReadError, Units};
 
 const PATH: &str = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"work":55},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
 
-/// Where an increment leads from the reference point, or from where the program before left the tool, is unknown.
+/// The end of an increment is unknown if it starts at the reference point, or at the position that the previous program
+/// left.
 #[test]
 fn increments_from_an_unknown_position_end_the_proof() {
     let (form, text) = (check(&post("fanuc.pf")), inches("1", PATH));
@@ -28,7 +29,7 @@ fn increments_from_an_unknown_position_end_the_proof() {
     }
 }
 
-/// G92 at an unknown position moves the frame by an unknown amount: a move in that frame is a hazard.
+/// G92 at an unknown position moves the frame by an unknown distance, so moves in this frame are dangerous.
 #[test]
 fn g92_at_an_unknown_position_moves_the_frame() {
     let (form, text) = (check(&post("haas.pf")), inches("1", PATH));
@@ -39,7 +40,7 @@ fn g92_at_an_unknown_position_moves_the_frame() {
         let Verdict::Different(found) = verified(&form, &changed, &job) else { panic!("{changed}") };
         assert!(found.iter().any(|found| found.code.name() == "PV021"), "{found:?}");
     }
-    // one that nothing moves in does not matter
+    // if no move follows in this frame, it has no effect
     let ends = program.replacen("M30", "G91 G28 Z0\nG90\nG92 Z0\nM30", 1);
     assert!(verified(&form, &ends, &job).is_proven(), "{ends}");
 }
@@ -63,7 +64,7 @@ fn motions_to_unknown_positions_are_compared() {
     assert!(same_motion(&dives("300"), &dives("300")) && !same_motion(&dives("300"), &dives("400")));
 }
 
-/// LinuxCNC goes to a place of the machine at feed, too (G53 under G1): where that is in the work is unknown.
+/// LinuxCNC can move to a machine position at feed (G53 with G1). Its position in the work offset is unknown.
 #[test]
 fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let up = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"line":[0,0,0]},{"rapid":[0,0,2]}"#;
@@ -75,7 +76,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     assert_ne!(changed, program);
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
     assert_eq!(unproven.why, "a feed move goes to an unknown machine position");
-    // as a job and as another program, too
+    // also if it is read as a job, or compared with another program
     let settings = RunSettings::new(control("linuxcnc"));
     let same = |old: &str, new: &str| {
         let compared =
@@ -91,7 +92,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("an unknown machine position")));
 }
 
-/// The program of a job that a program is, or the code of its refusal.
+/// The printed program of a program that is read as a job, or the error code.
 fn printed(program: &str, start: Option<[f64; 3]>) -> Result<String, String> {
     let checked = check(&crate::support::plain_post("haas.pf"));
     let form = compile(&checked.form);
@@ -110,14 +111,14 @@ fn increments_from_an_unknown_position_are_no_job() {
     for blocks in ["G91 G28 Z0\nG0 Z-5.\nG90\nG0 Z1.", "G55 G0 X1. Y1.\nG91 G81 X1. Z-1. R-2. F5.\nG80 G90"] {
         assert_eq!(printed(&format!("{HEAD}{blocks}\nM30\n"), None).unwrap_err(), "PN036", "{blocks}");
     }
-    // a new tool, and no height: the level to which G98 returns is unknown
+    // a new tool without a height: the return level of G98 is unknown
     let program = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1\nG98 G81 X1. Z-.5 R.1 F5.\nG80\nM30\n";
     assert_eq!(printed(program, None).unwrap_err(), "PN036");
-    // register 0 is no length offset
+    // register 0 means no length offset
     assert!(printed(&format!("{HEAD}G91 G28 Z0 H0\nG90\nM30\n"), None).is_ok());
 }
 
-/// Cuts by increments count from the start that the caller gives.
+/// Incremental cuts start at the position that the caller assumes.
 #[test]
 fn increments_count_from_an_assumed_start() {
     let program = "G21 G17 G90\nG54\nT1 M6\nS500 M3\nG43 H1\nG91 G1 X10. F100.\nY10.\nM30\n";

@@ -1,5 +1,5 @@
-//! Straight cuts after one another are printed, run and compared in a short way of their own. Each must give what the general
-//! way gives: the same moves are made unusual by something that changes nothing, and both results are compared.
+//! Consecutive straight cuts are printed, run and compared by separate fast code, which must give the same result as
+//! the general code. The tests make the same moves unusual by a change without effect, and compare both results.
 
 use std::fs;
 use std::io::Cursor;
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 use crate::support::{control, root};
 
-/// A coordinate as jobs have it: few digits, ties of rounding, zero.
+/// A coordinate as in jobs: few digits, rounding ties, zero.
 fn coordinate() -> impl Strategy<Value = String> {
     prop_oneof![
         4 => "-?[0-9]{1,3}\\.[0-9]{1,6}",
@@ -28,14 +28,14 @@ fn moves() -> impl Strategy<Value = Vec<(Vec<String>, Option<u16>)>> {
     prop::collection::vec(one, 1..40)
 }
 
-/// A number as JSON has it, without needless zeros before it.
+/// A number as JSON allows it, without unnecessary leading zeros.
 fn number(text: &str) -> String {
     let (sign, digits) = text.strip_prefix('-').map_or(("", text), |digits| ("-", digits));
     let digits = digits.trim_start_matches('0');
     format!("{sign}{}{digits}", if digits.is_empty() || digits.starts_with('.') { "0" } else { "" })
 }
 
-/// A job of these moves. `fourth`: each position has an angle of zero.
+/// A job of these moves. `fourth`: each position also has the angle 0.
 fn job(moves: &[(Vec<String>, Option<u16>)], fourth: bool) -> String {
     let mut text = "{\"start\":{\"postform\":1,\"program\":1,\"units\":\"mm\",\"tools\":[{\"number\":1}]}}\n\
         {\"operation\":{\"tool\":1,\"work\":54,\"spindle\":{\"speed\":9000,\"direction\":\"cw\"},\"feed\":700}}\n"
@@ -62,7 +62,7 @@ fn printed(form: &str, job: &str) -> Result<String, String> {
     program.map(|program| program.text().to_owned()).map_err(|error| error.to_string())
 }
 
-/// The actions of a program besides its comments, and what the control refuses. A refused block is skipped.
+/// The actions of a program without comments, and the refusals. A refused block is skipped.
 fn actions(program: &str, name: &str) -> (Vec<Item>, Vec<String>) {
     let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), RunSettings::new(control(name)));
     let (mut items, mut refused) = (Vec::new(), Vec::new());
@@ -82,7 +82,7 @@ fn actions(program: &str, name: &str) -> (Vec<Item>, Vec<String>) {
     (items, refused)
 }
 
-/// What changes the meaning of axis words, or comes between two moves.
+/// Blocks that change the meaning of axis words, or come between two moves.
 const MODES: [&str; 38] = [
     "G7",
     "G8",
@@ -124,7 +124,7 @@ const MODES: [&str; 38] = [
     "G53 G0 Z0.",
 ];
 
-/// A block of axis words in the ways that people and systems write them.
+/// A block of axis words in the spellings of people and CAM systems.
 fn block() -> impl Strategy<Value = String> {
     let value = prop_oneof![
         "-?[0-9]{1,3}\\.[0-9]{0,4}",
@@ -180,7 +180,7 @@ proptest! {
     ) {
         let plain = printed(form, &job(&moves, false));
         let angled = printed(form, &job(&moves, true));
-        // the cuts, without block numbers
+        // the cuts without block numbers
         let cuts = |text: String| -> Vec<String> {
             let words = |line: &str| line.split(' ').filter(|word| !word.starts_with('N')).collect::<Vec<_>>().join(" ");
             text.lines().map(words).skip_while(|line| !line.contains("G1 ")).collect()
@@ -198,7 +198,7 @@ proptest! {
         let text = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
         let post = Post::compile(Source::from_text("linuxcnc.pf", &text), &NoFiles).unwrap();
         let mut program = printed("linuxcnc", &job).unwrap().into_bytes();
-        // one digit of a cut is another one
+        // changes one digit of a cut
         let cuts = program.windows(3).position(|text| text == b"G1 ").unwrap();
         let digits: Vec<usize> = (cuts..program.len()).filter(|&at| program[at].is_ascii_digit()).collect();
         if let Some((which, digit)) = wrong {
@@ -219,7 +219,7 @@ proptest! {
     }
 }
 
-/// The moves of a reader with their places, and how it ended.
+/// The moves that a reader pushed, with their locations; and its end.
 #[derive(Default)]
 struct Read(Vec<(String, Place)>);
 
@@ -230,7 +230,7 @@ impl Sink for Read {
     }
 }
 
-/// A document of these items, laid out in one of three ways.
+/// A document of these items, in one of three layouts.
 fn document(items: &[String], layout: u8) -> String {
     let (line, deep) = match layout {
         0 => ("", ""),
@@ -256,7 +256,7 @@ proptest! {
         longer in 0_usize..3,
         wrong in prop::option::of((0_usize..40, 0_usize..4)),
     ) {
-        // more than the reader has in memory at a time
+        // more text than the reader keeps in memory at a time
         let moves: Vec<_> = moves.iter().cycle().take(moves.len() * [1, 20, 150][longer]).collect();
         let mut items: Vec<String> = moves
             .iter()
@@ -287,7 +287,7 @@ proptest! {
             moves.map(|(event, place)| (event.clone(), place.item)).collect()
         };
         prop_assert_eq!(moves(&by_lines), moves(&by_document));
-        // each item is found where it begins
+        // the location of each item is its beginning
         let at_line: Vec<&str> = text.lines().collect();
         for (event, place) in by_document.0.iter().filter(|(_, place)| place.item > 0) {
             let rest = &at_line[place.line as usize - 1][place.column as usize - 1..];

@@ -1,5 +1,5 @@
-//! docs/verdicts.md: each post that ships with the job of each sample, and how the proof comes out.
-//! `SAMPLES=overwrite cargo test verdicts::` writes it again.
+//! docs/verdicts.md: the verdict of each shipped post for the job of each sample. `SAMPLES=overwrite cargo test
+//! verdicts::` writes the page again.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,7 +8,7 @@ use postform::{ErrorKind, Format, Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::support::{Kind, root, sample_job, samples};
 
-/// What is told below the table, each once and by its number.
+/// The reasons below the table, each once and with a number.
 #[derive(Default)]
 struct Reasons(Vec<String>);
 
@@ -22,7 +22,7 @@ impl Reasons {
     }
 }
 
-/// A cell of the table: a post, a job.
+/// A cell of the table, for a post and a job.
 fn cell(post: &Post, format: Format, job: &[u8], reasons: &mut Reasons) -> String {
     let mut options = Options::default();
     options.program = Some(1);

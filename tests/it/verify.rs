@@ -1,5 +1,5 @@
-//! Proof that programs make their job's motions: cycles in all forms, broken forms by the name of what breaks, programs
-//! that were changed by hand, and jobs that were programs.
+//! The proof that programs make the motions of their jobs: cycles in all forms, forms with a named mistake, programs
+//! with a change, and jobs from programs.
 
 use crate::support::control;
 use std::io::Cursor;
@@ -14,7 +14,7 @@ use postform::internals::sema::Checked;
 use postform::internals::verify::{Comparer, Equivalences, Expectation, Verdict};
 use postform::toolpath::Sink;
 
-/// A job for verifying: it pushes its events into a sink.
+/// A job for verification: a function that pushes its events into a sink.
 pub type Job<'a> = &'a dyn Fn(&mut dyn Sink) -> bool;
 
 pub fn document(text: &str) -> impl Fn(&mut dyn Sink) -> bool {
@@ -35,10 +35,10 @@ pub fn rendered(form: &Checked, job: Job<'_>, cycles: Cycles) -> String {
     String::from_utf8(std::mem::take(renderer.text())).unwrap()
 }
 
-/// Runs a program as the form's control would, and compares.
+/// Runs a program by the rules of the form's control, and compares it with the job.
 pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
     let compiled = compile(&form.form);
-    // as `Post::verify` takes them from a form
+    // the same settings as in `Post::verify`
     let settings = RunSettings {
         centers_absolute: !compiled.settings.centre_incremental,
         ..RunSettings::new(compiled.settings.control.unwrap_or_else(Control::usual))
@@ -55,7 +55,7 @@ pub fn post(name: &str) -> String {
     plain_post(name)
 }
 
-/// Every kind of cycle that forms can print, with depths and heights that change, and a return plane.
+/// Every kind of cycle that forms can print, with different depths and heights, and a return plane.
 const CYCLES: &str = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":1,"diameter":6},{"number":2,"diameter":5},{"number":3,"diameter":5},{"number":4,"diameter":9}],"operations":[
 {"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"path":[
  {"rapid":[0,0,50]},
@@ -89,7 +89,7 @@ const CYCLES: &str = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number
  {"rapid":[0,0,50]}
 ]}]}"#;
 
-/// The same sequences of an advanced form: a first line that only sets the cycle up, then a position line.
+/// The same sequences in an advanced form: the first line sets up the cycle, then each hole has a position line.
 fn advanced() -> String {
     let fanuc = post("fanuc.pf");
     let (before, after) = fanuc.split_once("Drill\n").unwrap();
@@ -118,26 +118,26 @@ fn cycles_in_all_forms_are_the_same_holes() {
     for name in ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"] {
         forms.push((name.into(), post(name)));
     }
-    // a tap that feeds by its pitch
+    // a tap with its feed per revolution (pitch)
     let per_turn = post("fanuc.pf").replace("M29 S[speed]", "G95 M29 S[speed]");
     let taps = |line: &str| line.contains("G84 ") || line.contains("G74 ");
     let by_pitch = |line: &str| if taps(line) { line.replace("F[frate]", "F[pitch]") } else { line.to_owned() };
     forms.push(("per turn".into(), per_turn.lines().map(by_pitch).collect::<Vec<_>>().join("\n")));
     for (name, text) in forms {
         let form = check(&text);
-        // a Grbl's spindle does not stop at an angle
+        // Grbl can't orient the spindle
         let job: Job<'_> = if name == "grbl.pf" { &plain } else { &whole };
         for cycles in [Cycles::Form, Cycles::Emulated] {
             let program = rendered(&form, job, cycles);
             let verdict = verified(&form, &program, job);
             assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{program}");
             if cycles == Cycles::Emulated {
-                // exactly the moves that were planned; rapids go up first or down last
+                // exactly the planned moves; only rapids may go up first or down last
                 let Verdict::Equivalent(other) = verdict else { panic!("{name}: {verdict:?}") };
                 assert_eq!(other, Equivalences { ways: other.ways, ..Equivalences::default() }, "{name}");
             } else if name != "grbl.pf" {
                 assert!(program.contains("G81") && program.contains("G83"), "{name} prints the control's cycles");
-                // a control makes its own pecks
+                // the control computes the pecks itself
                 let Verdict::Equivalent(other) = verdict else { panic!("{name}: {verdict:?}") };
                 assert!(other.pecks >= 2, "{name}: {other:?}");
             }
@@ -145,7 +145,7 @@ fn cycles_in_all_forms_are_the_same_holes() {
     }
 }
 
-/// A job with everything that a form can get wrong.
+/// A job with everything that a form may print wrong.
 const PART: &str = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":3},{"number":4}],"operations":[
 {"tool":3,"work":54,"spindle":{"speed":1000,"direction":"cw"},"coolant":"flood","path":[
  {"rapid":[0,0,50]},{"rapid":[0,0,2]},{"line":[0,0,-1],"feed":100},{"line":[30,0,-1],"feed":300},
@@ -238,13 +238,13 @@ fn broken_forms_are_caught_by_name() {
         assert!(codes.contains(&code), "{what}: {code} wanted\n{findings:#?}\n{program}");
         let finding = findings.iter().find(|finding| finding.code.name() == code).unwrap();
         assert!(!finding.help.is_empty());
-        // the block is shown as it stands in the program
+        // the block is shown as in the program
         let line = finding.line as usize;
         assert!(line == 0 || program.lines().nth(line - 1) == Some(finding.block.as_str()), "{what}: {finding:?}");
     }
 }
 
-/// Changes by hand, of which each would be a part or a machine lost.
+/// Changes in programs, each of which would damage a part or a machine.
 #[test]
 fn changed_programs_are_caught_and_rewritten_ones_are_not() {
     let job = document(PART);
@@ -267,24 +267,24 @@ fn changed_programs_are_caught_and_rewritten_ones_are_not() {
     assert_eq!(code("M30\n%\n", ""), "PV015");
     assert_eq!(code("F300.\n", "F300.\nX31.\n"), "PV001");
     assert_eq!(code("\nN", "\n\u{1}N"), "PV015");
-    // what is written otherwise and does the same
+    // other spellings with the same effect
     assert!(!matches!(verdict("X40. Y10.", "Y10.00 X40.000"), Verdict::Different(_)));
     assert!(!matches!(verdict("G80\n", "G80\nG80 (again)\n"), Verdict::Different(_)));
     let lower = program.to_lowercase();
     assert!(!matches!(verified(&form, &lower, &job), Verdict::Different(_)));
 }
 
-/// An old program as a job: printed by another form, it still makes the motions of the old one.
+/// An old program as a job: printed by another form, it still makes the same motions.
 #[test]
 fn programs_become_jobs() {
     let fanuc = check(&post("fanuc.pf"));
-    // an M29 makes the tap rigid, which linuxcnc.pf refuses; a program does not say the diameters that grbl.pf prints
+    // M29 makes the tap rigid, which linuxcnc.pf refuses; a program does not contain the diameters that grbl.pf prints
     for (text, posts) in [(plain(), &["haas.pf"][..]), (without_tap(), &["linuxcnc.pf"])] {
         becomes_a_job(&fanuc, &text, posts);
     }
 }
 
-/// Without the operations whose orientations no job read from a program can say.
+/// The job without oriented operations, because a job from a program can't contain them.
 fn plain() -> String {
     let (first, rest) = CYCLES.split_once(",\n{\"tool\":3").unwrap();
     let (_, last) = rest.split_once(",\n{\"tool\":2").unwrap();
@@ -326,7 +326,7 @@ fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
     }
 }
 
-/// A job of one tool in inches.
+/// A job with one tool in inches.
 pub fn inches(tool: &str, path: &str) -> String {
     format!(
         r#"{{"postform":1,"program":7,"units":"inch","tools":[{{"number":1,"length_offset":1}},{{"number":2,"diameter_offset":12}}],
@@ -334,7 +334,7 @@ pub fn inches(tool: &str, path: &str) -> String {
     )
 }
 
-/// Programs of the Haas post, changed in one place: each would have been a part or a tool lost.
+/// Programs of the Haas post, changed in one place. Each change would damage a part or a tool.
 #[test]
 fn one_change_is_never_too_small() {
     let form = check(&post("haas.pf"));
@@ -395,7 +395,7 @@ fn one_change_is_never_too_small() {
     }
 }
 
-/// Right programs that look unusual: circles after circles, digits that do not close, parts of a cut, a plunge into a hole.
+/// Correct programs that look unusual: consecutive circles, rounding that leaves a gap, parts of a cut, a plunge into a hole.
 #[test]
 fn right_programs_are_not_called_wrong() {
     let paths = [
@@ -432,7 +432,7 @@ fn right_programs_are_not_called_wrong() {
     assert!(matches!(verified(&form, &program.replacen("X3.", "X2.5", 1), &job), Verdict::Different(_)));
 }
 
-/// Taps as CAM systems have them: rigid with a dwell on a Fanuc and a Haas, by G33.1 on LinuxCNC.
+/// Taps as CAM systems write them: rigid with a dwell on a Fanuc and a Haas, with G33.1 on LinuxCNC.
 #[test]
 fn taps_with_a_dwell_and_by_the_spindle_are_the_jobs() {
     let job = |words: &str| {
@@ -481,7 +481,7 @@ fn a_hole_outside_a_cycle_is_a_fault_of_postform() {
     assert_eq!(error.code.name(), "PX001");
 }
 
-/// A tap against the spindle: it is turned for the tap, and turns as before after it.
+/// For a tap against the spindle direction, the spindle is reversed before the tap and restored after it.
 #[test]
 fn a_tap_against_the_spindle_goes_in_its_own_way() {
     let text = r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":1,"diameter":6}],"operations":[
@@ -497,7 +497,7 @@ fn a_tap_against_the_spindle_goes_in_its_own_way() {
     }
 }
 
-/// The control comes back to the height at which it began the cycle, the job to that of its last hole: a cut tells them apart.
+/// The control returns to the height at which the cycle began, the job to that of its last hole. A cut after them shows the difference.
 #[test]
 fn a_cut_after_holes_of_several_heights_is_the_jobs() {
     let text = r#"{"start":{"units":"mm","program":1,"tools":[{"number":1,"length_offset":1,"diameter":10,"diameter_offset":1}]}}
@@ -522,7 +522,7 @@ fn a_cut_after_holes_of_several_heights_is_the_jobs() {
     }
 }
 
-/// A block that is not run here, and that the control may know how to run, ends the proof and is no difference.
+/// A block that postform does not run, but the control may, ends the proof. It is not a difference.
 #[test]
 fn what_is_not_run_is_not_called_different() {
     let form = check(&post("haas.pf"));

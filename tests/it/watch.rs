@@ -1,4 +1,4 @@
-//! `postform watch`: what the page is given, and who is refused. Requests are written byte by byte, as whoever is not a browser may.
+//! `postform watch`: the data for the page, and refused requests. Requests are sent as raw bytes, as a client that is not a browser may send them.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::support::folder::{Folder, err};
 use crate::support::root;
 
-/// A `postform watch` that runs, ended with the test.
+/// A running `postform watch`, which is killed at the end of the test.
 struct Watch {
     child: Child,
     address: SocketAddr,
@@ -33,12 +33,12 @@ struct Answer {
 }
 
 impl Watch {
-    /// In a folder with a form, a job, and more arguments.
+    /// Starts `postform watch` in a folder with a form and a job, with further arguments.
     fn new(folder: &Folder, arguments: &[&str]) -> Watch {
         Watch::of(folder, &[&["--job", "job.json"], arguments].concat())
     }
 
-    /// With no other job than the arguments name.
+    /// Starts `postform watch` with only the jobs in the arguments.
     fn of(folder: &Folder, arguments: &[&str]) -> Watch {
         let mut child = Command::new(env!("CARGO_BIN_EXE_postform"))
             .args(["watch", "my.pf", "--no-open"])
@@ -56,11 +56,11 @@ impl Watch {
         Watch { child, address: address.parse().unwrap(), token: token.trim_end_matches('/').to_owned() }
     }
 
-    /// Sends bytes and reads what comes back.
+    /// Sends bytes and reads the answer.
     fn send(&self, request: impl AsRef<[u8]>) -> Answer {
         let mut stream = TcpStream::connect(self.address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
-        _ = stream.write_all(request.as_ref()); // it may be refused before it is read
+        _ = stream.write_all(request.as_ref()); // the server may refuse it before it has read all of it
         let mut bytes = Vec::new();
         _ = stream.read_to_end(&mut bytes);
         let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").map_or(bytes.len(), |at| at + 4);
@@ -69,7 +69,7 @@ impl Watch {
         Answer { status, head, body: bytes[end..].to_vec() }
     }
 
-    /// As the page's own script asks.
+    /// Sends a request as the page's own script does.
     fn post(&self, what: &str, body: &Value) -> Answer {
         let (address, token, body) = (self.address, &self.token, body.to_string());
         self.send(format!(
@@ -79,7 +79,7 @@ impl Watch {
         ))
     }
 
-    /// Opens a job with this name, as JSON, and content.
+    /// Opens a job with this name (as JSON) and this content.
     fn add(&self, name: &str, content: &[u8]) -> Answer {
         let (address, token) = (self.address, &self.token);
         let body = [name.as_bytes(), b"\n", content].concat();
@@ -109,7 +109,7 @@ fn unpacked(bytes: &[u8]) -> (Value, Vec<u8>) {
     scenes.remove(0)
 }
 
-/// The heads and sections of scenes that stand one after the other.
+/// The heads and sections of consecutive scenes.
 fn scenes(mut bytes: &[u8]) -> Vec<(Value, Vec<u8>)> {
     let mut found = Vec::new();
     while !bytes.is_empty() {
@@ -129,7 +129,7 @@ fn section<'a>(head: &Value, body: &'a [u8], name: &str) -> &'a [u8] {
     &body[start..start + length]
 }
 
-/// The bracket and the form for it, in a folder.
+/// A folder with the bracket job and a form for it.
 fn bracket(name: &str) -> Folder {
     let folder = Folder::new(name);
     folder.write("my.pf", fs::read(root().join("postforms/fanuc.pf")).unwrap());
@@ -274,7 +274,7 @@ fn who_is_refused() {
     }
 }
 
-/// Jobs that the page opens are kept in memory: their names are names, and never paths.
+/// Jobs that are opened in the page are kept in memory. Their names are never used as paths.
 #[test]
 fn jobs_are_opened_and_closed() {
     let folder = bracket("watch-jobs");
@@ -286,11 +286,11 @@ fn jobs_are_opened_and_closed() {
     for (name, content, tab) in [
         (r#""drill.json""#, &job[..], [1, 0]),
         (r#""../../my.pf.json""#, &job[..], [2, 0]),
-        // the same name again replaces the job
+        // the same name replaces the job
         (r#""drill.json""#, &job[..], [1, 1]),
-        // found by its content
+        // recognised by its content
         (r#""drill""#, &job[..], [3, 0]),
-        // a broken job is a job: its tab has the error
+        // a broken job is accepted: its tab shows the error
         (r#""empty.json""#, b"", [4, 0]),
     ] {
         let answer = watch.add(name, content);
@@ -315,7 +315,7 @@ fn jobs_are_opened_and_closed() {
     let (head, body) = unpacked(&shown.body);
     assert_eq!(head["verdict"]["kind"], "proven", "{head}");
     assert!(section(&head, &body, "text").windows(3).any(|word| word == b"G81"));
-    // a tab that has another name by now stays
+    // a tab that has another name now is not closed
     watch.post("close", &json!({ "job": 1, "name": "my.pf.json" }));
     assert_eq!(names().as_array().unwrap().len(), 5);
     for _ in 0..4 {
@@ -323,18 +323,18 @@ fn jobs_are_opened_and_closed() {
         assert_eq!(watch.post("close", &json!({ "job": 1, "name": name })).status, 200);
     }
     assert_eq!(names(), before);
-    // without the last one, there is the sample job
+    // after the last job is closed, the sample job is shown
     watch.post("close", &json!({ "job": 0, "name": before[0] }));
     assert_eq!(names(), json!(["the sample job"]));
 }
 
-/// The port is open on this machine only.
+/// The port is open only on this machine.
 #[test]
 fn nobody_else_can_connect() {
     let folder = bracket("watch-loopback");
     let watch = Watch::new(&folder, &[]);
     assert!(watch.address.ip().is_loopback());
-    // the address by which others reach this machine, where there is one: nothing is sent
+    // the address of this machine for other machines, if there is one; nothing is sent
     let socket = UdpSocket::bind("0.0.0.0:0").unwrap();
     let outside = socket.connect("192.0.2.1:9").and_then(|()| socket.local_addr()).map(|address| address.ip());
     if let Some(outside) = outside.ok().filter(|ip| !ip.is_loopback() && !ip.is_unspecified()) {
@@ -343,7 +343,7 @@ fn nobody_else_can_connect() {
     }
 }
 
-/// Connections that say nothing keep nobody else out for long, and too many are told so.
+/// Idle connections block other clients only for a short time. Clients beyond the maximum get an answer that says so.
 #[test]
 fn idle_connections_are_bounded() {
     let folder = bracket("watch-idle");
@@ -361,7 +361,7 @@ fn idle_connections_are_bounded() {
     }
 }
 
-/// A head and a body that come a byte at a time are waited for no longer than others.
+/// A request that arrives a byte at a time is ended after the same time as any other.
 #[test]
 fn a_slow_request_is_ended() {
     let folder = bracket("watch-slow");
@@ -379,7 +379,7 @@ fn a_slow_request_is_ended() {
     let until = Instant::now() + Duration::from_secs(60);
     for mut stream in slow {
         let mut byte = [0];
-        // what was sent after the end may have the answer thrown away: the connection is closed in any case
+        // bytes after the end may make the system discard the answer; the connection is closed in any case
         while stream.read(&mut byte).is_err_and(|error| error.kind() == std::io::ErrorKind::WouldBlock) {
             assert!(Instant::now() < until, "a request of any length of time");
             _ = stream.write_all(b"x");
@@ -388,7 +388,7 @@ fn a_slow_request_is_ended() {
     assert_eq!(watch.get(&format!("/{token}/")).status, 200);
 }
 
-/// The scene has the program byte for byte, where each block comes from, and the verdict.
+/// The scene contains the program byte for byte, the origin of each block, and the verdict.
 #[test]
 fn the_scene_is_the_program() {
     let folder = bracket("watch-scene");
@@ -405,7 +405,7 @@ fn the_scene_is_the_program() {
     let lines = old.lines().count();
     assert_eq!(section(&head, &body, "lineForm").len(), lines * 4);
     assert_eq!(section(&head, &body, "lineItem").len(), lines * 16);
-    // the block of the tool change stands in a line of the form that says so
+    // the block of the tool change comes from the tool change line of the form
     let at = old.lines().position(|line| line.contains("T2 M6")).unwrap();
     let packed = i32::from_le_bytes(section(&head, &body, "lineForm")[at * 4..][..4].try_into().unwrap());
     let form = folder.read("my.pf");
@@ -415,7 +415,7 @@ fn the_scene_is_the_program() {
     assert_eq!(verdict["kind"], "proven", "{verdict}");
 }
 
-/// Without `--job` the jobs of postform.toml are shown, and without those the sample job of the form's machine; the day is today's.
+/// Without `--job`, the jobs of postform.toml are shown; without those, the sample job for the form's machine. The date is the current day.
 #[test]
 fn without_a_job_there_is_one() {
     let folder = bracket("watch-sample");
@@ -436,7 +436,7 @@ fn without_a_job_there_is_one() {
     assert_eq!(head["jobs"], json!(["job.json"]));
 }
 
-/// A program that the page shows already is not sent again, and what is said of it is.
+/// A program that the page already shows is not sent again, but its verdict is.
 #[test]
 fn the_same_program_is_not_sent_again() {
     let folder = bracket("watch-same");
@@ -447,12 +447,12 @@ fn the_same_program_is_not_sent_again() {
     let (again, body) = ask(&json!({ "my.pf": folder.read("my.pf").replacen("Name Fanuc", "Name My Fanuc", 1) }));
     assert_eq!((&again["same"], body.len(), &again["program"]), (&json!(true), 0, shown));
     assert_eq!(again["verdict"], first["verdict"]);
-    // a line more before the sequences, and each block comes from another one
+    // with an additional line before the sequences, all blocks have other origins
     let (other, body) = ask(&json!({ "my.pf": format!("# mine\n{}", folder.read("my.pf")) }));
     assert!(other["same"].is_null() && !body.is_empty() && other["program"] != *shown);
 }
 
-/// What is typed is shown and not written.
+/// Typed text is used for the scene, but not written to the file.
 #[test]
 fn what_is_typed_is_shown_and_not_written() {
     let folder = bracket("watch-typed");
@@ -470,7 +470,7 @@ fn what_is_typed_is_shown_and_not_written() {
         assert!(!section(&head, &body, "text").is_empty());
     }
     assert_eq!(folder.read("my.pf"), form);
-    // a name that is none of the form's is nobody's
+    // a name that is not a file of the form is ignored
     let (head, _) = watch.scene(&json!({ "/etc/passwd": "Name x" }));
     assert_eq!(head["verdict"]["kind"], "proven");
 }
@@ -480,7 +480,7 @@ fn what_is_typed_is_shown_and_not_written() {
 fn a_long_program_is_shown_before_it_is_proven() {
     let folder = bracket("watch-long");
     let moves: String = (0..20_000).map(|i| format!(r#",{{"line":[{},{},-1]}}"#, f64::from(i) / 8.0, i % 7)).collect();
-    // in the order in which jobs are read
+    // in the order in which the reader expects the keys
     folder.write(
         "job.json",
         format!(
@@ -496,14 +496,14 @@ fn a_long_program_is_shown_before_it_is_proven() {
         assert!(section(head, body, "text").len() > 256 << 10 && !head["picture"].is_null());
         let changed = scenes.iter().find_map(|(head, _)| head["saved"]["blocks"].as_u64());
         assert_eq!(changed, texts.get("my.pf").map(|_| 0));
-        // what was there with the picture comes with it
+        // the verdict is in the first scene or in a later one
         let mut said = scenes.iter().map(|(head, _)| &head["verdict"]).filter(|verdict| !verdict.is_null());
         let verdict = said.next_back().unwrap_or(&Value::Null);
         assert_eq!(verdict["kind"], "proven", "{verdict}");
     }
 }
 
-/// What was typed is compared with the form as it is on the disk now, not as it was when the page was opened.
+/// The typed text is compared with the form's current file, not with the file at the time when the page was opened.
 #[test]
 fn the_last_save_may_be_somebody_elses() {
     let folder = bracket("watch-saved");
@@ -521,7 +521,7 @@ fn the_last_save_may_be_somebody_elses() {
     }
 }
 
-/// What could stand at a place, with values of the job though the word is half typed, and what a word is.
+/// Completion works with an incomplete word and shows values of the job; help explains a word.
 #[test]
 fn words_are_completed_and_explained() {
     let folder = bracket("watch-help");
@@ -549,7 +549,7 @@ fn words_are_completed_and_explained() {
     assert_eq!(ask(&json!({}), &json!({ "file": "other.pf", "line": 0, "column": 0, "ask": "hover" })), Value::Null);
 }
 
-/// A wrong job and a form with errors are told, with what was found.
+/// For a wrong job, and for a form with errors, the scene contains the findings.
 #[test]
 fn what_is_wrong_is_in_the_scene() {
     let folder = bracket("watch-wrong");
@@ -579,22 +579,22 @@ fn only_the_form_is_written_and_only_on_save() {
     let new = form.replace("Name Fanuc 0i-M", "Name Mine");
     assert_eq!(save("my.pf", &new, &form), (200, String::new()));
     assert_eq!(folder.read("my.pf"), new);
-    // another file, whatever its name
+    // a file that is not one of the form's, by various names
     folder.write("other.pf", "Name x");
     for name in ["other.pf", "./my.pf", "../my.pf", "job.json", "", "/etc/passwd", "my.pf\0"] {
         assert_eq!(save(name, "x", "Name x").0, 404, "{name}");
     }
-    // somebody else saved meanwhile
+    // the file was saved by another program in the meantime
     assert_eq!(save("my.pf", &form, &form), (409, "the file has changed on the disk".to_owned()));
     assert_eq!(folder.read("my.pf"), new);
-    // line ends and the mark at the beginning stay
+    // line ends and the byte order mark are kept
     folder.write("my.pf", format!("\u{feff}{}", form.replace('\n', "\r\n")));
     assert_eq!(save("my.pf", &new, &form).0, 200);
     assert_eq!(folder.read("my.pf"), format!("\u{feff}{}", new.replace('\n', "\r\n")));
-    // what could not be read again is not written
+    // a text that could not be read again is not written
     let (status, why) = save("my.pf", &"# x\n".repeat(200_000), &new);
     assert!(status == 409 && why.contains("larger than 512 KB"), "{why}");
-    // a file in Windows-1252 stays in it, and a letter that it has no byte for is not written
+    // a file in Windows-1252 keeps its encoding; a character that the encoding lacks is refused
     folder.write("my.pf", b"Name Fr\xe4se\n");
     assert_eq!(save("my.pf", "Name Fr\u{e4}sen \u{20ac}\n", "Name Fr\u{e4}se\n").0, 200);
     assert_eq!(fs::read(folder.0.join("my.pf")).unwrap(), b"Name Fr\xe4sen \x80\n");
@@ -623,8 +623,8 @@ fn a_form_that_was_deleted_is_written_again() {
     assert_eq!(watch.post("scene", &json!({ "job": 0 })).status, 200);
 }
 
-/// An address that is kept: a page that is open finds the program again. Others can't read the file, and one that others may read is
-/// not used.
+/// Port and token are stored, so that an open page connects again after a restart. Other users can't read the file. A
+/// file that others can read is not used.
 #[cfg(unix)]
 #[test]
 fn a_restart_has_the_address_of_before() {
@@ -634,7 +634,7 @@ fn a_restart_has_the_address_of_before() {
     let first = address(&Watch::new(&folder, &[]));
     let second = Watch::new(&folder, &[]);
     assert_eq!(address(&second), first);
-    // beside one that runs: another port, the same token
+    // while another one runs: another port, the same token
     let third = Watch::new(&folder, &[]);
     assert_ne!(third.address, first.0);
     drop((second, third));
@@ -650,7 +650,7 @@ fn a_restart_has_the_address_of_before() {
     }
 }
 
-/// A page hears when form, job or a form that is called were changed.
+/// The page is notified when the form, the job or a called form changes.
 #[test]
 fn changes_are_told() {
     let folder = bracket("watch-changes");
@@ -691,7 +691,7 @@ fn how_watch_ends() {
     }
 }
 
-/// `render --watch` prints again with every change, and waits where something is wrong; the program of before stays then.
+/// `render --watch` prints again after every change. If there is an error, it waits, and the previous program stays.
 #[test]
 fn render_watches_its_files() {
     let folder = bracket("watch-render");
@@ -723,7 +723,7 @@ fn render_watches_its_files() {
     _ = child.wait();
 }
 
-/// `lint --watch` reports again, also of a form that appears in a folder.
+/// `lint --watch` reports again after every change, also about a new form in a folder.
 #[test]
 fn lint_watches_its_folder() {
     let folder = Folder::new("watch-lint");

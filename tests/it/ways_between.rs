@@ -1,5 +1,5 @@
-//! Rapids between cuts, and after the last one: no lower than the job's, and in no other work offset. Each case is a program that
-//! verify called identical or equivalent before.
+//! Rapids between cuts, and after the last one, must be no lower than the job's, and in no other work offset. Each case
+//! is a program that verify once called identical or equivalent.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use postform::{Job, NoFiles, Options, Post, Source, Verdict};
 
 use crate::support::root;
 
-/// A cut in G54, a visit to G55 without a cut, and a cut in G54 again.
+/// A cut in G54, rapids in G55 without a cut, and a cut in G54 again.
 const VISIT: &str = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[
 {"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[
 {"rapid":[0,0,50]},{"rapid":[null,null,2]},{"line":[null,null,-1]},{"line":[10,0,-1]},{"rapid":[null,null,50]},
@@ -67,7 +67,7 @@ fn a_visit_without_a_cut_crosses_no_lower_than_the_job() {
 
 #[test]
 fn the_machines_own_positions_are_gone_to_from_above_the_last_height() {
-    // G53 Y0 stays, at Z2
+    // G53 Y0 is still in the program, now at Z2
     is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nM5\n", "PV009");
     is_wrong(END, "M9\nG0 G53 Z0 M5\n", "M9\nZ1. M5\n", "PV009");
 }

@@ -1,5 +1,5 @@
-//! Wrong uses of what posts say beyond the manual: what is found, where, and what to type instead.
-//! tests/data/wrong-uses.txt has what is said of each; `SAMPLES=overwrite cargo test wrong_uses::` writes it again: read it as a machinist would.
+//! Wrong uses of features beyond the manual: the finding, its location, and the correction. tests/data/wrong-uses.txt
+//! contains the messages. `SAMPLES=overwrite cargo test wrong_uses::` writes it again; review it as a machinist would.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -9,14 +9,14 @@ use postform::internals::lint::lint;
 
 use crate::support::{assert_same, check, plain_post, root};
 
-/// Where the lines stand in postforms/haas.pf.
+/// The position of the lines in postforms/haas.pf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
-    /// Above its first sequence.
+    /// Before its first sequence.
     Head,
     /// In its first tool change.
     Change,
-    /// After its last sequence, in the stead of its own.
+    /// After its last sequence, in place of the form's own sequence.
     Behind,
 }
 

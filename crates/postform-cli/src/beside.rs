@@ -12,7 +12,7 @@ use postform::{Error, Job, Options, Post, Proof, Proven, Rendered};
 /// Number of batches that wait for the proof, each about 64 KB of program; if more are ready, the printer waits.
 const WAITING: usize = 4;
 
-/// A batch that is returned after comparison, so that its memory is used again.
+/// A batch that the proof returns after comparison, so that the memory of the batch is used again.
 struct Lent {
     batch: Batch,
     back: Sender<Batch>,
@@ -26,7 +26,7 @@ impl AsRef<Batch> for Lent {
 
 impl Drop for Lent {
     fn drop(&mut self) {
-        // clear it here, because the printer is busier than the proof
+        // the proof clears the batch, because the printer is busier than the proof
         self.batch.events.clear();
         // an error only means that the printer has ended
         _ = self.back.send(std::mem::take(&mut self.batch));

@@ -1,4 +1,4 @@
-//! Finds the form that calls a file; this also decides whether a file is a form.
+//! Finds the form that calls a file. The result also decides whether a file is a form.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use super::files;
 /// Maximum number of forms of a folder that are searched for calls.
 const MOST_FORMS: usize = 200;
 
-/// Is a file a form: by its name, because postform.toml names it, or because a form calls it?
+/// Is a file a form? It is one by its name, if postform.toml names it, or if a form calls it.
 ///
 /// # Errors
 /// A message: postform.toml makes no sense.
@@ -31,7 +31,7 @@ pub fn text(path: &Path) -> String {
 /// The form that calls a file, searched in the file's folder and in the folder above; `text` reads the forms. The path is absolute.
 pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
     let mut forms: Vec<PathBuf> = Vec::new();
-    // a called form is in the folder of its caller or below
+    // a called form is in the folder of its caller or in a subfolder
     for folder in path.ancestors().skip(1).take(2) {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         forms.extend(entries.filter(|other| files::is_form(other)).take(MOST_FORMS));

@@ -9,7 +9,7 @@ pub fn parse(text: &str) -> Result<Clock, String> {
     Clock::parse(text).ok_or_else(|| "write a date, as 2026-03-31, or a date and time, as 2026-03-31T14:05".to_owned())
 }
 
-/// The clock if --date is not given.
+/// Date and time of printing if --date is not given.
 pub fn now() -> Result<Clock, String> {
     const EPOCH: &str = "SOURCE_DATE_EPOCH";
     let Ok(seconds) = std::env::var(EPOCH) else { return Ok(of(Zoned::now().datetime())) };

@@ -37,7 +37,7 @@ pub struct Config {
     pub test: Tests,
 }
 
-/// [test] of the configuration.
+/// The section `[test]` of the configuration.
 #[derive(Clone, Debug, Default)]
 pub struct Tests {
     /// The forms, or folders of forms.
@@ -186,7 +186,8 @@ fn has(properties: &[Property], name: &str) -> bool {
     properties.iter().any(|property| property.name.eq_ignore_ascii_case(name))
 }
 
-/// Is the folder the root, or a folder in which every user may create files, such as /tmp? A file in it is not the shop's.
+/// Is the folder the root, or a folder in which every user may create files, such as /tmp? A postform.toml there is not
+/// the shop's.
 fn is_common(folder: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -199,7 +200,7 @@ fn is_common(folder: &Path) -> bool {
     folder.parent().is_none()
 }
 
-/// A path as people type it: relative to the working folder if it is inside that.
+/// A path as people type it: relative to the working folder if the path is inside that folder.
 pub fn shortened(path: PathBuf) -> PathBuf {
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     here.ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf)).unwrap_or(path)

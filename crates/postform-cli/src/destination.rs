@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 pub struct Destination {
     /// The last name in the chain of links.
     pub path: PathBuf,
-    /// A device, a pipe or a file that a process has open, such as /dev/stdout: it is written to, and not replaced by a file.
+    /// The target is a device, a pipe or a file that a process has open, such as /dev/stdout. It is written to, and not
+    /// replaced by a file.
     pub stays: bool,
 }
 

@@ -10,14 +10,14 @@ pub fn each<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Ve
     each_on(None, items, work)
 }
 
-/// The same on this number of threads; `None`: one per core.
+/// Like `each`, on this number of threads; `None`: one thread per core.
 pub fn each_on<T: Send, R: Send>(threads: Option<NonZeroUsize>, items: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     let mut all = Vec::with_capacity(items.len());
     each_in_order(threads, items, work, |result| all.push(result));
     all
 }
 
-/// The same; `take` gets the results one at a time and in order, each as soon as it is ready.
+/// Like `each_on`. `take` gets the results one at a time and in order, each as soon as it is ready.
 pub fn each_in_order<T: Send, R: Send>(
     threads: Option<NonZeroUsize>,
     items: Vec<T>,

@@ -291,10 +291,10 @@ pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
     job_format(path, args, || by_content(path)).map(|_| ())
 }
 
-/// Opens a job; `again`: it is read more than once, so an input that is not seekable is copied into a file.
+/// Opens a job. `again`: the job is read more than once, so an input that is not seekable is copied into a file.
 pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, String> {
     let format = job_format(path, args, || by_content(path))?;
-    // a program needs two runs, and an archive is read from its end
+    // an NC program is run twice, and an archive is read from its end
     let twice = again || matches!(format, Format::Nc | Format::Freecad);
     let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
     let mut job = match twice || is_file {
@@ -337,7 +337,7 @@ pub fn unpacked_bytes(path: &Path, bytes: Vec<u8>) -> Result<Arc<[u8]>, String> 
     Ok(text.into())
 }
 
-/// Applies the options for reading; the name of an NC program may tell its control.
+/// Applies the options for reading. The file name of an NC program may determine its control.
 fn settle(job: &mut Job<'_>, format: Format, path: &Path, args: &ReadArgs) {
     job.reading = args.reading();
     if format == Format::Nc {
@@ -375,7 +375,8 @@ mod tests {
         assert!(error.io().is_some_and(|error| error.to_string().contains("changed while it was read")), "{error}");
     }
 
-    /// As with `touch -r` after a change in place: size and time are set back to the old values.
+    /// The test changes a file in place and then sets its time back, as `touch -r` does: size and time are then the old
+    /// values.
     #[cfg(unix)]
     #[test]
     fn a_time_that_is_put_back_hides_no_change() {

@@ -66,7 +66,7 @@ pub fn run(args: &FmtArgs) -> Result<Ending, String> {
 enum Laid {
     AsItWas,
     Otherwise,
-    /// The file stays unchanged, for this reason.
+    /// The file stays unchanged; the text is the reason.
     LeftOut(String),
 }
 

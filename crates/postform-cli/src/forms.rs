@@ -45,7 +45,7 @@ impl FormFile {
         Ok(FormFile { post: Some(name.to_owned()), ..self })
     }
 
-    /// A form whose text is in an editor: the text comes with the changed texts.
+    /// A form that is open in an editor. Its text is passed together with the changed texts.
     pub fn open_in_editor(path: &Path, limits: Limits) -> FormFile {
         let bytes = files::read_form(path).unwrap_or_default();
         FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() }
@@ -81,7 +81,7 @@ impl FormFile {
         })
     }
 
-    /// The path of a file of the form, by its name in messages.
+    /// The path of a file of the form. `name` is the file's name in messages.
     pub fn place(&self, name: &str) -> PathBuf {
         self.called.borrow().get(name).unwrap_or(&self.path).clone()
     }
@@ -93,7 +93,7 @@ impl FormFile {
 
     /// The files that the form calls, as far as they have been read, with links resolved.
     fn calls(&self) -> Vec<PathBuf> {
-        // most forms call no other form; they are not read twice
+        // most forms call no other form, so these forms are not read twice
         let calls =
             |line: &[u8]| line.trim_ascii_start().get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"Call"));
         if self.bytes.split(|&byte| byte == b'\n').any(calls) {
@@ -119,8 +119,8 @@ impl Files for FormFile {
     }
 }
 
-/// Reads a form that another form calls. It must be in the caller's folder or below, also after links are followed. Its name is
-/// its path, so that the reader of a message finds the file.
+/// Reads a form that another form calls. The called file must be in the caller's folder or below, also after links are
+/// followed. The source is named by its path, so that the reader of a message finds the file.
 fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
     let folder = form.parent().unwrap_or(Path::new(""));
     let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -141,8 +141,8 @@ fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
     Ok((folder.join(name), bytes))
 }
 
-/// Removes the forms that another of these forms calls: a called form is checked with its caller, with the settings of the
-/// caller. If two forms call each other, the first one stays. Duplicates are removed.
+/// Removes the forms that another of these forms calls, because a called form is checked with its caller and the
+/// caller's settings. If two forms call each other, the first one stays. Duplicates are removed.
 pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     let real = |file: &FormFile| file.path.canonicalize().unwrap_or_else(|_| file.path.clone());
     let mut seen = HashSet::new();
@@ -183,7 +183,7 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
             }
         } else if files::is_form(&path) {
             match path.canonicalize() {
-                // the target is found under its own name
+                // the target of the link is found under its own name
                 Ok(real) if path.is_symlink() && real.starts_with(root) && files::is_form(&real) => {}
                 Ok(_) if path.is_symlink() => left_out(&path, "a link to a file that is not a form in this folder"),
                 Ok(real) if !real.is_file() => left_out(&path, "not a file"),

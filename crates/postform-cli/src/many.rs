@@ -52,8 +52,8 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     Ok(jobs)
 }
 
-/// Works on each item, several at a time. The text that `work` returns goes to standard output and its messages to standard
-/// error, in the order of the items. A failing item does not stop the others; the last line contains its `name`.
+/// Works on each item, several at a time. The text that `work` returns goes to standard output, and its messages to standard
+/// error, both in the order of the items. A failing item does not stop the others; its `name` is in the last line of the output.
 ///
 /// # Errors
 /// Standard output can't be written.

@@ -23,7 +23,7 @@ pub enum Target {
     Spooled(Spool, Option<PathBuf>),
     /// Standard output, written without a spool.
     Stream,
-    /// One of these, compressed because its name ends with `.gz`.
+    /// One of the other kinds of output, compressed because its name ends with `.gz`.
     Packed(Box<(Target, GzEncoder<Vec<u8>>)>),
 }
 
@@ -154,8 +154,8 @@ impl Target {
     }
 }
 
-/// Opens an output that is written to but not replaced. If it is the process' own standard output or error, that stream is
-/// used, so that the text follows the earlier output.
+/// Opens an output that is written to but not replaced. For the standard output or error of this process, the existing
+/// stream is used, so that the text follows the earlier output.
 fn opened(path: &Path) -> io::Result<File> {
     let is = fs::metadata(path)?;
     #[cfg(unix)]
@@ -201,7 +201,7 @@ pub fn json(document: &serde_json::Value) -> String {
     safe(&format!("{document:#}"))
 }
 
-/// The same document on one line.
+/// A JSON document on one line, safe for terminals like that of `json`.
 pub fn json_line(document: &serde_json::Value) -> String {
     safe(&document.to_string())
 }

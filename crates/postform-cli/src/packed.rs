@@ -7,7 +7,7 @@ use flate2::Compression;
 use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 
-/// The name without its `.gz`. `None`: it does not end with `.gz`.
+/// The name without its `.gz`. `None`: the name does not end with `.gz`.
 pub fn unpacked_name(path: &Path) -> Option<PathBuf> {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz")).then(|| path.with_extension(""))
 }
@@ -17,7 +17,7 @@ pub fn unpacked(file: impl Read) -> impl Read {
     Named(MultiGzDecoder::new(file))
 }
 
-/// An encoder whose output is always the same for the same text, because it contains no date and no name.
+/// An encoder whose output contains no date and no name, so that equal texts give equal outputs.
 pub fn packing() -> GzEncoder<Vec<u8>> {
     GzEncoder::new(Vec::new(), Compression::default())
 }

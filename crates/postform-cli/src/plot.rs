@@ -75,7 +75,7 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
-/// The requested program, its picture and its text. `None`: there is none; the reason has been shown.
+/// The requested program, its picture and its text. `None`: there is no program, and the reason has been shown.
 fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File)>, String> {
     let config = Config::near(&args.file)?;
     let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from.format() == Format::Nc) && {

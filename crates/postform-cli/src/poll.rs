@@ -40,7 +40,8 @@ impl Watched {
         self.wait_while(|| true);
     }
 
-    /// The same, but returns `false` without a change as soon as `watches` returns `false`, because other files must be watched.
+    /// Like `wait`, but returns `false` without a change as soon as `watches` returns `false`, because other files must
+    /// be watched.
     pub fn wait_while(&self, watches: impl Fn() -> bool) -> bool {
         loop {
             sleep(PAUSE);

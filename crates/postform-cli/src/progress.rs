@@ -16,7 +16,7 @@ const DRAWN: u8 = 4;
 /// A line on standard error with the progress of the work. It is removed at the end, so that messages begin at the left margin.
 pub struct Progress {
     bar: ProgressBar,
-    /// The time from which the line is shown; `None`: it is already shown, or never will be.
+    /// The time from which the line is shown; `None`: the line is already shown, or never will be.
     begins: Mutex<Option<Instant>>,
 }
 
@@ -37,7 +37,8 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        // a thread of many shows no line of its own, because the line of the whole work is shown
+        // a thread that works on one of many items shows no line of its own, because the line of the whole work is
+        // shown
         let begins = (stderr().is_terminal() && !is_kept()).then(|| Instant::now() + PATIENCE);
         Progress { bar, begins: Mutex::new(begins) }
     }

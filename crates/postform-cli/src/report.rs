@@ -177,7 +177,7 @@ impl Reporter {
     }
 }
 
-/// Maximum number of findings that are drawn: nobody reads more at once.
+/// Maximum number of findings that are drawn. More would be too many to read.
 const MOST_DRAWN: usize = 1000;
 
 /// The findings that are drawn, in their order. If there are too many, errors are selected first.

@@ -30,7 +30,7 @@ pub fn kept<R>(work: impl FnOnce() -> R) -> (R, String) {
     (done, KEPT.take().unwrap_or_default())
 }
 
-/// Writes a message on lines of its own. Control characters in quoted text are escaped.
+/// Writes a message on separate lines. Control characters in quoted text are escaped.
 pub fn message(text: &str) {
     say(&format!("{}\n", escaped_lines(text)));
 }

@@ -70,7 +70,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         let copy = program.try_clone().map_err(fail)?;
         let made = (&mut job, options);
         let (fitted, fitting) = machine::of_post(post, machine, made, &proof, (copy, "the program"))?;
-        // they are also in the sheet
+        // the findings are also in the sheet
         if !args.options.quiet {
             fitting.show(&fitted, (&[&args.job], post.files()), reporter);
         }

@@ -23,7 +23,7 @@ pub struct Milling<'a> {
     pub block: Stock,
     /// The name of the program.
     pub program: &'a str,
-    /// The form that printed the program, and the options with which it did.
+    /// The form that printed the program, and the options of the rendering.
     pub form: Option<(&'a Post, &'a Options)>,
     /// Options for running a program without a form.
     pub control: &'a ControlArgs,

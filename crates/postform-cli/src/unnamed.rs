@@ -1,4 +1,4 @@
-//! A file without a name until it is complete: if the process ends before, no part of the file is left behind.
+//! A file without a name until it is complete. If the process ends before that, no part of the file remains.
 
 use std::fs::{File, Permissions};
 use std::io::{self, Seek};

@@ -1,11 +1,11 @@
-//! Jobs for a torch or a laser: contours at one height, each with a rapid before it.
+//! Jobs for a torch or a laser: contours at one height, with a rapid before each contour.
 
 use serde_json::{Map, Value, json};
 
 use super::pen::Pen;
 use crate::random::Random;
 
-/// Tools and operations.
+/// Adds tools and operations to a job.
 pub fn fill(job: &mut Value, inch: bool, works: bool, random: &mut Random) {
     let mut pen = Pen::new(inch, random);
     // many CAM systems write no heights for such jobs
@@ -37,7 +37,7 @@ pub fn fill(job: &mut Value, inch: bool, works: bool, random: &mut Random) {
     job["operations"] = json!(operations);
 }
 
-/// A position, with its height where the job has heights.
+/// A position; it includes the height if the job has heights.
 fn at(x: f64, y: f64, z: Option<f64>) -> Value {
     z.map_or_else(|| json!([x, y]), |z| json!([x, y, z]))
 }
@@ -48,7 +48,7 @@ fn contour(pen: &mut Pen<'_>, heights: Option<[f64; 2]>) {
     pen.put(json!({ "rapid": at(x, y, high) }));
     pen.at = [x, y, low.unwrap_or(0.0)];
     pen.moves += 1;
-    // down at rapid, at feed, or with the first cut
+    // moves down at rapid, at feed, or in the first cut
     match pen.random.below(3) {
         0 if low.is_some() => pen.put(json!({ "rapid": at(x, y, low) })),
         1 if low.is_some() => pen.feeding(json!({ "line": at(x, y, low) }), false),
@@ -86,7 +86,7 @@ fn arc(pen: &mut Pen<'_>, low: Option<f64>) {
     pen.arc(false);
     let [x, y, _] = pen.at;
     pen.at[2] = from[2];
-    // one height
+    // the arc stays at one height
     if let Some(arc) = pen.path.last_mut().and_then(|item| item.get_mut("arc")) {
         arc["to"] = at(x, y, low);
         if let Some([x, y]) = arc["center"].as_array().map(|center| [&center[0], &center[1]].map(Value::clone)) {

@@ -1,4 +1,4 @@
-//! Canned cycles of all kinds.
+//! Canned cycles of all kinds for random jobs.
 
 use serde_json::{Map, Value, json};
 
@@ -26,7 +26,7 @@ const KINDS: &[&str] = &[
 ];
 const CUSTOMS: [&str; 3] = ["custom1", "custom2", "custom3"];
 
-/// A cycle with its points; the tool stands over the last one after it.
+/// Adds a cycle with its points. The tool is above the last point afterwards.
 pub fn cycle(pen: &mut Pen<'_>) {
     let customs: Vec<&str> = (0..3).filter(|&i| pen.customs[i]).map(|i| CUSTOMS[i]).collect();
     let kind = match !customs.is_empty() && pen.random.once_in(4) {
@@ -157,7 +157,7 @@ fn tap(pen: &mut Pen<'_>, put: &mut impl FnMut(&str, Value)) {
 fn points(pen: &mut Pen<'_>, kind: &str, clear: f64, depth: f64) -> Vec<Value> {
     let count = 1 + pen.random.below(4);
     let deeper = !matches!(kind, "manual" | "thru" | "csink" | "back");
-    // all at one height, or on steps of the part
+    // all points at one height, or on steps of the part
     let stepped = pen.random.once_in(3);
     let mut top = if pen.random.once_in(3) { pen.length(-0.5, 0.5) } else { 0.0 };
     let mut list = Vec::new();

@@ -1,4 +1,4 @@
-//! FreeCAD documents: one that is in the repository, with other commands in the paths of its operations.
+//! FreeCAD documents: a document of the repository, with random commands in the paths of its operations.
 
 use std::io::{Cursor, Read, Write};
 use std::sync::OnceLock;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::random::Random;
 use crate::text::list;
 
-/// The operations of the document, in the order of its job, with the tools and speeds that its controllers have, and coolant.
+/// The operations of the document in the order of its job: name, tool and speed of the controller, and coolant.
 const OPERATIONS: [(&str, u32, u32, &str); 5] = [
     ("Face_top.nc", 1, 5000, "M8"),
     ("LeadInOutDressup.nc", 1, 5000, "M8"),
@@ -17,7 +17,7 @@ const OPERATIONS: [(&str, u32, u32, &str); 5] = [
     ("Inside_finish.nc", 2, 8000, "M9"),
 ];
 
-/// Commands for each operation. Lengths are millimetres, feeds millimetres a second.
+/// Random commands for each operation. Lengths are in millimetres, feeds in millimetres per second.
 pub fn commands(random: &mut Random) -> Value {
     let mut list = Vec::new();
     for (name, ..) in OPERATIONS {
@@ -131,7 +131,7 @@ impl Path<'_> {
 
 type Members = Vec<(String, Vec<u8>)>;
 
-/// The members of the document that is in the repository.
+/// The archive members of the document in the repository.
 fn template() -> &'static Members {
     static MEMBERS: OnceLock<Members> = OnceLock::new();
     MEMBERS.get_or_init(|| {
@@ -172,7 +172,8 @@ fn lines(operation: &Value) -> Vec<&str> {
     list(operation, "lines").iter().filter_map(Value::as_str).collect()
 }
 
-/// What those commands mean as a program of LinuxCNC: feeds by the minute, tools as the controllers change them.
+/// The meaning of the commands as a program for LinuxCNC: feeds per minute, and tool changes where the controller
+/// changes.
 pub fn program(job: &Value) -> String {
     let mut text = "G21 G90 G17 G40 G49 G80 G94\nG54\n".to_owned();
     let mut in_spindle = 0;

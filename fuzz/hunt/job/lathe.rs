@@ -1,11 +1,11 @@
-//! Turning jobs: positions are z and x, x as a radius.
+//! Turning jobs. Positions are Z and X; X is a radius.
 
 use serde_json::{Map, Value, json};
 
 use super::pen::Pen;
 use crate::random::Random;
 
-/// Tools and operations.
+/// Adds tools and operations to a job.
 pub fn fill(job: &mut Value, inch: bool, random: &mut Random) {
     let mut pen = Pen::new(inch, random);
     let tools: Vec<Value> = [1, 2, 303]
@@ -47,12 +47,12 @@ pub fn fill(job: &mut Value, inch: bool, random: &mut Random) {
     job["operations"] = json!(operations);
 }
 
-/// A place beside the part: z, radius.
+/// A position outside the part: Z and radius.
 fn outside(pen: &mut Pen<'_>) -> [f64; 3] {
     [pen.length(0.05, 0.5), pen.length(1.2, 2.0), 0.0]
 }
 
-/// Positions of two numbers, and arcs of one turn.
+/// Converts an item to positions of two numbers, and its arcs to at most one turn.
 fn flat(mut item: Value) -> Value {
     let two = |value: Option<&mut Value>| {
         if let Some(list) = value.and_then(Value::as_array_mut) {
@@ -77,7 +77,7 @@ fn piece(pen: &mut Pen<'_>, css: bool) {
     }
 }
 
-/// Beside the part, in, along, out.
+/// A cut with its approach and retract: from outside the part, in, along, out.
 fn turn(pen: &mut Pen<'_>) {
     let start = outside(pen);
     pen.rapid(start);

@@ -11,7 +11,7 @@ use crate::random::Random;
 
 const SECTIONS: &[&str] = &["leadin", "leadout", "plunge", "retract", "sidestep", "zlevel", "row"];
 
-/// Tools and operations.
+/// Adds tools and operations to a job.
 pub fn fill(job: &mut Value, kind: Kind, inch: bool, takes: Takes, random: &mut Random) {
     let tools: Vec<Value> = (1..=4).map(|number| tool(number, inch, random)).collect();
     let mut pen = Pen::new(inch, random);
@@ -74,7 +74,7 @@ fn operation(pen: &mut Pen<'_>, tool: &mut usize) -> Map<String, Value> {
     if pen.random.once_in(4) {
         put("name", json!("pocket"));
     }
-    // the same tool again, now and then
+    // sometimes the same tool again
     let same = *tool > 0 && pen.random.once_in(4);
     if !same {
         *tool = 1 + *tool % 4;
@@ -108,7 +108,7 @@ fn operation(pen: &mut Pen<'_>, tool: &mut usize) -> Map<String, Value> {
     head
 }
 
-/// The first place of an operation: at once, in parts, or by its first hole.
+/// The first position of an operation: in one item, in parts, or as its first hole.
 fn begin(pen: &mut Pen<'_>, kind: Kind, angle: &mut f64) {
     let [x, y] = pen.across();
     let high = pen.length(0.5, 2.0);
@@ -136,7 +136,7 @@ fn begin(pen: &mut Pen<'_>, kind: Kind, angle: &mut f64) {
     pen.at = [x, y, high];
 }
 
-/// A few items that belong together.
+/// Adds a few items that belong together.
 fn piece(pen: &mut Pen<'_>, kind: Kind, angle: &mut f64, subs: usize, work: &Value) {
     match (kind, pen.random.below(4)) {
         (Kind::Rotary, 0) => return turn(pen, angle),
@@ -197,7 +197,7 @@ pub(super) fn contour(pen: &mut Pen<'_>) {
     out(pen);
 }
 
-/// Out of the part: at rapid or at feed.
+/// Moves the tool out of the part, at rapid or at feed.
 pub(super) fn out(pen: &mut Pen<'_>) {
     let [x, y, _] = pen.at;
     let high = pen.length(0.1, 1.0).max(pen.at[2]);
@@ -233,7 +233,7 @@ pub(super) fn compensated(pen: &mut Pen<'_>) {
     out(pen);
 }
 
-/// Rapids and cuts in the air and in the part, without a plan.
+/// Random rapids and cuts, in the air and in the part.
 fn wander(pen: &mut Pen<'_>) {
     for _ in 0..1 + pen.random.below(4) {
         let to = [pen.length(-4.0, 4.0), pen.length(-4.0, 4.0), pen.length(-0.5, 1.0)];
@@ -241,7 +241,7 @@ fn wander(pen: &mut Pen<'_>) {
     }
 }
 
-/// Moves that hardly move, and moves to where the tool is.
+/// Very short moves, and moves to the current position.
 fn restless(pen: &mut Pen<'_>) {
     for _ in 0..1 + pen.random.below(4) {
         let mut to = pen.at;
@@ -253,7 +253,7 @@ fn restless(pen: &mut Pen<'_>) {
     }
 }
 
-/// What is no move.
+/// Adds an item that is not a move.
 fn change(pen: &mut Pen<'_>) {
     match pen.random.below(14) {
         0 => {
@@ -286,7 +286,7 @@ fn change(pen: &mut Pen<'_>) {
         }
         11 => {
             let text = pen.random.pick(&["(AS IT STANDS)", "M1", "M8", "G4 P0"]);
-            // of those without codes the control reads M alone
+            // of texts without G codes, the control reads only those that begin with M
             if pen.codes || text.starts_with('M') {
                 pen.put(json!({ "text": text }));
             }
@@ -299,7 +299,7 @@ fn change(pen: &mut Pen<'_>) {
     }
 }
 
-/// Up, another part on the table, over it.
+/// Moves up, selects another work offset, and moves over its part.
 fn another_work(pen: &mut Pen<'_>) {
     let [x, y, _] = pen.at;
     let high = pen.length(1.0, 2.0);

@@ -1,4 +1,4 @@
-//! Random jobs: right ones, as a CAM system could write them, with everything that a job can say.
+//! Random jobs. They are correct, as a CAM system could write them, and use every feature of jobs.
 
 mod beam;
 mod cycles;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 
 use crate::random::Random;
 
-/// What a job is for.
+/// The machine or format of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Three axes.
@@ -28,18 +28,18 @@ pub enum Kind {
     Lathe,
     /// Wire EDM.
     Wire,
-    /// A CL file with all that CYCLE can say; a list of lines.
+    /// A CL file with all words of CYCLE; the job is a list of lines.
     Statements,
-    /// An NC program that another form printed; a list of lines.
+    /// An NC program that another form printed; the job is a list of lines.
     Program,
-    /// A FreeCAD document; a list of commands for each operation.
+    /// A FreeCAD document; the job is a list of commands for each operation.
     Document,
     /// A torch or a laser.
     Beam,
 }
 
 impl Kind {
-    /// All, with the names that the command line takes.
+    /// All kinds, with their names on the command line.
     pub const ALL: [(&'static str, Kind); 9] = [
         ("mill", Kind::Mill),
         ("rotary", Kind::Rotary),
@@ -52,26 +52,26 @@ impl Kind {
         ("beam", Kind::Beam),
     ];
 
-    /// Its name.
+    /// The name of the kind.
     pub fn name(self) -> &'static str {
         Kind::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
 }
 
-/// What the form that will print a job takes.
+/// The features of a job that the printing form supports.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Takes {
-    /// Its own cycles, by number.
+    /// The form has custom cycles, by number.
     pub customs: [bool; 3],
-    /// Jobs that send the tool home.
+    /// The form can send the tool home.
     pub home: bool,
-    /// Text with the comments and codes of a Fanuc.
+    /// The text may contain comments and codes of a Fanuc.
     pub codes: bool,
-    /// More than six work offsets.
+    /// The form has more than six work offsets.
     pub works: bool,
 }
 
-/// A job as a document: an object whose last key is its operations. A program is made of a milling job.
+/// A random job as a document: an object whose last key is `operations`. The kind `Program` starts from a milling job.
 pub fn job(kind: Kind, takes: Takes, random: &mut Random) -> Value {
     let inch = random.once_in(2);
     match kind {

@@ -1,4 +1,4 @@
-//! What draws the paths of random jobs: it knows where the tool is, so that arcs and heights make sense.
+//! Writes the paths of random jobs. The pen follows the tool position, so that arcs and heights make sense.
 
 use serde_json::{Value, json};
 
@@ -6,25 +6,25 @@ use crate::random::Random;
 
 /// Writes path items.
 pub struct Pen<'r> {
-    /// Where the numbers come from.
+    /// The source of random numbers.
     pub random: &'r mut Random,
-    /// A length that is large for a part: an inch, or 25 mm.
+    /// A large length for a part: 1 inch or 25 mm.
     pub unit: f64,
-    /// Decimals of the job's numbers.
+    /// Number of decimals in the job.
     decimals: i32,
-    /// Where the tool is.
+    /// The position of the tool.
     pub at: [f64; 3],
     /// The items so far.
     pub path: Vec<Value>,
-    /// Moves and holes so far.
+    /// Number of moves and holes so far.
     pub moves: usize,
     /// Feeds are per revolution.
     pub per_turn: bool,
-    /// Cycles that only the form knows.
+    /// The form has custom cycles, by number.
     pub customs: [bool; 3],
-    /// The form knows the way home.
+    /// The form can send the tool home.
     pub home: bool,
-    /// Text with the comments and codes of a Fanuc.
+    /// The text may contain comments and codes of a Fanuc.
     pub codes: bool,
     /// The form has more than six work offsets.
     pub works: bool,
@@ -50,25 +50,26 @@ impl<'r> Pen<'r> {
         }
     }
 
-    /// A number with the job's decimals.
+    /// A number rounded to the job's decimals.
     pub fn round(&self, value: f64) -> f64 {
         let by = 10f64.powi(self.decimals);
         (value * by).round() / by + 0.0
     }
 
-    /// A length between so many inches, with the job's decimals; of either sign where `low` is negative.
+    /// A random length between two lengths in inches, rounded to the job's decimals. It may be negative if `low` is
+    /// negative.
     pub fn length(&mut self, low: f64, high: f64) -> f64 {
         let value = self.random.between(low * self.unit, high * self.unit);
         self.round(value)
     }
 
-    /// A length that is not zero.
+    /// A random length that is not zero.
     pub fn positive(&mut self, low: f64, high: f64) -> f64 {
         let least = 10f64.powi(-self.decimals);
         self.length(low, high).max(least)
     }
 
-    /// A feed.
+    /// A random feed.
     pub fn feed(&mut self) -> f64 {
         let feed = match self.per_turn {
             true => self.random.between(0.002, 0.02) * self.unit,
@@ -78,12 +79,12 @@ impl<'r> Pen<'r> {
         (feed * by).round().max(1.0) / by
     }
 
-    /// Puts an item down.
+    /// Adds an item.
     pub fn put(&mut self, item: Value) {
         self.path.push(item);
     }
 
-    /// With a feed beside it, now and then.
+    /// Adds an item, sometimes with a feed.
     pub fn feeding(&mut self, mut item: Value, always: bool) {
         if always || self.random.once_in(4) {
             item["feed"] = json!(self.feed());
@@ -91,12 +92,12 @@ impl<'r> Pen<'r> {
         self.put(item);
     }
 
-    /// A place across.
+    /// A random position in X and Y.
     pub fn across(&mut self) -> [f64; 2] {
         [self.length(-4.0, 4.0), self.length(-4.0, 4.0)]
     }
 
-    /// A rapid; sometimes it says only what changes.
+    /// Adds a rapid. Sometimes it contains only the axes that change.
     pub fn rapid(&mut self, to: [f64; 3]) {
         let item = self.position(to);
         self.put(json!({ "rapid": item }));
@@ -104,7 +105,7 @@ impl<'r> Pen<'r> {
         self.at = to;
     }
 
-    /// A straight cut.
+    /// Adds a straight cut.
     pub fn line(&mut self, to: [f64; 3], always: bool) {
         let item = self.position(to);
         self.feeding(json!({ "line": item }), always);
@@ -112,7 +113,7 @@ impl<'r> Pen<'r> {
         self.at = to;
     }
 
-    /// A place as a job may write it: whole, or without what stays.
+    /// A position as a job may contain it: with all axes, or without the unchanged ones.
     pub fn position(&mut self, to: [f64; 3]) -> Value {
         if !self.random.once_in(3) {
             return json!(to);
@@ -125,7 +126,7 @@ impl<'r> Pen<'r> {
         if list.iter().all(Value::is_null) { json!(to) } else { json!(list) }
     }
 
-    /// An arc from where the tool is, in one of the planes.
+    /// Adds an arc from the tool's position, in one of the planes.
     pub fn arc(&mut self, planes: bool) {
         let plane = if planes { self.random.pick(&["xy", "xy", "xy", "xz", "yz"]) } else { "xy" };
         let [first, second, third] = match plane {
@@ -141,7 +142,7 @@ impl<'r> Pen<'r> {
         let from = [self.at[first] - center[first], self.at[second] - center[second]];
         let radius = from[0].hypot(from[1]);
         let mut to = self.at;
-        // quarters and halves end on round numbers; any other end is as exact as the digits of a double
+        // quarters and halves of a circle end on round numbers; other ends have all digits of a double
         let turned = match self.random.below(8) {
             0 => [-from[1], from[0]],
             1 => [-from[0], -from[1]],

@@ -1,11 +1,11 @@
-//! What only jobs with rotary angles have.
+//! Items that only jobs with rotary axes have.
 
 use serde_json::json;
 
 use super::mill::out;
 use super::pen::Pen;
 
-/// Another view of the part: up, and around.
+/// Turns the part: moves the tool up, then turns.
 pub fn turn(pen: &mut Pen<'_>, angle: &mut f64) {
     let [x, y, _] = pen.at;
     let high = pen.length(1.0, 2.0);

@@ -1,5 +1,5 @@
-//! CL files with every word of the CYCLE chapter: statements inside cycles, CYCLE/ON, AUTO, RETURN, all kinds of feeds, arcs in
-//! three planes.
+//! CL files with every word of the CYCLE chapter: statements inside cycles, CYCLE/ON, AUTO, RETURN, all kinds of feeds,
+//! arcs in three planes.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::random::Random;
 
-/// A job as the lines of its file.
+/// A random job as the lines of its CL file.
 pub fn statements(inch: bool, random: &mut Random) -> Value {
     let unit = if inch { 1.0 } else { 25.0 };
     let decimals = if inch { random.pick(&[2, 3, 4]) } else { random.pick(&[0, 1, 2, 3]) };
@@ -43,7 +43,7 @@ struct File<'r> {
     decimals: i32,
     lines: Vec<String>,
     at: [f64; 3],
-    /// A clearance was coded: from here on it is remembered.
+    /// A clearance was coded. It applies to all later cycles.
     cleared: bool,
     cycles: usize,
     speed: usize,
@@ -75,7 +75,7 @@ impl File<'_> {
         self.length(low, high).max(least)
     }
 
-    /// The word of a feed and its number.
+    /// A feed: its word and its number.
     fn feed(&mut self) -> String {
         let inches = self.random.between(1.0, 40.0);
         let word = if self.random.once_in(3) { self.random.pick(&PER_TURN) } else { self.random.pick(&ABSOLUTE) };
@@ -91,7 +91,7 @@ impl File<'_> {
     }
 
     fn goto(&mut self, to: [f64; 3]) {
-        // from where a hole ends is no position of the file
+        // the position after a hole is not in the file, so no increment starts from it
         let relative = self.random.once_in(8) && self.lines.len() > 8 && !self.in_hole;
         let by = [0, 1, 2].map(|axis| self.round(to[axis] - self.at[axis]));
         let whole = (0..3).all(|axis| self.round(self.at[axis] + by[axis]) == to[axis]);
@@ -131,7 +131,7 @@ impl File<'_> {
 
     fn rapid(&mut self, to: [f64; 3]) {
         self.put("RAPID");
-        // a rapid is the next motion's alone
+        // RAPID applies only to the next motion
         self.goto(to);
     }
 
@@ -162,7 +162,7 @@ impl File<'_> {
         self.rapid([x, y, high]);
     }
 
-    /// MOVARC about x, y or z, by a quarter or a half, so that its ends are round numbers.
+    /// MOVARC about X, Y or Z by a quarter or half turn, so that its ends are round numbers.
     fn arc(&mut self) {
         let axis = self.random.pick(&[2, 2, 2, 1, 0]);
         let [first, second] = [(axis + 1) % 3, (axis + 2) % 3];
@@ -190,7 +190,7 @@ impl File<'_> {
         self.at = to;
     }
 
-    /// What is neither a cut nor a hole.
+    /// A statement that is neither a cut nor a hole.
     fn other(&mut self) {
         match self.random.below(6) {
             0 => self.put("STOP"),
@@ -211,7 +211,7 @@ impl File<'_> {
         }
     }
 
-    /// One or more cycles, with what may stand between and inside them.
+    /// One or more cycles, with other statements between and inside them.
     fn cycles(&mut self) {
         if self.random.once_in(4) {
             self.settings();
@@ -235,7 +235,7 @@ impl File<'_> {
             1 => self.rapid([x, y, high]),
             _ => self.goto([x, y, high]),
         }
-        // a cycle's feed is no other motion's
+        // the feed of a cycle does not apply to other motions
         let (word, value) = self.fedrat();
         self.put(format!("FEDRAT/{value},{word}"));
     }
@@ -262,7 +262,7 @@ impl File<'_> {
             }
             let [x, y] = self.across();
             match self.random.below(12) {
-                // out of the way, by a plain rapid
+                // a plain rapid to a safe position
                 0 => {
                     self.put("RAPID");
                     self.put(format!("GOTO/{x},{y},{high}"));
@@ -293,7 +293,7 @@ impl File<'_> {
         }
     }
 
-    /// The last cycle with some words of its own.
+    /// The last cycle with some words replaced.
     fn again(&mut self) -> String {
         let mut line = "CYCLE/ON".to_owned();
         if self.random.once_in(2) {
@@ -328,7 +328,7 @@ impl File<'_> {
             "CSINK",
             "MANUAL",
         ]);
-        // only some controls peck a tap
+        // only some controls can peck in a tap
         let kind = if self.random.once_in(25) { self.random.pick(&["TAP,DEEP", "TAP,BRKCHP"]) } else { kind };
         let clear = self.positive(0.05, 0.3);
         if kind == "MANUAL" {
@@ -380,14 +380,14 @@ impl File<'_> {
         }
         let second = self.clearances(&mut couplets, kind, clear);
         self.options(&mut couplets, kind, clear, depth, second);
-        // the order of couplets is free, but for a feed after its depths
+        // couplets may be in any order, except that a feed follows its depths
         let at = self.random.below(couplets.len() + 1);
         if self.random.once_in(3) && at < couplets.len() && couplets[at].starts_with("CLEAR") {
             let clear = couplets.remove(at);
             couplets.insert(0, clear);
         }
         let mut line = format!("CYCLE/{kind},{}", couplets.join(","));
-        // long statements go on in the next line
+        // a long statement continues on the next line
         if self.random.once_in(6)
             && let Some(at) = line.find(",CLEAR")
         {
@@ -413,7 +413,7 @@ impl File<'_> {
         second
     }
 
-    /// A feed that cuts a thread.
+    /// A feed that is the lead of a thread.
     fn lead(&mut self) -> String {
         match self.random.below(3) {
             0 => format!("TPI,{}", self.random.pick(&[20, 24, 28, 32])),
@@ -424,7 +424,7 @@ impl File<'_> {
 
     fn pecks(&mut self, couplets: &mut Vec<String>, depth: f64, chips: bool) {
         match self.random.below(5) {
-            // from the point
+            // depths from the point
             0 => {
                 let mut to = 0.0;
                 let mut group = Vec::new();
@@ -446,7 +446,7 @@ impl File<'_> {
                     couplets.push(format!("DEPTH,{},{}", list(&group), self.feed()));
                 }
             }
-            // several steps, some with feeds of their own
+            // several steps, some with their own feeds
             1 => {
                 couplets.push(format!("DEPTH,{depth}"));
                 for _ in 0..1 + self.random.below(2) {
@@ -514,7 +514,7 @@ impl File<'_> {
                     4 => couplets.push("MULTRD,2".into()),
                     _ => {}
                 }
-                // a thread of the other hand; one against the spindle is another matter (PC054)
+                // a thread in the direction of the spindle; the opposite direction is PC054
                 if !self.clockwise {
                     couplets.push("INVERS".into());
                 }

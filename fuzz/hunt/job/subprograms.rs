@@ -1,4 +1,4 @@
-//! Subprograms and their calls.
+//! Random subprograms and their calls.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::cycles::cycle;
 use super::mill::{compensated, contour};
 use super::pen::Pen;
 
-/// Paths that are called: each begins high and ends high.
+/// Subprogram paths; each begins and ends at a high position.
 pub fn subprograms(pen: &mut Pen<'_>) -> Vec<Value> {
     let mut subs = Vec::new();
     for number in 1..=1 + pen.random.below(2) {

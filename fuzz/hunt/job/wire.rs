@@ -1,11 +1,11 @@
-//! Wire EDM jobs: x y of the lower guide, u v of the upper.
+//! Wire EDM jobs. X and Y are the lower guide, U and V the upper one.
 
 use serde_json::{Value, json};
 
 use super::pen::Pen;
 use crate::random::Random;
 
-/// Operations; there are no tools.
+/// Adds operations to a job; there are no tools.
 pub fn fill(job: &mut Value, inch: bool, random: &mut Random) {
     let mut pen = Pen::new(inch, random);
     let tapered = pen.random.once_in(2);

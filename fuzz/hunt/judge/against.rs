@@ -1,5 +1,6 @@
-//! A program against its job, by the judge's own rules: every cut of the job is made, from its place to its place, with its
-//! tool; nothing else is cut, and no rapid crosses lower than the job's way.
+//! Compares a program with its job by the judge's own rules. Every cut of the job must be made with its tool, between
+//! the same positions. The program must make no other cut, and no rapid may move in X or Y lower than the job's path
+//! does.
 
 mod arcs;
 mod holes;
@@ -8,7 +9,7 @@ mod planned;
 use super::{Act, Place, Want, Wanted, What, near, same};
 use crate::planner::Kind;
 
-/// What differs first, in words; `None`: the program does its job. `within`: millimetres.
+/// The first difference, in words; `None`: the program matches its job. `within`: tolerance in millimetres.
 pub fn difference(wants: &[Wanted], acts: &[Act], within: f64) -> Option<String> {
     let judge = Judge { acts, at: 0, within, low: f64::INFINITY, low_line: 0, allowed: f64::INFINITY };
     judge.follow(wants, &mut 64)
@@ -18,7 +19,7 @@ fn cuts(what: &What) -> bool {
     matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. } | What::Thread(_))
 }
 
-/// Is it the same once more?
+/// Is the item equal to the one before it?
 fn again(before: &Wanted, wanted: &Wanted) -> bool {
     before.want == wanted.want && before.to[2] == wanted.to[2]
 }
@@ -33,15 +34,15 @@ struct Judge<'a> {
     acts: &'a [Act],
     at: usize,
     within: f64,
-    /// Lowest place where a rapid crossed since the last cut, and its line.
+    /// Lowest height of a rapid in X or Y since the last cut, and its line.
     low: f64,
     low_line: usize,
-    /// Lowest place of the job's way to cuts that no digits show.
+    /// Lowest height of the job's path to cuts that are too short for the digits of the program.
     allowed: f64,
 }
 
 impl Judge<'_> {
-    /// All wants in their order; `left`: how often it may be tried otherwise.
+    /// Compares all items of the job in order. `left`: number of alternatives that may still be tried.
     fn follow(mut self, wants: &[Wanted], left: &mut u32) -> Option<String> {
         for (number, wanted) in wants.iter().enumerate() {
             let one_way = match wanted.want {
@@ -50,7 +51,7 @@ impl Judge<'_> {
                 _ => false,
             };
             if one_way && same(&wanted.from, &wanted.to, self.within) && wanted.from[3..] == wanted.to[3..] {
-                // shorter than the digits can say: the program may have it or not
+                // the move is shorter than the last digit, so the program may contain it or not
                 let is_part = |act: Act| {
                     matches!(act.what, What::Feed | What::Arc { .. })
                         && same(&act.from, &wanted.from, 2.0 * self.within)
@@ -66,7 +67,7 @@ impl Judge<'_> {
             } else if let Some(difference) = self.meet(wanted, number > 0 && again(&wants[number - 1], wanted)) {
                 return Some(difference);
             } else if matches!(wanted.want, Want::Arc { .. }) {
-                // parts at its end that are shorter than the digits can say, or the next arc
+                // at the end of the arc, either parts that are shorter than the last digit, or the next arc
                 let mut made = self;
                 while *left > 0
                     && made.acts.get(made.at).is_some_and(|act| {
@@ -85,10 +86,10 @@ impl Judge<'_> {
         self.next().map(|act| format!("line {}: a cut that the job does not have, to {}", act.line, shown(&act.to)))
     }
 
-    /// The next cut of the program: its place in the list.
+    /// The index of the program's next cut.
     fn find(&self) -> Option<usize> {
         (self.at..self.acts.len()).find(|&at| {
-            // a feed of no length cuts nothing
+            // a feed move of zero length cuts nothing
             let act = &self.acts[at];
             let nothing = match act.what {
                 What::Feed => same(&act.from, &act.to, 1e-9),
@@ -103,18 +104,18 @@ impl Judge<'_> {
         self.find().map(|at| self.acts[at])
     }
 
-    /// Everything up to the next cut is dealt with.
+    /// Marks everything up to and including the next cut as compared.
     fn take(&mut self) {
         self.at = self.find().map_or(self.acts.len(), |at| at + 1);
         self.low = f64::INFINITY;
         self.allowed = f64::INFINITY;
     }
 
-    /// The lowest place where a rapid crosses before `until`, and its line.
+    /// The lowest height of a rapid in X or Y before `until`, and its line.
     fn crossing(&self, until: usize) -> (f64, usize) {
         let mut lowest = (self.low, self.low_line);
         for act in &self.acts[self.at..until] {
-            // where no word says the tool, a person changes it at a stop
+            // in a program without tool words, the tool is changed by hand at a stop
             let by_hand = act.state.tool == 0.0 && matches!(act.what, What::Stop(_));
             if act.what == What::Tool || by_hand {
                 lowest = (f64::INFINITY, 0);
@@ -128,7 +129,7 @@ impl Judge<'_> {
         lowest
     }
 
-    /// `again`: the job had the same just before.
+    /// Compares one item of the job. `again`: the job has the same item just before.
     fn meet(&mut self, wanted: &Wanted, again: bool) -> Option<String> {
         match &wanted.want {
             Want::Stop(_) | Want::Dwell(_) => self.pass(wanted),
@@ -140,7 +141,7 @@ impl Judge<'_> {
         }
     }
 
-    /// A stop or dwell before the next cut.
+    /// Finds a stop or dwell before the next cut.
     fn pass(&mut self, wanted: &Wanted) -> Option<String> {
         let mut at = self.at;
         let mut too_low = None;
@@ -151,14 +152,14 @@ impl Judge<'_> {
                 _ => false,
             };
             if found {
-                // where no word says the tool, it may be the stop at which a person changes it
+                // in a program without tool words, this may be the stop for changing the tool by hand
                 let low = if act.state.tool == 0.0 { None } else { self.way(wanted, at) };
                 if low.is_none() {
                     (self.low, self.allowed) = (f64::INFINITY, f64::INFINITY);
                     self.at = at + 1;
                     return None;
                 }
-                // or a stop of the form, and the job's comes later
+                // this may be a stop of the form, and that of the job comes later
                 too_low = too_low.or(low);
             }
             if cuts(&act.what) && !same(&act.from, &act.to, self.within) {
@@ -182,7 +183,7 @@ impl Judge<'_> {
             return Some(format!("line {line}: length register {:?} for {}", state.length, wanted.length));
         }
         let work = if state.work < 50.0 { state.work + 53.0 } else { state.work };
-        // a job that names none gets the form's
+        // a job without a work offset uses the form's default
         if !wanted.work.is_nan() && work != wanted.work {
             return Some(format!("line {line}: work offset {work} for {}", wanted.work));
         }
@@ -197,12 +198,12 @@ impl Judge<'_> {
         if wanted.spindle.0 != 5.0 && (state.speed - wanted.spindle.1).abs() > 0.01 * wanted.spindle.1 + 0.5 {
             return Some(format!("line {line}: S{} for S{}", state.speed, wanted.spindle.1));
         }
-        // more than the job wants cools, too
+        // more coolant than the job requests is allowed
         let lacks = |coolant: u8| coolant != 0 && state.coolant == 0 || coolant & 2 > state.coolant & 2;
         if wanted.coolant.is_some_and(lacks) {
             return Some(format!("line {line}: coolant {} for {:?}", state.coolant, wanted.coolant));
         }
-        // revolutions may be counted as minutes
+        // a feed per revolution may be printed as a feed per minute
         if state.feed.1 != wanted.feed.1 && state.feed.1 != 94.0 && !is_tap {
             return Some(format!("line {line}: G{} for G{}", state.feed.1, wanted.feed.1));
         }
@@ -216,12 +217,12 @@ impl Judge<'_> {
             _ => 1.0,
         };
         let (is, should) = (act.state.feed.0, wanted.feed.0 * by);
-        // the last digit of a form is the form's matter
+        // rounding by the form's last digit is allowed
         let off = (is - should).abs() > 0.011 * should + 0.006;
         off.then(|| format!("line {}: feed {is:.4} for {should:.4}", act.line))
     }
 
-    /// The way there was no lower than the job's.
+    /// Checks that the path to this item was not lower than the job's.
     fn way(&self, wanted: &Wanted, until: usize) -> Option<String> {
         let (low, line) = self.crossing(until);
         let allowed = wanted.low.min(self.allowed);
@@ -236,7 +237,7 @@ impl Judge<'_> {
         })
     }
 
-    /// All passes of a thread.
+    /// Compares all passes of a thread.
     fn thread(&mut self, wanted: &Wanted, again: bool) -> Option<String> {
         let Want::Thread { begin, crest, depth, lead } = wanted.want else { return None };
         let inward = if depth < 0.0 { 1.0 } else { -1.0 };
@@ -245,7 +246,7 @@ impl Judge<'_> {
             let What::Thread(is) = act.what else { break };
             let along = near(act.from[2], begin, self.within) && near(act.to[2], wanted.to[2], self.within);
             let depth_of = (act.to[0] - crest) * inward;
-            // the next thread's, which may be farther out
+            // this pass belongs to the next thread, which may have a larger diameter
             let others = (is - lead).abs() > 0.003 * lead || !near(depth_of, depth.abs(), 2.0 * self.within);
             if (!along || others) && passes > 0 && near(reached, depth.abs(), 2.0 * self.within) {
                 break;
@@ -264,7 +265,7 @@ impl Judge<'_> {
             self.take();
         }
         if passes == 0 && again {
-            return None; // its passes came behind those of the same thread before it
+            return None; // its passes followed those of the same thread before it
         }
         if passes == 0 || !near(reached, depth.abs(), 2.0 * self.within) {
             return Some(format!("a thread {reached:.4} deep in {passes} passes, the job's {:.4}", depth.abs()));
@@ -272,7 +273,7 @@ impl Judge<'_> {
         None
     }
 
-    /// Feeds straight down again to where the cut goes on, after the tool was taken out.
+    /// Skips feed moves straight down to the start of the cut, after the tool was taken out.
     fn enter_again(&mut self, wanted: &Wanted) {
         while self.next().is_some_and(|act| {
             let above = act.from[2].is_nan() || act.from[2] > act.to[2];
@@ -309,7 +310,7 @@ impl Judge<'_> {
             }
             self.take();
             if same(&act.to, &wanted.to, self.within) {
-                // an axis that a form sends home and no job turns
+                // an angle is unknown if the form sends this axis home and no job turns it
                 let off = |axis: &usize| {
                     !swept[*axis].is_nan() && !near(swept[*axis], wanted.to[axis + 3] - wanted.from[axis + 3], 0.01)
                 };
@@ -333,7 +334,7 @@ impl Judge<'_> {
     }
 }
 
-/// Is b on the straight way from a to c?
+/// Is `b` on the straight line from `a` to `c`?
 fn between(a: &Place, b: &Place, c: &Place, within: f64) -> bool {
     let length: f64 = (0..3).map(|axis| (c[axis] - a[axis]).powi(2)).sum();
     let along: f64 = (0..3).map(|axis| (b[axis] - a[axis]) * (c[axis] - a[axis])).sum::<f64>() / length;

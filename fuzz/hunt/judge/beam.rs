@@ -1,8 +1,9 @@
-//! A torch or a laser: what is cut across, with the beam on, and that it is off elsewhere. Heights count for nothing.
+//! A torch or a laser. Checks the cuts in X and Y with the beam on, and that the beam is off elsewhere. Heights are
+//! ignored.
 
 use super::{Act, Wanted, What};
 
-/// What a program does across X and Y: moves along Z alone are left out.
+/// The acts of a program in X and Y; moves along Z alone are left out.
 pub fn flat(acts: Vec<Act>) -> Vec<Act> {
     let mut list: Vec<Act> = Vec::new();
     let mut at = [f64::NAN, f64::NAN, 0.0, 0.0, 0.0, 0.0];
@@ -19,7 +20,7 @@ pub fn flat(acts: Vec<Act>) -> Vec<Act> {
     list
 }
 
-/// What a job wants across: tool, spindle and coolant are the form's own.
+/// The requests of a job in X and Y; the form defines tool, spindle and coolant.
 pub fn across(mut wants: Vec<Wanted>) -> Vec<Wanted> {
     for wanted in &mut wants {
         (wanted.from[2], wanted.to[2]) = (0.0, 0.0);
@@ -30,7 +31,7 @@ pub fn across(mut wants: Vec<Wanted>) -> Vec<Wanted> {
     wants
 }
 
-/// Where the beam is off in a cut, or on in a rapid. Grbl turns a laser off in rapids by itself.
+/// The first cut with the beam off, or rapid with the beam on. Grbl turns off a laser in rapids by itself.
 pub fn switched_wrongly(acts: &[Act], is_laser: bool) -> Option<String> {
     acts.iter().find_map(|act| {
         let on = act.state.direction != 5.0 && (!is_laser || act.state.speed > 0.0);

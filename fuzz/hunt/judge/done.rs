@@ -1,28 +1,28 @@
-//! A program that is a job: what the judge's machine does with it, as the list that another program is compared with.
+//! A program as a job: the acts of the judge's machine, as the list with which another program is compared.
 
 use super::wants::{Want, Wanted};
 use super::{Act, What};
 
-/// The list of what was done; `None`: with a cycle that jogs, or that this does not name.
+/// The list of acts. `None`: it contains a cycle that jogs, or one that is not listed here.
 pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
     let mut list: Vec<Wanted> = Vec::new();
     let mut low = f64::INFINITY;
     let mut side = 40.0;
-    // how the spindle turned at the last tap: what it does after it is the control's own matter until a word says it
+    // spindle direction at the last tap; after the tap the direction is unknown until the program sets it
     let mut tapped = None;
     for act in acts {
-        // a job goes into compensation, and out of it, at feed
+        // a job turns compensation on and off only in feed moves
         let turned = std::mem::replace(&mut side, act.state.side.0) != act.state.side.0;
         if act.what == What::Rapid && turned {
             return None;
         }
-        // where a register was turned off, or the frame is another, only the machine knows how high or where it cuts
+        // a height or position is unknown if a length register was turned off or the frame was moved
         if act.cuts() && act.to.iter().any(|place| place.is_nan()) {
             return None;
         }
         let want = match act.what {
             What::Rapid => {
-                // across from a height that only the machine knows
+                // a rapid in X or Y from an unknown height
                 if act.from[2].is_nan() && act.to[2].is_nan() {
                     low = f64::NEG_INFINITY;
                 }
@@ -79,7 +79,7 @@ pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
             feed: state.feed,
             low: low.min(act.from[2]).min(act.to[2]),
             side: state.side.0,
-            // a job has one kind
+            // a job requests only one kind
             coolant: Some(state.coolant).filter(|coolant| *coolant != 3),
         });
         low = f64::INFINITY;

@@ -1,9 +1,9 @@
-//! Programs of Siemens, Heidenhain and Okuma, as far as the forms that ship print them, put into the words of a Fanuc: written from
-//! the makers' texts, without a line of postform's readers. What is not known here is an error.
+//! Converts programs for Siemens, Heidenhain and Okuma to the words of a Fanuc, as far as the shipped forms print them.
+//! Written from the makers' texts, without any code of postform's readers. An unknown word is an error.
 
 use std::collections::BTreeMap;
 
-/// A cycle that is called: a Fanuc's code, its heights, peck, dwell in seconds and feed.
+/// A called cycle: the Fanuc code, heights, peck, dwell in seconds, and feed.
 #[derive(Clone, Debug)]
 struct Cycle {
     code: u16,
@@ -15,31 +15,31 @@ struct Cycle {
     feed: Option<f64>,
 }
 
-/// What the words of a block change.
+/// The state that the words of a block change.
 #[derive(Default)]
 struct Writer {
     text: String,
     at: [Option<f64>; 3],
     /// The tool in the spindle.
     tool: f64,
-    /// The tool of the last T: it is in the spindle after M6, and D belongs to the tool before it until then.
+    /// The tool of the last T. It is in the spindle after M6; until then, D applies to the tool before it.
     next: f64,
     inch: bool,
     side: bool,
     cycle: Option<Cycle>,
     center: [f64; 2],
-    /// G71 of an Okuma.
+    /// The return level of an Okuma's G71.
     level: f64,
     speed: f64,
-    /// G95.
+    /// G95 is active.
     per_turn: bool,
-    /// G0 or G1 is in force.
+    /// G0 or G1 is active.
     straight: bool,
 }
 
 type Done<T = ()> = Result<T, String>;
 
-/// Is it a control of one of these languages?
+/// Does a control use one of these languages?
 pub fn is_one(control: &str) -> bool {
     matches!(control, "siemens" | "heidenhain" | "okuma")
 }
@@ -47,7 +47,7 @@ pub fn is_one(control: &str) -> bool {
 /// The program in the words of a Fanuc.
 ///
 /// # Errors
-/// The line, and what is not known in it.
+/// The line with an unknown word, and the word.
 pub fn as_fanuc(program: &str, control: &str) -> Result<String, (usize, String)> {
     let mut writer = Writer::default();
     for (number, line) in program.lines().enumerate() {
@@ -61,12 +61,12 @@ pub fn as_fanuc(program: &str, control: &str) -> Result<String, (usize, String)>
     Ok(writer.text)
 }
 
-/// The words of a Fanuc's work offset of this number, from 1.
+/// The words with which a Fanuc selects the work offset of this number, from 1.
 fn offset_words(number: f64) -> Vec<(char, f64)> {
     if number > 6.0 { vec![('G', 54.1), ('P', number - 6.0)] } else { vec![('G', 53.0 + number)] }
 }
 
-/// A number, or one over another.
+/// A number, or a quotient of two numbers.
 fn number(text: &str) -> Option<f64> {
     match text.trim().split_once('/') {
         Some((a, b)) => Some(a.parse::<f64>().ok()? / b.parse::<f64>().ok()?),
@@ -74,7 +74,7 @@ fn number(text: &str) -> Option<f64> {
     }
 }
 
-/// The words of a block: a letter and its number.
+/// The words of a block as letters and numbers.
 fn words(block: &str) -> Done<Vec<(char, f64)>> {
     let mut found = Vec::new();
     let mut rest = block.trim();
@@ -90,7 +90,7 @@ fn words(block: &str) -> Done<Vec<(char, f64)>> {
     Ok(found)
 }
 
-/// Without its number, by this letter or none.
+/// A line without its block number; the number begins with this letter.
 fn numbered(line: &str, letter: &str) -> String {
     let line = line.trim();
     let rest = line.strip_prefix(letter).unwrap_or(line);
@@ -105,7 +105,7 @@ impl Writer {
         self.text.push('\n');
     }
 
-    /// Says words, and follows the axes.
+    /// Writes words and follows the axis positions.
     fn block(&mut self, words: &[(char, f64)]) {
         let mut text = Vec::new();
         let machine = words.contains(&('G', 53.0));
@@ -119,7 +119,7 @@ impl Writer {
             if let Some(axis) = "XYZ".find(letter) {
                 self.at[axis] = Some(value).filter(|_| !machine);
             }
-            // no exponent
+            // a number without an exponent
             text.push(format!("{letter}{value:.9}"));
         }
         if !text.is_empty() {
@@ -127,7 +127,7 @@ impl Writer {
         }
     }
 
-    /// Makes the hole of the cycle in force where the tool is.
+    /// Makes the hole of the active cycle at the tool's position.
     fn hole(&mut self) -> Done {
         let Some(cycle) = self.cycle.clone() else { return Err("no cycle".into()) };
         let back = self.at[2] == Some(cycle.back);
@@ -153,7 +153,7 @@ impl Writer {
         Ok(())
     }
 
-    /// A cycle of pecks, which is one stroke where its peck is as long as the hole.
+    /// A pecking cycle; it becomes one stroke if the peck is as long as the hole.
     fn drills(code: u16, r: f64, bottom: f64, back: f64) -> Cycle {
         Cycle { code, r, bottom, back, peck: None, dwell: None, feed: None }
     }
@@ -162,7 +162,7 @@ impl Writer {
         let line = line.split(';').next().unwrap_or_default().trim();
         if let Some(name) = line.strip_prefix("%_N_L") {
             self.say(format!("O{}", name.strip_suffix("_SPF").ok_or("a section")?));
-            self.tool = f64::NAN; // that of the call
+            self.tool = f64::NAN; // the tool of the caller
             return Ok(());
         }
         let block = numbered(line, "N");
@@ -196,7 +196,7 @@ impl Writer {
         });
         for word in &mut list {
             *word = match *word {
-                // the fifth offset
+                // the fifth and sixth offset
                 ('G', fifth @ 505.0..=506.0) => ('G', fifth - 447.0),
                 ('G', more @ 507.0..=599.0) => {
                     extra = Some(more - 506.0);
@@ -221,7 +221,7 @@ impl Writer {
         }
         let motion = list.iter().find(|word| word.0 == 'G' && word.1 <= 3.0).map(|word| word.1 <= 1.0);
         self.straight = motion.unwrap_or(self.straight);
-        // under MCALL a lone G0 or G1 drills too, and S or F alone while one of them is in force
+        // under MCALL, a block with only G0 or G1 also drills; so does one with only S or F while G0 or G1 is active
         let alone = !list.is_empty() && list.iter().all(|word| "GSF".contains(word.0));
         let again = alone && self.straight && (motion.is_some() || list.iter().all(|word| word.0 != 'G'));
         let moves = (again || list.iter().any(|word| "XYZ".contains(word.0))) && !machine;
@@ -390,7 +390,7 @@ impl Writer {
             "200" => {
                 cycle.feed = Some(feed(206)?);
                 let dwell = need(211)?;
-                // a plunge of the whole depth is a drill's
+                // a plunge over the whole depth is that of a drill
                 if (need(202)? + need(201)?).abs() > 1e-9 {
                     (cycle.code, cycle.peck) = (83, Some(need(202)?));
                 } else if dwell > 0.0 {

@@ -1,4 +1,5 @@
-//! Lathes: a job as a mill's would be written, and a small machine for programs of Fanuc's system A. Places are the radius, 0 and Z.
+//! Lathes: converts a job to the form of a milling job, and runs programs of Fanuc's G code system A. Positions are
+//! radius, 0 and Z.
 
 use serde_json::{Value, json};
 
@@ -6,7 +7,7 @@ use super::machine::{Act, State, What, by_radius};
 use super::scan::words;
 use super::{INCH, Place};
 
-/// The job with its places as X and Z, and its tools as T says them.
+/// The job with positions as X and Z, and with tools as T words contain them.
 pub fn as_mill(job: &Value) -> Value {
     let mut job = job.clone();
     job["machine"] = json!("mill");
@@ -47,13 +48,13 @@ fn item(item: &mut Value) {
     }
 }
 
-/// [z, x] as [x, 0, z].
+/// Converts [z, x] to [x, 0, z].
 fn place(at: &mut Value) {
     let of = |axis: usize| at.get(axis).cloned().unwrap_or(Value::Null);
     *at = json!([of(1), null, of(0)]);
 }
 
-/// What a surface speed counts, in metres a minute; revolutions count themselves.
+/// The factor of a speed: from feet to metres per minute for a surface speed in inches; 1 for revolutions.
 pub fn surface(is_surface: bool, scale: f64) -> f64 {
     if is_surface && scale == INCH { 0.3048 } else { 1.0 }
 }
@@ -66,7 +67,7 @@ struct Lathe {
     at: Place,
     state: State,
     motion: f64,
-    /// Where the cycle in force ends along the axis.
+    /// Position along the axis at which the active cycle ends.
     end: f64,
     taper: f64,
     first: [f64; 3],
@@ -76,7 +77,7 @@ struct Lathe {
 /// Runs a program.
 ///
 /// # Errors
-/// The line, and why the machine stops there.
+/// The line at which the machine stops, and the reason.
 pub fn run(program: &str, by_diameter: bool, inch: bool) -> Result<Vec<Act>, (usize, String)> {
     let mut lathe = Lathe {
         scale: if inch { INCH } else { 1.0 },
@@ -105,7 +106,7 @@ impl Lathe {
         self.at = to;
     }
 
-    /// True at the end of the program.
+    /// Runs a block. Returns true at the end of the program.
     fn block(&mut self, list: &[(u8, f64)], line: usize) -> Result<bool, String> {
         let get = |letter: u8| list.iter().rfind(|(other, _)| *other == letter).map(|(_, number)| *number);
         let has = |letter: u8, number: f64| list.contains(&(letter, number));

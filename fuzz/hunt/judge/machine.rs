@@ -1,4 +1,4 @@
-//! A small machine: it runs a milling program block by block and says what is cut. Lengths are millimetres.
+//! A small machine. It runs a milling program block by block and records what it does. Lengths are in millimetres.
 
 mod curves;
 
@@ -9,69 +9,70 @@ use super::scan::{Word, words};
 use super::{INCH, Place};
 pub(super) use curves::by_radius;
 
-/// What holds while something is done.
+/// The state during an act.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct State {
     /// The tool in the spindle.
     pub tool: f64,
-    /// Length register in force.
+    /// The active length register.
     pub length: Option<f64>,
-    /// Work offset: 54, 154.2, or a Fadal's E.
+    /// Work offset: 54, 154.2, or the E of a Fadal.
     pub work: f64,
-    /// 3, 4 or 5.
+    /// Spindle direction: 3, 4 or 5.
     pub direction: f64,
-    /// Revolutions.
+    /// Spindle speed in revolutions per minute.
     pub speed: f64,
-    /// Mist is 1, flood is 2, both are 3.
+    /// Coolant: 1 is mist, 2 is flood, 3 is both.
     pub coolant: u8,
-    /// 40, 41 or 42, and its register.
+    /// Compensation: 40, 41 or 42, and its register.
     pub side: (f64, f64),
-    /// Feed, in millimetres; and 93, 94 or 95.
+    /// Feed in millimetres, and its mode: 93, 94 or 95.
     pub feed: (f64, f64),
 }
 
-/// One thing that is done.
+/// The kind of an act.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum What {
     /// A rapid.
     Rapid,
     /// A straight cut.
     Feed,
-    /// An arc: its plane, its centre in the plane, whether it turns counter-clockwise, full turns besides.
+    /// An arc: its plane, its centre in the plane, whether it turns counter-clockwise, and the number of additional
+    /// full turns.
     Arc { plane: f64, center: [f64; 2], ccw: bool, turns: f64 },
     /// A pass of a thread, with its lead.
     Thread(f64),
-    /// A canned cycle: its code, R and Z, where it ends, Q and P, and its jog.
+    /// A canned cycle: code, R and Z, height at the end, Q and P, and jog.
     Hole { code: f64, r: f64, z: f64, out: f64, q: f64, p: f64, jog: [f64; 2] },
     /// A dwell in seconds.
     Dwell(f64),
     /// M0, M1.
     Stop(f64),
-    /// The spindle is turned to an angle.
+    /// The spindle is oriented to an angle.
     Orient(f64),
-    /// Another tool.
+    /// A tool change.
     Tool,
-    /// The end.
+    /// The end of the program.
     End,
 }
 
-/// What is done, where and how.
+/// An act: its kind, its position and the state.
 #[derive(Clone, Copy, Debug)]
 pub struct Act {
     /// The program's line, from 1.
     pub line: usize,
-    /// What.
+    /// The kind of the act.
     pub what: What,
-    /// From where.
+    /// Start position.
     pub from: Place,
-    /// To where.
+    /// End position.
     pub to: Place,
-    /// What holds.
+    /// The state during the act.
     pub state: State,
 }
 
 impl Act {
-    /// Is something cut?
+    /// Does it cut?
     pub fn cuts(&self) -> bool {
         match self.what {
             What::Feed => !super::same(&self.from, &self.to, 1e-6),
@@ -81,19 +82,19 @@ impl Act {
         }
     }
 
-    /// Straight up or down?
+    /// Is it a move straight up or down?
     pub fn plunges(&self) -> bool {
         (0..6).all(|axis| axis == 2 || super::near(self.from[axis], self.to[axis], 1e-9))
     }
 }
 
-/// The number that each job gets; its subprograms have others.
+/// The program number of every job; subprograms have other numbers.
 pub const MAIN: u32 = 7;
 
 /// Runs a program.
 ///
 /// # Errors
-/// The line, and why the machine stops there: a code that it does not know, words without sense.
+/// The line at which the machine stops, and the reason: an unknown code, or words that make no sense.
 pub fn run(program: &str, control: &str, inch: bool) -> Result<Vec<Act>, (usize, String)> {
     let lines: Vec<&str> = program.lines().collect();
     let mut machine = Machine::new(control, inch);
@@ -153,7 +154,7 @@ struct Cycle {
     p: f64,
     jog: [f64; 2],
     initial: f64,
-    /// Of a Brother's tap: I in millimetres, J threads an inch.
+    /// For a tap on a Brother: I in millimetres, J in threads per inch.
     pitch: Option<f64>,
 }
 
@@ -164,7 +165,7 @@ struct Machine {
     at: Place,
     state: State,
     motion: f64,
-    /// The one before a cycle: G80 brings it back.
+    /// The motion before a cycle; G80 restores it.
     motion_before: f64,
     absolute: bool,
     centres_absolute: bool,
@@ -174,12 +175,12 @@ struct Machine {
     /// The second T of the block.
     tool_after: Option<f64>,
     cycle: Option<Cycle>,
-    /// Where the frame of G92 or G52 begins.
+    /// The origin of the frame of G92 or G52.
     shift: [f64; 3],
     acts: Vec<Act>,
 }
 
-/// The words of a block that are used once.
+/// The words of a block.
 struct Block<'w>(&'w [Word]);
 
 impl Block<'_> {
@@ -214,7 +215,7 @@ impl Machine {
         }
     }
 
-    /// G92: here is that place. G52: the frame begins there.
+    /// G92 sets the coordinates of the current position. G52 sets the origin of the frame.
     fn frame(&mut self, block: &Block<'_>, is_here: bool) {
         for (axis, letter) in b"XYZ".iter().enumerate() {
             if let Some(number) = block.get(*letter) {
@@ -248,7 +249,7 @@ impl Machine {
                     20.0 => self.units(INCH),
                     21.0 => self.units(1.0),
                     28.0 | 30.0 => reference = true,
-                    // down to the sheet, wherever that is
+                    // down to the surface of the sheet, whose height is unknown
                     38.2 if self.family == Family::Linuxcnc => {
                         self.at[2] = f64::NAN;
                         probes = true;
@@ -307,7 +308,7 @@ impl Machine {
         } else {
             self.moves(&block, motion, machine_place, line)?;
         }
-        // stops and ends come last
+        // stops and ends are executed last
         for code in [0.0, 1.0] {
             if block.has(b'M', code) {
                 let at = self.at;
@@ -346,7 +347,7 @@ impl Machine {
         self.state.work = number;
     }
 
-    /// F, S, T, and the letters that switch offsets by themselves.
+    /// Handles F, S, T, and the letters that select offsets by themselves.
     fn letters(&mut self, block: &Block<'_>) {
         if let Some(feed) = block.get(b'F') {
             let scale = if self.state.feed.1 == 93.0 { 1.0 } else { self.scale };
@@ -357,7 +358,7 @@ impl Machine {
         }
         let mut tools = block.0.iter().filter(|word| word.0 == b'T').map(|word| word.1);
         (self.next_tool, self.tool_after) = (tools.next().unwrap_or(self.next_tool), tools.next());
-        // E7 of a Centroid
+        // E of a Centroid selects a work offset
         if let Some(work) = block.get(b'E').filter(|_| self.control == "centroid") {
             self.work(work + 53.0);
         }
@@ -373,7 +374,7 @@ impl Machine {
         }
     }
 
-    /// M codes but the stops; true at the end of the program.
+    /// Handles M codes except stops. Returns true at the end of the program.
     fn codes(&mut self, block: &Block<'_>, line: usize) -> Result<bool, String> {
         let mut ends = false;
         for &(_, code) in block.0.iter().filter(|(letter, _)| *letter == b'M') {
@@ -386,7 +387,7 @@ impl Machine {
                     self.next_tool = self.tool_after.unwrap_or(self.next_tool);
                     let at = self.at;
                     self.act(line, What::Tool, at);
-                    // where a tool is changed is the machine's own matter
+                    // the height at which the machine changes a tool is unknown
                     self.at[2] = f64::NAN;
                     self.state.direction = 5.0;
                 }
@@ -412,7 +413,7 @@ impl Machine {
                 to[axis] = f64::NAN;
             }
         }
-        // what goes home by way of another place first
+        // with an intermediate position, the tool moves there first
         let by = self.target(block, false);
         let passes =
             (0..3).any(|axis| block.get(b"XYZ"[axis]).is_some() && by[axis] != self.at[axis] && !by[axis].is_nan());
@@ -422,7 +423,7 @@ impl Machine {
         self.act(line, What::Rapid, to);
     }
 
-    /// Where the axis words of a block lead.
+    /// The target of the axis words in a block.
     fn target(&self, block: &Block<'_>, machine_place: bool) -> Place {
         let mut to = self.at;
         for (axis, letter) in b"XYZABC".iter().enumerate() {
@@ -451,7 +452,7 @@ impl Machine {
         machine_place: bool,
         line: usize,
     ) -> Result<(), String> {
-        // G77 and G78 of a Brother are taps by their pitch
+        // G77 and G78 of a Brother are taps with a pitch
         let motion = motion.map(|code| match code {
             77.0 if self.control == "brother" => 84.0,
             78.0 if self.control == "brother" => 74.0,

@@ -1,5 +1,5 @@
-//! A judge of its own: a small machine that runs programs, and the cuts that a job asks for. Nothing here knows how
-//! postform reads, plans or compares.
+//! An independent judge: a small machine that runs programs, and the list of cuts that a job requests. It shares no
+//! code with postform's readers, planner and comparison.
 
 pub mod beam;
 pub mod done;
@@ -19,23 +19,23 @@ pub mod rs274;
 pub use machine::{Act, MAIN, State, What, run};
 pub use wants::{Want, Wanted, wants};
 
-/// A place: x y z, and three angles; not a number where only the machine knows.
+/// A position: X, Y, Z and three angles. NaN: only the machine has the value.
 pub type Place = [f64; 6];
 
 /// Millimetres in an inch.
 pub const INCH: f64 = 25.4;
 
-/// Within so many millimetres; two places that only the machine knows are the same.
+/// Are two values equal within this number of millimetres? Two unknown values count as equal.
 pub fn near(a: f64, b: f64, within: f64) -> bool {
     (a.is_nan() && b.is_nan()) || (a - b).abs() <= within
 }
 
-/// The same place; whole turns of a rotary axis do not count.
+/// Are two positions equal? Whole turns of a rotary axis are ignored.
 pub fn same(a: &Place, b: &Place, within: f64) -> bool {
     (0..3).all(|axis| near(a[axis], b[axis], within)) && turned(a, b)
 }
 
-/// The same angles but for whole turns.
+/// Are the angles of two positions equal, apart from whole turns?
 pub fn turned(a: &Place, b: &Place) -> bool {
     (3..6).all(|axis| {
         let apart = (a[axis] - b[axis]).rem_euclid(360.0);

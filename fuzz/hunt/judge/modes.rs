@@ -1,18 +1,18 @@
-//! What each code switches, by the family of the control.
+//! The effect of codes, by the family of the control.
 
-/// The family of a control: what differs between them here.
+/// The family of a control. It covers the differences between controls that matter here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Fanuc, Haas and their like.
+    /// Fanuc, Haas and similar controls.
     Fanuc,
-    /// A Fadal: E is the work offset, H alone the length, heights without a length are the machine's.
+    /// A Fadal. E selects the work offset, H alone the length; without a length, heights are machine coordinates.
     Fadal,
     /// LinuxCNC and Grbl.
     Linuxcnc,
 }
 
 impl Family {
-    /// Of a control.
+    /// The family of a control.
     pub fn of(control: &str) -> Family {
         match control {
             "fadal" => Family::Fadal,
@@ -21,19 +21,19 @@ impl Family {
         }
     }
 
-    /// P of a dwell in seconds: milliseconds where it has no point, which these forms print there.
+    /// Converts P of a dwell to seconds. P without a decimal point is in milliseconds, and these forms print no point.
     pub fn dwell(self, control: &str, number: f64) -> f64 {
         match self {
             Family::Linuxcnc => number,
             _ if matches!(control, "brother" | "centroid") => number,
-            // Haas counts seconds where there is a point, and so much has none
+            // a Haas reads P with a point as seconds; a number as small as this comes from one
             _ if control == "haas" && number < 50.0 => number,
             _ => number / 1000.0,
         }
     }
 }
 
-/// G codes without effect on what is cut.
+/// Does a G code have no effect on the cuts?
 pub fn is_harmless(code: f64) -> bool {
     [5.1, 8.0, 9.0, 11.0, 15.0, 22.0, 23.0, 50.0, 61.0, 64.0, 67.0, 69.0, 91.1, 103.0, 187.0].contains(&code)
 }

@@ -1,16 +1,16 @@
-//! Two programs that should do the same: what differs, by its class.
+//! Compares two programs that should do the same, and classifies the differences.
 
 use std::f64::consts::TAU;
 
 use super::wants::axes;
 use super::{Act, Place, What, near, same, turned};
 
-/// What two programs differ in, the gravest first.
+/// The kind of a difference between two programs, most serious first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// Where it is cut.
+    /// Position of a cut.
     Cut,
-    /// With which tool.
+    /// Tool of a cut.
     Tool,
     /// Length register.
     Length,
@@ -18,9 +18,9 @@ pub enum Class {
     Work,
     /// Direction or speed of the spindle at a cut.
     Spindle,
-    /// Angle at which the spindle stands.
+    /// Angle of the oriented spindle.
     Orientation,
-    /// Feed, or what it counts.
+    /// Feed, or its mode.
     Feed,
     /// Side of the compensation, or its register.
     Side,
@@ -32,26 +32,26 @@ pub enum Class {
     Pecks,
     /// Coolant at a cut.
     Coolant,
-    /// A rapid that crosses lower.
+    /// A rapid in X or Y at a lower height.
     Low,
-    /// A cut within 0.03 mm.
+    /// A cut that differs by less than 0.03 mm.
     Near,
-    /// Cuts and rapids shorter than comparing looks at.
+    /// Cuts and rapids that are too short to be compared.
     Short,
-    /// Rapids elsewhere.
+    /// Rapids with other positions.
     Way,
-    /// What comes after the last cut.
+    /// Acts after the last cut.
     Tail,
 }
 
 impl Class {
-    /// Is no part lost by it?
+    /// Does the part stay correct in spite of this difference?
     pub fn is_harmless(self) -> bool {
         matches!(self, Class::Way | Class::Pecks | Class::Tail | Class::Near | Class::Short)
     }
 }
 
-/// Moves with straight cuts as rapids that are no longer than 0.0001 inch.
+/// The acts, with straight cuts of at most 0.0001 inch converted to rapids.
 pub fn without_short(acts: &[Act]) -> Vec<Act> {
     let straight = |what: What| matches!(what, What::Feed | What::Thread(_));
     let short = |act: &Act| straight(act.what) && same(&act.from, &act.to, 0.0026);
@@ -59,8 +59,8 @@ pub fn without_short(acts: &[Act]) -> Vec<Act> {
     kept.collect()
 }
 
-/// The gravest difference between a right program and a changed one; `None`: they do the same. `crests`: radii of the
-/// job's threads; `within`: millimetres.
+/// The most serious difference between a correct program and a changed one; `None`: they do the same. `crests`: radii
+/// of the job's threads; `within`: tolerance in millimetres.
 pub fn difference(right: &[Act], changed: &[Act], crests: &[f64], within: f64) -> Option<(Class, String)> {
     let mut found: Option<(Class, String)> = None;
     let mut say = |class: Class, what: String| {
@@ -86,7 +86,7 @@ pub fn difference(right: &[Act], changed: &[Act], crests: &[f64], within: f64) -
     found
 }
 
-/// A cut, or all straight up and down cuts at one place with nothing but ups and downs between them, or all passes of a
+/// A cut; or all straight up and down cuts at one position with only vertical moves between them; or all passes of a
 /// thread.
 struct Plunge {
     cuts: Vec<Act>,
@@ -94,7 +94,7 @@ struct Plunge {
 
 fn plunges(acts: &[Act]) -> Vec<Plunge> {
     let mut list: Vec<Plunge> = Vec::new();
-    // nothing but ups and downs since the last cut
+    // only vertical moves since the last cut
     let mut straight = false;
     for act in acts {
         if !act.cuts() {
@@ -112,23 +112,23 @@ fn plunges(acts: &[Act]) -> Vec<Plunge> {
     list
 }
 
-/// Do two cuts make the same thread?
+/// Are two cuts passes of the same thread?
 fn is_pass(one: &Act, two: &Act) -> bool {
     let (What::Thread(lead), What::Thread(other)) = (one.what, two.what) else { return false };
     near(lead, other, 0.003 * lead) && near(one.from[2], two.from[2], 0.01) && near(one.to[2], two.to[2], 0.01)
 }
 
-/// Passes of a thread: as deep, and none in the air.
+/// Compares the passes of a thread: they must be equally deep, and none may miss the material.
 fn passes(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<(Class, String)> {
     let (first, last) = (&left.cuts[0], &left.cuts[left.cuts.len() - 1]);
-    // out of a bore the thread grows
+    // for an internal thread, the radius increases
     let inwards = if last.to[0] > first.to[0] { 1.0 } else { -1.0 };
     let ends = |plunge: &Plunge| {
         let depths = plunge.cuts.iter().map(|cut| cut.to[0] * inwards);
         depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), depth| (low.min(depth), high.max(depth)))
     };
     let (a, b) = (ends(left), ends(other));
-    // from the crest on, of the job's threads that this may be
+    // only passes below the crest of a thread of the job that this may be
     let in_part =
         |depth: f64| crests.iter().any(|crest| depth >= crest * inwards - 2.0 * within && crest * inwards <= a.0);
     if !near(a.1, b.1, 2.0 * within) || !in_part(b.0) {
@@ -158,7 +158,7 @@ fn plunge(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<
     if !near(deepest(left), deepest(other), within) {
         return Some((Class::Cut, format!("down to {:.4}, not {:.4}", deepest(other), deepest(left))));
     }
-    // into what was not cut so far, where the right program does not go: through gaps between webs
+    // a rapid into uncut material is a difference, except in gaps between webs that the correct program has too
     let gaps = |plunge: &Plunge| {
         let mut bottom = plunge.cuts[0].from[2];
         let mut list = Vec::new();
@@ -185,13 +185,13 @@ fn plunge(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<
         .then(|| (Class::Pecks, format!("{} strokes, not {}", other.cuts.len(), left.cuts.len())))
 }
 
-/// How far two arcs are apart in their middles.
+/// The distance between the middles of two arcs.
 fn between_arcs(left: &Act, other: &Act) -> Option<f64> {
     let [[a, b], [c, d]] = [arc_middle(left)?, arc_middle(other)?];
     Some((a - c).hypot(b - d))
 }
 
-/// The place in the middle of an arc, in its plane.
+/// The point in the middle of an arc, in its plane.
 fn arc_middle(act: &Act) -> Option<[f64; 2]> {
     let What::Arc { plane, center, ccw, .. } = act.what else { return None };
     let [first, second] = match plane {
@@ -211,12 +211,12 @@ fn arc_middle(act: &Act) -> Option<[f64; 2]> {
     Some([center[0] + from[0] * cos - from[1] * sin, center[1] + from[0] * sin + from[1] * cos])
 }
 
-/// The same place, but for its height.
+/// Are two positions equal, apart from their heights?
 fn above(a: &Place, b: &Place, within: f64) -> bool {
     (0..2).all(|axis| near(a[axis], b[axis], within)) && turned(a, b)
 }
 
-/// Do two cuts go from the same place to the same place, and turn as far?
+/// Do two cuts have the same start and end, and turn by the same angle?
 fn same_places(a: &Act, b: &Act, within: f64) -> bool {
     let turns = |act: &Act, axis: usize| act.to[axis] - act.from[axis];
     same(&a.from, &b.from, within)
@@ -236,7 +236,7 @@ fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
                 return Some((Class::Cut, differs()));
             }
             if !near(center[0], c[0], 0.01) || !near(center[1], c[1], 0.01) {
-                // of a short arc another centre changes little
+                // for a short arc, another centre changes little
                 let near =
                     same_places(left, other, within) && between_arcs(left, other).is_some_and(|off| off <= 0.013);
                 return Some((if near { Class::Near } else { Class::Cut }, differs()));
@@ -258,10 +258,10 @@ fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
         }
         _ => return Some((Class::Cut, format!("{:?}, not {:?}", other.what, left.what))),
     }
-    // a cycle begins where it is, the way there is a rapid
+    // the start of a cycle does not count, because the move to it is a rapid
     let hole = matches!(left.what, What::Hole { .. });
     if !hole && !same_places(left, other, within) {
-        // as far off as the lines of an arc may be
+        // chords of an arc may differ by this distance
         let class = if same_places(left, other, 0.03) { Class::Near } else { Class::Cut };
         return Some((class, places()));
     }
@@ -273,10 +273,10 @@ fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
 
 fn state(left: &Act, other: &Act) -> Option<(Class, String)> {
     let (is, was) = (&other.state, &left.state);
-    // a tap turns the spindle itself
+    // a tap controls the spindle itself
     let is_tap = matches!(left.what, What::Hole { code: 84.0 | 74.0, .. });
     let speed_off = (is.speed - was.speed).abs() > 0.01 * was.speed;
-    // the lead of a thread is a word of its own
+    // the lead of a thread is compared separately
     let thread = matches!(left.what, What::Thread(_));
     let feed_off = !thread && (is.feed.1 != was.feed.1 || (is.feed.0 - was.feed.0).abs() > 0.01 * was.feed.0);
     let classes = [
@@ -292,7 +292,7 @@ fn state(left: &Act, other: &Act) -> Option<(Class, String)> {
     Some((class, format!("{is:?}, not {was:?}")))
 }
 
-/// Stops, dwells, orientations and ends, each with how many cuts stand before it.
+/// Compares stops, dwells, orientations and ends, each with the number of cuts before it.
 fn others(right: &[Act], changed: &[Act], say: &mut impl FnMut(Class, String)) {
     let cuts = |acts: &[Act]| acts.iter().filter(|act| act.cuts()).count();
     let pick = |class: Class, what: &What| match (class, what) {
@@ -330,7 +330,7 @@ fn others(right: &[Act], changed: &[Act], say: &mut impl FnMut(Class, String)) {
     }
 }
 
-/// Rapids between the cuts.
+/// Compares the rapids between cuts.
 fn ways(right: &[Act], changed: &[Act], within: f64, say: &mut impl FnMut(Class, String)) {
     let split = |acts: &[Act]| {
         let mut gaps: Vec<Vec<Act>> = vec![Vec::new()];

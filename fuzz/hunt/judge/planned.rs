@@ -1,18 +1,18 @@
-//! What a CL file asks for, by the second planner, as the list that programs are compared with.
+//! The requests of a CL file according to the second planner, as the list with which programs are compared.
 
 use super::{Place, Want, Wanted};
 use crate::planner::{Does, Kind, Move, Point, Turn, plan};
 
-/// The list of a CL file.
+/// The list for a CL file.
 ///
 /// # Errors
-/// What the second planner does not read.
+/// A statement that the second planner can't read.
 pub fn wants(text: &str) -> Result<Vec<Wanted>, String> {
     let mut list = Vec::new();
     let mut at: Point = [f64::NAN; 3];
     let mut low = f64::INFINITY;
     let mut loaded = 0;
-    // a tool beside its hole goes down, and comes out, without a cut
+    // after a jog, the tool moves down or out beside the hole without cutting
     let mut jogged = false;
     for step in plan(text)? {
         if step.tool.1 != loaded {

@@ -1,4 +1,4 @@
-//! LinuxCNC's own interpreter, run as a separate program where it is installed, as a second judge.
+//! LinuxCNC's own interpreter as a second judge. It runs as a separate program, if it is installed.
 
 use std::fs;
 use std::path::Path;
@@ -7,10 +7,10 @@ use std::process::Command;
 use super::machine::{Act, State, What};
 use super::{INCH, Place};
 
-/// Where a program's height counts from lies so far below the machine's, in millimetres: home is up.
+/// Height of the work zero in machine coordinates, in millimetres; the home position is above it.
 const BELOW: f64 = -500.0;
 
-/// What the interpreter does with a program; `None` where it is not installed. Its files go to `folder`.
+/// The acts of the interpreter for a program; `None` if it is not installed. Its files are written to `folder`.
 pub fn interpreted(program: &str, folder: &Path) -> Option<Result<Vec<Act>, String>> {
     let [path, table, parameters] = ["judged.ngc", "judged.tbl", "judged.var"].map(|name| folder.join(name));
     let tools: String = (1..60).map(|n| format!("T{n} P{n} Z0 D0.0001\n")).collect();
@@ -38,7 +38,7 @@ pub fn interpreted(program: &str, folder: &Path) -> Option<Result<Vec<Act>, Stri
     Some(Ok(acts(&calls)))
 }
 
-/// The file of its parameters: all zero but the heights of the work offsets.
+/// The file of its parameters: all are zero except the heights of the work offsets.
 fn offsets() -> String {
     let mut text = String::new();
     let axes = |text: &mut String, first: u32, z: f64| {
@@ -58,7 +58,7 @@ fn offsets() -> String {
     text
 }
 
-/// Its canonical calls as acts.
+/// Converts its canonical calls to acts.
 fn acts(calls: &str) -> Vec<Act> {
     let mut scale = 1.0;
     let mut at: Place = [f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0, 0.0];
@@ -114,7 +114,7 @@ fn acts(calls: &str) -> Vec<Act> {
                 pitch = number(0) * scale;
                 continue;
             }
-            // down with the spindle, and back up to where it began
+            // down in step with the spindle, and back up to the start
             "RIGID_TAP" => {
                 for (axis, place) in to.iter_mut().enumerate().take(3) {
                     *place = number(axis) * scale;

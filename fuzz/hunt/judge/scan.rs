@@ -1,12 +1,12 @@
-//! Blocks as words.
+//! Splits blocks into words.
 
 /// A word: its letter, and its number.
 pub type Word = (u8, f64);
 
-/// The words of a block, without its number; an O word is kept.
+/// The words of a block without its block number; an O word is kept.
 ///
 /// # Errors
-/// What is no word.
+/// Text that is no word.
 pub fn words(line: &str) -> Result<Vec<Word>, String> {
     let mut list = Vec::new();
     let bytes = line.as_bytes();

@@ -1,53 +1,54 @@
-//! What a milling job asks for: its cuts, holes, dwells and stops, in millimetres, from the document alone.
+//! The requests of a milling job: cuts, holes, dwells and stops, in millimetres, computed from the document alone.
 
 use serde_json::Value;
 
 use super::{INCH, Place};
 use crate::planner::Hole;
 
-/// One thing that must be done.
+/// A request of the job.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Want {
     /// A straight cut.
     Line,
-    /// An arc: its plane, its centre in the plane (the arc's axes), its direction, full turns besides.
+    /// An arc: its plane, its centre in the plane (in the arc's axes), its direction, and the number of additional full
+    /// turns.
     Arc { plane: &'static str, center: [f64; 2], ccw: bool, turns: f64 },
-    /// A hole: where the feed begins and ends, and the kind.
+    /// A hole: its kind, the heights at which the feed begins and ends, and the height after it.
     Hole { kind: String, clear: f64, bottom: f64, out: f64 },
-    /// A hole with its moves, by the second planner.
+    /// A hole with its moves, from the second planner.
     Planned(Box<Hole>),
-    /// A thread: where its passes begin along the axis, radius of the crest at the end, depth with its sign, lead.
+    /// A thread: start of its passes along the axis, radius of the crest at the end, signed depth, and lead.
     Thread { begin: f64, crest: f64, depth: f64, lead: f64 },
-    /// A stop: 0 or 1.
+    /// A stop: 0 for M0, 1 for M1.
     Stop(f64),
-    /// A dwell.
+    /// A dwell in seconds.
     Dwell(f64),
 }
 
-/// With all that holds then.
+/// A request with the state in which it must be carried out.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// What.
+    /// The request.
     pub want: Want,
-    /// From where; not a number where nobody said.
+    /// Start position; NaN if it is unknown.
     pub from: Place,
-    /// To where; a hole's place over it.
+    /// End position; for a hole, the position over it.
     pub to: Place,
-    /// The tool, its length register.
+    /// The tool.
     pub tool: f64,
-    /// Length register.
+    /// The length register.
     pub length: f64,
-    /// The work offset as the job says it, 54 at first.
+    /// The work offset as the job contains it; the first is 54.
     pub work: f64,
-    /// 3, 4 or 5, and speed.
+    /// Spindle direction (3, 4 or 5) and speed.
     pub spindle: (f64, f64),
-    /// Feed in millimetres, and 94 or 95.
+    /// Feed in millimetres, and its mode: 94 or 95.
     pub feed: (f64, f64),
-    /// The least height of the job's own way to it.
+    /// The least height of the job's path to the start.
     pub low: f64,
-    /// 40, 41 or 42.
+    /// Compensation: 40, 41 or 42.
     pub side: f64,
-    /// Mist is 1, flood is 2, both are 3; `None` where it is not compared.
+    /// Coolant: 1 is mist, 2 is flood, 3 is both. `None`: it is not compared.
     pub coolant: Option<u8>,
 }
 
@@ -66,13 +67,14 @@ struct Reader {
     jogged: bool,
     /// Subprograms by their numbers.
     subs: Vec<Value>,
-    /// A lathe or a wire: no way is free.
+    /// The job is for a lathe or a wire, so every path is compared.
     lathe: bool,
     /// The speed is a surface speed.
     surface: bool,
 }
 
-/// The list, or nothing for a job that this does not read: with calls, custom cycles, or codes as text.
+/// The list of requests. `None` if the job contains calls, custom cycles or text with codes that are not supported
+/// here.
 pub fn wants(job: &Value) -> Option<Vec<Wanted>> {
     let lathe = job.get("machine").is_some_and(|machine| machine == "lathe");
     let wire = job.get("machine").is_some_and(|machine| machine == "edm");
@@ -160,7 +162,7 @@ impl Reader {
         }
     }
 
-    /// A position of the job; angles count too.
+    /// A position of the job, including angles.
     fn target(&self, position: &Value) -> Place {
         let mut to = self.at;
         for (axis, place) in to.iter_mut().enumerate() {
@@ -236,7 +238,7 @@ impl Reader {
         } else if let Some(thread) = item.get("thread") {
             self.thread(thread)?;
         } else if let Some(text) = item.get("text").and_then(Value::as_str) {
-            // a comment, an optional stop, coolant, a dwell of no time: none moves the tool
+            // these items do not move the tool: a comment, an optional stop, coolant, a dwell of 0 s
             if text == "M1" {
                 let at = self.at;
                 self.put(Want::Stop(1.0), at);
@@ -246,7 +248,7 @@ impl Reader {
         Some(())
     }
 
-    /// A subprogram, as often as it is called; what it switches is the caller's again after each run.
+    /// Runs a subprogram as often as it is called. After each run, the caller's state is restored.
     fn call(&mut self, call: &Value) -> Option<()> {
         let number = call["sub"].as_f64();
         let path = self.subs.iter().find(|sub| sub["number"].as_f64() == number)?["path"].as_array()?.clone();
@@ -270,7 +272,7 @@ impl Reader {
         Some(())
     }
 
-    /// Of one start, whose end may leave its radius open.
+    /// A thread with one start. Its end may be without a radius.
     fn thread(&mut self, thread: &Value) -> Option<()> {
         let number = |key: &str| thread.get(key).and_then(Value::as_f64).map(|number| number * self.unit);
         let at =
@@ -345,7 +347,7 @@ impl Reader {
             }
             let own = point.get("depth").and_then(Value::as_f64).map_or(depth, |depth| depth * self.unit);
             let top = place[2];
-            // without a return plane each hole's own clearance is one
+            // without a return plane, the tool returns to the clearance of each hole
             let plane = above.map(|above| *first.get_or_insert(top + above));
             let clear = top + clear;
             let out = plane.map_or(clear, |plane| plane.max(clear));
@@ -369,7 +371,7 @@ impl Reader {
     }
 }
 
-/// The axes of a plane, in the order in which angles grow.
+/// The axes of a plane, in the order in which angles increase.
 pub(super) fn axes(plane: &str) -> [usize; 2] {
     match plane {
         "xz" => [2, 0],

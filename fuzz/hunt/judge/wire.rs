@@ -1,4 +1,5 @@
-//! Wire EDM: a job as a mill's would be written, and a small machine for its programs. U is told as a height, V as an angle.
+//! Wire EDM: converts a job to the form of a milling job, and runs its programs. U is treated as a height, V as an
+//! angle.
 
 use serde_json::{Value, json};
 
@@ -6,9 +7,9 @@ use super::machine::{Act, State, What};
 use super::scan::words;
 use super::{INCH, Place};
 
-/// Degrees to a millimetre of V: angles are compared within a hundredth.
+/// Degrees for 1 mm of V. Angles are compared within 0.01 degrees.
 const TURNED: f64 = 3.0;
-/// The codes of the form that ships.
+/// The codes of the shipped form.
 const ACTIONS: [(&str, f64); 4] = [("thread", 60.0), ("cut", 50.0), ("predrill", 66.0), ("submerge", 78.0)];
 
 /// The code of an action.
@@ -16,7 +17,7 @@ pub fn code(action: &str) -> f64 {
     ACTIONS.iter().find(|(name, _)| *name == action).map_or(f64::NAN, |(_, code)| *code)
 }
 
-/// A stop, or one of the actions.
+/// Is the code a stop or an action?
 fn is_done(code: f64) -> bool {
     code < 2.0 || ACTIONS.iter().any(|(_, own)| *own == code)
 }
@@ -41,7 +42,7 @@ pub fn as_mill(job: &Value) -> Value {
 /// Runs a program.
 ///
 /// # Errors
-/// The line, and why the machine stops there.
+/// The line at which the machine stops, and the reason.
 pub fn run(program: &str, inch: bool) -> Result<Vec<Act>, (usize, String)> {
     let mut wire = Wire {
         scale: if inch { INCH } else { 1.0 },
@@ -75,7 +76,7 @@ impl Wire {
         self.at = to;
     }
 
-    /// True at the end of the program.
+    /// Runs a block. Returns true at the end of the program.
     fn block(&mut self, list: &[(u8, f64)], line: usize) -> Result<bool, String> {
         let get = |letter: u8| list.iter().rfind(|(other, _)| *other == letter).map(|(_, number)| *number);
         let has = |letter: u8, number: f64| list.contains(&(letter, number));
@@ -99,7 +100,7 @@ impl Wire {
                 (b'G', other) => return Err(format!("G{other}")),
                 (b'F', feed) => self.state.feed.0 = feed * self.scale,
                 (b'M', 0.0 | 1.0 | 2.0 | 30.0) => {}
-                // there is no spindle and no coolant of a mill
+                // spindle and coolant codes of a mill are ignored
                 (b'M', 3.0..=5.0 | 7.0..=9.0 | 19.0) => {}
                 (b'M', code) if ACTIONS.iter().any(|(_, own)| *own == code) => {}
                 (b'M', other) => return Err(format!("M{other}")),

@@ -1,9 +1,9 @@
-//! CYCLE/type and its couplets.
+//! Reads CYCLE/type and its couplets.
 
 use super::feed::is_feed;
 use super::statement::{Minor, Statement};
 
-/// What a cycle does, with what only that type has.
+/// The type of a cycle, which determines its moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// In at feed, out at rapid.
@@ -12,34 +12,34 @@ pub enum Kind {
     Face,
     /// In, reverse, out at feed.
     Tap,
-    /// In, the spindle stops, out at rapid.
+    /// In at feed, the spindle stops, out at rapid.
     Bore,
-    /// Below the part and up.
+    /// From below the part, up at feed.
     BoreBack,
     /// In and out at feed.
     Ream,
     /// Pecks with full retracts.
     Deep,
-    /// Pecks with small ones.
+    /// Pecks with small retracts.
     Chips,
     /// Several webs.
     Thru,
     /// A chamfer by its diameter.
     Sink,
-    /// Over the hole and a stop.
+    /// A rapid over the hole, then a program stop.
     Manual,
 }
 
-/// A group of depths or steps with the feed after them.
+/// A group of depths or steps, with the feed that follows them.
 #[derive(Clone, Debug, Default)]
 pub struct Group {
-    /// Depths from the point, or steps from the last depth.
+    /// Depths below the point, or steps from the previous depth.
     pub values: Vec<f64>,
-    /// The word of the feed and its number.
+    /// The word of the feed, and its number.
     pub feed: Option<(String, f64)>,
 }
 
-/// A dwell.
+/// A dwell: its word, and its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dwell {
     /// DWELL.
@@ -48,19 +48,19 @@ pub enum Dwell {
     Revolutions(f64),
 }
 
-/// RETURN of a cycle.
+/// The RETURN of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Return {
-    /// RETURN alone: the clearance over the first point.
+    /// RETURN without a number: the clearance of the first point.
     Clearance,
-    /// So far above the first point.
+    /// RETURN with a number: this height above the first point.
     Above(f64),
 }
 
-/// A cycle as it was coded; lengths in units of the file.
+/// A cycle as it was coded. Lengths are in units of the file.
 #[derive(Clone, Debug)]
 pub struct Cycle {
-    /// Its type.
+    /// The type of the cycle.
     pub kind: Kind,
     /// DEEP or BRKCHP of a tap.
     pub pecks: Option<Kind>,
@@ -68,7 +68,7 @@ pub struct Cycle {
     pub depths: Vec<Group>,
     /// STEP couplets.
     pub steps: Vec<Group>,
-    /// A feed that no group took.
+    /// The feed that belongs to no group.
     pub feed: Option<(String, f64)>,
     /// First number of CLEAR.
     pub clear: Option<f64>,
@@ -130,12 +130,12 @@ impl Cycle {
         }
     }
 
-    /// Has it this word without a number?
+    /// Does the cycle contain this word, which has no number?
     pub fn is(&self, flag: &str) -> bool {
         self.flags.iter().any(|own| own == flag)
     }
 
-    /// Of `CYCLE/type,..`; `None` where this reader does not know a word.
+    /// Reads `CYCLE/type,..`; `None` if a word is unknown to this reader.
     pub fn read(statement: &Statement) -> Option<Cycle> {
         let word = |at: usize| match statement.minors.get(at) {
             Some(Minor::Word(word)) => word.as_str(),
@@ -166,7 +166,7 @@ impl Cycle {
         Some(cycle)
     }
 
-    /// The same with the words of CYCLE/ON in place of its own.
+    /// The same cycle, with the words of CYCLE/ON in place of its own.
     pub fn again(&self, statement: &Statement) -> Option<Cycle> {
         let mut own = Cycle::new(self.kind);
         own.words(&statement.minors[1..])?;
@@ -182,7 +182,7 @@ impl Cycle {
             cycle.feed = own.feed;
         }
         cycle.clear = own.clear.or(cycle.clear);
-        // a couplet is replaced as a whole
+        // the numbers of a couplet are replaced together
         cycle.second = if own.clear.is_some() { own.second } else { cycle.second };
         cycle.back = own.back.or(cycle.back);
         if !own.offset.is_empty() {
@@ -204,8 +204,8 @@ impl Cycle {
         Some(cycle)
     }
 
-    /// The feed of a depth or step by its number, from 0: "the feed rate specification applies to all of the depths or step
-    /// amounts that precede it"; the last one holds on.
+    /// The feed of a depth or step by its index, from 0: "the feed rate specification applies to all of the depths or
+    /// step amounts that precede it". After the last group, its feed stays active.
     pub fn feed_of(&self, number: usize) -> Option<(String, f64)> {
         let groups = if self.steps.is_empty() { &self.depths } else { &self.steps };
         let mut before = 0;
@@ -222,7 +222,7 @@ impl Cycle {
 
     fn words(&mut self, minors: &[Minor]) -> Option<()> {
         let mut at = 0;
-        // the DEPTH or STEP words since the last feed
+        // the DEPTH or STEP group without a feed so far
         let mut open: Option<bool> = None;
         while let Some(minor) = minors.get(at) {
             let Minor::Word(word) = minor else { return None };

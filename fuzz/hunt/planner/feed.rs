@@ -1,9 +1,9 @@
-//! Feeds: a number and what it counts.
+//! Feeds: a number and its unit.
 
 const INCH: f64 = 25.4;
 
-/// Millimetres a minute; `words` as in "Cutting Feed" of the CYCLE chapter. `None` for another word, or a feed per revolution while
-/// the spindle stands.
+/// The feed in millimetres per minute. `words` are those of "Cutting Feed" in the CYCLE chapter. `None` for another
+/// word, or for a feed per revolution with the spindle stopped.
 pub fn per_minute(word: &str, value: f64, file_unit: f64, revolutions: f64) -> Option<f64> {
     let (length, per_turn) = match word {
         "IPM" => (INCH, false),
@@ -21,7 +21,7 @@ pub fn per_minute(word: &str, value: f64, file_unit: f64, revolutions: f64) -> O
     }
 }
 
-/// Is it the name of a feed?
+/// Is the word the name of a feed unit?
 pub fn is_feed(word: &str) -> bool {
     ["IPM", "IPR", "MMPM", "MMPR", "PERMIN", "PERREV", "TPI"].contains(&word)
 }

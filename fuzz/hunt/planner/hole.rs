@@ -1,9 +1,9 @@
-//! The moves at one point of a cycle: the numbered lists of the CYCLE chapter.
+//! The moves at one point of a cycle, from the numbered lists of the CYCLE chapter.
 
 use super::cycle::{Cycle, Kind};
 use super::{Point, Turn};
 
-/// A height, or a range of them where no word says it.
+/// A height, or a range of heights if no word of the cycle defines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Height {
     /// The lowest.
@@ -17,62 +17,63 @@ impl Height {
         Height { from: z, to: z }
     }
 
-    /// Is this height one of them, within so many millimetres?
+    /// Is this height in the range, within this number of millimetres?
     pub fn holds(&self, z: f64, within: f64) -> bool {
         z >= self.from - within && z <= self.to + within
     }
 }
 
-/// One thing that is done at a hole.
+/// A move or other action at a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Move {
-    /// A rapid: across, where the tool jogs, and to a height. Not a number where only a configuration says how far.
+    /// A rapid: its X and Y, which differ from the hole's after a jog, and its height. NaN: only a configuration
+    /// defines the jog.
     Rapid([f64; 2], Height),
-    /// A feed to a height over the point.
+    /// A feed move to a height over the point, and its feed.
     Feed(f64, f64),
-    /// A dwell; `None`: as long as a configuration says.
+    /// A dwell in seconds; `None`: a configuration defines it.
     Dwell(Option<f64>),
-    /// The spindle turns so from here on.
+    /// The spindle turns in this direction from here on.
     Spindle(Turn),
-    /// The spindle is stopped at this angle.
+    /// The spindle is oriented to this angle.
     Orient(Option<f64>),
-    /// The program stops.
+    /// A program stop.
     Stop,
 }
 
 /// A point of a cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hole {
-    /// What is done there.
+    /// The type of the cycle.
     pub kind: Kind,
-    /// Taps: with pecks.
+    /// The kind of pecks of a tap, if it pecks.
     pub pecks: Option<Kind>,
-    /// Where it is.
+    /// X and Y of the hole.
     pub over: [f64; 2],
-    /// Where the tool is over it before the first move: the clearance.
+    /// Height of the tool over the hole before the first move: the clearance.
     pub clear: f64,
-    /// The least height at which it comes there and leaves: the return plane or the clearance.
+    /// Least height of the tool before and after the hole: the return plane or the clearance.
     pub plane: f64,
-    /// The deepest.
+    /// The lowest height.
     pub bottom: f64,
-    /// What is done, from the clearance on; the last rapid goes to the plane.
+    /// The moves, beginning at the clearance. The last rapid goes to the return plane.
     pub moves: Vec<Move>,
     /// Built-in cycles are allowed (CYCLE/AUTO).
     pub built_in: bool,
-    /// A tap that can't be made of moves.
+    /// A tap that can't be made of single moves.
     pub rigid: bool,
-    /// A tap that turns the other way.
+    /// A tap in the direction opposite to the spindle's.
     pub inverse: bool,
-    /// The dwell at the bottom: none, or how long.
+    /// The dwell at the bottom, if there is one; see [`Move::Dwell`].
     pub dwell: Option<Option<f64>>,
-    /// The feed in.
+    /// The feed into the hole.
     pub feed: f64,
-    /// A tap feeds out so much faster.
+    /// Factor of the feed out of a tap.
     pub ratio: f64,
 }
 
 impl Hole {
-    /// The same begun lower by so much: the next start of a thread.
+    /// The same hole, lower by this distance: the next start of a thread.
     pub fn lower(&self, by: f64) -> Hole {
         let lowered = |part: &Move| match *part {
             Move::Feed(to, feed) if to == self.clear => Move::Feed(to - by, feed),
@@ -84,28 +85,29 @@ impl Hole {
     }
 }
 
-/// How far a second clearance goes that no word says, at most: 0.1 inch.
+/// Largest second clearance if no word defines it, in millimetres: 0.1 inch.
 const SECOND: f64 = 2.6;
 
-/// What else the moves of a point depend on.
+/// The values on which the moves at a point depend, besides the cycle.
 pub struct At {
     /// The point, in millimetres.
     pub point: Point,
-    /// Millimetres of a unit of the file.
+    /// Millimetres in one unit of the file.
     pub unit: f64,
-    /// The clearance in force, in units of the file.
+    /// The active clearance, in units of the file.
     pub clear: f64,
     /// The height of the return plane, in millimetres.
     pub plane: Option<f64>,
-    /// How the spindle turns.
+    /// The direction of the spindle.
     pub turn: Turn,
-    /// The dwell of a cycle that dwells, in seconds.
+    /// The dwell in seconds, if the cycle dwells.
     pub dwell: Option<Option<f64>>,
-    /// CYCLE/AUTO.
+    /// Built-in cycles are allowed (CYCLE/AUTO).
     pub built_in: bool,
 }
 
-/// The moves of a cycle at a point; `feeds`: millimetres a minute of each depth or step. `None` where the words are not enough.
+/// The moves of a cycle at a point. `feed` gives the feed of each depth or step, in millimetres per minute. `None` if a
+/// required word is missing.
 pub fn hole(cycle: &Cycle, at: &At, feed: &dyn Fn(usize) -> Option<f64>) -> Option<Hole> {
     let [x, y, z] = at.point;
     let over = [x, y];
@@ -116,7 +118,7 @@ pub fn hole(cycle: &Cycle, at: &At, feed: &dyn Fn(usize) -> Option<f64>) -> Opti
     let plane = at.plane.map_or(clear, |plane| plane.max(clear));
     let kind = kind(cycle, at);
     let depth = || cycle.depths.last()?.values.last().copied();
-    // a tap against the spindle: the chapter turns nothing before it
+    // a tap against the spindle's direction: the chapter does not reverse the spindle before it
     if cycle.kind == Kind::Tap && cycle.is("INVERS") != (at.turn == Turn::Counterclockwise) {
         return None;
     }
@@ -258,7 +260,7 @@ pub fn hole(cycle: &Cycle, at: &At, feed: &dyn Fn(usize) -> Option<f64>) -> Opti
     })
 }
 
-/// What the cycle works as: DRILL with a dwell as FACE, TAP with NOREVR as FACE and with RAPOUT as DRILL.
+/// The type by which the cycle is made: FACE for DRILL with a dwell and for TAP with NOREVR, DRILL for TAP with RAPOUT.
 fn kind(cycle: &Cycle, at: &At) -> Kind {
     let kind = match cycle.kind {
         Kind::Tap if cycle.is("NOREVR") => Kind::Face,
@@ -268,7 +270,7 @@ fn kind(cycle: &Cycle, at: &At) -> Kind {
     if kind == Kind::Drill && at.dwell.is_some() { Kind::Face } else { kind }
 }
 
-/// Where the tool stands beside the hole: its tip points along the angle, so it moves the other way.
+/// The jogged position beside the hole. The tip points along the angle, so the tool moves in the opposite direction.
 fn aside(cycle: &Cycle, over: [f64; 2], angle: Option<f64>, unit: f64) -> [f64; 2] {
     let jog = match (cycle.offset.as_slice(), cycle.second) {
         ([x, y], _) => return [over[0] - x * unit, over[1] - y * unit],
@@ -280,11 +282,11 @@ fn aside(cycle: &Cycle, over: [f64; 2], angle: Option<f64>, unit: f64) -> [f64; 
     [over[0] - jog * cos, over[1] - jog * sin]
 }
 
-/// The depths of all pecks below the point, in units of the file.
+/// Depths of all pecks below the point, in units of the file.
 fn depths(cycle: &Cycle) -> Option<Vec<f64>> {
     if cycle.steps.is_empty() {
         let depths: Vec<f64> = cycle.depths.iter().flat_map(|group| group.values.clone()).collect();
-        // one depth alone is a peck or a total
+        // a single depth is the total depth, not a peck
         return (depths.len() > 1).then_some(depths);
     }
     let total = *cycle.depths.last()?.values.last()?;

@@ -1,10 +1,10 @@
-//! A second planner of cycles, written from the texts that define them: the CYCLE chapter of the GENER manual (words, what
-//! is remembered, the numbered motions of each type) and the canned cycles of EMC (what a control adds by itself).
+//! A second planner of cycles, written from the texts that define them: the CYCLE chapter of the GENER manual (words, modal
+//! values, the numbered motions of each type), and the canned cycles of EMC (motions that a control adds by itself).
 //!
-//! It reads a CL file by itself and says which moves the file asks for. It uses nothing of postform: the hunt compares the
-//! two. Lengths are millimetres, feeds millimetres a minute, times seconds.
+//! It reads a CL file by itself and lists the moves that the file requests. It shares no code with postform, and the hunt
+//! compares the results of both. Lengths are in millimetres, feeds in millimetres per minute, times in seconds.
 //!
-//! What those texts leave to a configuration is `None` or a range here ([`Height`]); it is not guessed.
+//! A value that the texts leave to a configuration is `None` or a range here ([`Height`]). It is not guessed.
 
 mod cycle;
 mod feed;
@@ -16,13 +16,13 @@ pub use cycle::Kind;
 pub use hole::{Height, Hole, Move};
 pub use reader::{Does, Step, plan};
 
-/// x, y, z.
+/// X, Y, Z.
 pub type Point = [f64; 3];
 
-/// How the spindle turns.
+/// The direction of the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// It stands.
+    /// The spindle is stopped.
     Off,
     /// CLW.
     Clockwise,
@@ -31,7 +31,7 @@ pub enum Turn {
 }
 
 impl Turn {
-    /// The other way.
+    /// The opposite direction.
     pub fn reversed(self) -> Turn {
         match self {
             Turn::Off => Turn::Off,
@@ -99,7 +99,7 @@ mod tests {
         list
     }
 
-    /// Is the wanted motion this one of the example? An angle or a time that no word says is the example's.
+    /// Does this motion match the one of the example? An angle or time that no word defines matches every value.
     fn is(wanted: &Wanted, motion: &[Value]) -> bool {
         let number = |at: usize| motion.get(at).and_then(Value::as_f64).unwrap_or(f64::NAN);
         let near = |a: f64, b: f64| a.is_nan() || (a - b).abs() < 1e-4;
@@ -131,7 +131,7 @@ mod tests {
                 .iter()
                 .map(|motion| motion.as_array().unwrap().as_slice())
                 .collect();
-            // what is an error is for postform alone, and what a configuration decides is no text's
+            // errors are tested in postform only, and values of a configuration are not in the texts
             if wanted.iter().any(|motion| motion[0] == "ERROR")
                 || setup["config"].as_object().is_some_and(|c| !c.is_empty())
             {
@@ -154,7 +154,7 @@ mod tests {
             let mut at: Vec<f64> = setup["start"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
             let mut next = wanted.iter().peekable();
             for motion in &list {
-                // a rapid of no length is none
+                // a rapid of zero length is not in the examples
                 if let Wanted::Rapid([x, y], z) = motion
                     && [*x, *y].iter().zip(&at).all(|(a, b)| (a - b).abs() < 1e-6)
                     && z.holds(at[2], 1e-6)

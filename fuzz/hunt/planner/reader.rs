@@ -1,4 +1,4 @@
-//! What is remembered from statement to statement, and the list of what is done.
+//! Reads statements with their modal values, and lists the resulting steps.
 
 use super::cycle::{Cycle, Dwell, Kind, Return};
 use super::feed::{is_feed, per_minute};
@@ -6,7 +6,7 @@ use super::hole::{At, Hole, hole};
 use super::statement::{Minor, Statement, statements};
 use super::{Point, Turn};
 
-/// One thing that a file asks for.
+/// A step that a file requests.
 #[derive(Clone, Debug)]
 pub enum Does {
     /// A rapid to a point.
@@ -23,16 +23,16 @@ pub enum Does {
     Stop(f64),
 }
 
-/// With what holds then.
+/// A step, with the state in which it is made.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What.
+    /// The step.
     pub does: Does,
-    /// The tool, and how often tools were loaded before.
+    /// The tool, and the number of tools that were loaded before.
     pub tool: (f64, usize),
-    /// How the spindle turns, and how fast.
+    /// The direction and speed of the spindle.
     pub spindle: (Turn, f64),
-    /// Feed outside cycles, millimetres a minute.
+    /// The feed outside cycles, in millimetres per minute.
     pub feed: f64,
 }
 
@@ -54,12 +54,12 @@ struct Reader {
     rapid: bool,
     arc: Option<(Point, Point)>,
     steps: Vec<Step>,
-    /// The cycle in force, and the last one.
+    /// The active cycle; `last` is the last one.
     cycle: Option<Cycle>,
     last: Option<Cycle>,
-    /// Its return plane once its first point was seen; none yet.
+    /// The return plane of the active cycle; `None` before its first point.
     plane: Option<Option<f64>>,
-    /// The return that the cycle in force has.
+    /// The RETURN of the active cycle.
     out: Override,
     clear: Option<f64>,
     dwell: Option<Dwell>,
@@ -68,10 +68,10 @@ struct Reader {
     returns: Override,
 }
 
-/// The moves that a CL file asks for.
+/// The steps that a CL file requests.
 ///
 /// # Errors
-/// What this reader does not know, or what its texts do not decide.
+/// A statement that this reader does not know, or a value that its texts do not define.
 pub fn plan(text: &str) -> Result<Vec<Step>, String> {
     let mut reader = Reader {
         unit: 1.0,
@@ -99,7 +99,7 @@ pub fn plan(text: &str) -> Result<Vec<Step>, String> {
 
 impl Reader {
     fn put(&mut self, does: Does) {
-        // a feed per revolution follows the spindle
+        // a feed per revolution depends on the spindle speed
         let feed = self.feed.as_ref().and_then(|(word, value)| per_minute(word, *value, self.unit, self.spindle.1));
         self.steps.push(Step { does, tool: self.tool, spindle: self.spindle, feed: feed.unwrap_or(f64::NAN) });
     }
@@ -190,7 +190,7 @@ impl Reader {
                     Some(Return::Clearance) => Some(point[2] + clear * self.unit),
                     Some(Return::Above(above)) => Some(point[2] + above * self.unit),
                 },
-                // "the current tool position at the start of the cycle": where a control's G98 has it, before the first point
+                // "the current tool position at the start of the cycle": before the first point, as for a control's G98
                 Override::On => Some(self.at[2]),
                 Override::Off => None,
                 Override::Above(above) => Some(point[2] + above * self.unit),

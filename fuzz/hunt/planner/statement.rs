@@ -1,25 +1,25 @@
 //! Statements of a CL file: `MAJOR/minor,minor`.
 
-/// A word before the slash and what comes after it.
+/// The word before the slash, and the words and numbers after it.
 #[derive(Clone, Debug)]
 pub struct Statement {
-    /// GOTO, CYCLE, RAPID.
+    /// Such as GOTO, CYCLE, RAPID.
     pub major: String,
-    /// Words and numbers in their order.
+    /// Words and numbers after the slash, in order.
     pub minors: Vec<Minor>,
 }
 
-/// One of the words after the slash.
+/// A word or number after the slash.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Minor {
-    /// DEPTH, MMPM.
+    /// Such as DEPTH, MMPM.
     Word(String),
-    /// 12.5.
+    /// Such as 12.5.
     Number(f64),
 }
 
 impl Minor {
-    /// Its number.
+    /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Minor::Number(number) => Some(*number),
@@ -34,18 +34,18 @@ impl Minor {
 }
 
 impl Statement {
-    /// All its numbers, without its words.
+    /// All numbers after the slash.
     pub fn numbers(&self) -> Vec<f64> {
         self.minors.iter().filter_map(Minor::number).collect()
     }
 
-    /// Has it this word?
+    /// Does the statement contain this word?
     pub fn has(&self, word: &str) -> bool {
         self.minors.iter().any(|minor| minor.is(word))
     }
 }
 
-/// The statements of a file; `$` at the end of a line goes on in the next.
+/// The statements of a file. A `$` at the end of a line continues the statement on the next line.
 pub fn statements(text: &str) -> Vec<Statement> {
     let mut list = Vec::new();
     let mut whole = String::new();

@@ -1,4 +1,4 @@
-//! What postform makes of a program, and how that compares with what the executor makes of it.
+//! The motions that postform computes for a program, compared with those of the executor.
 
 use std::io::Cursor;
 
@@ -9,17 +9,17 @@ use postform::toolpath::{Direction, FeedMode, Side, StopKind, Units};
 
 use super::executor::{Kind, Move, Point};
 
-/// How postform runs a program.
+/// The settings with which postform runs a program.
 pub fn settings(control: &str, inch: bool) -> RunSettings {
     let control = Control::named(control).expect("a control");
     let units = if inch { Units::Inch } else { Units::Mm };
     RunSettings { units, unpointed: Unpointed::Increments, ..RunSettings::new(control) }
 }
 
-/// The motions that postform makes of a program.
+/// The motions that postform computes for a program.
 ///
 /// # Errors
-/// The refused line, the code and the message.
+/// The refused line, with code and message.
 pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, String)> {
     let mut simulator = Simulator::new(Cursor::new(text.as_bytes()), settings);
     let mut now = Move::BEGIN;
@@ -44,12 +44,13 @@ pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, Str
                     go(Kind::Feed, position(to, *machine), *feed, &now)
                 }
                 Action::Feed { to, lead: Some(lead), machine, .. } => {
-                    // the angle is not in its actions
+                    // postform's action does not contain the angle
                     go(Kind::Thread, position(to, *machine), *lead, &Move { angle: f64::NAN, ..now });
                 }
                 Action::Arc(turn) => {
                     let center = [turn.center[0], turn.center[2]];
-                    // postform names a direction as seen along Y of a right-handed system: Z to the right, X up
+                    // postform gives directions as seen along Y of a right-handed system, which is with Z to the right
+                    // and X up
                     let ccw = turn.direction == Direction::Ccw;
                     go(Kind::Arc(center, ccw), position(&turn.to, turn.machine), turn.feed, &now);
                 }
@@ -96,10 +97,10 @@ pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, Str
     }
 }
 
-/// What postform says of two programs.
+/// Compares the motions of two programs with postform.
 ///
 /// # Errors
-/// One of them is refused, with its message.
+/// One of them is refused; the message.
 pub fn compared(old: &str, new: &str, settings: RunSettings) -> Result<Motions, String> {
     let programs = [old, new].map(|text| (Cursor::new(text.to_owned()), settings));
     compare_motions(programs, settings.units, 1e-6).map_err(|error| match error.1 {
@@ -108,22 +109,22 @@ pub fn compared(old: &str, new: &str, settings: RunSettings) -> Result<Motions, 
     })
 }
 
-/// What two runs differ in, the gravest first.
+/// The kind of a difference between two runs, most serious first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// Where it is cut, or along what.
+    /// Position or shape of a cut.
     Cut,
-    /// How many cuts.
+    /// Number of cuts.
     Count,
-    /// Where a cut begins.
+    /// Start of a cut.
     Entry,
-    /// The feed, or what it counts.
+    /// Feed, or its unit.
     Feed,
-    /// Tool, angle of a thread, side, work offset, coolant, or direction or number of the speed.
+    /// Tool, angle of a thread, compensation, work offset, coolant, or direction or value of the spindle speed.
     State,
-    /// What the speed counts: turns, or the way of the surface.
+    /// The unit of the speed: revolutions, or surface speed.
     Surface,
-    /// The highest speed.
+    /// The spindle limit.
     Limit,
     /// Dwells.
     Dwell,
@@ -131,7 +132,7 @@ pub enum Class {
     Way,
 }
 
-/// What is in force; of T the station and its offset.
+/// The state of a motion. The tool includes its offset number.
 fn state(one: &Move) -> [f64; 5] {
     [one.spindle, one.tool, one.side, one.work, one.coolant]
 }
@@ -144,17 +145,17 @@ fn at_one(a: Point, b: Point, within: f64) -> bool {
     near(a[0], b[0], within) && near(a[1], b[1], within)
 }
 
-/// Is it a cut of no length?
+/// Is it a cut of zero length?
 pub fn is_point(one: &Move) -> bool {
     matches!(one.kind, Kind::Feed | Kind::Thread) && at_one(one.from, one.to, 1e-5)
 }
 
 fn is_cut(one: &Move) -> bool {
-    // an arc that ends where it begins is a whole circle
+    // an arc that ends at its start is a full circle
     matches!(one.kind, Kind::Arc(..)) || matches!(one.kind, Kind::Feed | Kind::Thread) && !is_point(one)
 }
 
-/// Rapids between cuts, without those of no length.
+/// Rapids between cuts, without those of zero length.
 fn ways(list: &[Move]) -> Vec<(Vec<Point>, Vec<f64>)> {
     let mut ways = vec![(Vec::new(), Vec::new())];
     for one in list {
@@ -172,7 +173,7 @@ fn ways(list: &[Move]) -> Vec<(Vec<Point>, Vec<f64>)> {
     ways
 }
 
-/// The gravest difference; `None`: they do the same.
+/// The most serious difference; `None`: both lists do the same.
 pub fn difference(mine: &[Move], other: &[Move], within: f64) -> Option<(Class, String)> {
     let [a, b] = [mine, other].map(|list| list.iter().filter(|one| is_cut(one)).collect::<Vec<_>>());
     let mut found: Option<(Class, String)> = None;
@@ -221,7 +222,7 @@ pub fn difference(mine: &[Move], other: &[Move], within: f64) -> Option<(Class, 
     found
 }
 
-/// A motion in a line.
+/// A motion as one line of text.
 pub fn shown(one: &Move) -> String {
     let Move { line, kind, from, to, feed, per_rev, spindle, speed, tool, limit, side, work, coolant, angle } = one;
     let unit = if *per_rev { "rev" } else { "min" };

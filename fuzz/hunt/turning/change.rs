@@ -1,8 +1,8 @@
-//! Programs changed once.
+//! Changes programs in one place.
 
 use crate::random::Random;
 
-/// A program with one change, and what that is: its kind, and the lines.
+/// A program with one change, the kind of the change, and the changed lines.
 pub fn change(text: &str, random: &mut Random) -> Option<(String, (&'static str, String))> {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let end = lines.iter().position(|line| line.contains("M30"))?;

@@ -1,11 +1,12 @@
-//! Contours with chamfers and rounded corners, and on one side of the tool.
+//! Random contours with chamfers and rounded corners, or with cutter compensation.
 
 use super::program::Writer;
 
-/// Nothing is left of a cut beside its corner.
+/// The corner takes the whole length of a cut.
 pub const EXACT: &str = "a corner as long as its cut";
 
-/// A corner between a cut along `axis` and the next one: how long both are, with the sign of the next, and what the one before took.
+/// A corner between a cut along `axis` and the next cut: the lengths of both (with sign), and the length that the
+/// previous corner took.
 pub(super) struct Between {
     pub(super) axis: usize,
     pub(super) first: i64,
@@ -14,7 +15,7 @@ pub(super) struct Between {
 }
 
 impl Writer {
-    /// A word along one axis, absolute or as an increment.
+    /// A word along one axis, absolute or incremental.
     pub(super) fn alone(&mut self, axis: usize, from: [i64; 2], to: [i64; 2]) -> String {
         let by = if axis == 0 { 2 } else { 1 };
         let (letter, value) = match (axis, self.once_in(3)) {
@@ -26,12 +27,12 @@ impl Writer {
         format!("{letter}{}", self.length(value * by))
     }
 
-    /// The word of a corner, and how much it takes of the next cut.
+    /// The word of a corner, and the length that it takes from the next cut.
     pub(super) fn corner(&mut self, between: &Between) -> Option<(String, i64)> {
         let Between { axis, first, taken, next } = *between;
         let room = (first.abs() - taken).min(next.abs());
         let size = match self.random.below(40) {
-            // it does not fit
+            // larger than the cuts allow
             0 => room + 100,
             1..=2 => room,
             _ => (self.steps(1, 8, 100)).min(room),
@@ -52,7 +53,7 @@ impl Writer {
         Some((format!("{letter}{}", self.length(signed)), size))
     }
 
-    /// Cuts along one axis after the other, with corners between them.
+    /// Writes cuts along alternating axes, with corners between them.
     pub(super) fn corners(&mut self, start: [i64; 2]) {
         self.kinds.push("corners");
         self.rapid(start);
@@ -88,7 +89,7 @@ impl Writer {
         }
     }
 
-    /// Cuts with the nose of the tool on one side.
+    /// Writes cuts with cutter compensation, the tool nose on one side.
     pub(super) fn beside(&mut self, start: [i64; 2], cuts: impl Fn(&mut Writer, [i64; 2])) {
         self.kinds.push("G41");
         let side = self.random.pick(&[41, 42]);

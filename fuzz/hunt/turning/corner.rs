@@ -5,21 +5,21 @@ use super::executor::{Kind, Machine, Point, Stopped, Words, alarm, unsure};
 
 const NEAR: f64 = 1e-9;
 
-/// A corner that is cut, until the next block.
+/// A corner that was cut, until the next block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
-    /// Increments of the next block count from it.
+    /// The programmed corner point; increments of the next block start from it.
     pub(super) at: Point,
     /// The axis of the next block.
     axis: usize,
-    /// How far the next block is cut off, with the sign of its way.
+    /// Length that the corner takes from the next block, with the sign of the direction.
     size: f64,
 }
 
-/// The cut up to the chamfer or arc, that itself, and what the next block needs.
+/// The cut up to the corner, the chamfer or arc, and the data for the next block.
 pub(super) type Cornered = ([(Kind, Point); 2], Corner);
 
-/// The axis of a block that says one only.
+/// The axis of a block that contains only one.
 fn only_axis(words: &Words) -> Option<usize> {
     match (words.any(['X', 'U']), words.any(['Z', 'W'])) {
         (true, false) => Some(0),
@@ -29,7 +29,7 @@ fn only_axis(words: &Words) -> Option<usize> {
 }
 
 impl Machine<'_> {
-    /// The moves of a straight cut with I, K or R; `None`: it has none of them.
+    /// The moves of a straight cut with I, K or R; `None`: the block contains none of these words.
     pub(super) fn cornered(&self, words: &Words, from: Point, to: Point) -> Result<Option<Cornered>, Stopped> {
         let said: Vec<(char, f64)> = ['I', 'K', 'R']
             .iter()
@@ -66,7 +66,7 @@ impl Machine<'_> {
         let kind = if letter == 'R' {
             let mut center = begin;
             center[next] += size;
-            // counter-clockwise, Z to the right and X up: the way turns to the left
+            // counter-clockwise, with Z to the right and X up: the path turns to the left
             let left = if axis == 1 { way * size > 0.0 } else { way * size < 0.0 };
             Kind::Arc(center, left)
         } else {
@@ -77,7 +77,8 @@ impl Machine<'_> {
 }
 
 impl Corner {
-    /// Does this block leave the corner as it must? It is a G1 along the other axis alone, that way, and at least as long.
+    /// Does this block leave the corner correctly? It must be a G1 along the other axis alone, in the corner's
+    /// direction, and at least as long.
     pub(super) fn is_left(&self, words: &Words, motion: f64, to: Point) -> Result<(), Stopped> {
         // PS0051
         if motion != 1.0 || only_axis(words) != Some(self.axis) {

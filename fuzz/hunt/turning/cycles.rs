@@ -5,9 +5,9 @@ use super::corner::Corner;
 use super::executor::{Kind, Machine, Point, Stopped, Words, alarm, unsure};
 
 const NEAR: f64 = 1e-7;
-/// A cut that is shorter is none.
+/// A cut shorter than this counts as none.
 const SHORT: f64 = 1e-5;
-/// Settings 73 and 22 of a Haas as it is delivered, in inches: how far G71 and G72, and pecks, come back.
+/// Settings 73 and 22 of a Haas with factory defaults, in inches: the retract of G71 and G72, and of pecks.
 const BACK: f64 = 0.05;
 
 /// A block of a profile.
@@ -16,12 +16,12 @@ struct Part {
     kind: Kind,
     from: Point,
     to: Point,
-    /// The feed that it says, for the finish.
+    /// The feed in the block, used for the finish.
     feed: Option<f64>,
     speed: Option<f64>,
 }
 
-/// A part moved by a finishing allowance.
+/// A block of a profile, moved by a finishing allowance.
 fn moved(part: &Part, by: Point) -> (Kind, Point) {
     let shift = |at: Point| [at[0] + by[0], at[1] + by[1]];
     let kind = match part.kind {
@@ -32,7 +32,7 @@ fn moved(part: &Part, by: Point) -> (Kind, Point) {
 }
 
 impl Machine<'_> {
-    /// G90, G92 and G94: their data stay in force for blocks without them (B-64304EN 4.1).
+    /// G90, G92 and G94. Their words stay active for blocks without them (B-64304EN 4.1).
     pub(super) fn box_cycle(&mut self, words: &Words, to: Point) -> Result<(), Stopped> {
         if words.any(['X', 'U']) {
             self.box_words[0] = Some(to[0]);
@@ -40,7 +40,7 @@ impl Machine<'_> {
         if words.any(['Z', 'W']) {
             self.box_words[1] = Some(to[1]);
         }
-        // Haas, G90, G92 and G94: I, or K, is the taper
+        // Haas: in G90 and G92, I is the taper; in G94, K is
         let letter = if self.motion == 94.0 { 'K' } else { 'I' };
         if words.any(['I', 'K']) && (!self.haas || words.get(letter).is_none() || words.get('R').is_some()) {
             return unsure("I or K of a canned cycle");
@@ -54,16 +54,16 @@ impl Machine<'_> {
             return unsure("a cycle from where only the machine knows");
         }
         match self.motion {
-            // 4.1.1: 1(R) to the cut, 2(F) along it, 3(F) across to the start, 4(R) back; R is a radius, begin less end
+            // 4.1.1: 1(R) to the cut, 2(F) along it, 3(F) across to the start, 4(R) back; R is a radius: start minus end
             90.0 => {
                 self.go(Kind::Rapid, [x + taper, start[1]])?;
                 self.go(Kind::Feed, [x, z])?;
                 self.go(Kind::Feed, [start[0], z])?;
             }
-            // 4.1.2: the lead is F; 3(R) out of the thread. Chamfers are a parameter
+            // 4.1.2: F is the lead; 3(R) out of the thread. A parameter defines chamfers
             92.0 => {
                 self.go(Kind::Rapid, [x + taper, start[1]])?;
-                // whether the next pass keeps the angle is not said
+                // the manual does not define whether the next pass keeps the angle
                 if words.get('Q').is_none() && self.thread_turned {
                     return unsure("a thread after one with its angle");
                 }
@@ -83,7 +83,7 @@ impl Machine<'_> {
         self.go(Kind::Rapid, start)
     }
 
-    /// A repetitive cycle, or its first block; the line that comes next, unless it is the one below.
+    /// Runs a repetitive cycle, or reads its first block. Returns the next line if it is not the following one.
     pub(super) fn repetitive(&mut self, code: u32, words: &Words, at: usize) -> Result<Option<usize>, Stopped> {
         let length = |letter| words.length(letter, self.unit);
         let named = words.get('P').is_some() && words.get('Q').is_some();
@@ -189,7 +189,7 @@ impl Machine<'_> {
         let (parts, next) = self.profile(number('P'), number('Q'), at)?;
         let start = self.at;
         if code == 70 {
-            // 4.2.4: F and S between ns and nf count; then back to the start point at rapid
+            // 4.2.4: F and S between ns and nf apply; then back to the start point at rapid
             for part in &parts {
                 self.feed = part.feed.unwrap_or(self.feed);
                 self.now.speed.0 = part.speed.unwrap_or(self.now.speed.0);
@@ -208,10 +208,10 @@ impl Machine<'_> {
         let left = [length('U').unwrap_or(0.0) / 2.0, length('W').unwrap_or(0.0)];
         let first = self.first.get(&code).copied().unwrap_or([None; 3]);
         if code == 73 {
-            // Haas, G73: I on the radius and K are the way from the first cut to the last, D how often
+            // Haas, G73: I (a radius) and K are the distance from the first cut to the last, D is the number of cuts
             let (by, times) = match self.haas {
                 true => ([length('I').unwrap_or(0.0), length('K').unwrap_or(0.0)], words.get('D')),
-                // 4.2.3: R counts without a point
+                // 4.2.3: R is a number of cuts without a decimal point
                 false => {
                     let times = first[2].map(|times| if times < 0.5 { (times / self.unit).round() } else { times });
                     ([first[0].unwrap_or(0.0), first[1].unwrap_or(0.0)], times)
@@ -228,7 +228,7 @@ impl Machine<'_> {
                 return unsure("a return that is negative");
             }
             if parts[0].to[along] != start[along] {
-                // 4.2.1: in ns of type I no move along the second axis; with both it is type II
+                // 4.2.1: in type I, block ns has no move along the second axis; with both axes it is type II
                 return unsure("type II");
             }
             self.rough(&parts, left, depth, back, [level, along])?;
@@ -237,8 +237,8 @@ impl Machine<'_> {
         Ok(Some(next))
     }
 
-    /// 4.2.1 and 4.2.2, type I: from C, which is A moved by the allowances, cuts to the moved profile, each left at 45 degrees;
-    /// then once along the moved profile.
+    /// 4.2.1 and 4.2.2, type I: from point C (A moved by the allowances), cuts to the moved profile, each with a retract at
+    /// 45 degrees; then one cut along the moved profile.
     fn rough(&mut self, parts: &[Part], left: Point, depth: f64, back: f64, axes: [usize; 2]) -> Result<(), Stopped> {
         let [level, along] = axes;
         if depth <= 0.0 {
@@ -265,7 +265,7 @@ impl Machine<'_> {
             to[along] = crossing(&parts[1..], left, cut, axes, toward).unwrap_or(last[along] + left[along]);
             self.go(Kind::Feed, to)?;
             let length = (to[along] - start[along]).abs();
-            // where nothing is cut the manuals show no way back; nor one that is longer than the cut
+            // the manuals show no retract if nothing is cut, and none that is longer than the cut
             if length > SHORT {
                 to[level] -= toward * back;
                 to[along] -= cutting * back.min(length);
@@ -275,7 +275,7 @@ impl Machine<'_> {
             self.go(Kind::Rapid, to)?;
             cut += toward * depth;
         }
-        // the cuts' distances from the start are whole depths
+        // a cut meets a corner if their distance from the start is a multiple of the depth of cut
         let is_corner = |at: f64| {
             let cuts = (at + left[level] - start[level]) / depth;
             cuts.abs() > 0.5 && (cuts - cuts.round()).abs() < 1e-6
@@ -288,8 +288,8 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// 4.2.3: the figure shows the first pass moved by the relief and the allowance, the last by the allowance alone; R says how
-    /// many.
+    /// 4.2.3: in the figure, the first pass is moved by the relief and the allowance, the last by the allowance alone. R is the
+    /// number of passes.
     fn pattern(&mut self, parts: &[Part], left: Point, by: Point, times: f64) -> Result<(), Stopped> {
         if times < 1.0 || times.fract() != 0.0 || times > 1000.0 {
             return unsure("a count of G73");
@@ -310,7 +310,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// 4.2.5 and 4.2.6: pecks, each left by the return; steps to the side; back to the start. A Haas names them I and K.
+    /// 4.2.5 and 4.2.6: pecks with a retract after each; steps to the side; back to the start. On a Haas they are I and K.
     fn pecks(&mut self, code: u32, words: &Words) -> Result<(), Stopped> {
         if self.at.iter().any(|value| value.is_nan()) {
             return unsure("a cycle from where only the machine knows");
@@ -319,7 +319,7 @@ impl Machine<'_> {
         let (start, end) = (self.at, self.position(words));
         let count = |letter: char| match self.haas {
             true => words.length(letter, self.unit),
-            // without a point, least increments; radius
+            // without a point, in least increments; X as a radius
             false => words.get(letter).map(|value| value * self.unit),
         };
         let (x, z) = if self.haas { (count('I'), count('K')) } else { (count('P'), count('Q')) };
@@ -334,7 +334,7 @@ impl Machine<'_> {
             _ if self.haas => self.back(),
             _ => return unsure("pecks without their return"),
         };
-        // PS0062 for what is not above zero; the return is not named there
+        // the manual requires values above zero (PS0062), but does not mention the retract
         if back < 0.0 {
             return unsure("a return that is negative");
         }
@@ -358,7 +358,7 @@ impl Machine<'_> {
             while reached < total.abs() - NEAR {
                 to[deep] = start[deep] + total.signum() * reached;
                 self.go(Kind::Feed, to)?;
-                // a return longer than the peck: not said; a Haas's is a setting
+                // a retract longer than the peck is not described; a Haas has a setting
                 to[deep] -= total.signum() * back.min(reached);
                 self.go(Kind::Rapid, to)?;
                 reached += peck;
@@ -375,8 +375,8 @@ impl Machine<'_> {
         self.go(Kind::Rapid, start)
     }
 
-    /// 4.2.7: the n-th cut is as deep as the first times the square root of n, no cut is less than the least, the allowance is cut
-    /// by the last passes.
+    /// 4.2.7: the depth of the n-th cut is that of the first times the square root of n. No cut is less than the minimum, and the
+    /// last passes cut the allowance.
     fn thread(&mut self, words: &Words) -> Result<(), Stopped> {
         let Some([last, angle, least, allowance]) = self.thread else { return unsure("G76 of one block") };
         let count = |letter| words.get(letter).map(|value| value * self.unit);
@@ -417,7 +417,7 @@ impl Machine<'_> {
     }
 }
 
-/// Does an arc pass none of its quadrant lines?
+/// Does an arc cross no quadrant line?
 fn is_monotone(part: &Part) -> bool {
     let Kind::Arc(center, ccw) = part.kind else { return true };
     let angle = |at: Point| (at[0] - center[0]).atan2(at[1] - center[1]);
@@ -428,7 +428,7 @@ fn is_monotone(part: &Part) -> bool {
     from + sweep <= next + 1e-4
 }
 
-/// Where a cut meets the moved profile first.
+/// The position at which a cut first meets the moved profile.
 fn crossing(parts: &[Part], left: Point, cut: f64, axes: [usize; 2], toward: f64) -> Option<f64> {
     let [level, along] = axes;
     let cut = cut - left[level];
@@ -439,7 +439,7 @@ fn crossing(parts: &[Part], left: Point, cut: f64, axes: [usize; 2], toward: f64
             let radius = (from[0] - center[0]).hypot(from[1] - center[1]);
             let high = (radius * radius - (cut - center[level]).powi(2)).max(0.0).sqrt();
             let middle = (from[along] + to[along]) / 2.0;
-            // the arc is monotone: it lies on one side of its centre
+            // the arc is monotone, so it is on one side of its centre
             center[along] + if middle > center[along] { high } else { -high }
         }
         _ if (to[level] - from[level]).abs() < NEAR => to[along],

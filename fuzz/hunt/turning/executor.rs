@@ -1,7 +1,7 @@
-//! A lathe of G code system A, as the manuals of its maker say: what each block moves.
+//! A lathe of G code system A, according to its maker's manuals: the motions of each block.
 //!
-//! It shares nothing with postform. It follows FANUC's operator's manual for lathes, B-64304EN (0i-D) and B-64484EN
-//! (31i-B), and in Haas's lathe operator's manual (96-8910, and the pages of haascnc.com). What these leave open is
+//! It shares no code with postform. It follows FANUC's operator's manuals for lathes, B-64304EN (0i-D) and B-64484EN (31i-B),
+//! and Haas's lathe operator's manual (96-8910, and the pages of haascnc.com). A case that these manuals leave open is
 //! [`Stopped::Unsure`].
 
 use std::collections::HashMap;
@@ -10,48 +10,48 @@ use super::corner::Corner;
 pub use super::lexer::Words;
 use super::lexer::{Block, Line, parse};
 
-/// Radius and Z, in the program's units. What only the machine knows is not a number.
+/// Radius and Z, in the program's units. NaN: only the machine has the value.
 pub type Point = [f64; 2];
 
-/// What a motion is.
+/// The kind of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// A rapid.
     Rapid,
     /// A straight cut.
     Feed,
-    /// A straight cut whose feed is a lead.
+    /// A straight cut whose feed is the lead of a thread.
     Thread,
-    /// An arc about a centre.
+    /// An arc about a centre; true: counter-clockwise.
     Arc(Point, bool),
-    /// A dwell, in seconds; at a stop the number of its M code, negative and less 1.
+    /// A dwell in seconds. For a stop: minus the number of its M code, minus 1.
     Dwell(f64),
 }
 
-/// A motion, and what is in force with it.
+/// A motion, with the state during it.
 #[derive(Clone, Copy, Debug)]
 pub struct Move {
     /// The line of the program, from 1.
     pub line: usize,
-    /// What it is.
+    /// The kind of the motion.
     pub kind: Kind,
-    /// Where it begins.
+    /// Start position.
     pub from: Point,
-    /// Where it ends.
+    /// End position.
     pub to: Point,
     /// The feed; 0 at rapid.
     pub feed: f64,
-    /// The feed counts revolutions.
+    /// The feed is per revolution.
     pub per_rev: bool,
     /// Direction of the spindle: 3, 4 or 5.
     pub spindle: f64,
-    /// Its speed, and whether that is one of the surface.
+    /// The spindle speed; true: a surface speed.
     pub speed: (f64, bool),
-    /// The highest speed, or 0.
+    /// The spindle limit, or 0.
     pub limit: f64,
-    /// The T word in force.
+    /// The active T word.
     pub tool: f64,
-    /// The side of the contour: 40, 41 or 42.
+    /// Compensation: 40, 41 or 42.
     pub side: f64,
     /// The work offset: 54 to 59.
     pub work: f64,
@@ -62,7 +62,7 @@ pub struct Move {
 }
 
 impl Move {
-    /// What is in force at the beginning.
+    /// The state at the beginning.
     pub const BEGIN: Move = Move {
         line: 0,
         kind: Kind::Rapid,
@@ -81,12 +81,12 @@ impl Move {
     };
 }
 
-/// Why a program is not run to its end.
+/// The reason why a program is not run to its end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stopped {
-    /// An alarm, as the manual has one.
+    /// An alarm that the manual describes.
     Alarm(String),
-    /// The manuals do not say it, or this executor does not know it.
+    /// The manuals do not define the case, or this executor does not support it.
     Unsure(String),
 }
 
@@ -108,31 +108,31 @@ pub struct Machine<'p> {
     pub(super) at: Point,
     pub(super) now: Move,
     pub(super) feed: f64,
-    /// The code of group 01 in force; not a number after a cycle that may have changed it.
+    /// The active code of group 01; NaN after a cycle that may have changed it.
     pub(super) motion: f64,
-    /// X, Z and R of G90, G92 and G94, which stay in force.
+    /// X, Z and R of G90, G92 and G94, which stay active.
     pub(super) box_words: [Option<f64>; 3],
     /// U or W, and R, of the first block of G71 to G75.
     pub(super) first: HashMap<u32, [Option<f64>; 3]>,
-    /// The pass before of G92 said its angle.
+    /// The previous pass of G92 contained an angle.
     pub(super) thread_turned: bool,
-    /// Of the first block of G76: last passes, angle, least cut, allowance.
+    /// From the first block of G76: finishing passes, angle, least cut, allowance.
     pub(super) thread: Option<[f64; 4]>,
     pub(super) moves: Vec<Move>,
     pub(super) on_corner: bool,
-    /// The block before cut a corner.
+    /// The corner that the previous block cut.
     corner: Option<Corner>,
 }
 
 /// Runs a program from its beginning to its end.
 ///
 /// # Errors
-/// What stops it.
+/// The reason for a stop.
 pub fn run(text: &str, haas: bool, inch: bool) -> Result<Vec<Move>, Stopped> {
     run_noting(text, haas, inch).map(|(moves, _)| moves)
 }
 
-/// As [`run`], and whether a cut of G71 or G72 is as high as a corner of its profile: digits decide there.
+/// Like [`run`]. Also returns whether a cut of G71 or G72 is at the height of a corner of its profile, where rounding decides.
 ///
 /// # Errors
 /// What stops it.
@@ -162,7 +162,7 @@ pub fn run_noting(text: &str, haas: bool, inch: bool) -> Result<(Vec<Move>, bool
 impl Machine<'_> {
     fn all(&mut self) -> Result<(), Stopped> {
         let (mut at, mut steps) = (0, 0);
-        // where each call came from, where it began, and how often it is made again
+        // for each call: the line to return to, the first line of the subprogram, and the remaining runs
         let mut calls: Vec<(usize, usize, u32)> = Vec::new();
         loop {
             steps += 1;
@@ -214,7 +214,7 @@ impl Machine<'_> {
                     }
                     if words.is('M', 98.0) {
                         let Some(program) = words.get('P') else { return alarm("M98 without P") };
-                        // B-64304EN 13.3: P has the count before four digits of the number
+                        // B-64304EN 13.3: in P, the count comes before the four digits of the number
                         let counted = !self.haas && program >= 10_000.0;
                         if counted && words.get('L').is_some() {
                             return unsure("M98 with two counts");
@@ -270,7 +270,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// A block; the line that comes next, unless it is the one below.
+    /// Runs a block. Returns the next line if it is not the following one.
     fn block(&mut self, words: &Words, at: usize) -> Result<Option<usize>, Stopped> {
         if words.list.is_empty() {
             return Ok(None);
@@ -287,20 +287,20 @@ impl Machine<'_> {
                 ('G', 18.0 | 80.0) => {}
                 ('G', 40.0..=42.0) => self.now.side = value,
                 ('G', 54.0..=59.0) if value == self.now.work => {}
-                // the position in another offset is not in the program
+                // the position in the other work offset is unknown
                 ('G', 54.0..=59.0) => (self.now.work, self.at) = (value, [f64::NAN; 2]),
                 ('G', 96.0 | 97.0) => self.now.speed.1 = value == 96.0,
                 ('G', 98.0 | 99.0) => self.now.per_rev = value == 99.0,
                 ('G', 0.0..=3.0 | 32.0) => (self.motion, self.box_words) = (value, [None; 3]),
                 ('G', 90.0 | 92.0 | 94.0) => {
-                    // after a taper it is refused by name
+                    // a corner after a taper is an alarm with its own name
                     let again = self.motion == value && (words.any(['X', 'U']) || words.any(['Z', 'W']));
                     if again && self.box_words[2].is_some() && words.get('R').is_none() {
                         return unsure("the code of a tapered pass again, without R");
                     }
                     self.thread_turned &= self.motion == value;
-                    // B-64304EN 4.1: X, Z and R stay until a code of group 00 but G4, or another one of group 01, also where the code
-                    // is written again. HUST's H6D-T manual (3-41), of the same system, says so too
+                    // B-64304EN 4.1: X, Z and R stay until a code of group 00 other than G4, or a code of group 01,
+                    // even the same one again. HUST's H6D-T manual (3-41), for the same system, agrees
                     if self.motion != value {
                         if [90.0, 92.0, 94.0].contains(&self.motion) {
                             return unsure("one canned cycle after another");
@@ -342,7 +342,8 @@ impl Machine<'_> {
             return Ok(None);
         };
         match once {
-            // B-64304EN 3.x: X or U are seconds, P is milliseconds. Haas, G04: P with a point is seconds, else milliseconds
+            // B-64304EN 3.x: X or U is in seconds, P in milliseconds. Haas, G04: P with a point is in seconds, else in
+            // milliseconds
             4.0 => {
                 let said = words.list.iter().find(|(letter, ..)| ['X', 'U', 'P'].contains(letter));
                 let Some(&(letter, value, pointed)) = said else { return alarm("G4 without its time") };
@@ -375,7 +376,7 @@ impl Machine<'_> {
             },
             _ => {
                 let next = self.repetitive(once as u32, words, at)?;
-                // which code of group 01 a repetitive cycle leaves in force is not said
+                // the manuals do not define the active code of group 01 after a repetitive cycle
                 self.motion = f64::NAN;
                 self.box_words = [None; 3];
                 return Ok(next);
@@ -384,7 +385,7 @@ impl Machine<'_> {
         Ok(None)
     }
 
-    /// The position that X, Z, U and W name; U and W count from where the tool is.
+    /// The position from X, Z, U and W. U and W are increments from the tool's position.
     pub(super) fn position(&self, words: &Words) -> Point {
         self.position_from(words, self.at)
     }
@@ -428,14 +429,14 @@ impl Machine<'_> {
                 let kind = self.arc(words, self.at, to, self.motion == 3.0)?;
                 self.go(kind, to)
             }
-            // B-64304EN 3.4: F of G32 is the lead, along the axis that moves more
+            // B-64304EN 3.4: F of G32 is the lead along the axis that moves farther
             32.0 => self.thread_at(words, to),
             90.0 | 92.0 | 94.0 => self.box_cycle(words, to),
             _ => unsure("the motion code after a cycle"),
         }
     }
 
-    /// A thread; B-64304EN 5.4: Q is where it begins, in this block only, and counts 0.001 degrees without a point.
+    /// A thread. B-64304EN 5.4: Q is its start angle, for this block only, in units of 0.001 degrees without a point.
     pub(super) fn thread_at(&mut self, words: &Words, to: Point) -> Result<(), Stopped> {
         if words.any(['I', 'K']) || words.get('R').is_some() && self.motion == 32.0 {
             return unsure("a thread with I, K or R");
@@ -446,7 +447,7 @@ impl Machine<'_> {
         end
     }
 
-    /// An arc: I and K from its begin, I on the radius; R the radius of the arc up to half a turn.
+    /// An arc. I and K are relative to its start, I as a radius; R is the radius of an arc of up to half a turn.
     pub(super) fn arc(&self, words: &Words, from: Point, to: Point, ccw: bool) -> Result<Kind, Stopped> {
         let length = |letter| words.length(letter, self.unit);
         let center = if let Some(radius) = length('R') {

@@ -1,17 +1,17 @@
-//! Blocks of a program as words, and the few blocks of custom macro B that generated programs have.
+//! Splits blocks of a program into words. Of custom macro B, it reads only the blocks that generated programs contain.
 
 use std::collections::HashMap;
 
 use super::executor::{Stopped, alarm, unsure};
 
-/// A number, a variable, or a sum of two.
+/// A number, a variable, or a sum of two values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number.
     Number(f64),
-    /// `#1`.
+    /// `#1`, with a sign.
     Variable(u32, f64),
-    /// `[a+b]`, with the sign of the second.
+    /// `[a+b]`, with the sign of the second value.
     Sum(Box<Value>, f64, Box<Value>),
 }
 
@@ -28,10 +28,10 @@ impl Value {
     }
 }
 
-/// What a line is.
+/// The content of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// Words, with whether a number has a point.
+    /// Words: letter, value, and whether the number has a decimal point.
     Words(Vec<(char, Value, bool)>),
     /// `O1000`.
     Program(u32),
@@ -46,11 +46,11 @@ pub enum Block {
 /// A line of the program.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// From 1.
+    /// Line number, from 1.
     pub number: usize,
-    /// Its N word.
+    /// The block number (N) of the line.
     pub sequence: Option<u32>,
-    /// What it does.
+    /// The content of the line.
     pub block: Block,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn parse(text: &str) -> Result<Vec<Line>, Stopped> {
             }
             continue;
         }
-        // block skip: its switch is off
+        // block skip is off, so the block after the slash is run
         let bare = bare.strip_prefix('/').unwrap_or(&bare);
         let (sequence, block) = line_of(bare)?;
         lines.push(Line { number: number + 1, sequence, block });
@@ -134,7 +134,7 @@ struct Text<'t> {
 }
 
 impl Text<'_> {
-    /// A number, a variable, or a sum in brackets.
+    /// Reads a number, a variable, or a sum in brackets.
     fn term(&mut self) -> Result<Value, Stopped> {
         if let Some(rest) = self.rest.strip_prefix('[') {
             self.rest = rest;
@@ -173,7 +173,7 @@ impl Text<'_> {
 /// The words of a block.
 #[derive(Debug)]
 pub struct Words {
-    /// Letters, values, and whether they have a point.
+    /// Letters and values, and whether each has a decimal point.
     pub(super) list: Vec<(char, f64, bool)>,
 }
 
@@ -190,13 +190,13 @@ impl Words {
         letters.iter().any(|&letter| self.get(letter).is_some())
     }
 
-    /// A length; without a point it counts least increments.
+    /// A length. Without a decimal point it is in least increments.
     pub(super) fn length(&self, letter: char, unit: f64) -> Option<f64> {
         let &(_, value, pointed) = self.list.iter().rfind(|(other, ..)| *other == letter)?;
         Some(if pointed { value } else { value * unit })
     }
 
-    /// The words of a line, without variables.
+    /// The words of a line that contains no variables.
     pub(super) fn of(line: &Line) -> Result<Words, Stopped> {
         let Block::Words(words) = &line.block else { return unsure("a profile with other blocks") };
         let none = HashMap::new();

@@ -1,6 +1,6 @@
-//! Programs of lathes: random ones, and a machine that runs them by the manuals of their controls.
+//! Random programs for lathes, and a machine that runs them according to the manuals of their controls.
 
-/// A line of a program that is written.
+/// Adds a line to the program that is being written.
 macro_rules! put {
     ($writer:expr, $($text:tt)*) => {{
         let line = format!($($text)*);

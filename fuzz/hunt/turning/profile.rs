@@ -1,11 +1,11 @@
-//! Random profiles, and the cycles that cut them.
+//! Random profiles, and the cycles that rough and finish them.
 
 use std::fmt::Write;
 
 use super::contour::Between;
 use super::program::Writer;
 
-/// A block of a profile: its end and its arc, as the letters' values.
+/// A block of a profile: its end and its arc, in increments of the letters.
 struct Block {
     to: [i64; 2],
     arc: Option<Round>,
@@ -13,7 +13,7 @@ struct Block {
 
 struct Round {
     ccw: bool,
-    /// From the begin.
+    /// Centre relative to the start.
     center: Option<[i64; 2]>,
     radius: i64,
 }
@@ -24,7 +24,7 @@ pub(super) struct Profile {
     start: [i64; 2],
     first: [i64; 2],
     blocks: Vec<Block>,
-    /// The axis of the levels, and signs: of the way to the bottom, and of the cut.
+    /// The axis across the passes, and the signs of the direction to the bottom and of the cut.
     level: usize,
     toward: i64,
     cutting: i64,
@@ -35,14 +35,14 @@ impl Profile {
         let code = writer.random.pick(&[71, 71, 72, 73]);
         let level = if code == 72 { 1 } else { 0 };
         let along = 1 - level;
-        // outside from the face, inside, or from the other side
+        // outside or inside, from the face or from the other side
         let (toward, cutting) = match level {
             0 => (writer.random.pick(&[-1, -1, 1]), writer.random.pick(&[-1, -1, -1, -1, 1])),
             _ => (writer.random.pick(&[-1, -1, -1, 1]), writer.random.pick(&[-1, -1, -1, 1])),
         };
         let mut start = [writer.steps(20, 45, 1000), writer.steps(0, 6, 1000)];
         if writer.once_in(12) {
-            // the cut comes to the middle, and beyond
+            // the cut reaches the axis of the part, and beyond
             start[0] = 9000;
         }
         let mut blocks = Vec::new();
@@ -65,7 +65,7 @@ impl Profile {
                     let side = writer.random.pick(&[1, -1]);
                     blocks.push((begin, at, Some(([side, 0], radius, false))));
                 }
-                // a step along one axis, and one along the other
+                // a step along one axis, then along the other
                 5 if up > 0 && on > 0 => {
                     let corner = if writer.once_in(2) { [at[0] + up, at[1]] } else { [at[0], at[1] + on] };
                     at = [at[0] + up, at[1] + on];
@@ -86,7 +86,7 @@ impl Profile {
                 _ => {}
             }
         }
-        // the start is where the profile ends, above that, or below
+        // the start is at the height where the profile ends, above it, or below it
         let high = at[0] + writer.random.pick(&[0, 0, 0, 500, 1000, -500]);
         let high = high.max(500);
         let mut first = start;
@@ -134,7 +134,7 @@ impl Profile {
         let (p, q) = (writer.number, writer.number + 10 * self.blocks.len() as u32);
         writer.number = q + 10;
         let depth = writer.steps(2, 12, 250);
-        // what is left: away from the part, none, or into it
+        // the allowance: away from the part, zero, or rarely into the part
         let mut left = [writer.steps(0, 4, 100), writer.steps(0, 3, 100)];
         let along = 1 - self.level;
         left[self.level] *= -self.toward;
@@ -193,7 +193,7 @@ impl Profile {
 
     fn blocks(&self, writer: &mut Writer, p: u32, q: u32) {
         let rapid = if writer.once_in(3) { "G1" } else { "G0" };
-        // an axis that stays is not said: that would be a profile of type II
+        // an unchanged axis has no word: with it, the profile would be of type II
         let mut words = String::new();
         for (axis, letters) in [(0, ['X', 'U']), (1, ['Z', 'W'])] {
             if self.first[axis] != self.start[axis] {
@@ -207,7 +207,7 @@ impl Profile {
         put!(writer, "N{p}{rapid}{words}{feed}");
         let (mut at, mut motion, mut taken) = (self.first, rapid, 0);
         for (block, n) in self.blocks.iter().zip(1..) {
-            // a corner, where this block and the next one are along one axis each
+            // a corner, if this block and the next one each move along one axis
             let mut corner = (String::new(), 0);
             if let (Some((axis, first)), Some(Some((other, next)))) =
                 (along_one(at, block), self.blocks.get(n as usize).map(|next| along_one(block.to, next)))
@@ -252,7 +252,7 @@ impl Profile {
     }
 }
 
-/// The axis of a straight block that has only one, and how far it goes.
+/// The axis of a straight block along one axis, and its length.
 fn along_one(from: [i64; 2], block: &Block) -> Option<(usize, i64)> {
     let way = [block.to[0] - from[0], block.to[1] - from[1]];
     match (way, &block.arc) {

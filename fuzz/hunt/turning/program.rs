@@ -1,4 +1,4 @@
-//! Random programs of lathes. Lengths are whole increments: 0.001 mm or 0.0001 inch, X by its radius.
+//! Random programs for lathes. Lengths are whole increments of 0.001 mm or 0.0001 inch, X as a radius.
 
 use std::fmt::Write;
 
@@ -11,21 +11,21 @@ pub struct Writer {
     pub(super) random: Random,
     pub(super) haas: bool,
     pub(super) inch: bool,
-    /// Some lengths have no point.
+    /// Some lengths have no decimal point.
     pointless: bool,
     pub(super) text: String,
-    /// What comes after the end.
+    /// The subprograms, which follow the end of the main program.
     subs: String,
     /// The next block number.
     pub(super) number: u32,
     programs: u32,
     /// Radius and Z.
     pub(super) at: [i64; 2],
-    /// What was made.
+    /// The features that the program contains.
     pub kinds: Vec<&'static str>,
 }
 
-/// A random program, whether it counts inches, and what is in it.
+/// A random program, whether it is in inches, and the features in it.
 pub fn program(seed: u64, haas: bool) -> (String, bool, Vec<&'static str>) {
     let mut random = Random::new(seed);
     let (inch, pointless) = (random.once_in(3), random.once_in(6));
@@ -55,12 +55,12 @@ impl Writer {
         self.random.once_in(n)
     }
 
-    /// From `low` to `high` steps of `step` increments.
+    /// A random multiple of `step`, from `low` to `high` steps.
     pub(super) fn steps(&mut self, low: i64, high: i64, step: i64) -> i64 {
         (low + self.random.below((high - low + 1) as usize) as i64) * step
     }
 
-    /// A length without its letter.
+    /// A length as text, without its letter.
     pub(super) fn length(&mut self, value: i64) -> String {
         if self.pointless && self.once_in(3) {
             return value.to_string();
@@ -75,7 +75,7 @@ impl Writer {
         format!("{sign}{whole}.{fraction}")
     }
 
-    /// Words to a position from another one, absolute or as increments; an axis that stays may be left out.
+    /// Words from one position to another, absolute or incremental; the word of an unchanged axis may be left out.
     pub(super) fn words_to(&mut self, from: [i64; 2], to: [i64; 2]) -> String {
         let mut words = String::new();
         for axis in [0, 1] {
@@ -97,7 +97,7 @@ impl Writer {
         words
     }
 
-    /// Both words, without the chance of leaving one out.
+    /// The words of both axes, none left out.
     fn both(&mut self, from: [i64; 2], to: [i64; 2]) -> String {
         let x = if self.once_in(4) { ('U', (to[0] - from[0]) * 2) } else { ('X', to[0] * 2) };
         let z = if self.once_in(4) { ('W', to[1] - from[1]) } else { ('Z', to[1]) };
@@ -156,7 +156,7 @@ impl Writer {
             self.line("M8");
         }
         if self.once_in(6) {
-            // the tool's coordinates are unknown then, and both axes are said next
+            // afterwards the tool's position is unknown, so the next block has both axes
             let (offset, skip) = (54 + self.random.below(6), if self.once_in(6) { "/" } else { "" });
             put!(self, "{skip}G{offset}");
         }
@@ -218,15 +218,15 @@ impl Writer {
         }
     }
 
-    /// A quarter of a circle by I and K.
+    /// A quarter circle with I and K.
     fn quarter(&mut self, by: i64) -> String {
         let size = by.abs();
         let (dx, dz) = (self.random.pick(&[size, -size]), self.random.pick(&[size, -size]));
         let to = [self.at[0] + dx, self.at[1] + dz];
-        // the centre is beside the begin along X, or along Z
+        // seen from the start, the centre is along X or along Z
         let along_x = self.once_in(2);
         let (i, k) = if along_x { (dx, 0) } else { (0, dz) };
-        // from the centre to the begin and to the end, Z to the right: the sign of their product
+        // vectors from the centre to start and end, with Z to the right; the sign of their product is the direction
         let (from, end) = ([-i, -k], [dx - i, dz - k]);
         let ccw = from[1] * end[0] - from[0] * end[1] > 0;
         let words = self.both(self.at, to);
@@ -267,7 +267,7 @@ impl Writer {
                 _ if self.once_in(3) => format!("U{}", self.length((to[0] - start[0]) * 2)),
                 _ => format!("X{}", self.length(to[0] * 2)),
             };
-            // its code again, without the other axis
+            // sometimes its code again, without the other axis
             if self.once_in(3) {
                 self.kinds.push("a pass with its code again");
                 let taper = if self.once_in(12) { "" } else { &taper };
@@ -320,7 +320,7 @@ impl Writer {
         self.after_cycle();
     }
 
-    /// What comes after a repetitive cycle.
+    /// Writes blocks after a repetitive cycle.
     pub(super) fn after_cycle(&mut self) {
         if self.once_in(2) {
             let to = [self.at[0] + 1000, self.at[1] + 1000];
@@ -365,7 +365,7 @@ impl Writer {
         self.after_cycle();
     }
 
-    /// Passes of a subprogram.
+    /// Writes passes as calls of a subprogram.
     fn called(&mut self, start: [i64; 2]) {
         self.kinds.push("M98");
         self.rapid(start);
@@ -401,7 +401,7 @@ impl Writer {
         put!(self, "G0X{}Z{}", self.length(start[0] * 2), self.length(start[1]));
     }
 
-    /// Passes of a loop.
+    /// Writes passes in a loop.
     fn looped(&mut self, start: [i64; 2]) {
         self.kinds.push("WHILE");
         self.rapid(start);

@@ -1,16 +1,17 @@
-//! A program's motions written block by block, without cycles: it does the same.
+//! Writes the motions of a program block by block, without cycles.
 
 use std::fmt::Write;
 
 use super::executor::{Kind, Move, Point};
 
-/// The program of these motions, which count inches; it counts inches too, or millimetres.
+/// The program of these motions. `inch`: the motions are in inches; `to_inch`: the program is in inches, else in
+/// millimetres.
 pub fn unrolled(moves: &[Move], inch: bool, to_inch: bool) -> String {
     let moves: Vec<Move> = moves.iter().map(|one| if inch && !to_inch { in_mm(one) } else { *one }).collect();
     let mut text = format!("%\nO0001\n{}G18G40G99\n", if to_inch { "G20" } else { "G21" });
     let mut now = Move { feed: f64::NAN, per_rev: true, ..Move::BEGIN };
     for one in &moves {
-        // a cut of no length counts, and cycles make none
+        // postform counts a cut of zero length, but not in a cycle
         if !matches!(one.kind, Kind::Dwell(_)) && one.from.iter().zip(&one.to).all(|(a, b)| (a - b).abs() < 1e-5) {
             continue;
         }
@@ -18,7 +19,7 @@ pub fn unrolled(moves: &[Move], inch: bool, to_inch: bool) -> String {
         let [x, z] = [one.to[0] * 2.0, one.to[1]];
         let feed = format!("F{}", point(one.feed));
         if one.kind == Kind::Rapid && x.is_nan() && z.is_nan() {
-            // a tool change comes after it, and the spindle is said again
+            // a tool change follows, after which the spindle must be set again
             (now.tool, now.spindle) = (0.0, 0.0);
         }
         _ = match one.kind {
@@ -29,7 +30,7 @@ pub fn unrolled(moves: &[Move], inch: bool, to_inch: bool) -> String {
                     |letter: char, to: f64| if to.is_nan() { String::new() } else { format!("{letter}{}", point(to)) };
                 match homes.is_empty() {
                     true => writeln!(text, "G0{}{}", word('X', x), word('Z', z)),
-                    // an axis that is home already stays there
+                    // an axis that is at its home position does not move
                     false if x.is_nan() && z.is_nan() => writeln!(text, "G28U0W0"),
                     false => write!(text, "{homes}"),
                 }
@@ -57,19 +58,19 @@ fn point(value: f64) -> String {
     if text == "-0." { "0.".to_owned() } else { text.to_owned() }
 }
 
-/// A motion of an inch program in millimetres.
+/// Converts a motion from inches to millimetres.
 fn in_mm(one: &Move) -> Move {
     let mm = |at: Point| at.map(|length| length * 25.4);
     let kind = match one.kind {
         Kind::Arc(center, ccw) => Kind::Arc(mm(center), ccw),
         other => other,
     };
-    // feet are metres then
+    // the surface speed is then in metres per minute
     let speed = (if one.speed.1 { one.speed.0 * 0.3048 } else { one.speed.0 }, one.speed.1);
     Move { kind, from: mm(one.from), to: mm(one.to), feed: one.feed * 25.4, speed, ..*one }
 }
 
-/// What is in force with a motion, where it was not before.
+/// Writes the state of a motion, as far as it has changed.
 fn state(text: &mut String, now: &mut Move, one: &Move) {
     if one.tool != now.tool {
         _ = writeln!(text, "T{:04}", one.tool);

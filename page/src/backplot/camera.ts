@@ -1,4 +1,4 @@
-// The view of the path: without perspective, so that lengths stay true.
+// The view of the path. It has no perspective, so that lengths are to scale.
 
 export type Vector = [number, number, number];
 
@@ -23,11 +23,11 @@ export class Camera {
   turn = VIEWS[3].turn;
   tilt = VIEWS[3].tilt;
   lathe = false;
-  /** The name of the view, until the user turns it. */
+  /** The name of the view; it changes when the user turns the view. */
   view = "iso";
   /** Pixels per unit of length. */
   scale = 1;
-  /** The point in the middle. */
+  /** The point in the middle of the view. */
   target: Vector = [0, 0, 0];
   width = 1;
   height = 1;
@@ -42,13 +42,13 @@ export class Camera {
     this.view = "";
   }
 
-  /** The directions to the right, up, and towards the eye. */
+  /** The directions to the right, up, and towards the viewer. */
   axes(): [Vector, Vector, Vector] {
     const [st, ct, se, ce] = [Math.sin(this.turn), Math.cos(this.turn), Math.sin(this.tilt), Math.cos(this.tilt)];
     const right: Vector = [ct, st, 0];
     const eye: Vector = [st * ce, -ct * ce, se];
     const up: Vector = [-st * se, ct * se, ce];
-    // a lathe is shown as Z X: its axes are renamed mill axes
+    // a lathe is shown in Z and X: its axes are mapped to those of a mill
     const rename = (v: Vector): Vector => (this.lathe ? [v[2], -v[1], v[0]] : v);
     return [rename(right), rename(up), rename(eye)];
   }
@@ -71,7 +71,7 @@ export class Camera {
     }
   }
 
-  /** Zooms; the point at the given pixel stays there. */
+  /** Zooms. The point at the given pixel keeps its position. */
   zoom(factor: number, x: number, y: number): void {
     const [dx, dy] = [x - this.width / 2, y - this.height / 2];
     this.pan(-dx, -dy);
@@ -79,7 +79,7 @@ export class Camera {
     this.pan(dx, dy);
   }
 
-  /** Fits points into the view, three numbers each. */
+  /** Fits points into the view. Each point has three numbers. */
   fit(points: ArrayLike<number>, margin = 40): void {
     const axes = this.axes();
     const least = [Infinity, Infinity, Infinity];

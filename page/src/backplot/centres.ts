@@ -1,17 +1,17 @@
-// Where the centre of the tool goes while the control compensates its radius (G41, G42). The register of the radius is taken to hold the
-// radius of the tool: no program contains it.
+// The path of the tool's centre while the control compensates the radius (G41, G42). The radius register is assumed to contain the tool's radius,
+// because no program contains it.
 
 import type { Program } from "../program.ts";
 import type { Shape } from "./tool.ts";
 
-/** Corners sharper than that (1 + cosine of the turn) are not extended to a point: the control goes round them. */
+/** Sharper corners than this (1 + cosine of the angle of the turn) are not extended to a point: the control moves around them. */
 const SHARP = 0.25;
 
-/** The points of the path with the tool's centre beside the programmed line; the same array where nothing is compensated. */
+/** The points of the path, moved to the tool's centre beside the programmed line. If nothing is compensated, the same array is returned. */
 export function centresOf(program: Program, shapes: Map<number, Shape>): Float32Array {
   const { points, first, moveKind, moveLine, moveTool, moves } = program.path!;
   let made: Float32Array | null = null;
-  /** Left of a piece, in the plane; null where it goes nowhere in it. */
+  /** The direction to the left of a piece in the plane; null if the piece does not move in the plane. */
   const left = (piece: number): [number, number] | null => {
     const [dx, dy] = [points[piece * 3 + 3] - points[piece * 3], points[piece * 3 + 4] - points[piece * 3 + 1]];
     const length = Math.hypot(dx, dy);

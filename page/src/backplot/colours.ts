@@ -17,15 +17,15 @@ export interface Colours {
   part: Colour;
   grid: Colour;
   stock: Colour;
-  /** X, Y and Z. */
+  /** Colours of X, Y and Z. */
   axes: Colour[];
   /** Colours of a quantity, from the least value to the greatest. */
   ramp: Colour[];
 }
 
-/** The number of colours of a quantity. */
+/** The number of colours in the ramp. */
 export const RAMP = 5;
-/** How far the deepest cut fades into the background. */
+/** Share by which the deepest cut fades into the background. */
 export const FADE = 0.5;
 
 export function colours(): Colours {
@@ -60,7 +60,7 @@ export function mix(a: Colour, b: Colour, share: number): Colour {
   return a.map((part, i) => part + (b[i] - part) * share) as Colour;
 }
 
-/** The colour of a value from 0 to 255. */
+/** The colour for a value from 0 to 255. */
 export function ofValue(colours: Colours, value: number): Colour {
   const at = (value / 255) * (RAMP - 1);
   const below = Math.min(RAMP - 2, Math.floor(at));

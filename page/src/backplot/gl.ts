@@ -1,12 +1,12 @@
-// Draws lines with WebGL2: a piece is two triangles. The shader computes their corners from points and kinds in textures.
-// Instanced drawing would be shorter, but many drivers draw small instances slowly, one by one.
+// Draws lines with WebGL2. Each piece is two triangles; the shader computes their corners from points and kinds in textures. Instanced drawing would
+// need less code, but many drivers draw small instances slowly.
 
 import type { Camera } from "./camera.ts";
 import { type Colours, FADE, RAMP, TOOLS } from "./colours.ts";
 import { AGAIN, count, JUMP, type Level } from "./levels.ts";
 import { type Painter, RAPID, type Stroke, type Style } from "./painter.ts";
 
-/** Number of cells in a row of a texture: every WebGL2 implementation allows this. */
+/** Number of cells in a row of a texture. Every WebGL2 implementation allows this number. */
 const WIDE = 2048;
 
 const VERTEX = `#version 300 es
@@ -90,7 +90,7 @@ export class GlPainter implements Painter {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Null if the browser has no WebGL2, or only one that is not faster than a plain canvas. */
+  /** A painter for the canvas. Null if the browser has no WebGL2, or only one that is no faster than a plain canvas. */
   static on(canvas: HTMLCanvasElement): GlPainter | null {
     // tested on a separate canvas, because a canvas with a WebGL2 context can't get another context
     const options: WebGLContextAttributes = { antialias: true, alpha: true, premultipliedAlpha: true, failIfMajorPerformanceCaveat: true };
@@ -148,7 +148,7 @@ export class GlPainter implements Painter {
     }
   }
 
-  /** Points and kinds of a level. */
+  /** Textures with the points and kinds of a level. */
   private textures(level: Level): WebGLTexture[] {
     const known = this.kept.get(level);
     if (known) return known;
@@ -174,7 +174,7 @@ export class GlPainter implements Painter {
   }
 }
 
-/** The names of software renderers. */
+/** Is the renderer one of the known software renderers? */
 function isSoftware(gl: WebGL2RenderingContext): boolean {
   const named = gl.getExtension("WEBGL_debug_renderer_info");
   const name = String(gl.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER));

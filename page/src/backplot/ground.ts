@@ -1,23 +1,23 @@
-// Under the path: the plate of the part with a grid, the axes of program zero, and a scale bar.
+// Draws below the path: the plate of the part with a grid, the axes of program zero, and a scale bar.
 
 import type { Path } from "../scene.ts";
 import type { Camera, Vector } from "./camera.ts";
 import { type Colours, css } from "./colours.ts";
 
-/** Pixels between two lines of the grid, at least. */
+/** Minimum distance between two lines of the grid, in pixels. */
 const GRID = 26;
-/** Pixels of the scale bar, at most. */
+/** Maximum length of the scale bar, in pixels. */
 const BAR = 120;
-/** More lines would be a grey area. */
+/** Maximum number of lines: more lines would look like a grey area. */
 const MOST_LINES = 400;
 
-/** The box around the cuts, from the middle of the picture. */
+/** The box around the cuts, relative to the middle of the picture. */
 export interface Plate {
   least: Vector;
   greatest: Vector;
 }
 
-/** The plate under the cuts of a mill's program; null where there is none: nothing is cut, or the machine is another. */
+/** The plate under the cuts of a program for a mill. Null if the program cuts nothing or is for another kind of machine. */
 export function plateOf(path: Path): Plate | null {
   if (path.head.letters !== "XYZ" || path.ends.length || path.head.view === "lathe") return null;
   const least: Vector = [Infinity, Infinity, Infinity];
@@ -38,7 +38,7 @@ export function plateOf(path: Path): Plate | null {
   return least[0] <= greatest[0] ? { least, greatest } : null;
 }
 
-/** 1, 2 or 5 times a power of ten: the least such length that is not less than the given one. */
+/** The least length that is 1, 2 or 5 times a power of ten and not less than the given length. */
 export function round(length: number): number {
   const power = 10 ** Math.floor(Math.log10(length));
   return [1, 2, 5, 10].map((times) => times * power).find((value) => value >= length * (1 - 1e-9))!;
@@ -59,7 +59,7 @@ function drawPlate(context: CanvasRenderingContext2D, camera: Camera, colours: C
   context.closePath();
   context.fillStyle = css(colours.part);
   context.fill();
-  // lines of the grid are at round positions of the program
+  // grid lines are at round coordinates of the program
   const step = round(GRID / camera.scale);
   const lines = (axis: 0 | 1) => {
     const first = Math.ceil((least[axis] + middle[axis]) / step);
@@ -80,7 +80,7 @@ function drawPlate(context: CanvasRenderingContext2D, camera: Camera, colours: C
   context.stroke();
 }
 
-/** Program zero with its axes; of a lathe the centre line. */
+/** Draws program zero with its axes; for a lathe, the centre line. */
 function drawZero(context: CanvasRenderingContext2D, camera: Camera, colours: Colours, middle: Vector, isLathe: boolean): void {
   const zero = middle.map((value) => -value) as Vector;
   const [x, y] = camera.project(zero);
@@ -119,7 +119,7 @@ function drawZero(context: CanvasRenderingContext2D, camera: Camera, colours: Co
   context.stroke();
 }
 
-/** A bar of a round length, with that length. */
+/** Draws a bar of a round length with its label. */
 export function drawBar(context: CanvasRenderingContext2D, camera: Camera, colours: Colours, units: string): void {
   let length = round(BAR / camera.scale / 2);
   if (length * 2 * camera.scale <= BAR) length *= 2;

@@ -1,11 +1,11 @@
-// What the colours of a picture mean.
+// The legend: the meaning of the colours in a picture.
 
 import { element } from "../element.ts";
 import type { Program } from "../program.ts";
 import { type Colour, type Colours, css, TOOLS } from "./colours.ts";
 import type { Shades } from "./shades.ts";
 
-/** More entries than that are left out. */
+/** Maximum number of entries; the others are only counted. */
 const MOST = 8;
 
 export function legendOf(program: Program, shades: Shades, colours: Colours, hasOld: boolean): HTMLElement[] {
@@ -34,7 +34,7 @@ function coloured(name: string, colour: Colour): HTMLElement {
   return entry;
 }
 
-/** The least value, the colours, and the greatest value. */
+/** The least value, the ramp of colours, and the greatest value. */
 function ramp([least, greatest]: [number, number], meaning: string, program: Program, colours: Colours): HTMLElement {
   const { units } = program.path!.head;
   const bar = element("i", {});

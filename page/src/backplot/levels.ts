@@ -1,4 +1,4 @@
-// The path in levels of detail: from far away, a million moves become some ten thousand lines.
+// The path in several levels of detail. In the coarse levels, a million moves become some ten thousand lines.
 
 import type { Path } from "../scene.ts";
 
@@ -7,29 +7,29 @@ const CHUNK = 4096;
 /** Error of the finest simplified level, relative to the size of the path; each coarser level has a multiple of it. */
 const FINEST = 1 / 8000;
 const COARSER = 3;
-/** Larger errors would be visible. */
+/** Greatest error of a level, relative to the size of the path. A larger error would be visible. */
 const COARSEST = 1 / 30;
-/** A path with fewer pieces has no coarser level. */
+/** A path with fewer pieces has only one level. */
 const FEW = 20000;
 
 export interface Level {
-  /** Largest distance between a removed point and the drawn line. */
+  /** Greatest distance between a removed point and the drawn line. */
   error: number;
-  /** Points; piece i goes from point i to point i + 1. */
+  /** Points; piece i is the line from point i to point i + 1. */
   points: Float32Array;
-  /** Of each piece: kind, tool, colour, shade. The colour and the shade are those of `shades.ts`. */
+  /** For each piece: kind, tool, colour, shade. `shades.ts` computes colour and shade. */
   kinds: Uint8Array;
-  /** The last piece of the path in each piece of the level. */
+  /** For each piece of the level, the last piece of the path that it contains. */
   pieces: Uint32Array | null;
   /** Least and greatest X Y Z of each chunk of pieces. */
   boxes: Float32Array;
 }
 
-/** A jump: it is not drawn. */
+/** A jump between two parts of the path; it is not drawn. */
 export const JUMP = 3;
-/** A rapid that an earlier one has drawn; it is drawn only where it is chosen. */
+/** A rapid that repeats an earlier one. It is drawn only if its block is selected. */
 export const AGAIN = 4;
-/** So many rapids are compared with each other. */
+/** Maximum number of rapids that are compared with each other. */
 const MOST_RAPIDS = 50_000;
 
 export function count(level: Level): number {
@@ -58,7 +58,7 @@ export function levels(path: Path): Level[] {
   return all;
 }
 
-/** Marks rapids that have been drawn already, in whichever direction. */
+/** Marks repeated rapids, in either direction. */
 function drawOnce({ points }: Path, kinds: Uint8Array): void {
   const seen = new Set<string>();
   for (let piece = 0; piece * 4 < kinds.length && seen.size < MOST_RAPIDS; piece++) {
@@ -72,7 +72,7 @@ function drawOnce({ points }: Path, kinds: Uint8Array): void {
   }
 }
 
-/** Removes points that are nearer than `error` to the last kept point; points where the kind or the tool changes are kept. */
+/** Makes a coarser level: removes points nearer than `error` to the last kept point. Points at which the kind or the tool changes are kept. */
 function coarser(level: Level, error: number): Level {
   const { points, kinds } = level;
   const total = count(level);
@@ -92,7 +92,7 @@ function coarser(level: Level, error: number): Level {
   const fewer = new Float32Array((number + 1) * 3);
   const fewerKinds = new Uint8Array(number * 4);
   fewer.set(points.subarray(0, 3));
-  // number by number: a view of a part of an array costs more than its three numbers
+  // one number at a time: creating a subarray would take longer than its three numbers
   for (let i = 0; i < number; i++) {
     const piece = pieces[i];
     for (let axis = 0; axis < 3; axis++) fewer[i * 3 + 3 + axis] = points[piece * 3 + 3 + axis];
@@ -120,14 +120,14 @@ function boxes(points: Float32Array): Float32Array {
   return all;
 }
 
-/** The coarsest level whose error is less than a pixel. */
+/** The coarsest level with an error below one pixel. */
 export function fitting(levels: Level[], scale: number): Level {
   return levels.find((level) => level.error * scale < 0.8) ?? levels[levels.length - 1];
 }
 
 export type Sees = (box: Float32Array, at: number) => boolean;
 
-/** The same, but with at most `most` visible pieces; if there are more, a coarser level is used. */
+/** The level to draw and its runs of visible pieces, at most `most` of them. If there are more, a coarser level is used. */
 export function drawable(levels: Level[], scale: number, sees: Sees, most: number): [Level, [number, number][]] {
   for (let at = levels.indexOf(fitting(levels, scale)); ; at--) {
     const runs = inSight(levels[at], sees);
@@ -135,7 +135,7 @@ export function drawable(levels: Level[], scale: number, sees: Sees, most: numbe
   }
 }
 
-/** The number of pieces of a level before a piece of the path. */
+/** The number of pieces of a level before this piece of the path. */
 export function upTo(level: Level, piece: number): number {
   if (!level.pieces) return Math.min(piece, count(level));
   let [low, high] = [0, level.pieces.length];
@@ -147,7 +147,7 @@ export function upTo(level: Level, piece: number): number {
   return low;
 }
 
-/** Runs of pieces that may be visible: first, and after the last. */
+/** Runs of pieces that may be visible: the first piece, and the piece after the last one. */
 export function inSight(level: Level, sees: Sees): [number, number][] {
   const runs: [number, number][] = [];
   const total = count(level);

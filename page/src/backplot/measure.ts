@@ -6,10 +6,10 @@ import { type Colours, css } from "./colours.ts";
 
 export class Measure {
   private points: Vector[] = [];
-  /** Clicks choose points, not blocks. */
+  /** While it is on, a click selects a point instead of a block. */
   isOn = false;
 
-  /** Turns it on or off; both forget the points. */
+  /** Turns measuring on or off, and forgets the points. */
   toggle(): void {
     this.isOn = !this.isOn;
     this.points = [];
@@ -19,7 +19,7 @@ export class Measure {
     this.points = [];
   }
 
-  /** Takes the end of a piece that is nearer to a pixel. */
+  /** Selects the end of a piece that is nearer to a pixel. */
   take(path: Path, piece: number, camera: Camera, x: number, y: number): void {
     const ends = [piece, piece + 1].map((point) => [...path.points.subarray(point * 3, point * 3 + 3)] as Vector);
     const away = (point: Vector) => {
@@ -30,7 +30,7 @@ export class Measure {
     this.points.push(away(ends[0]) < away(ends[1]) ? ends[0] : ends[1]);
   }
 
-  /** The distance and its parts along the axes, in words; empty before there are two points. */
+  /** The distance and its parts along the axes, as text. Empty until two points are selected. */
   words(units: string): string {
     if (this.points.length < 2) return this.isOn ? `measure: click ${this.points.length ? "the second" : "the first"} point of the path` : "";
     const [a, b] = this.points;

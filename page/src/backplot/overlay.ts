@@ -1,13 +1,13 @@
-// Over the path: holes, the tool's tip, and the directions of the axes.
+// Draws above the path: holes, the tool's tip, and the directions of the axes.
 
 import type { Path } from "../scene.ts";
 import type { Camera, Vector } from "./camera.ts";
 import { type Colours, css, ofTool } from "./colours.ts";
 
-/** More holes are drawn by their moves alone. */
+/** Maximum number of holes that are drawn as circles. If there are more, only their moves are drawn. */
 const MOST_HOLES = 5000;
 
-/** The context of a canvas that is empty, in pixels of the page. */
+/** Clears a canvas. Returns its context in pixels of the page. */
 export function cleared(canvas: HTMLCanvasElement, camera: Camera, ratio: number): CanvasRenderingContext2D {
   const context = canvas.getContext("2d")!;
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -38,7 +38,7 @@ export function drawTip(context: CanvasRenderingContext2D, camera: Camera, colou
   context.stroke();
 }
 
-/** The directions of the axes, above the scale bar. */
+/** Draws the directions of the axes, above the scale bar. */
 export function drawAxes(context: CanvasRenderingContext2D, camera: Camera, colours: Colours): void {
   const [right, up] = camera.axes();
   const [x, y] = [34, camera.height - 62];

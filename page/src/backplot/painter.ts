@@ -11,28 +11,28 @@ export interface Stroke {
   to: number;
   width: number;
   alpha: number;
-  /** Overrides the colours of tools and rapids. */
+  /** Colour of the stroke in place of the colours of tools and rapids. */
   colour?: Colour;
-  /** Rapids are dashed. */
+  /** Rapids are drawn as dashed lines. */
   dashed: boolean;
 }
 
-/** What colours mean in a picture, and how long dashes are. */
+/** The meaning of colours in a picture, and the length of dashes. */
 export interface Style {
-  /** Byte 2 of the pieces is a value of the ramp, not the number of a colour. */
+  /** Byte 2 of a piece is a value of the colour ramp, not the number of a colour. */
   ramp: boolean;
-  /** Length of a dash of rapids in pixels. */
+  /** Length of a dash in pixels, for rapids. */
   dash: number;
 }
 
-/** Rapids beside cuts: thinner and fainter. */
+/** Rapids are thinner and fainter than cuts. */
 export const RAPID = { width: 0.7, alpha: 0.75 };
 
 export interface Painter {
   readonly name: string;
-  /** Where the ground is drawn, under the lines; null: on a canvas of its own. */
+  /** The context for the ground, below the lines. Null: the ground has a separate canvas. */
   readonly ground: CanvasRenderingContext2D | null;
-  /** Maximum number of lines: for a still picture, and while the view moves. */
+  /** Maximum number of lines in a still picture, and while the view moves. */
   readonly most: { still: number; moving: number };
   begin(camera: Camera, colours: Colours, ratio: number, style: Style): void;
   stroke(stroke: Stroke): void;

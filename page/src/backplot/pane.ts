@@ -1,4 +1,4 @@
-// The backplot: the path of a program, the old path below it, the selected block, and selection with the pointer.
+// The backplot: shows the path of a program, the old path below it and the selected block. The pointer selects blocks.
 
 import type { Program } from "../program.ts";
 import { Path, type ToolSize } from "../scene.ts";
@@ -23,9 +23,9 @@ import { drawTool, type Shape, shapesOf, upOf } from "./tool.ts";
 import { type Meaning, MEANINGS, paint, type Shades } from "./shades.ts";
 
 const REACH = 8;
-/** Milliseconds of rest after which a moved path is drawn in full. */
+/** Milliseconds after the last movement of the view before the full picture is drawn. */
 const REST = 150;
-/** Milliseconds of a frame in which the stock is cut: while the timeline plays, and while it is cut to the end. */
+/** Milliseconds in each frame for cutting the stock: while the timeline plays, and while the whole path is cut. */
 const CUTTING = { playing: 20, whole: 80 };
 
 export class Backplot {
@@ -38,7 +38,7 @@ export class Backplot {
   private readonly legend = element("div", { class: "legend", "aria-hidden": "true" });
   private readonly block = element("button", { "aria-pressed": "false", title: "Cut the stock along the path; rapids through it are marked (s)" }, "stock");
   private readonly ruler = element("button", { "aria-pressed": "false", title: "Measure between two points of the path (m)" }, "measure");
-  /** A measured distance, what to click, or why there is no stock. */
+  /** Shows a measured distance, what to click, or why there is no stock. */
   private readonly told = element("div", { class: "told-here", role: "status", "aria-label": "Measure and stock" });
   private readonly camera = new Camera();
   private readonly painter: Painter;
@@ -50,7 +50,7 @@ export class Backplot {
   private line = 0;
   private lit: number[] = [];
   private bad: number[] = [];
-  /** The moves that are drawn emphasised, and the point at which the tool is. */
+  /** Identifies the moves that are highlighted and the tool's position. */
   private emphasis = "";
   private plate: Plate | null = null;
   private meaning: Meaning = "tool";
@@ -58,25 +58,25 @@ export class Backplot {
   private readonly measure = new Measure();
   private shapes = new Map<number, Shape>();
   private sizes = "";
-  /** Points of the tool's centre, once they are needed. */
+  /** Points of the tool's centre; computed when they are first needed. */
   private known: Float32Array | null = null;
   private readonly size: Size | null;
-  /** The stock, while it is shown. */
+  /** The stock, if it is shown. */
   private stock: Stock | null = null;
-  /** While the timeline plays: the point before the tool, and the position of the tool. */
+  /** While the timeline plays: the last point that the tool has reached, and the tool's position. */
   private cursor: { point: number; at: Vector } | null = null;
   private asked = 0;
   private fits = true;
-  /** The view is moving: a fast coarse picture is better than a slow fine one. */
+  /** Is not 0 while the view moves: a coarse picture that is drawn fast is then better than a fine one. */
   private moving = 0;
-  /** Number of frames, and the time of the last one: for measurements. */
+  /** Measurements: number of frames, time of the last frame, and number of pieces. */
   readonly frames = { count: 0, last: 0, pieces: 0 };
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
-  /** The lines whose rapids go through the stock, as far as it is cut. */
+  /** Called with the lines whose rapids go through the stock, as far as it is cut. */
   onCrash: (lines: number[]) => void = () => {};
 
-  /** Without `solid` there is no stock. */
+  /** Without `solid`, no stock can be shown. */
   constructor(private readonly solid: Solid | null) {
     this.size = solid && new solid.Size();
     this.block.hidden = !solid;
@@ -136,7 +136,7 @@ export class Backplot {
     this.redraw();
   }
 
-  /** Shows another program; `old` is drawn below it. */
+  /** Shows another program; `old` is the path that is drawn below it. */
   show(program: Program | null, old: Program | null, differences: number[], sizes: ToolSize[] = []): void {
     if (program?.path && JSON.stringify(sizes) !== this.sizes) {
       this.sizes = JSON.stringify(sizes);
@@ -186,7 +186,7 @@ export class Backplot {
     this.redraw();
   }
 
-  /** Another program, or the same one, with the picture that is drawn: only colours that follow its words may change. */
+  /** Keeps the drawn path for a program with the same moves. Only colours that depend on its words may change. */
   private keep(isSame: boolean, marked: boolean): void {
     if (!isSame) {
       this.known = null;
@@ -197,7 +197,8 @@ export class Backplot {
     else this.emphasise();
   }
 
-  /** Draws again if other moves are emphasised than before: those of the selected block, of the blocks of its form line, of differences. */
+  /** Redraws if other moves are highlighted than before. Highlighted are the moves of the selected block, of blocks from the same form line, and of
+   * differences. */
   private emphasise(): void {
     const { program } = this;
     const moves = program ? [this.line, ...this.lit, ...this.bad].map((line) => program.moves(line)) : [];
@@ -225,7 +226,7 @@ export class Backplot {
     this.legend.replaceChildren(...legendOf(this.program!, this.shades!, this.colours, this.old.length > 0));
   }
 
-  /** What the colours of cuts show. */
+  /** Sets the meaning of the colours of cuts. */
   private colourBy(meaning: Meaning): void {
     this.meaning = meaning;
     if (!this.program?.path) return;
@@ -246,7 +247,7 @@ export class Backplot {
     this.redraw();
   }
 
-  /** The stock of a mill's program whose tools have diameters; else why there is none. */
+  /** Shows the stock of a mill's program whose tools have diameters. Otherwise shows why there is no stock. */
   private showStock(): void {
     const path = this.program?.path;
     const { solid, size } = this;
@@ -265,7 +266,7 @@ export class Backplot {
     this.block.setAttribute("aria-pressed", String(!!this.stock));
   }
 
-  /** Cuts the stock up to where the tool is, in pieces that leave the page responsive. */
+  /** Cuts the stock up to the tool's position, in steps, so that the page stays responsive. */
   private cutStock(): void {
     const path = this.program?.path;
     if (!this.stock || !path) return;
@@ -283,7 +284,7 @@ export class Backplot {
     if (this.measure.isOn) this.toggleMeasure();
   }
 
-  /** Clicks measure, until it is turned off again. */
+  /** Turns measuring on or off. While it is on, clicks select points. */
   toggleMeasure(): void {
     this.measure.toggle();
     this.ruler.setAttribute("aria-pressed", String(this.measure.isOn));
@@ -291,13 +292,13 @@ export class Backplot {
     this.redraw();
   }
 
-  /** Selects a line; `lit` are other lines that belong to it. */
+  /** Selects a line; `lit` are other lines that belong to it and are highlighted too. */
   choose(line: number, lit: number[]): void {
     [this.line, this.lit] = [line, lit];
     this.emphasise();
   }
 
-  /** The timeline: the tool is at a position after a point of the path, and what comes then is faint. Null: all of it is drawn. */
+  /** For the timeline: draws the tool after a point of the path, and the rest of the path faintly. Null: draws the whole path normally. */
   drawTo(cursor: { point: number; at: Vector } | null): void {
     if (!cursor && !this.cursor) return;
     this.cursor = cursor;
@@ -342,14 +343,14 @@ export class Backplot {
     }, REST);
   }
 
-  /** The view has changed; it is drawn in the next frame. */
+  /** Called when the view has changed. The new view is drawn in the next frame. */
   private turned(): void {
     this.fits = false;
     this.moves();
     this.redraw();
   }
 
-  /** Draws in the next frame; the buttons show the new view at once. */
+  /** Draws in the next frame. The view buttons are updated immediately. */
   redraw(): void {
     for (const button of this.views.querySelectorAll("[data-view]")) {
       button.setAttribute("aria-pressed", String(button.getAttribute("data-view") === this.camera.view));
@@ -369,7 +370,7 @@ export class Backplot {
     }
     [this.camera.width, this.camera.height] = [width, height];
     if (this.fits) this.fit();
-    // at once, because a canvas becomes empty when its size changes
+    // immediately, because a canvas is cleared when its size changes
     this.draw();
   }
 
@@ -394,7 +395,7 @@ export class Backplot {
     if (path && this.levels.length) {
       const [level, runs] = drawable(this.levels, scale, sees, most);
       const until = this.cursor ? upTo(level, this.cursor.point) : count(level);
-      // lines over a stock that changes cost more than they show
+      // while the stock changes, lines are not drawn, because they take too much time
       for (const [from, to] of this.stock && this.moving ? [] : runs) {
         this.frames.pieces += to - from;
         const now = Math.max(from, Math.min(to, until));
@@ -418,9 +419,9 @@ export class Backplot {
     this.frames.last = performance.now() - began;
   }
 
-  /** Draws what lies under the path: plate, grid and zero. */
+  /** Draws below the path: plate, grid and zero. */
   private drawUnder(ratio: number): void {
-    // on a plain canvas it is the same one: each further canvas costs a layer of the picture
+    // on a plain canvas, the ground is drawn on the same canvas, because each canvas costs time in every frame
     const context = this.painter.ground ?? cleared(this.under, this.camera, ratio);
     const path = this.program?.path;
     if (!path) return;
@@ -428,7 +429,7 @@ export class Backplot {
     drawGround(context, this.camera, this.colours, path, this.stock ? null : this.plate);
   }
 
-  /** Draws what lies over the path: holes, the tool, the directions of the axes, the scale, a measured distance. */
+  /** Draws above the path: holes, the tool, the directions of the axes, the scale, a measured distance. */
   private drawOver(ratio: number): void {
     const context = cleared(this.over, this.camera, ratio);
     const path = this.program?.path;
@@ -441,12 +442,12 @@ export class Backplot {
     drawAxes(context, this.camera, this.colours);
   }
 
-  /** Where the centre of the tool goes, a point for each of the path. */
+  /** The path of the tool's centre, with a point for each point of the path. */
   private get centres(): Float32Array {
     return (this.known ??= centresOf(this.program!, this.shapes));
   }
 
-  /** The tool: after the chosen block, or where the timeline is. */
+  /** Draws the tool after the selected block, or at the position of the timeline. */
   private drawTip(context: CanvasRenderingContext2D): void {
     const program = this.program!;
     const path = program.path!;
@@ -454,7 +455,7 @@ export class Backplot {
     if (!this.cursor && !(this.line > 0 && point > 0)) return;
     const end = this.cursor ? Math.min(this.cursor.point + 1, path.pieces) : point;
     const on = this.cursor?.at ?? ([...path.points.subarray(point * 3, point * 3 + 3)] as Vector);
-    // beside the line while the control compensates the radius
+    // the tool is beside the line while the control compensates the radius
     const isBeside = [41, 42].includes(program.held("compensation", this.line)?.value ?? 40);
     const at = isBeside ? (on.map((value, axis) => value + this.centres[end * 3 + axis] - path.points[end * 3 + axis]) as Vector) : on;
     const tool = path.moveTool[program.moveOf(end)] ?? 0;
@@ -482,12 +483,12 @@ export class Backplot {
     this.redraw();
   }
 
-  /** For tests only: the pieces of the finest level, with their colours. */
+  /** For tests: the pieces of the finest level, with their colours. */
   get kinds(): Uint8Array {
     return this.levels[this.levels.length - 1]?.kinds ?? new Uint8Array();
   }
 
-  /** The pixel in the pane at which a line ends, for tests. */
+  /** For tests: the pixel in the pane at which a line ends. */
   pixelOf(line: number): [number, number] | null {
     const path = this.program?.path;
     if (!path) return null;
@@ -498,7 +499,7 @@ export class Backplot {
   }
 }
 
-/** The old path, relative to the middle of the new one. */
+/** The old path, relative to the middle of the new path. */
 function shifted(path: Path, program: Program | null): Path {
   const by = path.head.middle.map((value, axis) => value - (program?.path?.head.middle[axis] ?? value));
   return Object.assign(Object.create(Path.prototype) as Path, path, { points: path.points.map((value, at) => value + by[at % 3]) });

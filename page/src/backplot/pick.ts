@@ -3,7 +3,7 @@
 import type { Camera } from "./camera.ts";
 import { AGAIN, count, inSight, type Level } from "./levels.ts";
 
-/** The piece nearest to a pixel, within `reach` pixels; cuts rank before rapids. -1: there is none. */
+/** The piece nearest to a pixel, within `reach` pixels. Cuts are preferred to rapids. -1: there is none. */
 export function pick(level: Level, camera: Camera, x: number, y: number, reach: number): number {
   const [right, up] = camera.axes();
   const { points, kinds } = level;
@@ -27,7 +27,7 @@ export function pick(level: Level, camera: Camera, x: number, y: number, reach: 
         const length = dx * dx + dy * dy;
         const share = length > 0 ? Math.max(0, Math.min(1, -(ax * dx + ay * dy) / length)) : 0;
         const [nx, ny] = [ax + share * dx, ay + share * dy];
-        // a rapid must be some pixels nearer than a cut
+        // a rapid is selected only if it is a few pixels nearer than any cut
         const distance = nx * nx + ny * ny + (kind === 0 || kind === AGAIN ? 9 : 0);
         if (distance < least) [least, best] = [distance, piece];
       }
@@ -37,7 +37,7 @@ export function pick(level: Level, camera: Camera, x: number, y: number, reach: 
   return best < 0 ? -1 : level.pieces ? level.pieces[best] : best;
 }
 
-/** Can a box be visible in a rectangle of pixels? */
+/** May a box be visible in a rectangle of pixels? */
 export function overlaps(
   box: Float32Array, at: number, camera: Camera, left: number, top: number, right: number, bottom: number,
 ): boolean {

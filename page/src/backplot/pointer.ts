@@ -1,14 +1,14 @@
-// The pointer and the keys of the path: turning, moving, zooming, pointing and clicking.
+// Pointer and keys of the path: turning, moving, zooming, pointing and clicking.
 
 import type { Camera } from "./camera.ts";
 
-/** Pixels that a click may move. */
+/** Maximum movement of a click in pixels. */
 const STILL = 4;
 
 export interface Acts {
-  /** The camera looks from elsewhere. */
+  /** Called when the view has changed. */
   turned(): void;
-  /** The pointer is at a pixel, in a frame of its own. */
+  /** Called when the pointer is at a pixel, at most once per frame. */
   hover(x: number, y: number): void;
   leave(): void;
   click(x: number, y: number): void;

@@ -1,12 +1,12 @@
-// A height field as a picture: cells are drawn from the farthest to the nearest, so that near ones cover what lies behind them.
+// Draws a height field. Cells are drawn from the farthest to the nearest, so that near cells cover those behind them.
 
 import type { Camera } from "./camera.ts";
 import { type Colour, type Colours, mix, TOOLS } from "./colours.ts";
 import type { Stock } from "./stock.ts";
 
-/** Pixels of a drawn cell, at rest and while it changes: finer cells are drawn together. */
+/** Size of a drawn cell in pixels, at rest and while the view or stock changes. Finer cells are drawn together. */
 const PIXELS = { still: 1.6, moving: 3.2 };
-/** Steps of brightness. */
+/** Number of brightness steps. */
 const LIGHT = 32;
 
 export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, colours: Colours, ratio: number, stock: Stock, moving: boolean): void {
@@ -18,7 +18,7 @@ export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, co
   const stride = Math.max(1, Math.ceil((moving ? PIXELS.moving : PIXELS.still) / (stock.cell * scale)));
   const { wide, deep, heights, tools, bottom } = stock;
   const size = stock.cell * stride;
-  // half of a cell in pixels, across and up
+  // half the size of a cell in pixels, across and up
   const half = Math.max(1, ((Math.abs(right[0]) + Math.abs(right[1])) * size * scale) / 2);
   const rise = Math.max(0.6, ((Math.abs(up[0]) + Math.abs(up[1])) * size * scale) / 2);
   const palette = brightness(colours);
@@ -33,13 +33,13 @@ export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, co
       const px = canvas.width / 2 + (x * right[0] + y * right[1] + (height - camera.target[2]) * right[2]) * scale;
       const py = canvas.height / 2 - (x * up[0] + y * up[1] + (height - camera.target[2]) * up[2]) * scale;
       if (px < -half || px > canvas.width + half) continue;
-      // lit from the front left, above
+      // the light comes from the front left, from above
       const [sx, sy] = [(at(column + stride, row) - at(column - stride, row)) / (2 * size), (at(column, row + stride) - at(column, row - stride)) / (2 * size)];
       const edge = column < stride || row < stride || column + stride >= wide || row + stride >= deep;
       const bright = edge ? 0.8 : Math.max(0.25, Math.min(1, (0.45 * sx + 0.4 * sy + 0.8) / Math.hypot(sx, sy, 1)));
       const tint = tools[cell] ? 1 + ((tools[cell] + TOOLS - 1) % TOOLS) : 0;
       const colour = palette[tint * LIGHT + Math.round(bright * (LIGHT - 1))];
-      // the wall down to the lower of the two cells before it
+      // the wall down to the lower of the two cells in front of it
       const lower = Math.min(at(column + ahead, row), at(column, row + aside));
       const wall = Math.max(0, height - lower) * up[2] * scale;
       const [left, end] = [Math.max(0, Math.round(px - half)), Math.min(canvas.width, Math.round(px + half))];
@@ -53,13 +53,13 @@ export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, co
   context.putImageData(image, 0, 0);
 }
 
-/** Cells along a side, the farthest from the eye first. */
+/** Indices of cells along a side, beginning with the farthest from the viewer. */
 function order(count: number, stride: number, eye: number): number[] {
   const cells = Array.from({ length: Math.ceil(count / stride) }, (_, i) => i * stride);
   return eye > 0 ? cells : cells.reverse();
 }
 
-/** Colours of the uncut stock and of each tool's cuts, by their brightness, as pixels. */
+/** Pixel colours of the uncut stock and of each tool's cuts, for each brightness. */
 function brightness(colours: Colours): Uint32Array {
   const made = new Uint32Array((TOOLS + 1) * LIGHT);
   for (let tint = 0; tint <= TOOLS; tint++) {

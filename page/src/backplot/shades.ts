@@ -1,4 +1,4 @@
-// What the colours of cuts mean, and how deep each cut is: a colour and a shade for each piece of a level.
+// Computes a colour and a shade for each piece of a level. The shade shows the depth of a cut.
 
 import type { Program } from "../program.ts";
 import { TOOLS } from "./colours.ts";
@@ -10,11 +10,11 @@ export type Meaning = (typeof MEANINGS)[number];
 /** The meaning of the colours of a picture. */
 export interface Shades {
   meaning: Meaning;
-  /** The least value and the greatest of a quantity; null where colours are numbers. */
+  /** The least and greatest value of a quantity; null if colours stand for numbers. */
   range: [number, number] | null;
 }
 
-/** Writes colours and shades into the levels of a program. Depth is shaded on mills, as long as no axis turns the part: there Z is the depth. */
+/** Writes colours and shades into the levels of a program. Depth is shaded only on mills without rotary moves, where Z is the depth. */
 export function paint(levels: Level[], program: Program, meaning: Meaning): Shades {
   const { head, ends } = program.path!;
   const whole = levels[levels.length - 1];
@@ -49,12 +49,12 @@ function isCut(kind: number): boolean {
   return kind === 1 || kind === 2;
 }
 
-/** From 0 for the least to 255 for the greatest. */
+/** A value as a number from 0 (least) to 255 (greatest). */
 function share(value: number, least: number, greatest: number): number {
   return greatest > least ? Math.max(0, Math.min(255, Math.round(((value - least) / (greatest - least)) * 255))) : 255;
 }
 
-/** The lowest end of a cut and the highest; null where nothing is cut. */
+/** The heights of the lowest and the highest cut; null if nothing is cut. */
 function heightsOf({ points, kinds }: Level): [number, number] | null {
   let [least, greatest] = [Infinity, -Infinity];
   for (let piece = 0; piece * 4 < kinds.length; piece++) {
@@ -66,7 +66,7 @@ function heightsOf({ points, kinds }: Level): [number, number] | null {
   return least <= greatest ? [least, greatest] : null;
 }
 
-/** Byte 2 or 3 of each piece: how high its middle is; 255 everywhere without a range. */
+/** Sets byte 2 or 3 of each piece to the height of its middle; without a range, to 255. */
 function byHeight({ points, kinds }: Level, byte: 2 | 3, range: [number, number] | null): void {
   const [least, scale] = range && range[1] > range[0] ? [range[0], 255 / (range[1] - range[0])] : [0, 0];
   for (let piece = 0; piece * 4 < kinds.length; piece++) {

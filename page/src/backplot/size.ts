@@ -1,4 +1,4 @@
-// The size of the stock: fields that begin with the box of the cuts, because no job contains it.
+// The fields for the size of the stock. Their first values are the box of the cuts, because no job contains the stock.
 
 import { element } from "../element.ts";
 import type { Path } from "../scene.ts";
@@ -6,10 +6,10 @@ import type { Block } from "./stock.ts";
 
 const FIELDS = ["X from", "X to", "Y from", "Y to", "Z top"];
 
-/** A block is at most so many times as large as the path. */
+/** A block may be at most this many times as large as the path. */
 const MOST = 100;
 
-/** A number with a point or a comma; NaN for any other text. */
+/** Reads a number with a point or a comma; NaN for any other text. */
 function number(text: string): number {
   return /^\s*[-+]?(\d+([.,]\d*)?|[.,]\d+)\s*$/.test(text) ? Number(text.replace(",", ".")) : NaN;
 }
@@ -18,7 +18,7 @@ export class Size {
   readonly root = element("div", { class: "size", role: "group", "aria-label": "Stock", hidden: "" });
   private readonly fields = FIELDS.map((name) => element("input", { type: "text", inputmode: "decimal", "aria-label": name }));
   private readonly hint = element("span", {});
-  /** A size was typed: rapids are held against it. */
+  /** The user typed a size, so rapids are checked against the stock. */
   isGiven = false;
   onChange: () => void = () => {};
 
@@ -32,7 +32,7 @@ export class Size {
     }));
   }
 
-  /** Shows a guess, until a size is typed. */
+  /** Shows an estimate, until the user types a size. */
   show(path: Path, { least, greatest, top }: Block): void {
     this.root.hidden = false;
     this.tell();
@@ -46,7 +46,7 @@ export class Size {
     this.root.hidden = true;
   }
 
-  /** The block that is typed; null where it is none. */
+  /** The typed block; null if the numbers are not valid. */
   block(path: Path): Block | null {
     const [left, right, low, high, top] = this.fields.map((field) => number(field.value));
     const [x, y, z] = path.head.middle;

@@ -1,4 +1,4 @@
-// The stock of a path: only a page with a job has tools with diameters that cut it.
+// The functions for the stock of a path. Only a page with a job has tool diameters, which the stock needs.
 
 import { drawRelief } from "./relief.ts";
 import { Size } from "./size.ts";

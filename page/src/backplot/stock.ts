@@ -1,19 +1,19 @@
-// The stock as a height field: cut by the tools along the path, and looked at for rapids that go through it.
+// The stock as a height field. The tools cut it along the path, and rapids through it are found.
 
 import type { Path } from "../scene.ts";
 import type { Plate } from "./ground.ts";
 import { lowest } from "./sweep.ts";
 import type { Shape } from "./tool.ts";
 
-/** The finest cell in millimetres, and the most cells along a side. */
+/** The size of the finest cell in millimetres, and the maximum number of cells along a side. */
 const FINEST = 0.25;
 const MOST_CELLS = 1000;
-/** A rapid may be so much under the surface, in millimetres, before it counts as one through stock: cells are no finer. */
+/** A rapid may be this far below the surface, in millimetres, before it counts as a rapid through stock, because the cells are no finer. */
 const TOLERANCE = 0.2;
-/** Pieces between two looks at the clock. */
+/** Number of pieces between two checks of the time. */
 const BATCH = 64;
 
-/** A block of material, from the middle of the picture. */
+/** A block of material, relative to the middle of the picture. */
 export interface Block {
   least: [number, number];
   greatest: [number, number];
@@ -30,16 +30,16 @@ export class Stock {
   readonly y: number;
   readonly top: number;
   readonly bottom: number;
-  /** Heights, and the tool that cut each cell last; 0: none. */
+  /** The height of each cell, and the tool that cut it last; 0: none. */
   readonly heights: Float32Array;
   readonly tools: Uint8Array;
   /** Lines whose rapids go through the stock. */
   readonly crashes = new Set<number>();
-  /** Pieces that are cut. */
+  /** Number of pieces that are cut. */
   private done = 0;
   private readonly tolerance: number;
 
-  /** `centres`: where the centre of the tool goes, a point for each of the path. */
+  /** `centres`: the path of the tool's centre, with a point for each point of the path. */
   constructor(private readonly path: Path, private readonly centres: Float32Array, block: Block, lowest: number, private readonly shapes: Map<number, Shape>) {
     const unit = path.head.units === "inch" ? 1 / 25.4 : 1;
     const [width, depth] = [0, 1].map((axis) => block.greatest[axis] - block.least[axis]);
@@ -54,7 +54,8 @@ export class Stock {
     this.tools = new Uint8Array(this.wide * this.deep);
   }
 
-  /** Cuts up to a piece, for at most so many milliseconds. Returns true when the piece is reached. For an earlier piece it begins again, because cells do not grow. */
+  /** Cuts up to a piece, for at most this many milliseconds. Returns true when the piece is reached. For an earlier piece, it starts again with the
+   * uncut block. */
   cutTo(piece: number, most: number): boolean {
     if (piece < this.done) {
       this.heights.fill(this.top);
@@ -78,7 +79,7 @@ export class Stock {
     const kind = path.moveKind[move] & 15;
     const tool = path.moveTool[move];
     const shape = this.shapes.get(tool);
-    // a height that only the machine knows is over everything
+    // a height that only the machine has counts as above everything
     if (kind === 3 || !shape || path.moveKind[move] & 128) return;
     const at = piece * 3;
     const points = this.centres;
@@ -90,17 +91,17 @@ export class Stock {
     } else this.cut(from, to, shape, tool);
   }
 
-  /** The rows that a tool of a radius may touch along a piece. */
+  /** The rows that a tool with this radius may touch along a piece. */
   private rows(from: number[], to: number[], radius: number): [number, number] {
     const row = (y: number) => Math.round((y - this.y) / this.cell);
     return [Math.max(0, row(Math.min(from[1], to[1]) - radius)), Math.min(this.deep - 1, row(Math.max(from[1], to[1]) + radius))];
   }
 
-  /** The columns of the last row that was asked for. */
+  /** The columns of the last row for which `columns` was called. */
   private left = 0;
   private right = -1;
 
-  /** Finds the columns of a row that a tool may touch along a piece: those beside the part of the piece that is near the row. */
+  /** Finds the columns of a row that a tool may touch along a piece: those beside the part of the piece near the row. */
   private columns(row: number, from: number[], to: number[], radius: number): void {
     const dx = to[0] - from[0];
     const dy = to[1] - from[1];
@@ -140,10 +141,10 @@ export class Stock {
     }
   }
 
-  /** Does a rapid go through the stock? Cells at the edge of the tool are not looked at: their surface may be up to a cell farther away. */
+  /** Does a rapid go through the stock? Cells at the edge of the tool are not checked, because their surface may be up to one cell farther away. */
   private passes(from: number[], to: number[], shape: Shape): boolean {
     if (shape.radius <= this.cell) return false;
-    // the cell under the axis is always looked at
+    // the cell under the axis is always checked
     const radius = Math.max(shape.radius - this.cell, this.cell * Math.SQRT1_2);
     const corner = Math.min(shape.corner, radius);
     const [low, high] = this.rows(from, to, radius);
@@ -164,12 +165,12 @@ export class Stock {
   }
 }
 
-/** A guess, for want of a size: the box of the cuts. */
+/** An estimate of the stock if no size is given: the box of the cuts. */
 export function blockOf(path: Path, { least, greatest }: Plate): Block {
   return { least: [least[0], least[1]], greatest: [greatest[0], greatest[1]], top: topOf(path, { least, greatest }) };
 }
 
-/** The top of the stock: Z 0 where all that is cut sideways is at or under it, else the highest such cut. No program contains it. */
+/** An estimate of the top of the stock: Z 0 if no sideways cut is above Z 0, else the height of the highest sideways cut. */
 function topOf(path: Path, plate: Plate): number {
   let highest = -Infinity;
   for (let move = 0; move < path.moves; move++) {

@@ -1,17 +1,17 @@
 // The lowest height of a moving tool over a point.
 
-/** Each makes the interval a third shorter: 20 leave a 3000th of the way over a point. */
+/** Each narrowing shortens the interval by a third: 20 leave 1/3000 of the part of the path over a point. */
 const NARROWINGS = 20;
 
-/** Height of a tool's surface above its tip, at a distance from its axis of at most its radius. */
+/** Height of a tool's surface above its tip, at a distance from its axis of at most the radius. */
 function rise(radius: number, corner: number, away: number): number {
   const beyond = away - (radius - corner);
   return beyond <= 0 ? 0 : corner - Math.sqrt(Math.max(0, corner * corner - beyond * beyond));
 }
 
 /**
- * The lowest height of a tool over a point, while its tip moves straight by (dx, dy, dz) from the height `from`; Infinity if it is never over
- * the point. `x` and `y`: the point, from the start of the tip. The same as `Shape::lowest` of src/stock/sweep.rs.
+ * The lowest height of a tool over a point, while its tip moves straight by (dx, dy, dz) from the height `from`; Infinity if the tool is never
+ * over the point. `x` and `y`: the point relative to the start of the tip. The same as `Shape::lowest` of src/stock/sweep.rs.
  */
 export function lowest(radius: number, corner: number, x: number, y: number, from: number, dx: number, dy: number, dz: number): number {
   const length = dx * dx + dy * dy;
@@ -24,7 +24,7 @@ export function lowest(radius: number, corner: number, x: number, y: number, fro
   const oy = y - nearest * dy;
   const room = radius * radius - ox * ox - oy * oy;
   if (room < 0) return Infinity;
-  // the part of the way on which the tool is over the point
+  // the part of the move during which the tool is over the point
   const reach = Math.sqrt(room / length);
   const first = nearest > reach ? nearest - reach : 0;
   const last = nearest + reach < 1 ? nearest + reach : 1;
@@ -33,11 +33,12 @@ export function lowest(radius: number, corner: number, x: number, y: number, fro
   return lowestRounded(radius, corner, x, y, from, dx, dy, dz, nearest, first, last);
 }
 
-/** The same for a tool with a rounded corner, between two parts of the way. A function of its own: its closure costs time where it is not needed. */
+/** The same for a tool with a rounded corner, between two shares of the move. It is a separate function, because its closure would also slow down
+ * other tools. */
 function lowestRounded(radius: number, corner: number, x: number, y: number, from: number, dx: number, dy: number, dz: number, nearest: number, first: number, last: number): number {
   const height = (part: number) => from + dz * part + rise(radius, corner, Math.min(radius, Math.hypot(x - part * dx, y - part * dy)));
   if (dz === 0) return height(Math.max(first, Math.min(last, nearest)));
-  // the height is a convex function of the part: a sum of a line and a rounded corner
+  // the height is a convex function of the share: the sum of a line and a rounded corner
   let low = first;
   let high = last;
   for (let i = 0; i < NARROWINGS; i++) {

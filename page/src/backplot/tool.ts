@@ -1,4 +1,4 @@
-// The tool: a cylinder with the diameter of the job, with a point where it drills.
+// Draws the tool: a cylinder with the job's diameter, with a point if it drills.
 
 import type { Program } from "../program.ts";
 import type { Camera, Vector } from "./camera.ts";
@@ -8,7 +8,7 @@ import { type Colour, type Colours, css } from "./colours.ts";
 export interface Shape {
   radius: number;
   corner: number;
-  /** It makes holes: it is drawn with a point. */
+  /** The tool makes holes, so it is drawn with a point. */
   drills: boolean;
 }
 
@@ -17,7 +17,7 @@ const LENGTH = 4;
 /** Height of a drill's point, in radii: an angle of 118 degrees. */
 const POINT = 0.6;
 
-/** The tools of a program by their numbers in `moveTool`; without those whose diameter is unknown. */
+/** The tools of a program by their numbers in `moveTool`, without tools of unknown diameter. */
 export function shapesOf(program: Program, sizes: { number: number; diameter: number | null; corner: number | null }[]): Map<number, Shape> {
   const { head, holeTool } = program.path!;
   const scale = head.units === "inch" ? 1 / 25.4 : 1;
@@ -31,12 +31,12 @@ export function shapesOf(program: Program, sizes: { number: number; diameter: nu
   return found;
 }
 
-/** Which way a tool points on the part after a line: up, turned as the rotary axes turn the part. Null where it is not upright: on lathes and wires. */
+/** The direction of the tool on the part after a line: up, turned by the rotary axes. Null if the tool is not upright, as on lathes and wires. */
 export function upOf(program: Program, line: number): Vector | null {
   const { head } = program.path!;
   if (head.letters !== "XYZ" || head.view === "lathe") return null;
   const [a, b, c] = (["a", "b", "c"] as const).map((axis) => ((program.held(axis, line)?.value ?? 0) * Math.PI) / 180);
-  // the same turns as src/picture/frame.rs
+  // the same rotation as in src/picture/frame.rs
   let [x, y, z] = [0, -Math.sin(a), Math.cos(a)];
   [z, x] = [z * Math.cos(b) - x * Math.sin(b), z * Math.sin(b) + x * Math.cos(b)];
   [x, y] = [x * Math.cos(c) - y * Math.sin(c), x * Math.sin(c) + y * Math.cos(c)];

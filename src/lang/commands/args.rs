@@ -1,20 +1,20 @@
-//! Arguments of commands.
+//! The arguments that commands take.
 
-/// Kind and number of a command's arguments.
+/// Which arguments a command takes, and how many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Args {
     /// The rest of the line.
     Text,
     /// `Y` or `N`.
     Switch,
-    /// Codes such as `G54`, `M19` or plain numbers. The letter is that of plain numbers; the numbers are the least and
-    /// greatest count.
+    /// Codes such as `G54` or `M19`, or plain numbers. The letter is added to plain numbers. The two numbers are the
+    /// least and greatest number of codes.
     Codes(char, u8, u8),
-    /// Codes, least and greatest count. The first one moves the tool, so it must be a G code.
+    /// Codes, with their least and greatest number. The first code moves the tool, so it must be a G code.
     Motion(u8, u8),
-    /// Letters, least and greatest count. They may be separate or together.
+    /// Letters, with their least and greatest number. They may be separate or joined.
     Letters(u8, u8),
-    /// Whole numbers, least and greatest count.
+    /// Whole numbers, with their least and greatest number.
     Whole(u8, u8),
     /// A number.
     Number,
@@ -22,14 +22,14 @@ pub enum Args {
     Length,
     /// A length above zero.
     LengthAboveZero,
-    /// One of these words.
+    /// One word of this list.
     Choice(&'static [&'static str]),
-    /// Words that the command reads itself, least and greatest count, with a description.
+    /// Words that the command reads in its own way, with their least and greatest number and a description.
     Words(u8, u8, &'static str),
 }
 
 impl Args {
-    /// The least and greatest number of arguments. `None`: any number.
+    /// The least and greatest number of arguments. `None`: any number is allowed.
     pub fn count(self) -> Option<(usize, usize)> {
         match self {
             Args::Text | Args::Letters(..) => None,

@@ -1,4 +1,4 @@
-//! Commands of forms: arguments, defaults, and effects. The rows are in `table.rs`.
+//! The commands of forms: their arguments, defaults and effects. Their rows are in `table.rs`.
 
 mod args;
 mod table;
@@ -37,24 +37,24 @@ pub enum Used {
     Letter,
 }
 
-/// One row of the table.
+/// One row of the table of commands.
 #[derive(Debug)]
 pub struct Command {
-    /// Id of the command.
+    /// Identifier of the command.
     pub id: CommandId,
-    /// Name in forms.
+    /// Name of the command in forms.
     pub name: &'static str,
     /// Arguments of the command.
     pub args: Args,
     /// Whether the command may occur more than once.
     pub repeats: bool,
-    /// The default without the command.
+    /// The default if the form does not have the command.
     pub without: Without,
-    /// Source of its meaning.
+    /// The source of the command's meaning.
     pub standing: Standing,
     /// The forms in which the command has an effect.
     pub used: Used,
-    /// An example of the command, if no form of postform has one.
+    /// An example of the command, if no form in the repository has one.
     pub example: Option<&'static str>,
     /// Effect of the command.
     pub meaning: &'static str,
@@ -97,13 +97,13 @@ impl CommandId {
         &COMMANDS[self as usize]
     }
 
-    /// Name in forms.
+    /// Name of the command in forms.
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// Finds a command by its name, in any case. The question mark of a switch may be left out if no other command has
-    /// that name.
+    /// Finds a command by its name; upper and lower case are equal. The question mark of a switch may be left out if no
+    /// other command has the name without it.
     pub fn parse(name: &str) -> Option<CommandId> {
         let find = |same: &dyn Fn(&str) -> bool| COMMANDS.iter().find(|c| same(c.name)).map(|c| c.id);
         find(&|own| own.eq_ignore_ascii_case(name))

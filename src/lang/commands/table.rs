@@ -1,12 +1,12 @@
-//! The rows of all commands. `lang` makes the vocabulary from them, `sema` the settings.
+//! The rows of all commands. `lang` generates the vocabulary from them, and `sema` generates the settings.
 
-/// Passes the rows to a macro:
+/// Passes the rows of the table to the macro `$then`. A row has this form:
 ///
 /// `Id "Name" (arguments) once|many (default) Standing {field of the settings} "meaning";`
 ///
-/// The field is `{name: Type}`, which declares a field; `{= place}`, part of an existing field; `{=> method}`, a method
-/// of the settings that stores the arguments; or `{}`, no field. `if (where it is used)` and `eg "arguments"` may follow.
-/// `eg` is an example of a command that no form of the repository uses.
+/// The field is `{name: Type}` for a new field, `{= place}` for a part of an existing field, `{=> method}` for a method
+/// of the settings that stores the arguments, or `{}` for no field. After it, `if (..)` gives where the command is used,
+/// and `eg "arguments"` gives an example if no form of the repository has the command.
 macro_rules! command_rows {
     ($then:ident) => {
         $then! {
@@ -134,7 +134,7 @@ macro_rules! command_rows {
             SecondCircle "2ndCircleCode" (Words(1, 9, "one word, as `M99`"))
                 once (of("")) Doc {second_circle: Option<String>} if (Arcs)
                 "word that begins a second arc line with the centre";
-            // dropping unchanged words
+            // leaving out unchanged words
             Modality "Modality?" (Switch) once (of("Y")) Ours {modality: bool}
                 "drop words that change nothing";
             ModalLetters "ModalLetters" (Letters(1, 26))

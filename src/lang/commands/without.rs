@@ -1,8 +1,8 @@
-//! Defaults: the effect of leaving out a command.
+//! Defaults of commands: the effect if a form does not have the command.
 
 use crate::lang::{Machine, UnitChoice};
 
-/// The default of a command, as the arguments that a form would have.
+/// The default of a command, written as the arguments that the form would have.
 #[derive(Clone, Copy, Debug)]
 pub struct Without {
     usual: &'static str,
@@ -12,7 +12,7 @@ pub struct Without {
     told: &'static str,
 }
 
-/// These arguments for every form.
+/// A default with these arguments for every form.
 pub(super) const fn of(usual: &'static str) -> Without {
     Without { usual, lathe: None, inch: None, mm: None, told: "" }
 }
@@ -26,18 +26,18 @@ impl Without {
         Without { mm: Some(mm), ..self }
     }
 
-    /// By the units of the form; for a form with both units, by those of the job.
+    /// Sets the defaults for each unit of the form. For a form with both units, the units of the job apply.
     pub(super) const fn by_units(self, inch: &'static str, mm: &'static str) -> Without {
         Without { inch: Some(inch), mm: Some(mm), ..self }
     }
 
-    /// A description of a default that arguments can't express.
+    /// Adds a description, for a default that arguments can't express.
     pub(super) const fn told(self, told: &'static str) -> Without {
         Without { told, ..self }
     }
 
-    /// The arguments for a form of this machine and these units; empty if there are none. For a command that occurs
-    /// several times, a comma separates its arguments.
+    /// The default arguments for a form with this machine and these units; empty if there is no default. If the command
+    /// would occur several times, commas separate its arguments.
     pub fn arguments(self, machine: Machine, units: UnitChoice) -> &'static str {
         let by_units = match units {
             UnitChoice::Inch => self.inch,

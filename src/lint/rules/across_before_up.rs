@@ -1,4 +1,4 @@
-//! PF441: at the end, and before a tool change, the tool must go up first. `G91 G0 Z0` does not move it.
+//! PF441: at the end and before a tool change, the tool must first move up. `G91 G0 Z0` does not move the tool.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -34,8 +34,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Does the block give a target? Not counted are a tool change, which retracts by itself, a macro, a code of the machine's
-/// builder, and a return of all axes to home.
+/// Whether the block gives a target itself. This is not so for a tool change (which retracts by itself), a macro, a code
+/// of the machine's builder, and a return of all axes to home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
         calls(view.settings.codes(), word) || view.meaning(word).is_some_and(Meaning::changes_tool) || says_tool(word)
@@ -48,10 +48,11 @@ fn height<'a>(block: &Block<'a>) -> Option<&'a Word> {
     block.axis_words.iter().find(|(_, axis)| *axis == 2).map(|(word, _)| *word)
 }
 
-/// Description of `G91 G0 Z0`.
+/// The description of `G91 G0 Z0` in the message.
 const NOTHING: &str = "an increment of 0";
 
-/// Description of a typed height under G91 that does not lift the tool; `None` if it does.
+/// The reason why a height that is a number in the form does not lift the tool under G91. `None` if the tool is lifted or the height is
+/// no number.
 fn no_lift(block: &Block, word: &Word) -> Option<&'static str> {
     let value = word.letter().and_then(|letter| word.typed(letter))?;
     match (block.incremental && !block.machine, block.reference) {

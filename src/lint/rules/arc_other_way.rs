@@ -1,4 +1,4 @@
-//! PF432: CwCode with the code of a counter-clockwise arc, or CcwCode with that of a clockwise one.
+//! PF432: CwCode prints the code of a counter-clockwise arc, or CcwCode prints the code of a clockwise arc.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;

@@ -1,4 +1,4 @@
-//! PF431: an arc sequence that prints neither both centre words nor the radius. It is not used: arcs become lines.
+//! PF431: an arc sequence prints neither both centre words nor the radius. It is then not used: arcs are printed as lines.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -7,12 +7,12 @@ use crate::lint::view::View;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use VarId as V;
     for body in view.these(&[SequenceId::CwCode, SequenceId::CcwCode]) {
-        // the centre along both axes of the XY plane, where most arcs are
+        // centre words for both axes of the XY plane, where most arcs are
         let centre = [[V::Ival, V::Hctr], [V::Jval, V::Vctr]].iter().all(|vars| body.prints_any(vars));
         if body.lines.is_empty() || centre || body.prints(V::Arcrad) {
             continue;
         }
-        // on a lathe the first axis is Z, and its centre K
+        // on a lathe the first axis is Z, whose centre word is K
         let letter = |axis: usize| match view.settings.axes[axis] {
             b'X' => 'I',
             b'Z' => 'K',

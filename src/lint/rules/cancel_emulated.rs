@@ -1,4 +1,4 @@
-//! PF403: `End Cancel` on an emulated cycle prints no Cancel, because no cycle of the control is active.
+//! PF403: `End Cancel` in an emulated cycle has no effect, because no cycle of the control is active there.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -8,7 +8,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for sequence in view.form.sequences.values().filter(|sequence| sequence.id.makes_holes()) {
         let Some(cancel) = sequence.cancel else { continue };
         let emulated = sequence.lines.len() > 1 && sequence.count.is_none();
-        // a code that moves by itself needs a Cancel
+        // a code with which the control moves by itself needs a Cancel
         let starts_cycle = view.body(sequence.id).is_some_and(|body| body.moves_by_itself());
         if (emulated && !starts_cycle) || sequence.is_none {
             let gap = Span { start: cancel.start - 1, ..cancel };

@@ -1,4 +1,4 @@
-//! PF429: a tool change without the tool number, or one that only preselects the tool.
+//! PF429: a tool change does not print the tool number, or only preselects the tool.
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
@@ -9,13 +9,13 @@ use crate::sema::WordKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.is_flat() {
-        return; // a torch or a beam
+        return; // torches and lasers have no tool change
     }
     let control = view.settings.control();
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
         let printed = body.words().find(|word| says_tool(word));
         let Some(word) = printed else {
-            // for a manual tool change, a comment with the tool is sufficient
+            // for a manual tool change, a comment with the tool's name is sufficient
             let named = |kind: &WordKind| match kind {
                 WordKind::TextVar(text) | WordKind::RemarkText(text) => text.id == TextId::Toolname,
                 _ => false,
@@ -36,7 +36,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         };
         let selects =
             view.printed_letter(word) == Some(b'T') && view.is_mill() && !control.refuses(control::Code::m(6));
-        // a macro that changes the tool, as `G65 P9020 T[tool]`, or a code of the machine's builder, as `G100 T[tool]`
+        // a macro or a code of the machine's builder may change the tool, as `G65 P9020 T[tool]` or `G100 T[tool]`
         let by_macro = body.lines[body.line_of(word)].words.iter().any(|word| calls(view.settings.codes(), word));
         if selects && !by_macro && body.meaning(Meaning::changes_tool).is_none() {
             diags.push(

@@ -1,4 +1,4 @@
-//! PF310: a code in a command that does not fit the format of its letter.
+//! PF310: a command sets a code that its letter's format can't print.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

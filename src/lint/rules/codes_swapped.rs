@@ -1,28 +1,28 @@
-//! PF211: a command has the usual codes of all controls, but in another order. Missing codes are reported by PF316 and similar
-//! rules.
+//! PF211: a command has the codes that all controls use for it, but in the wrong order. Missing codes are reported by PF316
+//! and similar rules.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{Args, CommandId};
 use crate::lint::view::View;
 
-/// Commands of motion codes: the code of one must not be used in another.
+/// Commands that set motion codes. Two of these commands must not set the same code.
 const MOTION: [CommandId; 4] = [CommandId::Rapid, CommandId::Feed, CommandId::CW, CommandId::CCW];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
         let row = id.row();
-        // the plane of each code depends on the machine
+        // which code selects which plane depends on the machine
         if !matches!(row.args, Args::Codes(..) | Args::Motion(..)) || id == CommandId::ArcPlane {
             continue;
         }
         let usual = row.without.arguments(view.settings.machine, view.settings.units);
         let usual_codes = codes(usual.split(' '));
-        // the spindle code after an arc code is no motion code
+        // an argument after the arc code is a spindle code and not a motion code
         let motion = MOTION.contains(&id);
         let args = if motion { &statement.args[..statement.args.len().min(1)] } else { &statement.args[..] };
         let said = codes(args.iter().map(|arg| arg.text.as_str()));
         if said.len() != args.len() {
-            continue; // an invalid code has a finding of its own
+            continue; // another finding reports an invalid code
         }
         let swapped = match motion {
             true => said != usual_codes && said.iter().all(|code| (0.0..4.0).contains(code)),
@@ -40,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The values of the codes, with or without letters.
+/// The numbers of the codes, which may be written with or without letters.
 fn codes<'a>(words: impl Iterator<Item = &'a str>) -> Vec<f64> {
     words.filter_map(|word| word.trim_start_matches(|c: char| c.is_ascii_alphabetic()).parse().ok()).collect()
 }

@@ -1,4 +1,4 @@
-//! PF715: CommentLine without `[text]`: it prints the comments of the job, so that all of them are lost.
+//! PF715: CommentLine prints the comments of the job, but it does not contain `[text]`, so all comments are lost.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, TextId};

@@ -1,4 +1,4 @@
-//! PF713: `if [tool] = 1` and `val1 = 2` are printed as text. Directives begin with `@`.
+//! PF713: `if [tool] = 1` and `val1 = 2` are printed as text. A directive must begin with `@`.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -16,7 +16,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The directive that the line was probably meant to be.
+/// The directive that was probably intended.
 fn meant(line: &Line, view: &View) -> Option<String> {
     let text = |at: usize| match &line.words.get(at)?.kind {
         WordKind::Text(text) => Some(text.as_str()),

@@ -1,4 +1,4 @@
-//! PF607: a code that the form's control does not have, if all its codes are known.
+//! PF607: the form uses a code that its control does not have. Checked only for controls whose codes are all known.
 
 use crate::control;
 use crate::diag::{Code, Diag};

@@ -1,4 +1,4 @@
-//! PF428: coolant is on while the tool changes, or before the spindle turns.
+//! PF428: coolant is turned on before the tool change or before the spindle turns.
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
@@ -11,7 +11,7 @@ use super::spindle_before_change::{changes, starts_spindle};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
         let spindle = body.lines.iter().position(|line| line.words.iter().any(|word| starts_spindle(view, word)));
-        // the code of such a kind stops the spindle, so that it prints first
+        // the code of this kind of coolant stops the spindle, so the coolant must be turned on before the spindle
         let first = view.settings.coolant_kinds.iter().any(|kind| {
             let row = control::Code::of(b'M', kind.on).and_then(|code| view.settings.control().row(code));
             row.is_some_and(|row| row.stops_spindle)

@@ -1,4 +1,4 @@
-//! PF712: the form defines a code for a kind of coolant, but types the codes of flood: both codes are printed.
+//! PF712: the form defines a code for a kind of coolant, but its sequences always print the code of flood.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

@@ -1,4 +1,5 @@
-//! PF408: the counted lines of a cycle print once; a position in them is that of the first hole.
+//! PF408: the lines that a cycle's count selects print only at the first hole. If only they print the position, all holes have that
+//! position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

@@ -1,4 +1,4 @@
-//! PF318: an integer printed with a point, as `M98 P1.`, `H3.`: controls refuse it or read another number.
+//! PF318: an integer is printed with a decimal point, as `M98 P1.` or `H3.`. Controls refuse it or read another number.
 
 use crate::diag::{Code, Diag};
 use crate::lang::Unit;
@@ -7,7 +7,7 @@ use crate::number::Point;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (&letter, (format, span)) in &view.form.formats {
-        // an implied point belongs to another rule, and G and M codes have their own rule
+        // another rule reports implied points, and PF310 reports G and M codes
         if format.point != Point::Always || format.dec.count == 0 || b"GM".contains(&letter.to_ascii_uppercase()) {
             continue;
         }

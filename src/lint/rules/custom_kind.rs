@@ -1,4 +1,4 @@
-//! PF207: the comment of a Custom cycle names an unknown kind of cycle.
+//! PF207: the comment after the name of a Custom cycle names an unknown kind of cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lang::did_you_mean;
@@ -8,7 +8,7 @@ use crate::toolpath::CycleKind;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for sequence in view.form.sequences.values() {
         let Some(kind) = sequence.custom_kind().filter(|kind| CycleKind::parse(kind).is_none()) else { continue };
-        // a word that resembles no kind is an ordinary comment
+        // a word that is similar to no kind of cycle is an ordinary comment
         let Some(help) = did_you_mean(kind, CycleKind::NAMES.iter().map(|(name, _)| *name)) else { continue };
         diags.push(
             Diag::new(Code::PF207, format!("`{kind}` is not a kind of cycle"))

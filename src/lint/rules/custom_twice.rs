@@ -1,4 +1,4 @@
-//! PF208: a Custom cycle that is never used. Its kind has a sequence of its own, or an earlier Custom, which come first.
+//! PF208: a Custom cycle is never used, because its kind has a sequence of its own or an earlier Custom cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         .filter_map(|sequence| Some((sequence, CycleKind::parse(sequence.custom_kind()?)?)))
         .collect();
     for (sequence, kind) in &customs {
-        // Custom1 comes before Custom2, whatever their order in the form
+        // Custom1 has priority over Custom2, in whatever order the form has them
         let earlier = customs.iter().find(|(other, same)| other.id < sequence.id && same == kind);
         let named = kind.sequence().and_then(|id| view.body(id)).filter(|body| body.span != sequence.span);
         let server = named.map(|body| body.span).or(earlier.map(|(other, _)| other.span));

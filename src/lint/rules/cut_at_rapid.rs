@@ -1,5 +1,5 @@
-//! PF436: LineCode, the arc sequences or the moves of compensation lack their motion code, or print another one. The cut is then
-//! made with the motion of the previous move: at worst at rapid.
+//! PF436: LineCode, an arc sequence, InFeed or OutFeed prints no motion code, or the wrong one. The cut is then made with the
+//! motion of the previous move, in the worst case at rapid.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -19,7 +19,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     ];
     for (id, wrong, right) in table {
         let Some(body) = view.body(id) else { continue };
-        // the text of a conversational control may contain the motion
+        // text of a conversational control may contain the motion
         let says =
             body.words().any(|word| view.meaning(word).is_some_and(moves) || matches!(word.kind, WordKind::Text(_)));
         let (span, message) = match body.meaning(|meaning| wrong.contains(&meaning)) {

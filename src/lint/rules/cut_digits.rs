@@ -1,4 +1,4 @@
-//! PF306: a format that rounds away digits that the machine can use.
+//! PF306: a letter format rounds away digits that the machine can use.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{Machine, SequenceId, Unit, VarId};
@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             true => (length(view), "a position".to_owned()),
             false => (wanted, what),
         };
-        // a dwell between moves prints the letter of `Dwell`, unless DwellBlock prints it
+        // a generated dwell block uses the letter of the command `Dwell`; DwellBlock replaces this block
         let dwell = &view.settings.dwell;
         let generated = view.body(SequenceId::DwellBlock).is_none();
         let dwells = letter == dwell.letter && !dwell.milliseconds && generated && wanted < 2;
@@ -30,14 +30,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let name = char::from(letter);
         let decimals = format.dec.count;
-        // a format without decimals has no point to keep
+        // a format without decimals had no decimal point, so its setting for the point is not kept
         let point = if decimals == 0 { Point::Always } else { format.point };
         let fixed = decimals > 0 && format.dec.fixed;
         let better = LetterFormat { dec: Digits { count: wanted, fixed }, point, ..*format };
         let counts = counts(view, letter);
         let digits = format.int.count;
         let help = match (counts, name.to_ascii_lowercase()) {
-            // the letter of dwells is fixed by the command; the other words take another letter
+            // the command `Dwell` determines the letter of dwells, so the other words must use another letter
             (true, small) if small != name && dwells => {
                 format!(
                     "write `{name}{better}`; print whole numbers as `{small}`, with the lines `{small} >{digits}` \
@@ -60,13 +60,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     built_in(view, diags);
 }
 
-/// Does the letter also print counts or codes? They would get a point too.
+/// Whether the letter also prints counts or codes. A format with decimals would print them with a point too.
 fn counts(view: &View, letter: u8) -> bool {
     let whole = |word: &Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
     letter == view.settings.cdc_code || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(whole)
 }
 
-/// Letters without a format: the built-in formats of counters are whole numbers.
+/// Checks letters without a format. Their built-in formats have no decimals if they print counts.
 fn built_in(view: &View, diags: &mut Vec<Diag>) {
     let mut told = Vec::new();
     for word in view.words() {
@@ -96,19 +96,19 @@ fn built_in(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Decimals of a length: 0.0001 inch or 0.001 mm.
+/// Number of decimals of a length: four in inches, three in millimetres.
 fn length(view: &View) -> u8 {
     if view.is_metric() { 3 } else { 4 }
 }
 
-/// Decimals that a value needs.
+/// Number of decimals that a variable needs.
 fn needed(view: &View, var: VarId) -> u8 {
     match var.row().unit {
         Unit::Length => length(view),
-        // tip angles are whole numbers on all controls
+        // all controls use whole numbers for tip angles
         Unit::Angle if var == VarId::Tipang => 0,
         Unit::Angle => 2,
-        // a feed per revolution is a chip thickness, as fine as a length
+        // a feed per revolution is a chip thickness, so it needs as many decimals as a length
         Unit::Feed if view.settings.machine == Machine::Lathe => length(view),
         Unit::Feed if !view.is_metric() => 1,
         Unit::Time if !view.settings.dwell.milliseconds => 2,

@@ -1,4 +1,4 @@
-//! PF409: a cycle of the control that is never cancelled stays active, so that the next move would drill.
+//! PF409: a cycle of the control is never cancelled. It stays active, so the next move would drill.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -10,7 +10,7 @@ use crate::syntax::Tail;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
-        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // another rule reports these
+        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // PF404 reports these
         if view.works_once(code)
             || sequence.cancel.is_some()
             || uncounted

@@ -1,4 +1,4 @@
-//! PF406: a cycle that does not print the position drills every hole at the same position.
+//! PF406: a cycle does not print the position. The control then drills every hole at the same position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -7,13 +7,13 @@ use crate::sema::{Line, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() {
-        return; // a lathe drills at its centre
+        return; // a lathe drills on its axis
     }
     for (sequence, body) in view.hole_cycles() {
         let missing = [VarId::H, VarId::V].into_iter().filter(|&var| !body.prints(var));
         let names = missing.map(|var| format!("[{}]", var.name())).collect::<Vec<_>>().join(" and ");
         if names.is_empty() {
-            // with K0 or L0 the cycle does not drill at its start; a line with only the code just selects the cycle
+            // with K0 or L0 the cycle does not drill at its start; a cycle code without a depth only selects the cycle
             let waits = |word: &Word| word.is_code(b'K', &[0.0]) || word.is_code(b'L', &[0.0]);
             let drills = |line: &&Line| {
                 let words = &line.words;

@@ -1,4 +1,4 @@
-//! PF311: P of a dwell is in milliseconds on some controls, and in seconds on others.
+//! PF311: the unit of P in a dwell may be wrong. Some controls read milliseconds, others seconds.
 
 use crate::control::DwellUnit;
 use crate::diag::{Code, Diag};
@@ -8,7 +8,7 @@ use crate::number::Point;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let settings = view.settings;
-    // P of a dwell, or of a cycle that dwells
+    // the letter P in a dwell, or in a cycle with a dwell
     let cycle =
         view.words().find(|word| word.printed_var() == Some(VarId::Dwell) && view.printed_letter(word) == Some(b'P'));
     let command = view.command(CommandId::Dwell).or(view.command(CommandId::Control)).map(|command| command.line.span);

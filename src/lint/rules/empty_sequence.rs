@@ -1,5 +1,5 @@
-//! PF012: a sequence without lines prints nothing, so that its purpose is lost. Where an empty output makes sense, `None` states
-//! it explicitly.
+//! PF012: a sequence has no lines, so it prints nothing. This is probably a mistake. If a sequence is meant to print nothing, it
+//! must contain the word `None`.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -34,14 +34,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Does the sequence contain a `@set`? Its purpose is then the value, which another sequence prints.
+/// Whether the sequence contains a `@set`. Such a sequence is not empty: it sets a value that another sequence prints.
 fn sets(body: &Body) -> bool {
     let mut sets = false;
     each_step(body.steps.unwrap_or_default(), &mut |step| sets |= matches!(step, Step::Set(..)));
     sets
 }
 
-/// The consequence of `None` in a sequence where it is probably not intended.
+/// What is lost if this sequence contains only `None`, where this is probably a mistake.
 fn without(sequence: &Sequence) -> Option<&'static str> {
     Some(match sequence.id {
         SequenceId::OptStop => "the job's optional stop is lost",

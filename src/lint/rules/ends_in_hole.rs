@@ -1,4 +1,4 @@
-//! PF417: a cycle whose last move leaves the tool at the bottom, so that the move to the next hole goes through the part.
+//! PF417: after the last move of a cycle, the tool is still at the bottom. The move to the next hole then goes through the part.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -6,7 +6,7 @@ use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
-        // codes of an unknown control may lift the tool
+        // a code that the control's file does not contain may lift the tool
         if body.moves_by_itself() || !view.is_mill() || sequence.lines.len() < 2 {
             continue;
         }

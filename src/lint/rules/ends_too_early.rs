@@ -1,4 +1,4 @@
-//! PF443: an end-of-program code in a sequence before the end of the program.
+//! PF443: a sequence that is not at the end of the program prints an end-of-program code.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -1,4 +1,4 @@
-//! PF418: a feed move without a feed uses the last feed.
+//! PF418: a feed move does not print a feed, so the control uses the last one.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let feed = view.settings.feed_code;
     for body in &view.bodies {
         let id = body.sequence.map(|sequence| sequence.id);
-        // the feed of a thread is its pitch, and a cycle of the control has its own rule
+        // the feed of a thread is its pitch, and PF412 checks cycles of the control
         if matches!(id, Some(S::AutoThread | S::CanThread)) || body.cycle_word().is_some() {
             continue;
         }

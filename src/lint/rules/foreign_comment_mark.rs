@@ -1,4 +1,4 @@
-//! PF110: a comment with marks that the control does not have: round brackets, or a semicolon.
+//! PF110: a comment has marks that the control does not know: round brackets, or a semicolon.
 
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::syntax::PieceKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [open, _] = &view.settings.comment;
-    // on a Fanuc and similar controls, a semicolon is displayed at the end of a block
+    // Fanuc and similar controls display a semicolon as the end of a block
     let ends_block = view.settings.control().rules() == Rules::Fanuc && open != ";" && view.settings.eob.is_empty();
     for piece in view.pieces() {
         let found = match &piece.kind {

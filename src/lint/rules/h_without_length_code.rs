@@ -1,4 +1,4 @@
-//! PF426: H alone activates no length offset. The tool goes too deep by its length.
+//! PF426: H without G43 activates no length offset. The tool then goes too deep by its length.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() || matches!(view.traits().tool_length, ToolLength::Register | ToolLength::None) {
-        return; // on these controls H alone activates the offset, or there are no length registers
+        return; // on these controls H activates the offset without a code, or there are no length registers
     }
     for body in &view.bodies {
         let register = body

@@ -1,4 +1,4 @@
-//! PF106: a `#` inside a word is printed. It begins a comment only after a space.
+//! PF106: a `#` inside a word is printed. It begins a comment only if a space precedes it.
 
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;

@@ -1,4 +1,4 @@
-//! PF503: a depth relative to its point is the same at every height, so that the word does not change and is left out.
+//! PF503: a cycle prints the depth relative to the hole's top. It is equal for holes at other heights, so it is not printed again.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -9,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         return;
     }
     for (_, body) in view.hole_cycles() {
-        // codes of an unknown control may need a relative depth
+        // a code that the control's file does not contain may need a relative depth
         let own_codes = body.cycle_word().is_none() && body.moves_by_itself();
         if own_codes {
             continue;

@@ -1,4 +1,4 @@
-//! PF317: an implied point is not the same in both units: a control counts 0.0001 inch, but 0.001 mm.
+//! PF317: a format with an implied point is wrong for one of both units: a control counts in 0.0001 inch, but in 0.001 mm.
 
 use crate::control::WithoutPoint;
 use crate::diag::{Code, Diag};

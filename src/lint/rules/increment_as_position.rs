@@ -1,4 +1,4 @@
-//! PF439: under G90 a control reads a distance as a position.
+//! PF439: a distance is printed while G90 is active. The control then reads it as a position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

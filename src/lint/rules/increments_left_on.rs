@@ -1,4 +1,4 @@
-//! PF424: after a G91 without a later G90, all following moves are increments.
+//! PF424: G91 is printed without a G90 after it, so the control reads all following positions as increments.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -9,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let [incremental, absolute] = view.settings.inc_abs;
     let mode =
         |word: &&Word| word.is_code(b'G', &[incremental, absolute]) || word.printed_var() == Some(VarId::Incmode);
-    // StartCode sets the mode of the next program
+    // if StartCode sets the mode, the end of the previous program need not set it
     let begins = view.body(SequenceId::StartCode).is_some_and(|start| start.words().any(|word| mode(&word)));
     for body in view.bodies.iter().filter(|_| !view.settings.incremental) {
         if begins && body.purpose == Purpose::Sequence(SequenceId::EndCode) {

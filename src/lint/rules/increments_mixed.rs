@@ -1,4 +1,4 @@
-//! PF504: a motion sequence prints positions in a form with incremental moves.
+//! PF504: a motion sequence prints positions, although the form prints incremental moves.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

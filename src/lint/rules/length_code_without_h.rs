@@ -1,4 +1,4 @@
-//! PF425: G43 without H activates no offset, or the last one.
+//! PF425: G43 without H activates no length offset, or the last one.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some(word) = line.words.iter().find(|word| view.meaning(word).is_some_and(Meaning::turns_length_on)) else {
             continue;
         };
-        // `H#518`: a register of a macro
+        // the register may come from a macro variable, as `H#518`
         let by_macro = |word: &Word| matches!(&word.kind, WordKind::Text(text) if text.starts_with("H#"));
         if !line.words.iter().any(|word| view.printed_letter(word) == Some(b'H') || by_macro(word)) {
             diags.push(

@@ -1,4 +1,4 @@
-//! PF437: the program activates no tool length offset, or that of another tool.
+//! PF437: the program activates no tool length offset, or the offset of another tool.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
@@ -8,16 +8,16 @@ use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if !view.is_mill() || view.traits().tool_length == ToolLength::None || view.is_flat() {
-        return; // without length registers, the zero is that of the tool
+        return; // without length registers, the zero point already belongs to the tool
     }
     let on = |word: &Word| {
         view.meaning(word).is_some_and(|meaning| meaning.turns_length_on() || meaning == Meaning::LengthData)
     };
     let is_register = |word: &&Word| view.printed_letter(word) == Some(b'H');
     let first = view.body(SequenceId::FirstToolChange).filter(|body| !body.lines.is_empty());
-    // conversational controls set the length in their tool call
+    // the tool call of a conversational control sets the length
     let first = first.filter(|body| !body.words().any(|word| matches!(word.kind, WordKind::Text(_))));
-    // these sequences come later, and not in every job
+    // these sequences come after the first move, and not in every job
     let later = [SequenceId::Index, SequenceId::Unwind].map(Purpose::Sequence);
     let mut words = view.bodies.iter().filter(|body| !later.contains(&body.purpose)).flat_map(|body| body.words());
     let says = words.any(|word| on(word) || is_register(&word));
@@ -40,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let own = |word: &Word| {
             word.printed_vars().meets(VarSet::of(&[VarId::Lcomp, VarId::Comp, VarId::Tool, VarId::Tool1]))
         };
-        // the number of a fixture, unless the block activates a length offset
+        // the word may be a fixture number, unless its block activates a length offset
         let fixture = |word: &Word| {
             let words = &body.lines[body.line_of(word)].words;
             word.printed_vars().has(VarId::Work) && !words.iter().any(on)

@@ -1,4 +1,4 @@
-//! PF206: `GO` and `M3O`: the letter O, or a lower-case l, instead of a digit.
+//! PF206: `GO` and `M3O` have the letter O, or a lower-case l, instead of a digit.
 
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;
@@ -15,7 +15,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let word = at.and_then(|at| *words.get(at)?);
             word.is_some_and(|(text, _)| text.eq_ignore_ascii_case(what))
         };
-        // `IF .. GO TO 5`, and programs called by name on an Okuma
+        // allowed words: `IF .. GO TO 5`, and names of programs after CALL on an Okuma
         if is(i.checked_add(1), "TO") || is(i.checked_sub(1), "CALL") {
             continue;
         }
@@ -28,7 +28,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The text of a word that consists of text only.
+/// The text of a word, if the word has no variables.
 fn plain(word: &Word) -> Option<(&str, Span)> {
     match word.pieces.as_slice() {
         [Piece { kind: PieceKind::Stray(text), span }] => Some((text, *span)),
@@ -36,7 +36,7 @@ fn plain(word: &Word) -> Option<(&str, Span)> {
     }
 }
 
-/// The code that was probably meant, if only the letters O, o, l and I are wrong.
+/// The code that was probably intended. `None` if characters other than O, o, l and I are wrong.
 fn meant(text: &str) -> Option<String> {
     let first = text.chars().next().filter(char::is_ascii_uppercase)?;
     let rest = &text[1..];

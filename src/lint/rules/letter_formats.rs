@@ -1,10 +1,10 @@
-//! PF303: a letter without a format prints values in a built-in format. Reported once for each letter.
+//! PF303: a letter has no format, so its values are printed in a built-in format. Each letter is reported once.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::sema::WordKind;
 
-/// Letters of codes and counts, which look the same on all controls. Only letters of measured values are reported.
+/// Letters of codes and counts, which have the same format on all controls. They need no format.
 const PLAIN: &[u8] = b"GMTNOHDLSP:%";
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {

@@ -1,5 +1,5 @@
-//! PF506: a block with the same letter twice: most controls alarm, the others use one of them. T is allowed twice: the tool, and
-//! the preselected tool.
+//! PF506: a block has the same letter twice. Most controls alarm, the others use one of the words. T is allowed twice, for the
+//! tool and the preselected tool.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,4 +1,4 @@
-//! PF711: lines of a list that use no value of its items print the same each time.
+//! PF711: the lines of a list use no value of its items, so they are the same for each item.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::{Body, View};
@@ -36,7 +36,7 @@ fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is there any value that may differ from one item to the next?
+/// Whether the lines print a value that may differ between the items.
 fn says_anything(steps: &[Step], body: Body) -> bool {
     steps.iter().any(|step| match step {
         Step::Lines(lines) => body.lines[lines.clone()].iter().flat_map(|line| &line.words).any(|word| {

@@ -1,4 +1,4 @@
-//! PF101: words after two spaces or a tab are a comment. They look like output, but are not printed.
+//! PF101: words after two spaces or a tab look like output, but they are a comment and are not printed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -13,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for item in &tree.items {
             match item {
                 Head::Sequence(node) => sequence(node, text, diags),
-                // another letter or number is a further argument
+                // another letter or number is an additional argument
                 Head::Statement(statement) => {
                     let is_argument = |token: &str| token.parse::<f64>().is_ok() || is_letter(token);
                     lost(&statement.line, text, &|token| is_argument(token) || looks_like_a_word(token), diags);
@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 }
 
 fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
-    // a comment may follow a name; a number alone is a count
+    // a comment may follow a name, but a number alone is the count of a cycle
     let is_cycle = SequenceId::parse(&node.name.name.text).is_some_and(SequenceId::makes_holes);
     if is_cycle && node.name.args.is_empty() && count_is_lost(&node.name.line, text) {
         lost(&node.name.line, text, &|token| token.bytes().all(|b| b.is_ascii_digit()), diags);
@@ -36,7 +36,7 @@ fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
         let last = body.words.last().and_then(|word| word.pieces.last());
         match (&body.line.tail, last.map(|piece| &piece.kind)) {
             (Tail::Comment(comment), Some(PieceKind::Note { closed: false, .. })) => bracketed(*comment, text, diags),
-            // the lost end of a comment may be any text
+            // if the bracket of a comment is not closed, any lost text may be the rest of that comment
             (_, Some(PieceKind::Note { closed: false, .. })) => lost(&body.line, text, &|_| true, diags),
             (Tail::Comment(comment), _) if body.words.is_empty() => macro_line(*comment, text, diags),
             _ => lost(&body.line, text, &looks_like_a_word, diags),
@@ -47,7 +47,7 @@ fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is the lost text a number, or does it begin with a number where no comment can begin?
+/// Whether the lost text is a count: a number alone, or text after a number where no comment can begin.
 fn count_is_lost(line: &Line, text: &str) -> bool {
     let Tail::Lost(lost) = &line.tail else { return false };
     let is_number = |token: &str| token.bytes().all(|b| b.is_ascii_digit());
@@ -61,7 +61,7 @@ fn is_letter(token: &str) -> bool {
     token.len() == 1 && token.bytes().all(|b| b.is_ascii_uppercase())
 }
 
-/// Reports `(P/N #1234)`: the end of the comment and its closing mark are lost.
+/// Reports comments like `(P/N #1234)`: the text from `#` on and the closing bracket are lost.
 fn bracketed(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let rest = &text[comment.range()];
     if rest.contains(')') {
@@ -73,7 +73,7 @@ fn bracketed(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Reports `#101=5`, which is a comment like any other.
+/// Reports lines like `#101=5`: the `#` makes them a comment, so they are not printed.
 fn macro_line(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let words = &text[comment.range()];
     let number = words.trim_start_matches('#').split('=').next().unwrap_or("").trim_end();
@@ -106,7 +106,7 @@ fn lost(line: &Line, text: &str, is_word: &dyn Fn(&str) -> bool, diags: &mut Vec
     let diag = Diag::new(Code::PF101, format!("`{words}` is lost: {prints}"))
         .at(lost.span, "two spaces or a tab before this make it a comment")
         .help(format!("write `{joined}`, or begin the comment with `#`"));
-    // a sentence is a comment, even if it contains words of output
+    // a sentence is a comment, even if some of its words look like output
     let fix = if before.trim().is_empty() { "" } else { " " };
     diags.push(match tokens.all(is_word) {
         true => diag.fix("join the words by one space", false, vec![(gap, fix.to_owned())]),

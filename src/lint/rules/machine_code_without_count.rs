@@ -1,4 +1,4 @@
-//! PF404: a cycle of the control in a sequence of several lines drills each hole again with every line.
+//! PF404: a sequence of several lines starts a cycle of the control. Without a count, each line drills the hole again.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

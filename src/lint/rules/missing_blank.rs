@@ -1,4 +1,4 @@
-//! PF102: `Z[d]F[plunge]` prints two words; a space makes this visible.
+//! PF102: `Z[d]F[plunge]` prints two words. A space between them shows this to the reader.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

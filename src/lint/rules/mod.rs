@@ -1,4 +1,4 @@
-//! The rules: each has its own file and a row here.
+//! The list of all rules. Each rule has its own file and a row here.
 
 mod across_before_up;
 mod arc_other_way;
@@ -113,14 +113,14 @@ pub struct Rule {
     pub code: Code,
     /// The file of the rule in `src/lint/rules`.
     pub file: &'static str,
-    /// The rule depends on the meaning of codes, so that it does not apply to a language without G codes.
+    /// The rule depends on the meaning of codes. It is therefore not applied to a control without G codes.
     pub of_codes: bool,
     pub(super) check: fn(&View, &mut Vec<Diag>),
 }
 
 macro_rules! rules {
     ($($code:ident $file:ident $(($codes:ident))?)*) => {
-        /// All rules; those marked `(codes)` depend on the meaning of codes.
+        /// All rules. Rules that depend on the meaning of codes are marked `(codes)`.
         pub const RULES: &[Rule] =
             &[$(Rule {
                 code: Code::$code,

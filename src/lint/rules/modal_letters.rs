@@ -1,4 +1,4 @@
-//! PF501: I, J, K, L and P have a meaning only in their own block; no control keeps them.
+//! PF501: I, J, K, L and P have a meaning only in their own block, because no control keeps their values.
 
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;

@@ -1,4 +1,4 @@
-//! PF507: no G90 or G91 at the start: the control is still in the mode of another program, or of manual operation.
+//! PF507: the start prints neither G90 nor G91. The control is then in the mode of the last program or of manual operation.
 
 use crate::control::Kept;
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
-    // other controls start each program in a defined state
+    // other controls begin each program in a defined mode
     if !view.is_mill() || view.settings.incremental || view.traits().modes_at_start != Kept::Yes {
         return;
     }

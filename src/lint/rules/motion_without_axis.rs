@@ -1,4 +1,4 @@
-//! PF433: a motion sequence that lacks an axis word can't print a move along that axis.
+//! PF433: a motion sequence does not print all axes. A move along the missing axis is then not made.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -12,14 +12,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let arc = body.purpose == Purpose::Sequence(S::CwCode) || body.purpose == Purpose::Sequence(S::CcwCode);
         let has_centre = body.prints_any(&[V::Ival, V::Hctr]) && body.prints_any(&[V::Jval, V::Vctr]);
         if arc && has_centre && body.prints_any(&[V::Endang, V::Sweep]) {
-            continue; // centre and angle define the end of the arc
+            continue; // the end of the arc is defined by centre and angle
         }
         let axes: &[[V; 2]] = match (view.is_mill() && !arc, body.lines.is_empty()) {
             (_, true) => continue,
             (true, _) => &[[V::H, V::Hdist], [V::V, V::Vdist], [V::D, V::Ddist]],
             (false, _) => &[[V::H, V::Hdist], [V::V, V::Vdist]],
         };
-        // a flat form never prints the depth
+        // a form for a torch or laser need not print the depth
         let axes = if flat { &axes[..2] } else { axes };
         let missing: Vec<String> =
             axes.iter().filter(|vars| !body.prints_any(*vars)).map(|vars| format!("[{}]", vars[0].name())).collect();

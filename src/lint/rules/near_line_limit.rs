@@ -1,4 +1,4 @@
-//! PF606: a form with more than 135 of the 150 lines allowed.
+//! PF606: the form has more than 135 lines; the limit is 150.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

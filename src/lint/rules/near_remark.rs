@@ -1,4 +1,4 @@
-//! PF107: a comment on a name line needs at least three spaces after the name.
+//! PF107: a comment after a name begins with fewer than three spaces.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

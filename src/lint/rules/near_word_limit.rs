@@ -1,4 +1,4 @@
-//! PF605: a line with 14 or 15 of the 15 words allowed.
+//! PF605: a line has 14 or 15 words; the limit is 15.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,4 +1,4 @@
-//! PF111: comments do not nest: the first closing mark ends all of them.
+//! PF111: a comment contains another comment. Comments do not nest: the first closing mark ends the outer comment.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,4 +1,4 @@
-//! PF438: a position without a motion code is approached with the last motion: at rapid, or with the feed of the last cut.
+//! PF438: a position is printed without a motion code. The control then uses the last motion: rapid, or a feed move with the last feed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     let changes = [S::FirstToolChange, S::ToolChange, S::Index].map(Purpose::Sequence);
     for body in view.bodies.iter().filter(|body| view.is_mill() && changes.contains(&body.purpose)) {
-        // the text of a conversational control may contain the motion
+        // text of a conversational control may contain the motion
         if body.words().any(|word| matches!(word.kind, WordKind::Text(_))) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! PF014: a program without an end code continues with the next program in the control's memory.
+//! PF014: the program prints no end code. The control then continues with the next program in its memory.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

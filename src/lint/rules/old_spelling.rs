@@ -1,4 +1,4 @@
-//! PF204: `<h>`, `G<0>` and `Rapid; G0` are the spelling of the first forms.
+//! PF204: `<h>`, `G<0>` and `Rapid; G0` are an old spelling.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId, VarId};
@@ -40,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let name = &statement.name;
             let known = CommandId::parse(&name.text).is_some() || SequenceId::parse(&name.text).is_some();
             let at = name.span.end as usize;
-            // an argument that directly follows the semicolon could begin with any character, so the semicolon is kept
+            // if an argument follows the semicolon directly, the semicolon may be its first character, so it is kept
             let apart = text.get(at + 1).is_none_or(|b| b" \t\r\n".contains(b));
             if known && apart && text.get(at) == Some(&b';') {
                 let span = Span { start: name.span.end, end: name.span.end + 1, ..name.span };

@@ -1,4 +1,4 @@
-//! PF505: two codes of one group in a block: a control uses the last one, or alarms.
+//! PF505: a block has two codes of one group. The control uses the last one, or alarms.
 
 use crate::control::{Group, Meaning};
 use crate::diag::{Code, Diag};
@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let mut firsts: Vec<(&Word, Group)> = Vec::new();
         for word in &line.words {
             let group = match word.kind {
-                // G80 with a motion code is common; with a cycle code it ends that cycle
+                // G80 in a block with a motion code is common; in a block with a cycle code it ends that cycle
                 WordKind::Literal(..) if !in_cycle && view.meaning(word) == Some(Meaning::CycleEnd) => None,
                 WordKind::Literal(..) => view.meaning(word).and_then(Meaning::group),
                 _ => None,
@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             };
             let is_coolant = |word: &Word| matches!(view.meaning(word), Some(Meaning::Mist | Meaning::Flood));
             if is_coolant(word) && is_coolant(first) {
-                continue; // mist and flood together are intended
+                continue; // mist and flood together are allowed
             }
             diags.push(
                 Diag::new(Code::PF505, "two codes of one group in a block")

@@ -1,4 +1,4 @@
-//! PF105: a comment without its closing mark. postform adds the mark, but the form should show it.
+//! PF105: a comment has no closing mark. postform adds the mark to the program, but the form should contain it.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -9,10 +9,10 @@ use super::swallowed_words::swallowed;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.settings.comment[1] != ")" {
-        return; // this control needs no closing mark, or another one
+        return; // the comments of this control need no closing mark, or another one
     }
     let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
-    // words that are lost may include the closing mark
+    // the closing mark may be in text that is not printed
     let lost = |tail: &Tail| match tail {
         Tail::Lost(_) => true,
         Tail::Comment(comment) => view.checked.files[comment.file as usize].slice(*comment).contains(')'),
@@ -28,7 +28,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let diag = Diag::new(Code::PF105, "the comment is not closed")
             .at(piece.span, "it ends with the line")
             .help("write `)` at its end; the output stays the same");
-        // a form that calls this file may have other marks
+        // another form that calls this file may have other comment marks, so only the main file gets the fix
         let own = piece.span.file == 0;
         diags.push(if own { diag.fix("close the comment", true, vec![(end, ")".into())]) } else { diag });
     }

@@ -1,4 +1,4 @@
-//! PF314: `X[v]`: the position of one axis with the letter of another.
+//! PF314: the position of one axis is printed with the letter of another axis, as `X[v]`.
 
 use crate::control::Centres;
 use crate::diag::{Code, Diag};
@@ -13,13 +13,13 @@ const OF_AXIS: [[VarId; 3]; 3] = [
     [VarId::D, VarId::Ddist, VarId::Lastd],
 ];
 
-/// The distances to the centre of an arc along each axis.
+/// The variables for the distance to the centre of an arc, one for each axis.
 const CENTRES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
-        // on a lathe, holes are along the first axis and their depth has its own variable
+        // on a lathe, holes are along the first axis, and their depth is another variable
         let own = OF_AXIS.iter().position(|vars| vars.contains(&var)).filter(|&own| own < 2 || view.is_mill());
         let (Some(axis), Some(own)) = (view.axis(letter), own) else { continue };
         if axis != own {
@@ -31,7 +31,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
-    // the centre word of each axis has a fixed letter: I for X, J for Y, K for Z
+    // each axis has a fixed letter for its centre word: I for X, J for Y, K for Z
     for word in view.words() {
         let WordKind::Var(letter, var) = word.kind else { continue };
         let letter = view.letters[letter].printed;
@@ -55,7 +55,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .help(format!("write `{}[{}]`", char::from(own), var.name())),
             );
         }
-        // if centres are relative to the start of the arc, a position is wrong
+        // if centres are relative to the start of the arc, the position of the centre is wrong here
         let axis = [VarId::Hctr, VarId::Vctr].iter().position(|&own| own == var);
         let counts = view.settings.centre_incremental && view.traits().centres == Centres::Incremental;
         if let Some(axis) = axis.filter(|_| counts) {
@@ -74,7 +74,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         }
     }
-    // in a cycle of the control, R is the plane, and the depth axis is the bottom
+    // in a cycle of the control, R is the clearance plane, and the word of the depth axis is the bottom
     for line in view
         .bodies
         .iter()

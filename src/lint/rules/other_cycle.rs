@@ -1,11 +1,11 @@
-//! PF414: a sequence that starts another cycle: a drilling sequence that taps, a back bore that starts from above.
+//! PF414: a sequence starts a cycle for another kind of hole, for example a tap in Drill.
 
 use crate::control::{Hole, Row};
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
 use crate::lint::view::{View, serves};
 
-/// The kind of hole that each sequence must make.
+/// The kind of hole that each sequence has to make.
 const HOLES: &[(SequenceId, Hole)] = &[
     (SequenceId::Drill, Hole::Drill),
     (SequenceId::Peck, Hole::Peck),
@@ -32,7 +32,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let own = codes.rows().filter(|row| makes(row));
         let known = own.map(|row| row.code.to_string()).collect::<Vec<_>>().join(" or ");
         if known.is_empty() {
-            continue; // the control has no cycle for this kind
+            continue; // the control has no cycle for this kind of hole
         }
         diags.push(
             Diag::new(Code::PF414, format!("{code} is not the code for {}", body.name()))

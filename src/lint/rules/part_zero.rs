@@ -1,4 +1,4 @@
-//! PF440: `G0 Z0` moves to the zero of the part, usually its upper face: not a safe height to change a tool or turn a part.
+//! PF440: `G0 Z0` moves to the zero of the part, usually its upper face. This is no safe height for a tool change or an index.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -10,13 +10,13 @@ use crate::sema::Word;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     if !view.is_mill() || view.traits().height_is_machine {
-        return; // without an offset, Z0 is the home position
+        return; // without a length offset, Z0 is the home position
     }
     for body in view.these(&[S::ToolChange, S::EndCode, S::Index, S::Unwind]) {
         let rapid = |motion| matches!(motion, Motion::Rapid | Motion::Unknown);
         let offset_off = |word: &Word| view.meaning(word) == Some(Meaning::LengthOff);
         let blocks = view.blocks(body).iter();
-        // with G49, Z0 is at or near the zero of the machine
+        // after G49, Z0 is at or near the machine zero
         let blocks = blocks.filter(|block| block.in_part() && !block.incremental && rapid(block.motion));
         let blocks = blocks.filter(|block| !block.line.words.iter().any(offset_off));
         let zero = |word: &Word, axis| axis == 2 && word.letter().is_some_and(|letter| word.typed(letter) == Some(0.0));

@@ -1,4 +1,4 @@
-//! PF714: `=` compares a text literally; `*` matches any text only after `like`.
+//! PF714: a text is compared by `=` with a pattern. `*` matches any text only after `like`.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -39,7 +39,7 @@ fn branches(steps: &[Step], diags: &mut Vec<Diag>) {
     }
 }
 
-/// Finds the comparison of a text of the job with a text that looks like a pattern.
+/// Finds a comparison by `=` of a text of the job with a text that looks like a pattern.
 fn pattern(part: &Formula) -> Option<(Comparison, &str)> {
     let Formula::Compare(comparison, sides) = part else { return None };
     let of = |text: &Formula| matches!(text, Formula::TextVar(_) | Formula::PropertyText(_));

@@ -1,4 +1,4 @@
-//! PF413: a peck cycle without its step drills to the bottom at once.
+//! PF413: a peck cycle does not print its step. The control then drills to the bottom in one stroke.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

@@ -1,4 +1,4 @@
-//! PF423: under G91 a control adds a position to the current one.
+//! PF423: a position is printed while G91 is active. The control then adds it to the current position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

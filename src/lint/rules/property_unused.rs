@@ -1,4 +1,4 @@
-//! PF710: a property that the form never uses has no effect, whatever its value.
+//! PF710: the form declares a property but never uses it, so its value has no effect.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,4 +1,4 @@
-//! PF435: RapidCode with G1 or a feed: every rapid takes the time of a cut.
+//! PF435: RapidCode prints G1 or a feed. Every rapid is then made at feed.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -1,4 +1,4 @@
-//! PF415: `G0 Z[d]` in a cycle makes a rapid to the bottom of a hole that is not drilled yet.
+//! PF415: a cycle prints `G0 Z[d]`, a rapid to the bottom of a hole that is not yet drilled.
 
 use crate::control::{self, Meaning};
 use crate::diag::{Code, Diag};
@@ -14,9 +14,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for block in view.blocks(body) {
             let words = &block.axis_words;
             let down = words.iter().find(|(word, axis)| *axis == 2 && word.printed_var() == Some(VarId::D));
-            // the cycle begins with the motion of its last line, usually the retract, which is a rapid
+            // the first line has the motion of the previous hole's last line, usually a retract at rapid
             let rapid = matches!(block.motion, Motion::Rapid | Motion::Unknown);
-            // an unknown code with its plane is a cycle of this control
+            // an unknown code in a block with the clearance plane is a cycle of this control
             let codes = view.settings.codes();
             let unknown = |code: control::Code| {
                 let known = codes.meaning(code).is_some_and(|meaning| meaning != Meaning::Unsaid);

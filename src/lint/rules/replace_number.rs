@@ -1,4 +1,4 @@
-//! PF312: Replace changes its text everywhere, also inside numbers.
+//! PF312: Replace changes its text everywhere in the program, also inside numbers.
 
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;

@@ -1,4 +1,4 @@
-//! PF422: the axis words of G28 are an intermediate point: `G28 Z0` under G90 first moves to the part's Z0.
+//! PF422: the axis words of G28 are an intermediate point. Under G90, `G28 Z0` therefore first moves to Z0 of the part.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

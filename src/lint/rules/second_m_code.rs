@@ -1,4 +1,4 @@
-//! PF609: two M codes in a block, on a control that allows one.
+//! PF609: a block has two M codes, but the control allows only one.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

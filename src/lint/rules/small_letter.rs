@@ -1,4 +1,4 @@
-//! PF304: a lower-case letter prints in lower case, unless `Rename` changes it.
+//! PF304: a lower-case letter is printed in lower case, unless `Rename` changes it.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -6,7 +6,7 @@ use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.traits().small_letters {
-        return; // the control accepts both
+        return; // the control accepts lower case too
     }
     for word in view.words() {
         let Some(letter) = word.letter().filter(u8::is_ascii_lowercase) else { continue };
@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let diag = Diag::new(Code::PF304, format!("`{small}` is printed as a small letter"))
             .at(word.span, "the control may refuse it");
         diags.push(match view.format_letter(word) == Some(letter) {
-            // the lower-case letter has its own format, which the capital would not use
+            // the lower-case letter has its own format; the capital letter would use another one
             true => diag.help(format!("add `Rename {small} {capital}`")),
             false => diag.help(format!("write `{capital}`")).fix(
                 "write the capital",

@@ -1,4 +1,4 @@
-//! PF427: the spindle is started before the tool changes.
+//! PF427: a tool change starts the spindle before the tool changes.
 
 use crate::control::{Kept, Meaning};
 use crate::diag::{Code, Diag};
@@ -30,20 +30,20 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// State of the spindle on a path through a tool change. After branches, the state of one of them.
+/// State of the spindle at a line of a tool change. After branches, the states of all branches are combined.
 #[derive(Clone, Copy, Default)]
 struct Spindle<'a> {
-    /// The word that starts it.
+    /// The word that starts the spindle.
     on: Option<&'a Word>,
-    /// The word that stops it after that.
+    /// The word that stops the spindle again.
     stopped: Option<&'a Word>,
     /// The tool has changed.
     changed: bool,
-    /// The word that starts it before the tool changes.
+    /// The word that starts the spindle before the tool changes.
     too_early: Option<&'a Word>,
 }
 
-/// Walks through a tool change line by line.
+/// Follows the spindle through a tool change, line by line.
 struct Walk<'v, 'a> {
     view: &'v View<'a>,
     body: &'v Body<'a>,
@@ -88,7 +88,7 @@ impl<'a> Walk<'_, 'a> {
     }
 }
 
-/// The state after one of two branches.
+/// Combines the states after two branches. One of them may have been taken.
 fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
     Spindle {
         on: a.on.or(b.on),
@@ -98,19 +98,19 @@ fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
     }
 }
 
-/// Does the word stop the spindle? A program stop does not count: some controls leave the spindle on.
+/// Whether the word stops the spindle. A program stop counts only if the control stops the spindle then.
 fn stops(view: &View, word: &Word) -> bool {
     let keeps = view.traits().spindle_at_stop == Kept::Yes;
     let own = |meaning: Meaning| meaning == Meaning::SpindleOff || meaning.changes_tool();
     view.meaning(word).is_some_and(|meaning| own(meaning) || !keeps && meaning.is_stop())
 }
 
-/// Does a word start the spindle?
+/// Whether a word starts the spindle.
 pub(super) fn starts_spindle(view: &View, word: &Word) -> bool {
     view.meaning(word).is_some_and(Meaning::starts_spindle) || word.printed_vars().has(VarId::Direct)
 }
 
-/// The tool change sequences, each with the line in which the tool changes.
+/// The tool change sequences, each with the index of the line in which the tool changes.
 pub(super) fn changes<'a>(view: &View<'a>) -> Vec<(Body<'a>, usize)> {
     let line = |body: &Body, is: &dyn Fn(&Word) -> bool| body.lines.iter().position(|line| line.words.iter().any(is));
     let bodies = view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]);

@@ -1,5 +1,5 @@
-//! PF112: `R [vclear]` and `M cool` print letter and number separately; `FF[frate]` prints a letter too many; `[frate]` prints a
-//! number without a letter.
+//! PF112: `R [vclear]` and `M cool` print the letter and the number separately. `FF[frate]` prints a second letter. `[frate]`
+//! prints a number without a letter.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -24,11 +24,11 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 type Found = (Span, &'static str, String, Option<(&'static str, Span, String)>);
 
-/// The fault of a word: its location, a label, the correct text, and the edit.
+/// The fault of a word: its location, a label, the correct text and the edit. `None` if the word is correct.
 fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
     let letter = before.and_then(letter_alone);
     match (word.pieces.as_slice(), letter, before) {
-        // R [vclear], G 1
+        // as in `R [vclear]` and `G 1`
         ([piece], Some(letter), Some(before)) if value(piece).is_some() => {
             let better = format!("{letter}{}", value(piece)?);
             let gap = Span { start: before.span.end, end: word.span.end, ..word.span };
@@ -40,7 +40,7 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
                 Some(("join the word", gap, value(piece)?)),
             ))
         }
-        // FF[frate]; 0[program#]
+        // as in `FF[frate]` and `0[program#]`
         (
             [
                 Piece { kind: PieceKind::Stray(text), span },
@@ -58,7 +58,7 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
             let (label, text) = if zero { ("a zero for the letter O", "O") } else { ("the letter is given twice", "") };
             Some((span.to(*end), label, format!("write `{better}`"), Some(("write the word", *span, text.to_owned()))))
         }
-        // [frate] among words with letters, but not after a text
+        // `[frate]` between words with letters, but not after a text
         (
             [
                 Piece {
@@ -85,12 +85,12 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
     }
 }
 
-/// Is it the name of a variable, in small letters?
+/// Whether the text is the name of a variable in lower-case letters.
 fn is_variable(text: &str) -> bool {
     VarId::parse(text).is_some() && text.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
 }
 
-/// A capital letter alone.
+/// The letter of a word that consists of one capital letter.
 fn letter_alone(word: &Word) -> Option<char> {
     match word.pieces.as_slice() {
         [Piece { kind: PieceKind::Stray(text), .. }] if text.len() == 1 => {
@@ -100,11 +100,11 @@ fn letter_alone(word: &Word) -> Option<char> {
     }
 }
 
-/// A variable or number without a letter.
+/// The correct text of a value that is written without a letter.
 fn value(piece: &Piece) -> Option<String> {
     match &piece.kind {
         PieceKind::Variable { letter: None, name } => Some(format!("[{}]", name.text)),
-        // M cool
+        // as in `M cool`
         PieceKind::Stray(text) if is_variable(text) => Some(format!("[{text}]")),
         PieceKind::Stray(text) if text.parse::<f64>().is_ok() => Some(text.clone()),
         _ => None,

@@ -1,4 +1,4 @@
-//! PF013: StartCode moves an axis, while the position of the tool is unknown.
+//! PF013: StartCode moves an axis. The position of the tool is unknown at the start of a program.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;

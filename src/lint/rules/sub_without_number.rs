@@ -1,4 +1,4 @@
-//! PF018: a subprogram call without its number calls an arbitrary subprogram.
+//! PF018: a subprogram call does not print the number of its subprogram, so the control calls another one or none.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

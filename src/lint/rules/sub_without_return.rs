@@ -1,4 +1,4 @@
-//! PF017: a subprogram without a return continues with the next program.
+//! PF017: SubEnd prints no return code. The control then continues with the next program.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -8,7 +8,7 @@ use crate::sema::WordKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::SubEnd) else { return };
-    // text that is no code is a word of the control's own, as `RET` or `endsub`
+    // other text may be the control's own word for a return, as `RET` or `endsub`
     let own = end.words().any(|word| matches!(word.kind, WordKind::Text(_)));
     if end.meaning(|meaning| meaning == Meaning::Return).is_none() && !own {
         diags.push(

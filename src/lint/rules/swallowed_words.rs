@@ -1,4 +1,4 @@
-//! PF104: words inside a comment that was not closed have no effect.
+//! PF104: a comment is not closed, so the words after it are part of the comment and have no effect.
 
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;
@@ -20,14 +20,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The first word of a block inside a comment.
+/// Finds in a comment the first piece of text that looks like a word of a block.
 pub(super) fn swallowed(parts: &[Piece]) -> Option<Span> {
     parts.iter().enumerate().find_map(|(i, part)| match &part.kind {
         PieceKind::Stray(text) => {
             let mut at = part.span.start as usize;
             let mut found = None;
             for token in text.split(' ') {
-                // a letter directly before a variable
+                // a single letter directly before a variable counts as a word
                 let last = at + token.len() == part.span.end as usize;
                 let before =
                     last && parts.get(i + 1).is_some_and(|next| matches!(next.kind, PieceKind::Variable { .. }));

@@ -1,4 +1,4 @@
-//! PF103: a tab looks like a space, but acts like two: the text after it is a comment.
+//! PF103: a tab looks like a space but acts like two spaces: the text after it is a comment.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,4 +1,4 @@
-//! PF419: a tap that is retracted while the spindle still turns in the cutting direction tears the thread.
+//! PF419: a tap is retracted before the spindle reverses. This tears the thread.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -20,7 +20,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// The move that tears the thread, if any: a retract by rapid, or one before a code of `back` has reversed the spindle.
+/// Finds the move that tears the thread: a retract at rapid, or a retract before a code of `back` reverses the spindle.
 fn tears(view: &View, body: &Body, back: [Meaning; 2]) -> Option<Diag> {
     let (mut cut, mut reversed) = (false, false);
     for block in view.blocks(*body) {
@@ -39,7 +39,7 @@ fn tears(view: &View, body: &Body, back: [Meaning; 2]) -> Option<Diag> {
                 format!("reverse the spindle at the bottom, with the code that {}", back[0].about()),
             ),
             (Motion::Rapid, _) if cut => ("at rapid", "feed out: `G1 Z[vclear]`".to_owned()),
-            // the tap leaves the thread correctly
+            // the tap leaves the thread without damage
             _ if cut => return None,
             _ => continue,
         };

@@ -1,4 +1,4 @@
-//! PF016: a program that begins with `%` must end with `%`, because the control waits for it.
+//! PF016: a program begins with `%` but does not end with it. The control waits for the second `%`.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;

@@ -1,4 +1,4 @@
-//! PF442: passes that print X alone leave the tool at the end of the thread, unless the code itself returns.
+//! PF442: later passes of a thread print only X. The tool then stays at the end of the thread, unless the control moves it back.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId};

@@ -1,4 +1,4 @@
-//! PF309: on Fanuc and Haas, `X1` without a point is 0.0001 inch or 0.001 mm.
+//! PF309: a number is written without a decimal point. Fanuc and Haas read `X1` as 0.0001 inch or 0.001 mm.
 
 use crate::control::{self, Hole, Meaning, Row, WithoutPoint};
 use crate::diag::{Code, Diag};
@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.traits().without_point != WithoutPoint::LeastIncrement {
         return;
     }
-    // in a cycle, K is a count; in a tap, J is the factor of the retract speed; in G5.1, R is a mode
+    // exceptions: K in a cycle is a count, J in a tap is a factor of the retract speed, R in G5.1 is a mode
     let counting = |line: &Line| {
         let codes = view.settings.codes();
         let has = |asked: &dyn Fn(control::Code) -> bool| line.words.iter().filter_map(Word::code).any(asked);
@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         Some(b'J') => tap,
         _ => mode,
     };
-    // `R1 = 5` sets a register and is no word
+    // `R1 = 5` sets a register and is not a word with a value
     let is_register = |line: &Line, at: usize| {
         line.words.get(at + 1).is_some_and(|next| matches!(&next.kind, WordKind::Text(text) if text.starts_with('=')))
     };

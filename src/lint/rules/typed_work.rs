@@ -1,4 +1,4 @@
-//! PF430: a typed work offset is used for every job.
+//! PF430: a sequence prints a fixed work offset, so every job uses this one.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -7,7 +7,7 @@ use crate::lint::view::{Purpose, View};
 use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    // a safety line in StartCode is overridden before the first move
+    // a safety line in StartCode is allowed, because the job's work offset replaces it before the first move
     let bodies = view.bodies.iter().filter(|body| body.purpose != Purpose::Sequence(SequenceId::StartCode));
     for body in bodies {
         let is_work = |word: &&Word| view.meaning(word) == Some(Meaning::Work);

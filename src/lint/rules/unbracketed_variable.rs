@@ -1,4 +1,4 @@
-//! PF205: `Xh` and `X(h)` are text, probably meant as `X[h]`.
+//! PF205: `Xh` and `X(h)` are text. Probably `X[h]` was intended.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -10,13 +10,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for (i, piece) in word.pieces.iter().enumerate() {
             let PieceKind::Stray(text) = &piece.kind else { continue };
             let (span, letter, name) = match word.pieces.get(i + 1).map(|next| (&next.kind, next.span)) {
-                // X(h)
+                // as in `X(h)`
                 Some((PieceKind::Note { parts, closed: true }, end)) => match parts.as_slice() {
                     [Piece { kind: PieceKind::Stray(name), .. }] => (piece.span.to(end), text.as_str(), name.as_str()),
                     _ => continue,
                 },
                 Some(_) => continue,
-                // Xh, X{h}
+                // as in `Xh` and `X{h}`
                 None if text.is_char_boundary(1) => (piece.span, &text[..1], text[1..].trim_matches(['{', '}'])),
                 None => continue,
             };

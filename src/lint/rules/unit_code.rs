@@ -1,4 +1,4 @@
-//! PF315: a typed unit code in a form for other units.
+//! PF315: a sequence prints the code for other units than those of the form.
 
 use crate::diag::{Code, Diag};
 use crate::lang::UnitChoice;

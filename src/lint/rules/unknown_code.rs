@@ -1,10 +1,10 @@
-//! PF608: a code that is not in the file of the form's control, so that its effect is unknown.
+//! PF608: a code is missing in the file of the form's control, so its effect is unknown.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    // if the form names no control, there is no file to check
+    // a form that names no control has no control file to check
     let Some(control) = view.settings.control.filter(|_| view.is_mill()) else { return };
     for word in view.words() {
         let Some(code) = word.code() else { continue };

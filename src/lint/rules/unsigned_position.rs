@@ -1,4 +1,4 @@
-//! PF305: a position may be negative, but its format has no sign.
+//! PF305: the format of a position has no sign, but positions may be negative.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -42,7 +42,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let digits = format.to_string();
         let digits = digits.trim_start();
         let better = format!("{name}-{digits}");
-        // exact counts of digits are a habit from other posts
+        // with an exact number of digits, also suggest a format with a maximum number of digits
         let wider = if digits.contains('>') {
             String::new()
         } else {

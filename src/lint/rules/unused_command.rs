@@ -1,4 +1,4 @@
-//! PF011: a command whose setting is used nowhere in this form.
+//! PF011: a command makes a setting that this form does not use.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId, Used, VarId};
@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Reason why a command has no effect; `None` if it may have one.
+/// The reason why a command has no effect; `None` if the form uses its setting.
 fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
     let settings = view.settings;
     let has = |id: &SequenceId| view.form.sequences.contains_key(id);
@@ -45,7 +45,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
         Used::Threads => (settings.thread.is_none(), "there is no Thread command".to_owned()),
         Used::Letter => {
             let letters = statement.args.iter().flat_map(|arg| arg.text.bytes());
-            // the second letter of Rename is the printed one
+            // the second letter of Rename replaces the first in the output, so only the first is checked
             let most = if id == CommandId::Rename { 1 } else { usize::MAX };
             let printed = letters.take(most).any(|letter| is_printed(view, letter));
             (!printed, "nothing prints this letter".to_owned())
@@ -54,7 +54,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
     unused.then_some(why)
 }
 
-/// Is this letter printed anywhere, by a word of a body or by a generated block?
+/// Whether this letter is printed by a word of a sequence or by a generated block.
 fn is_printed(view: &View, letter: u8) -> bool {
     let settings = view.settings;
     let centres = match &settings.centre {

@@ -1,4 +1,4 @@
-//! PF010: a sequence that no job can use.
+//! PF010: no job can use this sequence.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;

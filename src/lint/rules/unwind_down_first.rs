@@ -1,4 +1,4 @@
-//! PF421: Unwind interrupts a cut: the tool must be over the point of interruption before it goes down.
+//! PF421: Unwind interrupts a cut and must bring the tool above the point of interruption before the tool goes down.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

@@ -1,10 +1,10 @@
-//! PF210: an Upon whose variable is never used. It prints only before a use of its variable.
+//! PF210: an Upon sequence prints only before a use of its variable, but the form never uses this variable.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
 use crate::lint::view::{Purpose, View};
 
-/// Variables that generated blocks also use.
+/// Variables that generated blocks use too.
 const GENERATED: &[VarId] = &[
     VarId::H,
     VarId::V,

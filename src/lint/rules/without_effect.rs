@@ -1,4 +1,4 @@
-//! PF203: a command of the original desktop product that has no effect here.
+//! PF203: a command of the original desktop product has no effect in postform.
 
 use crate::diag::{Code, Diag};
 use crate::lang::CommandId;
@@ -8,7 +8,7 @@ use crate::syntax::Tail;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (id, statement) in view.commands() {
-        // a missing argument is an error of its own, which must not be hidden
+        // another finding reports a missing argument
         let lacks = statement.args.is_empty();
         if lacks || !matches!(id, CommandId::Tools | CommandId::Drive | CommandId::WindowSize) {
             continue;

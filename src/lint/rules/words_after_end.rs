@@ -1,4 +1,4 @@
-//! PF015: the control ignores text after the end of the program.
+//! PF015: EndCode prints words after the end of the program, which the control ignores.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -8,7 +8,7 @@ use crate::sema::{Word, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(end) = view.body(SequenceId::EndCode) else { return };
-    // reading stops at `%`, execution at M30
+    // a control stops reading at `%` and stops executing at M30
     let is_end = |word: &Word| {
         matches!(view.meaning(word), Some(Meaning::End | Meaning::Return))
             || matches!(&word.kind, WordKind::Text(text) if text == "%")
@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let is_word = |word: &&Word| match &word.kind {
         WordKind::Text(text) => text != "%",
         WordKind::Note(_) | WordKind::Remark(_) => false,
-        // `END PGM SLOT MM` is no block
+        // text like `END PGM SLOT MM` is not a block
         WordKind::Quote(_) | WordKind::TextVar(_) => false,
         _ => true,
     };

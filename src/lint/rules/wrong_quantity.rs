@@ -1,4 +1,4 @@
-//! PF313: a feed letter with a speed, or a speed letter with a feed: `F[speed]`.
+//! PF313: a feed letter prints a speed, as `F[speed]`, or a speed letter prints a feed.
 
 use crate::control::PitchUnit;
 use crate::diag::{Code, Diag};
@@ -16,7 +16,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         for word in &line.words {
             let WordKind::Var(letter, var) = word.kind else { continue };
             let unit = var.row().unit;
-            // in a tap whose pitch has its own word, F is the spindle speed
+            // if a tap has a separate word for the pitch, F is the spindle speed
             if var == VarId::Speed && *taps.get_or_insert_with(|| taps_by_pitch(view, line)) {
                 continue;
             }
@@ -50,7 +50,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Is the line the block of a tap with a separate pitch word, and does it print the pitch?
+/// Whether the line is the block of a tap with a separate pitch word and prints the pitch.
 fn taps_by_pitch(view: &View, line: &Line) -> bool {
     let words = &line.words;
     let codes = view.settings.codes();
@@ -58,7 +58,8 @@ fn taps_by_pitch(view: &View, line: &Line) -> bool {
     words.iter().filter_map(Word::code).any(taps) && words.iter().any(|word| word.printed_var() == Some(VarId::Pitch))
 }
 
-/// `F[pitch]` while feeds count per minute: a tap would go in at a hundredth of its feed.
+/// Reports a tap that prints `F[pitch]` while feeds are per minute. The feed must be the pitch times the spindle speed; the pitch alone
+/// is far too low.
 fn pitch_per_minute(view: &View, diags: &mut Vec<Diag>) {
     let [_, per_turn, _] = view.settings.feed_type;
     for body in view.cycles_for(&[SequenceId::Tap, SequenceId::LTap]).filter(|_| view.is_mill()) {
@@ -78,7 +79,7 @@ fn pitch_per_minute(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Reports `F[plunge]` in cuts: it is the feed for moves down, but cuts move across.
+/// Reports `F[plunge]` in cuts. The plunge feed is for moves down, but cuts move across.
 fn plunge_in_cuts(view: &View, diags: &mut Vec<Diag>) {
     use SequenceId as S;
     for body in view.these(&[S::LineCode, S::CwCode, S::CcwCode, S::InFeed, S::OutFeed]) {

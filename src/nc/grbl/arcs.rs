@@ -1,4 +1,4 @@
-//! G2 and G3.
+//! Arcs of Grbl: G2 and G3.
 
 use super::error::refuse;
 use crate::nc::action::{Action, Turn};
@@ -11,7 +11,8 @@ use crate::nc::state::State;
 use crate::toolpath::{Direction, Units};
 
 impl State {
-    /// An arc or helix. The centre is incremental. A centre word across the plane is ignored.
+    /// Makes an arc or helix. The centre is measured from the start of the arc. A centre word for the axis
+    /// perpendicular to the plane is ignored.
     pub(super) fn grbl_arc(&mut self, direction: Direction, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let [first, second, _] = axes_of(self.modes.plane);

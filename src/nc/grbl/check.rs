@@ -9,17 +9,17 @@ use crate::nc::fault::Done;
 use crate::nc::state::State;
 use crate::toolpath::{FeedMode, Plane};
 
-/// Highest block number.
+/// The highest block number that Grbl accepts.
 const MOST_NUMBER: f64 = 10_000_000.0;
-/// Number of work offsets, G54 to G59.
+/// Number of work offsets: G54 to G59.
 const OFFSETS: f64 = 6.0;
-/// Bits of X, Y and Z.
+/// The bits of the words X, Y and Z.
 const LINEAR: [u32; 3] = [bit(b'X'), bit(b'Y'), bit(b'Z')];
 
 /// Checks a block and returns its motion, if it has one.
 ///
 /// # Errors
-/// Grbl's error for the first problem, in Grbl's own order of checks.
+/// The error of Grbl for the first problem. The checks are in Grbl's order.
 pub(super) fn check(block: &Block, state: &State) -> Done<Motion> {
     if block.get(b'N').is_some_and(|number| number > MOST_NUMBER) {
         return refuse(27);
@@ -49,7 +49,7 @@ pub(super) fn check(block: &Block, state: &State) -> Done<Motion> {
     Ok(motion.filter(|_| moves && has_axes))
 }
 
-/// Checks codes that are in force for their block only.
+/// Checks the codes that take effect only in their block.
 fn check_once(block: &Block, motion: Motion) -> Done {
     match block.g_meaning(Group::Once) {
         Some(Meaning::SetOffsets | Meaning::Preset) if !block.has_axes() => refuse(26),
@@ -65,7 +65,7 @@ fn check_once(block: &Block, motion: Motion) -> Done {
     }
 }
 
-/// Checks that a cut has a feed, and that an arc or probe has an end.
+/// Checks that a cut has a feed, and that an arc or a probing move has an end.
 fn check_cut(block: &Block, motion: Motion, mode: FeedMode, state: &State) -> Done {
     let kept = if mode == FeedMode::PerMinute && state.modes.feed_mode == mode { state.drive.feed } else { 0.0 };
     if block.get(b'F').unwrap_or(kept) == 0.0 {

@@ -1,9 +1,9 @@
-//! Grbl's error numbers for blocks that it refuses.
+//! The errors of Grbl for blocks that it refuses, by number.
 
 use crate::diag::Code;
 use crate::nc::fault::Fault;
 
-/// An error of Grbl: Grbl's number, our code, the problem, and the correction.
+/// An error: the number that Grbl reports, the code of the finding, the problem, and the correction.
 type Row = (u8, Code, &'static str, &'static str);
 
 #[rustfmt::skip]
@@ -34,7 +34,7 @@ const ERRORS: [Row; 24] = [
     (0, Code::PN016, "a command of Grbl itself is not simulated", "send it by hand: it can't be in a program"),
 ];
 
-/// Grbl's error. `about`: the text and column of the part of the block, if known.
+/// The fault for an error of Grbl. `about`: the text and the column of the wrong part of the block, if known.
 #[cold]
 pub(super) fn error(number: u8, about: Option<(&str, usize)>) -> Box<Fault> {
     let row = ERRORS.iter().find(|(row, ..)| *row == number);
@@ -46,7 +46,7 @@ pub(super) fn error(number: u8, about: Option<(&str, usize)>) -> Box<Fault> {
     fault
 }
 
-/// Refuses a block.
+/// Refuses a block with an error of Grbl.
 pub(super) fn refuse<T>(number: u8) -> Result<T, Box<Fault>> {
     Err(error(number, None))
 }

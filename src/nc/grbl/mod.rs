@@ -1,7 +1,7 @@
-//! Grbl 1.1: the blocks that it reads and refuses, and its differences from the interpreter that it derives from.
+//! Grbl 1.1: the blocks that it reads and refuses, and how it differs from the NIST interpreter from which it derives.
 //!
-//! Its behaviour was observed from outside, by programs and the answers of its own parser. Grbl checks the whole block
-//! before it runs any of it, so a refused block has no effect.
+//! The behaviour of Grbl was found by sending programs to its parser and reading the answers. Grbl checks a whole block
+//! before it runs any part of it, so a refused block has no effect.
 
 mod arcs;
 mod check;

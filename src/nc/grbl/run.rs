@@ -1,4 +1,4 @@
-//! Runs a block in the order that Grbl uses.
+//! Runs the codes of a block in the order in which Grbl runs them.
 
 use super::check::check;
 use super::error::refuse;
@@ -53,8 +53,8 @@ impl State {
         Ok(Next::On)
     }
 
-    /// Sets the feed and everything else that comes before the axis words. Grbl keeps F in millimetres: F is in the units
-    /// of its block, but is read as millimetres in the block that leaves G93.
+    /// Sets the feed and all other values that take effect before the axis words. Grbl stores F in millimetres. F is in
+    /// the units of its block; but in the block that ends G93, Grbl reads F as millimetres.
     fn grbl_feed(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         let before = self.modes.feed_mode;
         if block.row(Group::FeedMode).is_some() {
@@ -70,7 +70,7 @@ impl State {
         Ok(())
     }
 
-    /// G38: the move goes to its end if nothing is touched. The contact position is known only at the machine.
+    /// Runs G38. The move goes to its end, as if nothing is touched. The contact position is known only at the machine.
     fn probe(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (from, to) = (self.place.position, self.target(block)?);
@@ -84,8 +84,8 @@ impl State {
         Ok(())
     }
 
-    /// M0, M2 and M30. Senders send on after the end of the program. Grbl then continues, with some modes reset to those
-    /// at power-up.
+    /// Runs M0, M2 and M30. Senders may send more blocks after the end of the program. Grbl then continues, with some
+    /// modes reset to their values at power-up.
     fn grbl_stops(&mut self, block: &Block, out: &mut Out<'_>) {
         for (_, row) in block.m() {
             match row.meaning {

@@ -1,4 +1,4 @@
-//! Reads a line as Grbl does: word by word, without spaces, slashes and comments. The first wrong word refuses the line.
+//! Reads a line like Grbl: word by word, without spaces, slashes and comments. At the first wrong word, the line is refused.
 
 use super::error::error;
 use crate::control::{Code, Control, Meaning};
@@ -11,15 +11,15 @@ use crate::nc::scan::{Kind, tokens};
 const UNSIGNED: u32 = letters("FNPST");
 /// The highest tool number.
 const MOST_TOOL: f64 = 255.0;
-/// The number of digits that Grbl reads.
+/// The number of digits of a number that Grbl reads.
 const MOST_DIGITS: usize = 8;
-/// Codes whose unknown fractions Grbl reports as unknown codes.
+/// If one of these codes has an unknown fraction, Grbl reports an unknown code.
 const WITH_FRACTIONS: [u16; 8] = [28, 30, 38, 43, 61, 90, 91, 92];
 
 /// Reads a line.
 ///
 /// # Errors
-/// Grbl refuses the line while reading it.
+/// Grbl refuses the line when it reads it.
 pub(in crate::nc) fn read(block: &mut Block, line: &[u8], control: &'static Control) -> Done {
     block.clear();
     let mut text = std::mem::take(&mut block.text);
@@ -60,8 +60,8 @@ fn words(block: &mut Block, line: &mut [u8], control: &'static Control) -> Done 
     Ok(())
 }
 
-/// Refuses a line that is too long. `whole`: length with comments. `kept`: length without spaces, slashes and comments,
-/// which some controls do not count.
+/// Refuses a line that is too long. `whole` is its length with comments. `kept` is its length without spaces, slashes
+/// and comments, which some controls do not count.
 fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
     let Some(longest) = control.traits().longest_line else { return Ok(()) };
     if control.traits().bare_line {
@@ -78,8 +78,8 @@ fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
     Ok(())
 }
 
-/// Replaces characters that do not reach the parser by spaces. Returns the number of remaining characters and the columns
-/// of the first comment.
+/// Replaces the characters that do not reach the parser by spaces. Returns the number of other characters, and the
+/// columns of the first comment.
 fn clear(line: &mut [u8]) -> Done<(usize, Option<(usize, usize)>)> {
     let (mut kept, mut comment, mut inside) = (0, None, None);
     let end = line.trim_ascii_end().len();
@@ -115,8 +115,8 @@ fn clear(line: &mut [u8]) -> Done<(usize, Option<(usize, usize)>)> {
     Ok((kept, comment))
 }
 
-/// The value of a word. Grbl reads the first eight digits of a number, leading zeros included. Further digits count as
-/// zeros.
+/// The value of a word. Grbl reads the first eight digits of a number, including leading zeros. All further digits
+/// become zero.
 fn value(word: &[u8], value: f64) -> f64 {
     let digits = || word.iter().filter(|byte| byte.is_ascii_digit());
     if digits().count() <= MOST_DIGITS {
@@ -132,7 +132,7 @@ fn g_word(block: &mut Block, value: f64, control: &'static Control) -> Result<()
     let hundredths = ((value - value.trunc()) * 100.0).round();
     let mut number = value.trunc();
     if number == 49.0 || hundredths < 0.0 {
-        // G49 with any fraction is read as G49
+        // G49 with a fraction has already been read as G49
     } else if hundredths % 10.0 == 0.0 {
         number += hundredths / 100.0;
     } else {
@@ -150,13 +150,13 @@ fn g_word(block: &mut Block, value: f64, control: &'static Control) -> Result<()
     if block.put_g(row, its_group, takes_axes) { Ok(()) } else { Err(21) }
 }
 
-/// The error for a fraction that the code does not have.
+/// The error for a code with a fraction that does not exist.
 fn unknown_fraction(number: f64, control: &'static Control) -> u8 {
     let whole = Code::of(b'G', number).filter(|code| !WITH_FRACTIONS.contains(&(code.tenths / 10)));
     if whole.and_then(|code| control.row(code)).is_some() { 23 } else { 20 }
 }
 
-/// Whether a code uses the axis words of its block for itself. A block may contain only one such code.
+/// Whether a code uses the axis words of its block. A block may contain only one such code.
 fn takes_axes(meaning: Meaning) -> bool {
     use Meaning as M;
     matches!(meaning, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::Probe)
@@ -191,7 +191,7 @@ fn word(block: &mut Block, letter: u8, value: f64, control: &'static Control) ->
     if UNSIGNED & at != 0 && value < 0.0 {
         return Err(4);
     }
-    // fractions of tool, block and data numbers are dropped
+    // fractions in the values of L, N and T are dropped
     block.put(letter, if matches!(letter, b'L' | b'N' | b'T') { value.trunc() } else { value });
     Ok(())
 }

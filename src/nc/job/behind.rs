@@ -5,11 +5,11 @@ use crate::nc::state::State;
 /// State of the machine after a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Behind {
-    /// Axes that are at a machine position, as bits.
+    /// As bits, the axes that are at a machine position.
     pub unknown: u8,
-    /// The shift that G52 and G92 add to positions.
+    /// The shift that G52 and G92 add to positions, along X, Y and Z.
     pub shift: [f64; 3],
-    /// Axes whose frame G92 moved from a position that was known only at the machine, as bits.
+    /// As bits, the axes whose frame G92 moved while the position of the axis was known only at the machine.
     pub frame: u8,
 }
 

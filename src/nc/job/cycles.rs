@@ -1,5 +1,5 @@
-//! Converts a control's cycle to a cycle of a job. The point of a hole is at the R plane, because a program does not
-//! contain the top of the part.
+//! Converts a canned cycle of a control to a cycle of a job. The points of the holes are on the R plane, because a
+//! program does not contain the height of the top of the part.
 
 use super::fault::unsaid;
 use crate::control::Motions;
@@ -13,10 +13,10 @@ pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
     key(a) == key(b)
 }
 
-/// The cycle of a hole.
+/// The cycle of a job for a hole of a program.
 ///
 /// # Errors
-/// A job has no such cycle.
+/// A job can't contain such a cycle.
 pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSpec, Box<Diag>> {
     let kind = match hole.cycle.motions {
         Motions::Drill if hole.cycle.dwells => CycleKind::Face,
@@ -47,13 +47,13 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     if kind.is_tap() && hole.peck > 0.0 {
         (spec.step, spec.mode) = (Some(hole.peck), Some(CycleKind::Chipbreak));
     }
-    // a dwell of zero seconds is left out, unless the kind of cycle requires one
+    // a dwell of zero seconds is left out, unless this kind of cycle requires a dwell
     spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
     spec.rigid = (kind.is_tap() && rigid).then_some(true);
     Ok(spec)
 }
 
-/// The hole of a cycle.
+/// The hole of a job for a hole of a program. `first` is the first hole of the cycle.
 pub(super) fn hole_of(hole: &Drilling, first: &Drilling, axes: u8) -> Hole {
     let mut at = Axes { values: hole.at, given: axes };
     at.set(2, hole.r);

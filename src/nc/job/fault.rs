@@ -1,4 +1,4 @@
-//! Errors for programs that a job can't express, and errors that end the reading.
+//! Errors and warnings about parts of a program that a job can't contain, and errors that end the reading.
 
 use crate::diag::{Code, Diag, Location};
 use crate::nc::simulator::RunError;
@@ -12,15 +12,15 @@ pub(super) fn refused(error: RunError) -> ReadError {
     }
 }
 
-/// The result of pushing events.
+/// The result of adding events to the job.
 pub(super) type Done = Result<(), Stop>;
 
-/// Fails with an error: no job can express this.
+/// Fails with an error: a job can't contain this part of the program.
 pub(super) fn unsaid<T, E: From<Box<Diag>>>(line: u64, message: impl Into<String>, help: &str) -> Result<T, E> {
     Err(Box::new(Diag::new(Code::PN036, message).help(help).place(Location::at(line, 1))).into())
 }
 
-/// A warning: the job expresses this differently, or leaves it out.
+/// A warning: the job contains this part of the program in another way, or leaves it out.
 pub(super) fn warning(line: u64, message: impl Into<String>, help: &str) -> Diag {
     Diag::new(Code::PN035, message).help(help).place(Location::at(line, 1))
 }

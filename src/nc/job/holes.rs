@@ -1,4 +1,4 @@
-//! Converts the holes of a program to cycles of a job. Holes of one pattern are one cycle, whichever rapids connect them.
+//! Converts the holes of a program to cycles of a job. The holes of one pattern become one cycle, even if rapids are between them.
 
 use super::cycles::{hole_of, is_same, spec_of};
 use super::fault::{Done, unsaid};
@@ -9,7 +9,7 @@ use crate::nc::action::{Action, Drilling, Heights, Position, Rotation};
 use crate::toolpath::{Event, First, Plane};
 
 impl Reader<'_> {
-    /// Takes a rapid if it may be a move to the next hole. Returns whether it was taken.
+    /// Stores a rapid if it may be a move to the next hole of the cycle. Returns whether it was stored.
     pub(super) fn leads_on(&mut self, to: &Position, machine: u8) -> bool {
         if self.operation || self.turning.is_some() {
             return false;
@@ -23,7 +23,7 @@ impl Reader<'_> {
         true
     }
 
-    /// Ends the cycle before an action that switches something, if rapids were taken that may be moves to the next hole.
+    /// If stored rapids may be moves to the next hole, an action that switches something ends the cycle.
     pub(super) fn settle_way(&mut self, action: &Action) -> Done {
         let leads = matches!(
             action,
@@ -53,7 +53,7 @@ impl Reader<'_> {
             return unsaid(self.place.line, message, "write a rapid with Z before it, or return to R by G99");
         }
         self.low_approach(hole)?;
-        // a rigid tap starts the spindle in its own direction
+        // in a rigid tapping cycle, the control starts the spindle in the direction of the thread
         match hole.cycle.motions {
             Motions::Tap if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),
             Motions::LeftTap if self.wanted.rotation != Some(Rotation::Ccw) => {
@@ -80,7 +80,7 @@ impl Reader<'_> {
 
     fn begin_cycle(&mut self, hole: &Drilling) -> Done {
         self.end_cycle()?;
-        // a tool change has already moved a new tool away from the reference point
+        // a new tool has already left the reference point at its tool change
         let new_tool = self.operation && self.tool_is_new();
         if let Some(line) = self.home.take().filter(|_| !new_tool) {
             return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before it");
@@ -96,7 +96,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A Fanuc moves across below the R plane and then up to it above the hole. A job's cycle goes up first.
+    /// If the tool is below R, a Fanuc moves across first and then up to R. The cycle of a job moves up first, so this
+    /// adds the move across.
     fn low_approach(&mut self, hole: &Drilling) -> Done {
         let begun = !self.operation && self.home.is_none() && self.known & 0b111 == 0b111;
         let across = self.at[..2] != hole.at[..2];
@@ -109,7 +110,7 @@ impl Reader<'_> {
         self.rapid(&to, 0)
     }
 
-    /// Ends the cycle and makes the rapids that followed its last hole.
+    /// Ends the cycle and adds the rapids that followed its last hole.
     pub(super) fn end_cycle(&mut self) -> Done {
         let Some(pattern) = self.cycle.take() else { return Ok(()) };
         self.place.point = 0;

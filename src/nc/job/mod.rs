@@ -1,4 +1,4 @@
-//! Reads an NC program as a job, for printing by another form. Its cycles remain cycles.
+//! Reads an NC program as a job, so that another form can print it. Canned cycles of the program remain cycles.
 
 mod behind;
 mod cycles;
@@ -29,13 +29,13 @@ use reader::Reader;
 use survey::survey;
 use turning::Turner;
 
-/// Reads a program as a job. The program is run twice. The first run checks that the control accepts it, and collects the
-/// data of its tools.
+/// Reads a program as a job. The program is run twice: the first run checks that the control accepts the program, and
+/// collects data such as the registers of the tools.
 ///
-/// `warnings` are about parts that a job can't express.
+/// `warnings` gets the findings about parts that the job contains in another way or leaves out.
 ///
 /// # Errors
-/// The input fails, the control refuses the program, or a job can't express the program.
+/// The input can't be read, the control refuses the program, or a job can't contain a part of the program.
 pub fn read_program(
     mut input: impl Read + Seek,
     options: &JobOptions,
@@ -81,7 +81,7 @@ fn read_twice(
     warnings: &mut Vec<Diag>,
     sink: &mut dyn Sink,
 ) -> Result<(), ReadError> {
-    // move off the wall to the side where a job's bore at angle zero does
+    // boring tools move away from the wall in the same direction as in a job whose bore has an angle of zero
     let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..options.settings };
     let mut simulator = Simulator::new(input, settings);
     let survey = survey(&mut simulator, options, warnings)?;
@@ -96,7 +96,8 @@ fn read_twice(
     Ok(reader.finish()?)
 }
 
-/// Runs the program. Passes on each action, the text of its block, and the state of the machine after that block.
+/// Runs the program. For each action, calls `take` with the action, the text of its block, and the state of the machine
+/// after the block.
 fn run(simulator: &mut Simulator<'_>, mut take: impl FnMut(&Item, &[u8], Behind) -> Done) -> Result<(), ReadError> {
     let mut items = Vec::new();
     loop {

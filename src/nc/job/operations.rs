@@ -1,5 +1,5 @@
-//! Operations of the job: a new one begins with each tool and where the feed mode changes. Also the switching inside
-//! operations.
+//! The operations of a job. An operation begins with each tool, and where the feed mode changes. The events for
+//! spindle, coolant and work offset inside an operation are also added here.
 
 use super::fault::{Done, unsaid, warning};
 use super::reader::{Reader, Waiting};
@@ -51,7 +51,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Whether the beginning operation loads another tool.
+    /// Whether the operation that begins has another tool than the one before.
     pub(super) fn tool_is_new(&self) -> bool {
         self.place.operation == 0 || self.changes > 0 && self.said == Switches::default()
     }
@@ -72,7 +72,7 @@ impl Reader<'_> {
         self.wanted.rotation = Some(Rotation::Stop);
         self.said = Switches::default();
         if self.tool.replace(number) == Some(number) && self.place.operation > 0 {
-            // a form prints no change to the tool that is already loaded
+            // a form prints no tool change if the tool is already loaded
             self.said.rotation = Some(Rotation::Stop);
         } else {
             self.home = None;
@@ -87,7 +87,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Pushes events for everything that was switched since the last move.
+    /// Adds events for everything that was switched since the last move.
     pub(super) fn switch(&mut self) -> Done {
         let said = std::mem::replace(&mut self.said, self.wanted);
         said.changes(self.wanted).try_for_each(|event| self.push(event))

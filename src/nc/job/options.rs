@@ -6,12 +6,12 @@ use crate::toolpath::Units;
 /// Options for reading a program as a job.
 #[derive(Clone, Copy, Debug)]
 pub struct JobOptions {
-    /// Control of the program, and settings of the run.
+    /// Settings for running the program, including its control.
     pub settings: RunSettings,
-    /// Units for a program without a unit code.
+    /// Units of a program that has no code for units.
     pub units: Option<Units>,
-    /// Number of the first tool, for a program that cuts before it loads a tool.
+    /// Number of the first tool, if the program cuts before it loads a tool.
     pub tool: Option<f64>,
-    /// Position of the tool before a cut that begins at a position known only at the machine.
+    /// Position of the tool at a cut that begins at an unknown machine position.
     pub start: Option<[f64; 3]>,
 }

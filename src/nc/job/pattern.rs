@@ -1,19 +1,19 @@
-//! Holes of one cycle, whichever rapids connect them.
+//! The holes of one cycle, even if rapids are between them.
 
 use crate::nc::action::{Drilling, Position};
 use crate::toolpath::Place;
 
-/// A cycle in progress.
+/// A cycle whose holes are being read.
 pub(super) struct Pattern {
     pub first: Drilling,
     pub last: Drilling,
-    /// Rapids after the last hole at its return level. They may be moves to the next hole.
+    /// Rapids at the return level after the last hole. They may be moves to the next hole.
     pub way: Vec<(Position, Place)>,
 }
 
-/// The largest number of rapids from one hole to the next.
+/// Maximum number of rapids between two holes of a cycle.
 const MOST_WAY: usize = 4;
-/// Heights that differ by less are equal.
+/// Heights that differ by less than this are equal.
 const SAME: f64 = 1e-9;
 
 impl Pattern {
@@ -23,7 +23,7 @@ impl Pattern {
         level && self.way.len() < MOST_WAY
     }
 
-    /// Whether the rapids after the last hole move to this hole and to no other position.
+    /// Whether all stored rapids end at the X and Y of the last hole or of this hole.
     pub fn leads_to(&self, hole: &Drilling) -> bool {
         self.way.iter().all(|(to, _)| to[..2] == self.last.at[..2] || to[..2] == hole.at[..2])
     }

@@ -1,4 +1,4 @@
-//! The second run: converts actions to events.
+//! The second run of a program that is read as a job: converts actions to events of the job.
 
 use super::behind::Behind;
 use super::fault::{Done, unsaid, warning};
@@ -12,7 +12,7 @@ use crate::lang::{Machine, additional_work};
 use crate::nc::action::{Action, Item, Position, Turn};
 use crate::toolpath::{Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, StopKind};
 
-/// An item before the first move of an operation.
+/// An item that waits for the first move of an operation.
 pub(super) enum Waiting {
     Comment(String),
     /// A dwell in seconds.
@@ -20,10 +20,10 @@ pub(super) enum Waiting {
     Stop(StopKind),
 }
 
-/// The largest number of waiting items. Further comments are left out.
+/// Maximum number of waiting items. Further comments are left out.
 pub(super) const MOST_WAITING: usize = 1000;
 
-/// Converts actions to events.
+/// Converts actions of the simulator to events of a job.
 pub(super) struct Reader<'a> {
     pub(super) survey: &'a Survey,
     pub(super) options: &'a JobOptions,
@@ -41,11 +41,11 @@ pub(super) struct Reader<'a> {
     pub(super) mode: FeedMode,
     plane: Plane,
     pub(super) at: Position,
-    /// Position of the simulator. Axes whose position is known only at the machine are counted from 0.
+    /// Position as the simulator calculates it. Axes whose position is known only at the machine are measured from 0.
     counted: Position,
-    /// Axes whose position is known to the job, as bits.
+    /// As bits, the axes whose position in the job is known.
     pub(super) known: u8,
-    /// The line where the tool went to its reference point, until the next move.
+    /// The line in which the tool moved to its reference point. `None` after the next move.
     pub(super) home: Option<u64>,
     pub(super) cycle: Option<Pattern>,
     pub(super) side: Option<Side>,
@@ -54,24 +54,24 @@ pub(super) struct Reader<'a> {
     pub(super) framed: bool,
     /// The last comment and its line.
     pub(super) remark: (u64, String),
-    /// The comment after the tool's T word.
+    /// The comment in the block of the tool change.
     pub(super) tool_name: Option<String>,
-    /// The shift of G52 and G92 at the first move, and the shift that they have added since.
+    /// The shift of G52 and G92 at the first move. `shift` is the change of this shift since then.
     pub(super) frame: [f64; 3],
-    /// Axes along which G92 had moved the frame by an unknown amount at the first move, as bits.
+    /// As bits, the axes along which the shift of G92 was unknown at the first move.
     pub(super) lost: u8,
     pub(super) shift: [f64; 3],
-    /// Items before the next operation. They become part of it.
+    /// Items that wait for the next operation, which will contain them.
     pub(super) waiting: Vec<Waiting>,
 }
 
 impl<'a> Reader<'a> {
-    /// Whether length and radius belong to the tool itself, so that programs name no register.
+    /// Whether length and radius belong to the tool itself. Programs then name no register.
     fn tool_is_its_own(&self) -> bool {
         self.options.settings.control.traits().tool_length == ToolLength::Tool
     }
 
-    /// Whether work offsets are selected by numbers from 1 instead of by codes.
+    /// Whether the control selects work offsets by numbers from 1, not by codes.
     fn counts_offsets(&self) -> bool {
         let row = self.options.settings.control.first(Meaning::Work);
         matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Takes an action of a block with the text `block`. `behind`: the state of the machine after the block.
+    /// Handles an action of a block with the text `block`. `behind` is the state of the machine after the block.
     pub fn take(&mut self, item: &Item, block: &[u8], behind: Behind) -> Done {
         let shifted = self.shifted(&item.action).map(|action| Item { action, ..*item });
         let item = shifted.as_ref().unwrap_or(item);
@@ -130,7 +130,7 @@ impl<'a> Reader<'a> {
         self.place.line = item.line;
         self.place.column = 1;
         if item.by_cycle {
-            // the cycle contains its moves; the next move begins where the cycle leaves the tool
+            // the event of the cycle contains these moves; the next move begins at their end
             if let Action::Rapid { to, .. } | Action::Feed { to, .. } = &item.action {
                 self.at = *to;
                 self.known |= 0b111;
@@ -154,7 +154,7 @@ impl<'a> Reader<'a> {
             Action::Feed { to, feed, .. } => self.feed(to, *feed, behind.unknown),
             Action::Arc(turn) => self.arc(turn, behind.unknown),
             Action::Hole(hole) => self.hole(hole),
-            Action::CycleOff => Ok(()), // the next action shows whether the next hole belongs to another cycle
+            Action::CycleOff => Ok(()), // the next action shows whether the cycle really ends
             Action::Dwell(seconds) => self.between(Event::Dwell(*seconds)),
             Action::Stop(kind) => self.between(Event::Stop(*kind)),
             Action::Tool(number) => self.tool_change(*number),
@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
                 self.coolant(*cooling);
                 Ok(())
             }
-            // G54.1 P1 is the seventh work offset
+            // G54.1 P1 has the number 7 in a job
             Action::Work(code) if additional_work(0.0) + 43.0 >= *code && *code > additional_work(0.0) => {
                 self.wanted.work = Some(*code - additional_work(0.0) + 6.0);
                 Ok(())
@@ -190,7 +190,7 @@ impl<'a> Reader<'a> {
             }
             Action::FeedMode(mode) => {
                 self.mode = *mode;
-                self.operation = true; // a job's operation has one feed mode
+                self.operation = true; // an operation of a job has only one feed mode
                 Ok(())
             }
             Action::Compensation(Some((_, None))) if !self.tool_is_its_own() => {
@@ -222,7 +222,7 @@ impl<'a> Reader<'a> {
             | Action::End
             | Action::LeftOut(..)
             | Action::Threading(_)
-            | Action::Passes(_) // threads of lathes
+            | Action::Passes(_) // threads of lathes, which a mill does not have
             | Action::BlockDelete
             | Action::SpeedLimit(_) => Ok(()),
         }
@@ -241,7 +241,7 @@ impl<'a> Reader<'a> {
         self.moves(axes, Some(feed))
     }
 
-    /// The program is over.
+    /// Ends the job at the end of the program.
     pub fn finish(&mut self) -> Done {
         self.end_cycle()?;
         self.start()?;
@@ -263,13 +263,13 @@ impl<'a> Reader<'a> {
         self.push(Event::Start(&self.survey.start(Machine::Mill)?))
     }
 
-    /// A target with the axes that the job uses.
+    /// The target of a move, with the axes that the job uses.
     pub(super) fn axes(&self, to: &Position) -> Axes {
         let rotary = self.survey.rotary & 0b11_1000;
         Axes { values: *to, given: 0b111 | rotary }
     }
 
-    /// Pushes the events before a move: the beginning of an operation, and what was switched.
+    /// Adds the events before a move: the beginning of an operation, and what was switched.
     pub(super) fn move_begins(&mut self, first: First) -> Done {
         self.start()?;
         if std::mem::take(&mut self.operation) {
@@ -284,7 +284,7 @@ impl<'a> Reader<'a> {
         }
         self.end_cycle()?;
         let machine = machine & 0b111;
-        // a machine position: a form makes this move by itself, before a tool change and at the end
+        // for a move to a machine position, no event is added: forms print it before a tool change and at the end
         self.at = *to;
         if machine & 0b100 != 0 {
             self.known = 0b111 & !machine;
@@ -293,7 +293,7 @@ impl<'a> Reader<'a> {
         }
         self.known = 0b111 & !machine;
         if machine != 0 {
-            return Ok(()); // the height is known, but X or Y is still unknown
+            return Ok(()); // the height is known now, but X or Y is still unknown
         }
         let axes = self.axes(to);
         let new_tool = self.operation && self.tool_is_new();
@@ -307,8 +307,8 @@ impl<'a> Reader<'a> {
         self.moves(axes, None)
     }
 
-    /// Pushes a straight move. A move without a feed is a rapid. The first move after G41, G42 or G40 switches
-    /// compensation.
+    /// Adds a straight move. Without a feed, it is a rapid. The first move after G41, G42 or G40 also turns
+    /// compensation on or off.
     fn moves(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
         match (self.turning.take(), feed) {
@@ -319,7 +319,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Replaces a move to the reference point during a tool's work by a rapid to the highest Z of the program.
+    /// Replaces a move to the reference point, in the middle of an operation, by a rapid to the highest Z of the program.
     fn homeward(&mut self, line: u64, to: Position) -> Done {
         let message = "a job can't contain a move to the reference point";
         let help = "it becomes a rapid to the highest Z of the program: check that this clears the clamps";
@@ -337,7 +337,7 @@ impl<'a> Reader<'a> {
         self.place.item += 1;
     }
 
-    /// Checks before a cut that the tool is at a known position.
+    /// Checks before a cut that the position of the tool is known.
     fn cut_begins(&mut self) -> Done {
         self.end_cycle()?;
         if self.home.is_some() || self.known & 0b111 != 0b111 {
@@ -353,8 +353,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Begins a cut from a machine position: the axes that the program has not positioned are at the start position of
-    /// the options.
+    /// Handles a cut that begins at an unknown machine position. Axes without a position in the program are assumed to
+    /// be at the start position of the options.
     fn cut_from(&mut self, start: [f64; 3]) -> Done {
         let message = "a cut begins at an unknown machine position";
         let help = "it begins at the position of `--assume-start`: check that the tool clears the clamps on its way";
@@ -372,8 +372,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Corrects the axes of a position that are counted from the start position of the options because the program has
-    /// not set them since.
+    /// Corrects a position for axes that the program has not positioned since the assumed start position. These axes
+    /// are measured from that start position.
     fn counted_from_start(&self, to: &Position, unknown: u8) -> Position {
         let mut to = *to;
         if self.options.start.is_some() {
@@ -404,11 +404,11 @@ impl<'a> Reader<'a> {
         self.push(Event::Arc { arc: &arc, feed: Some(turn.feed) })
     }
 
-    /// Pushes an event that happens at the tool's current position.
+    /// Adds an event at the current position of the tool.
     fn between(&mut self, event: Event<'_>) -> Done {
         self.end_cycle()?;
         if self.operation && (self.place.operation == 0 || self.tool_is_new()) {
-            // the event comes after the form's tool change
+            // the event must come after the tool change that the form prints
             return match event {
                 Event::Stop(kind) => self.wait(Waiting::Stop(kind)),
                 Event::Dwell(seconds) => self.wait(Waiting::Dwell(seconds)),
@@ -416,7 +416,7 @@ impl<'a> Reader<'a> {
             };
         }
         if let Some(line) = self.home.take() {
-            // move the tool home first, because the operator expects it there
+            // first adds the move home, because at this event the operator expects the tool there
             self.homeward(line, self.at)?;
             if self.known & 0b011 == 0b011 {
                 let axes = self.axes(&self.at);
@@ -449,7 +449,7 @@ impl<'a> Reader<'a> {
         self.push(Event::Comment(text))
     }
 
-    /// Keeps an item until the next operation begins.
+    /// Stores an item until the next operation begins.
     fn wait(&mut self, waiting: Waiting) -> Done {
         if self.waiting.len() < MOST_WAITING {
             self.waiting.push(waiting);

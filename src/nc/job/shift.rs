@@ -1,5 +1,5 @@
-//! Frames that a program moves between its moves, by G52 or G92. A job has one frame, so its positions are converted to
-//! the frame of the program's first move.
+//! Handles frames that a program shifts between its moves, by G52 or G92. A job has only one frame, so all positions
+//! are converted to the frame of the program's first move.
 
 use super::behind::Behind;
 use super::fault::{Done, unsaid, warning};
@@ -7,7 +7,7 @@ use super::reader::Reader;
 use crate::nc::action::{Action, Drilling, Position, Turn};
 
 impl Reader<'_> {
-    /// Handles a move of the frame.
+    /// Handles an action that moves the frame.
     pub(super) fn frame(&mut self, behind: Behind) -> Done {
         if self.place.operation == 0 {
             (self.frame, self.lost) = (behind.shift, behind.frame);
@@ -19,7 +19,7 @@ impl Reader<'_> {
             return Ok(());
         }
         let by: [f64; 3] = std::array::from_fn(|axis| behind.shift[axis] - self.frame[axis]);
-        // G10 moves the work offset itself, and a shift at a machine position has an unknown distance
+        // refused: G10, which changes the work offset itself, and a shift at a machine position, whose distance is unknown
         let moved = (0..3).filter(|&axis| by[axis] != self.shift[axis]).fold(0, |axes, axis| axes | 1 << axis);
         if moved == 0 || moved & behind.unknown != 0 || behind.frame != self.lost {
             let help = "write all positions in one frame: a job has no G10, and no G92 at an unknown machine position";
@@ -30,7 +30,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Converts an action to the frame of the first move; `None`: the action is unchanged.
+    /// Converts an action to the frame of the first move; `None`: the action does not change.
     pub(super) fn shifted(&self, action: &Action) -> Option<Action> {
         if self.shift == [0.0; 3] {
             return None;

@@ -1,4 +1,4 @@
-//! The first run of a program that is read as a job. It collects data that is needed before the first move.
+//! The first run of a program that is read as a job. It collects the data that the second run needs before the first move.
 
 use std::collections::BTreeMap;
 
@@ -11,33 +11,33 @@ use crate::nc::action::Action;
 use crate::nc::simulator::Simulator;
 use crate::toolpath::{About, ReadError, Start, Units};
 
-/// Registers of a tool between two tool changes.
+/// The registers that a tool uses between its tool change and the next one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Registers {
     pub length: Option<f64>,
     pub diameter: Option<f64>,
 }
 
-/// Data about a whole program.
+/// Data about the whole program.
 #[derive(Debug, Default)]
 pub(super) struct Survey {
     pub program: Option<f64>,
-    /// The comment after the program's number.
+    /// The comment after the number of the program.
     pub name: Option<String>,
     pub units: Option<Units>,
-    /// Registers for each tool change. The first entry is for moves before any tool change.
+    /// The registers for each tool change. The first entry is for moves before the first tool change.
     pub registers: Vec<Registers>,
-    /// Rotary axes that move, as bits.
+    /// As bits, the rotary axes that move.
     pub rotary: u8,
-    /// The highest Z in work coordinates that the program contains, in the units at its beginning.
+    /// The highest Z in the program, in work coordinates and in the units at the beginning of the program.
     pub top: f64,
 }
 
 impl Survey {
-    /// The head of the job: its number, name and units.
+    /// The head of the job: number, name and units.
     ///
     /// # Errors
-    /// The units are not given.
+    /// The units are unknown.
     pub fn start(&self, machine: Machine) -> Result<Start, Box<Diag>> {
         let Some(units) = self.units else {
             let message = "the units of the program are unknown: it has no G20 or G21";
@@ -65,9 +65,9 @@ pub(super) fn survey(
     let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
     let mut left_out: BTreeMap<Option<Code>, (u64, u64)> = BTreeMap::new();
     let mut items = Vec::new();
-    // the register in force, and whether it was turned on for the previous tool
+    // the active length register, and whether it was turned on for the tool before this one
     let (mut length, mut inherited) = (None, false);
-    // whether the tool has cut with its length offset on
+    // whether this tool has cut while its length offset was on
     let mut with_length = false;
     let (mut told, mut named) = (false, false);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
@@ -117,7 +117,7 @@ pub(super) fn survey(
                 }
                 last = *to;
                 if machine & 0b100 == 0 {
-                    // in the frame of the first move, as in the job
+                    // Z is measured in the frame of the first move, as in the job
                     survey.top = survey.top.max(to[2] + shift - *base.get_or_insert(shift));
                 }
             };
@@ -159,7 +159,7 @@ pub(super) fn survey(
         if !more {
             break;
         }
-        // the name of a program is the comment after its number
+        // the name of a program is the comment after the program number
         if !named && simulator.program().is_some() {
             named = true;
             let name = simulator.comment().map(|name| String::from_utf8_lossy(name).trim().to_owned());
@@ -181,7 +181,7 @@ pub(super) fn survey(
     Ok(survey)
 }
 
-/// Records a register. A tool may have only one register of each kind.
+/// Records the register of a tool. A tool may have only one register of each kind.
 fn one(
     registers: &mut [Registers],
     which: impl Fn(&mut Registers) -> &mut Option<f64>,

@@ -1,22 +1,23 @@
-//! Switches of a machine: spindle, coolant, work offset. A job sets them with the move that follows.
+//! The switches of a machine: spindle, coolant, work offset. In a job, they are set by events before the next move.
 
 use crate::nc::action::{Cooling, Rotation};
 use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
 
-/// Switches of a machine. The events given so far and the state now required are compared by these values.
+/// The switches of a machine. The reader compares the state that its events have set with the state that the program requires.
 #[derive(Clone, Copy, PartialEq, Default)]
 pub(super) struct Switches {
     pub rotation: Option<Rotation>,
     pub speed: Option<f64>,
     pub css: Option<bool>,
-    /// Highest speed of a lathe's spindle.
+    /// Maximum spindle speed of a lathe.
     pub limit: Option<f64>,
     pub coolant: Option<Coolant>,
     pub work: Option<f64>,
 }
 
 impl Switches {
-    /// Takes a coolant code. Returns `false` if flood and mist would both be on. A job has only one of them: the later.
+    /// Handles a coolant code. Returns `false` if both flood and mist would be on: a job can have only one of them, and
+    /// gets the later one.
     pub fn cool(&mut self, cooling: Cooling) -> bool {
         let wanted = match cooling {
             Cooling::Flood => Coolant::FLOOD,
@@ -28,10 +29,10 @@ impl Switches {
         !flows(wanted) || before.is_none_or(|before| !flows(before) || before == wanted)
     }
 
-    /// The spindle as an event of a job has it.
+    /// The state of the spindle as an event of a job contains it.
     pub fn spindle(&self) -> Spindle {
         Spindle {
-            // a speed of zero while the spindle is stopped is not a speed
+            // a speed of 0 with a stopped spindle is left out
             speed: self.speed.filter(|&speed| speed > 0.0 || self.turns()),
             turn: Some(match self.rotation {
                 Some(Rotation::Cw) => SpindleTurn::Cw,
@@ -43,7 +44,7 @@ impl Switches {
         }
     }
 
-    /// The events that change these switches to `wanted`.
+    /// The events that change the state from these switches to `wanted`.
     pub fn changes(self, wanted: Switches) -> impl Iterator<Item = Event<'static>> {
         let of_spindle = |at: &Switches| (at.rotation, at.speed, at.css, at.limit);
         let spindle = (of_spindle(&self) != of_spindle(&wanted)).then(|| Event::Spindle(wanted.spindle()));

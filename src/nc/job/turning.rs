@@ -1,4 +1,4 @@
-//! Converts lathe programs to jobs: actions become events. Positions are Z, and X as a radius.
+//! Converts lathe programs to jobs: actions of the simulator become events. In a job, positions are Z and X, with X as a radius.
 
 use super::fault::{Done, unsaid, warning};
 use super::options::JobOptions;
@@ -12,12 +12,12 @@ use crate::toolpath::{
     Arc, Axes, Coolant, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Stop, Thread, Tool, ToolChange,
 };
 
-/// X and Z of the machine, as bits.
+/// The axes X and Z of the machine, as bits.
 const AXES: u8 = 0b101;
-/// Divides a T word into station and offset: the last two digits are the offset.
+/// Divisor that splits a T word into the station and the offset, which is the last two digits.
 const STATION: f64 = 100.0;
 
-/// Converts actions to events.
+/// Converts actions of the simulator to events of a job.
 pub(super) struct Turner<'a> {
     survey: &'a Survey,
     options: &'a JobOptions,
@@ -25,7 +25,7 @@ pub(super) struct Turner<'a> {
     sink: &'a mut dyn Sink,
     place: Place,
     started: bool,
-    /// T word of the active station, and of the operation.
+    /// The active station, and the T word of the current operation.
     station: Option<f64>,
     tool: Option<f64>,
     /// Whether an operation begins with the next move.
@@ -33,17 +33,17 @@ pub(super) struct Turner<'a> {
     wanted: Switches,
     said: Switches,
     mode: FeedMode,
-    /// Position of the tool, on the axes that the program has positioned.
+    /// Position of the tool on the axes for which the program has set a position.
     at: Axes,
-    /// Whether the tool offset is off: T has 00 after the station.
+    /// Whether the tool offset is off: the T word ends with 00.
     without: bool,
-    /// Whether the tool is at the reference point: nothing has moved since it went there.
+    /// Whether the tool is at the reference point and has not moved since it went there.
     home: bool,
-    /// Whether the tool went home along X or Z only. A job has no such move.
+    /// Whether the tool went to the reference point along X or Z only. A job can't contain such a move.
     half_home: bool,
-    /// Side of compensation: the side now programmed, and the side after the last move.
+    /// Two sides of compensation: the side that is programmed now, and the side after the last move.
     side: [Option<Side>; 2],
-    /// Whether the passes of a thread follow.
+    /// Whether the next actions are passes of a thread.
     in_thread: bool,
     comments: Vec<String>,
 }
@@ -83,13 +83,13 @@ impl<'a> Turner<'a> {
         })
     }
 
-    /// Takes an action of a block with the text `block`.
+    /// Handles an action of a block with the text `block`.
     pub fn take(&mut self, item: &Item, block: &[u8]) -> Done {
         self.place.line = item.line;
         self.place.column = 1;
         let line = item.line;
         if item.by_cycle && self.in_thread {
-            return Ok(()); // the whole thread is one event
+            return Ok(()); // the whole thread is one event, so its passes are skipped
         }
         self.in_thread = false;
         match &item.action {
@@ -175,7 +175,7 @@ impl<'a> Turner<'a> {
         }
     }
 
-    /// The program is over.
+    /// Ends the job at the end of the program.
     pub fn finish(&mut self) -> Done {
         self.start()?;
         self.push(Event::Finish)
@@ -192,11 +192,11 @@ impl<'a> Turner<'a> {
         self.push(Event::Start(&self.survey.start(Machine::Lathe)?))
     }
 
-    /// Begins an operation with another station or offset at the next move.
+    /// If the station or the offset changes, an operation begins at the next move.
     fn tool_change(&mut self, register: f64) -> Done {
         let Some(station) = self.station else { return Ok(()) };
         let word = station * STATION + register;
-        // a turret indexes at its position, and later positions are those of the new tool
+        // the turret may index at any position; after that, positions are those of the new tool
         (self.without, self.at) = (false, Axes::default());
         if self.tool == Some(word) {
             return Ok(());
@@ -210,7 +210,7 @@ impl<'a> Turner<'a> {
         Ok(())
     }
 
-    /// Pushes the events before a move: the operation that it begins, the move home, and what was switched.
+    /// Adds the events before a move: the beginning of an operation, the move home, and what was switched.
     fn move_begins(&mut self, first: First) -> Done {
         if self.half_home {
             let help = "send it home along both axes (G28 U0 W0), or write its position in X and Z";
@@ -235,7 +235,7 @@ impl<'a> Turner<'a> {
         };
         self.place.operation += 1;
         self.place.item = 0;
-        // if the same tool continues in another feed mode, the move home is a separate event
+        // if the same tool continues with another feed mode, the move home is a separate event
         let goes_home = std::mem::take(&mut self.home);
         let change = ToolChange {
             name: None,
@@ -293,7 +293,7 @@ impl<'a> Turner<'a> {
         self.straight(to, None)
     }
 
-    /// Takes the end of a straight move. Returns `false` if nothing moves.
+    /// Sets the end of a straight move. Returns `false` if the move changes nothing.
     fn goes(&mut self, to: Axes) -> bool {
         let [wanted, on] = self.side;
         let stays = to == self.at && wanted == on && !self.home;
@@ -301,8 +301,8 @@ impl<'a> Turner<'a> {
         !stays
     }
 
-    /// Pushes a straight move. A move without a feed is a rapid. The first move after G41, G42 or G40 switches
-    /// compensation.
+    /// Adds a straight move. Without a feed, it is a rapid. The first move after G41, G42 or G40 also turns
+    /// compensation on or off.
     fn straight(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
         let [wanted, on] = self.side;
@@ -319,7 +319,7 @@ impl<'a> Turner<'a> {
         }
     }
 
-    /// Begins a cut. The program must have positioned the tool.
+    /// Begins a cut. The program must have set the position of the tool.
     fn cut_begins(&mut self) -> Done {
         if self.at.given != 0b11 || self.home {
             let help = "write a rapid with X and Z before it";
@@ -376,7 +376,7 @@ impl<'a> Turner<'a> {
         self.push(Event::Thread(&thread))
     }
 
-    /// Pushes an event that happens at the tool's current position.
+    /// Adds an event at the current position of the tool.
     fn between(&mut self, event: Event<'_>) -> Done {
         let half_home = std::mem::take(&mut self.half_home);
         if half_home {
@@ -404,7 +404,7 @@ impl<'a> Turner<'a> {
     }
 }
 
-/// Converts a machine position to axes of a job: Z, and X as a radius. `given`: bits of X and Z that are known.
+/// Converts a machine position to axes of a job: Z, and X as a radius. `given`: as bits, which of X and Z are known.
 fn axes(to: &Position, given: u8) -> Axes {
     let mut axes = Axes::default();
     if given & 0b100 != 0 {

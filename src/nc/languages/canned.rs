@@ -1,4 +1,4 @@
-//! Makes the holes of cycle calls.
+//! Makes the holes of cycles that are called.
 
 use crate::diag::Code;
 use crate::nc::action::{Action, Drilling, Rotation};
@@ -10,7 +10,7 @@ use crate::nc::state::State;
 use crate::toolpath::{FeedMode, StopKind};
 
 impl State {
-    /// The state of the control that a hole depends on.
+    /// The state of the control on which a hole depends.
     fn stand(&self) -> Stand {
         Stand {
             at: self.place.position,
@@ -25,7 +25,7 @@ impl State {
         }
     }
 
-    /// Makes the hole of a call at the position of the tool.
+    /// Makes the hole of a call at the current position of the tool.
     pub(in crate::nc) fn call_cycle(&mut self, call: &Call, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             let help = "end the compensation in a block before it";
@@ -40,7 +40,7 @@ impl State {
         }
     }
 
-    /// Moves to the next holes of a pattern and makes them, until there are enough actions to be read.
+    /// Moves to the next holes of a pattern and makes them. If the output is full, the rest is made by the next call.
     pub(in crate::nc) fn make_pattern(&mut self, out: &mut Out<'_>) -> Done {
         while let Some(mut pattern) = self.holes.pattern.take() {
             let Some([first, second]) = pattern.at.pop_front() else { return Ok(()) };

@@ -1,4 +1,4 @@
-//! A block as text, read from left to right.
+//! Reads the text of a block from left to right.
 
 use std::borrow::Cow;
 
@@ -6,14 +6,14 @@ use crate::diag::Code;
 use crate::nc::digits::{signed, unsigned};
 use crate::nc::fault::{Done, Fault};
 
-/// A block that is being read. Spaces between its parts are skipped.
+/// A block that is being read. Spaces between the parts of the block are skipped.
 pub struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
 }
 
 impl<'a> Cursor<'a> {
-    /// Reads a text from this byte on.
+    /// A cursor that reads a text from byte `at` on.
     pub fn new(text: &'a [u8], at: usize) -> Cursor<'a> {
         let mut cursor = Cursor { text, at };
         cursor.skip_blanks();
@@ -26,7 +26,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A cursor on the same block at another byte.
+    /// A cursor for the same block at another byte.
     pub fn from(&self, at: usize) -> Cursor<'a> {
         Cursor::new(self.text, at)
     }
@@ -41,22 +41,22 @@ impl<'a> Cursor<'a> {
         self.at
     }
 
-    /// The unread rest of the block.
+    /// The part of the block that has not been read yet.
     pub fn rest(&self) -> &'a [u8] {
         self.text.get(self.at..).unwrap_or_default()
     }
 
-    /// The next byte, without taking it.
+    /// Returns the next byte without taking it.
     pub fn peek(&self) -> Option<u8> {
         self.text.get(self.at).copied()
     }
 
-    /// Whether the block is read to its end.
+    /// Whether the whole block has been read.
     pub fn is_over(&self) -> bool {
         self.at >= self.text.len()
     }
 
-    /// Takes these bytes if they are next.
+    /// Takes these bytes if they come next. Returns whether they do.
     pub fn takes(&mut self, bytes: &[u8]) -> bool {
         let is_next = self.rest().starts_with(bytes);
         if is_next {
@@ -65,7 +65,7 @@ impl<'a> Cursor<'a> {
         is_next
     }
 
-    /// Takes a whole word if it is next, in upper or lower case.
+    /// Takes a word if it comes next as a whole word, in upper or lower case.
     pub fn takes_word(&mut self, word: &str) -> bool {
         let before = self.at;
         if self.name().is_some_and(|name| name.eq_ignore_ascii_case(word.as_bytes())) {
@@ -75,14 +75,14 @@ impl<'a> Cursor<'a> {
         false
     }
 
-    /// Takes a name: letters, digits, `_` and `$`. The first character is not a digit.
+    /// Takes a name: letters, digits, `_` and `$`, but not a digit at its beginning.
     pub fn name(&mut self) -> Option<&'a [u8]> {
         let is_of_name = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$');
         let length = self.rest().iter().take_while(|byte| is_of_name(byte)).count();
         self.take(length).filter(|name| !name[0].is_ascii_digit())
     }
 
-    /// Takes the letters that are next.
+    /// Takes the letters that come next.
     pub fn letters(&mut self) -> Option<&'a [u8]> {
         let length = self.rest().iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         self.take(length)
@@ -94,14 +94,14 @@ impl<'a> Cursor<'a> {
         Some(taken)
     }
 
-    /// Skips the digits that are next.
+    /// Skips the digits that come next.
     pub fn pass_digits(&mut self) {
         let length = self.rest().iter().take_while(|byte| byte.is_ascii_digit()).count();
         self.goes_to(self.at + length);
     }
 
-    /// Takes a word of one letter and its number, such as `X12.5`. The letter is returned in upper case. `X=5`, `X1=5`
-    /// and `X+Q5` are not taken.
+    /// Takes a word of one letter and a number, such as `X12.5`. The letter is returned in upper case. It takes no word
+    /// with `=` or a parameter, such as `X=5`, `X1=5` and `X+Q5`.
     pub fn word(&mut self) -> Option<(u8, f64)> {
         let [letter, next, ..] = *self.rest() else { return None };
         if !letter.is_ascii_alphabetic() || next.is_ascii_alphabetic() {
@@ -117,8 +117,8 @@ impl<'a> Cursor<'a> {
         Some((letter.to_ascii_uppercase(), number.value))
     }
 
-    /// Whether the rest of the block consists of words of one letter, and the first letter is G or an axis. Such a block
-    /// sets no variable, has no label and calls nothing.
+    /// Whether the rest of the block consists only of words with one letter, of which the first is G or an axis. Such a
+    /// block has no label, sets no variable and calls nothing.
     pub fn is_words(&self) -> bool {
         let [letter, next, ..] = *self.rest() else { return false };
         matches!(letter, b'G' | b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')
@@ -126,7 +126,7 @@ impl<'a> Cursor<'a> {
             && memchr::memchr2(b'=', b':', self.rest()).is_none()
     }
 
-    /// Whether these bytes come next, in upper or lower case. `capitals` is in upper case.
+    /// Whether these bytes come next, in upper or lower case. `capitals` must be in upper case.
     pub fn is_next(&self, capitals: &[u8]) -> bool {
         self.rest().get(..capitals.len()).is_some_and(|next| next.eq_ignore_ascii_case(capitals))
     }
@@ -145,7 +145,7 @@ impl<'a> Cursor<'a> {
         Some(number.value)
     }
 
-    /// Takes a text in quotes and returns it without the quotes.
+    /// Takes a text in quotes. Returns it without the quotes.
     pub fn quoted(&mut self) -> Option<&'a [u8]> {
         let rest = self.rest().strip_prefix(b"\"")?;
         let length = rest.iter().position(|byte| *byte == b'"')?;
@@ -153,10 +153,10 @@ impl<'a> Cursor<'a> {
         Some(&rest[..length])
     }
 
-    /// Takes these bytes.
+    /// Takes these bytes, which must come next.
     ///
     /// # Errors
-    /// Other bytes are next.
+    /// Other bytes come next.
     pub fn needs(&mut self, bytes: &[u8]) -> Done {
         if self.takes(bytes) {
             return Ok(());
@@ -165,7 +165,7 @@ impl<'a> Cursor<'a> {
         Err(Fault::at(Code::PN001, self.at, message, "check the spelling"))
     }
 
-    /// A fault at the unreadable text that is next.
+    /// The fault for text at the cursor that can't be read.
     pub fn unreadable(&self) -> Box<Fault> {
         let rest = String::from_utf8_lossy(self.rest());
         let word: String = rest.trim_end().chars().take_while(|c| !c.is_whitespace()).take(40).collect();
@@ -175,7 +175,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A word in upper case. It is borrowed if it is already in upper case, as in most programs.
+/// A word in upper case. If it already is, as in most programs, it is not copied.
 pub fn capitals(word: &[u8]) -> Cow<'_, str> {
     match str::from_utf8(word) {
         Ok(text) if !word.iter().any(u8::is_ascii_lowercase) => Cow::Borrowed(text),

@@ -1,13 +1,13 @@
-//! Formulas of the languages: numbers, parameters, functions, brackets.
+//! Evaluates formulas of the languages: numbers, parameters, functions and brackets.
 
 use super::cursor::Cursor;
 use crate::diag::Code;
 use crate::nc::fault::{Done, Fault};
 
-/// Deepest nesting of brackets.
+/// Maximum nesting of brackets.
 const DEEPEST: u32 = 64;
 
-/// The value of a name. `None`: the name is unknown.
+/// A function that returns the value of a name. `None`: the name is unknown.
 pub type Values<'v> = dyn Fn(&str) -> Option<f64> + 'v;
 
 /// Binary operators by precedence. Operators of the same precedence are evaluated from left to right.
@@ -76,7 +76,7 @@ impl Operator {
     }
 }
 
-/// A function of one argument, with its name.
+/// A function of one argument: its name, and the function itself.
 type Function = (&'static str, fn(f64) -> f64);
 
 /// The functions. Angles are in degrees.
@@ -99,10 +99,10 @@ const FUNCTIONS: [Function; 16] = [
     ("EXP", f64::exp),
 ];
 
-/// Reads and evaluates a formula.
+/// Reads a formula and calculates its value.
 ///
 /// # Errors
-/// The formula can't be read, one of its names has no known value, or it has no result.
+/// The formula can't be read, the value of a name is unknown, or the result is not finite.
 pub fn formula(cursor: &mut Cursor<'_>, values: &Values<'_>) -> Done<f64> {
     let begin = cursor.at();
     let value = binary(cursor, values, 0, 0)?;

@@ -1,7 +1,7 @@
-//! Block languages other than G codes with one letter: Siemens 840D, Heidenhain Klartext, Okuma OSP.
+//! Languages whose blocks are not only G codes with one-letter words: Siemens 840D, Heidenhain Klartext, Okuma OSP.
 //!
-//! A reader converts each block to the words and meanings that the simulator runs, so all languages share one machine. An
-//! unknown block is refused by name.
+//! The reader of a language converts each block to the words and meanings that the simulator runs, so one simulator
+//! runs all languages. A block that a reader does not know is refused, and the message names the unknown part.
 
 mod canned;
 mod cursor;

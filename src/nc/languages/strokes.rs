@@ -1,21 +1,21 @@
-//! Parts that cycles of several languages share: strokes of pecks, dwells.
+//! Functions that the cycles of several languages share: strokes of pecks, and dwells.
 
 use crate::diag::Code;
 use crate::nc::call::Step;
 use crate::nc::fault::{Done, refuse};
 
-/// The largest number of strokes of one hole.
+/// The maximum number of strokes of one hole.
 const MOST: usize = 100_000;
 
-/// The depths at which strokes end. The last one is the bottom. `next` returns the length of the next stroke from the
-/// length of this one and the remaining depth.
+/// The depths at which the strokes of a hole end. The last depth is the bottom. `next` returns the length of the next
+/// stroke; its arguments are the length of this stroke and the remaining depth.
 ///
 /// # Errors
-/// A stroke has no length, or there are too many.
+/// A stroke has a length of zero, or there are too many strokes.
 pub fn depths(from: f64, bottom: f64, first: f64, next: impl Fn(f64, f64) -> f64) -> Done<Vec<f64>> {
     let (mut depths, mut depth, mut stroke) = (Vec::new(), from, first);
     loop {
-        // a rest from rounding of decimals is not a stroke
+        // a remainder that comes from rounding is not a separate stroke
         if depth - stroke <= bottom + 1e-9 {
             depths.push(bottom);
             return Ok(depths);

@@ -1,9 +1,9 @@
-//! Chamfers and rounded corners of lathes. I, K or R in a straight cut along one axis makes a corner, and the next block
-//! leaves it along the other axis.
+//! Chamfers and rounded corners of lathes. I, K or R in a straight cut along one axis requests a corner. The next block
+//! must continue along the other axis.
 //!
 //! Sources: Fanuc's operator's manual of the 0i-T (chamfering and corner R), Haas's lathe operator's manual (G1). The
-//! sign is the direction of the next block. The next block is measured from the corner point, which the tool does not
-//! reach, and is at least as long as the chamfer.
+//! sign of the word is the direction of the next block. The next block is measured from the corner point, which the
+//! tool does not reach, and must be at least as long as the chamfer.
 
 use crate::control::Meaning;
 use crate::diag::Code;
@@ -16,22 +16,22 @@ use crate::nc::profiled::Corner;
 use crate::nc::state::State;
 use crate::toolpath::{Direction, Plane};
 
-/// The corner that the words of a block request.
+/// The corner that a word of a block requests.
 struct Asked {
-    /// The axis of the block's own cut.
+    /// The axis along which the block itself cuts.
     along: usize,
-    /// The chamfer or radius; positive if the next block moves in the positive direction.
+    /// The length of the chamfer, or the radius; positive if the next block moves in the positive direction.
     size: f64,
     rounds: bool,
 }
 
-/// Positions closer than this are equal.
+/// Positions that differ by less than this are equal.
 const SAME: f64 = 1e-7;
 
 const NEXT: &str = "write a G1 along the other axis in the next block, or write the corner as moves";
 
 impl State {
-    /// Checks that a block leaves the previous corner as required. It is called for every block that is not empty.
+    /// Checks that a block continues from the previous corner as required. It is called for every block that is not empty.
     pub(in crate::nc) fn check_after_corner(&self, motion: Motion, block: &Block) -> Done {
         let Some(due) = self.turning.corner else { return Ok(()) };
         let [own, other] = if due.axis == 0 { ["XU", "ZW"] } else { ["ZW", "XU"] };
@@ -43,7 +43,7 @@ impl State {
         refuse(Code::PN006, "a chamfer or rounded corner, but the next block does not move along the other axis", NEXT)
     }
 
-    /// Makes a straight turning cut, with the corners at its start and at its end.
+    /// Makes a straight cut of a lathe, with the corners at its start and at its end.
     pub(in crate::nc) fn cut_with_corners(&mut self, block: &Block, feed: f64, out: &mut Out<'_>) -> Done {
         let from = self.place.position;
         let asked = asked(block)?;
@@ -57,7 +57,7 @@ impl State {
                     "the block after a chamfer or rounded corner moves in the opposite direction, or is too short";
                 return refuse(Code::PN018, message, "check the sign and the size of I, K or R in the block before");
             }
-            // if the chamfer is as long as this cut, nothing of the cut remains
+            // if the previous chamfer is as long as this cut, no cut remains
             if asked.is_none() && (to[due.axis] - from[due.axis]).abs() <= SAME {
                 return Ok(());
             }
@@ -95,18 +95,19 @@ impl State {
         Ok(())
     }
 
-    /// A quarter circle that leaves its first point along an axis. `turns`: above 0 if both cuts have the same sign.
+    /// A quarter circle whose first direction is along an axis. `turns` is positive if both cuts go in the positive
+    /// direction, or both in the negative direction.
     fn rounding(&self, from: Position, to: Position, along: usize, turns: f64, feed: f64) -> Turn {
         let mut center = [to[0], to[1], to[2]];
         center[along] = from[along];
-        // seen from Z to X
+        // direction of the arc as seen from Z to X
         let ccw = (turns > 0.0) == (along == 2);
         let direction = if ccw { Direction::Ccw } else { Direction::Cw };
         Turn { to, center, plane: Plane::Xz, direction, turns: 0, feed, machine: self.place.at_machine }
     }
 }
 
-/// Reads I, K and R. All are on the radius.
+/// Reads the words I, K and R. Each is a length on the radius.
 fn asked(block: &Block) -> Done<Option<Asked>> {
     let words = [b'I', b'K', b'R'].map(|letter| block.get(letter).map(|value| (letter, value)));
     let mut words = words.into_iter().flatten();

@@ -1,8 +1,9 @@
-//! Turning cycles of the Fanuc kind: G70 to G75, G90 and G94 of system A in two blocks, and those of Haas in one.
+//! Turning cycles of the Fanuc kind, in G code system A: G70 to G75 in two blocks on a Fanuc or in one block on a Haas,
+//! and G90 and G94.
 //!
 //! Sources: Fanuc's operator's manuals of the 0i-T and 31i (canned and multiple repetitive cycles), Haas's lathe
-//! operator's manual (G70 to G75). Comments in the code state what is done where the manuals leave it to parameters and
-//! settings.
+//! operator's manual (G70 to G75). Where these manuals refer to parameters and settings, comments in the code state
+//! what is done here.
 
 mod corner;
 mod passes;
@@ -19,12 +20,12 @@ use crate::control::{Meaning, Row};
 use crate::diag::Code;
 use crate::toolpath::Units;
 
-/// The largest number of passes of a cycle.
+/// The maximum number of passes of a cycle.
 const MOST: f64 = 10_000.0;
 
 impl State {
-    /// Runs a cycle of several passes. If the cycle follows a profile, the caller finds the profile and then makes the
-    /// cycle.
+    /// Runs a cycle of several passes. If the cycle follows a profile, it is returned: the caller finds the profile and
+    /// then makes the passes.
     pub(super) fn turning_cycle(&mut self, block: &Block, out: &mut super::out::Out<'_>) -> Done<Option<Profiled>> {
         let Some(row) = block.row(Group::Once) else { return Ok(None) };
         match row.meaning {
@@ -45,7 +46,7 @@ impl State {
         }
     }
 
-    /// Checks that a cycle of several passes begins at a known position, because its passes are counted from there.
+    /// Checks that a cycle of several passes begins at a known position, because its passes are measured from there.
     pub(in crate::nc) fn begins_in_the_program(&self, code: impl std::fmt::Display) -> Done {
         if self.place.at_machine & 0b101 == 0 {
             return Ok(());
@@ -54,10 +55,10 @@ impl State {
         refuse(Code::PN007, message, "write a rapid with X and Z before it")
     }
 
-    /// Reads the first of two blocks.
+    /// Reads the first block of a cycle with two blocks.
     fn first_of(&mut self, row: &Row, block: &Block) -> Done {
         let meaning = row.meaning;
-        // a Haas has only one block
+        // on a Haas, the cycle has only one block
         if meaning == Meaning::Finish || row.words.has(b'D') || !block.has(letters("UWR")) {
             return refuse(
                 Code::PN007,
@@ -101,7 +102,7 @@ impl State {
             Meaning::Finish => How::Finish,
             Meaning::RoughPattern => {
                 let [x, z, count] = self.turning.pattern;
-                // on a Haas, these words are in the same block
+                // on a Haas, these words are in the block of the cycle
                 let x = block.get(b'I').or(x).unwrap_or(0.0);
                 let z = block.get(b'K').or(z).unwrap_or(0.0);
                 let Some(count) = block.get(b'D').or(count).filter(|count| (1.0..=MOST).contains(count)) else {
@@ -125,7 +126,7 @@ impl State {
                     let help = format!("write {code} {letter}2. R1. before it; on a Haas write D in its block");
                     return refuse(Code::PN007, message, help);
                 };
-                // the single block of a Haas does not contain it
+                // on a Haas, the block of the cycle does not contain the retract
                 let one_block = row.words.has(b'D');
                 let Some(back) = back.or_else(|| one_block.then(|| self.usual_back())) else {
                     let message =
@@ -137,7 +138,7 @@ impl State {
         })
     }
 
-    /// The retract of a pass if it is not programmed: 0.05 inch, the factory value of Haas's settings 22 and 73.
+    /// The retract after a pass if it is not programmed: 0.05 inch, the factory value of settings 22 and 73 of a Haas.
     fn usual_back(&self) -> f64 {
         if self.modes.units == Units::Inch { 0.05 } else { 1.27 }
     }

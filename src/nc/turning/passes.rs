@@ -1,4 +1,4 @@
-//! G90 and G94 of system A: one pass along a cylinder or a face, and the return to its start.
+//! G90 and G94 of system A: one pass along a cylinder or a face, and the return to the start of the pass.
 
 use crate::control::Meaning;
 use crate::nc::block::Block;
@@ -7,14 +7,14 @@ use crate::nc::out::Out;
 use crate::nc::state::State;
 
 impl State {
-    /// Makes a pass. The following blocks make further passes if they contain another position.
+    /// Makes a pass. Each of the next blocks makes another pass if it contains another position.
     pub(in crate::nc) fn turning_pass(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
-        // the taper is along X for a cone, along Z for a sloping face
+        // for a cone (G90), the taper is along X; for a sloping face (G94), it is along Z
         let (end, taper) = self.pass_end(does, block)?;
         let [out_of, along] = if does == Meaning::TurnPass { [0, 2] } else { [2, 0] };
-        // a position known only at the machine stays so until the block contains it
+        // if the position of an axis is known only at the machine, it stays unknown until the block contains the position
         let at_end = self.place.at_machine;
         let is_said = |axis: usize| unsaid & !(1 << axis) | at_end & 1 << axis;
         let mut to = begin;

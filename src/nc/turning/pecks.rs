@@ -1,4 +1,4 @@
-//! G74 and G75: pecks along one axis, at several positions along the other.
+//! G74 and G75: pecks along one axis, at several positions along the other axis.
 
 use super::MOST;
 use crate::control::{Meaning, Row};
@@ -12,7 +12,7 @@ use crate::nc::state::State;
 impl State {
     /// G74 pecks along Z and steps along X; G75 pecks along X and steps along Z.
     pub(super) fn turning_pecks(&mut self, row: &Row, block: &Block, out: &mut Out<'_>) -> Done {
-        // a Haas has all lengths in one block: the peck and the step of G74 are K and I, those of G75 are I and K
+        // on a Haas, one block contains all lengths: the peck and the step of G74 are K and I, those of G75 are I and K
         let one_block = row.words.has(b'K');
         let is_first = !one_block && !block.has(letters("XZUWPQ"));
         if is_first {

@@ -1,4 +1,4 @@
-//! Profiles of turning cycles. They are found by their block numbers, read by a trial run, and run as the finish.
+//! The profiles of turning cycles. A profile is found by block numbers, read by a trial run, and run once more as the finish.
 
 use super::rough::{Move, Piece, Point, Profile, moves};
 use crate::diag::Code;
@@ -25,7 +25,7 @@ pub(in crate::nc) struct Found {
 }
 
 impl Simulator<'_> {
-    /// Makes a cycle that follows a profile, from the block of the cycle.
+    /// Makes a cycle that follows a profile. To be called at the block of the cycle.
     pub(in crate::nc) fn follow_profile(&mut self, asked: Profiled, items: &mut Vec<Item>) -> Result<(), RunError> {
         let (back, text) = (self.at, self.line.clone());
         let start = *self.state.position();
@@ -42,7 +42,7 @@ impl Simulator<'_> {
         self.profiles.push(found);
         let profile = self.read_profile(&found, matches!(asked.how, How::Passes { .. }))?;
         let made = moves(&profile, [start[0], start[2]], &asked.how);
-        // faults of the cycle are reported at its block
+        // faults of the cycle are reported with the block of the cycle, not of the profile
         let after = std::mem::replace(&mut self.at, back);
         self.line = text;
         let made = made.map_err(|fault| self.refused(fault))?;
@@ -73,12 +73,12 @@ impl Simulator<'_> {
             }
         }
         self.at = after;
-        self.state.modes.motion = None; // controls differ: it is the motion of the profile or the motion before
-        // the control continues after the profile
+        self.state.modes.motion = None; // controls differ: last motion of the profile, or the one before it
+        // the run continues after the profile
         self.go(found.end)
     }
 
-    /// Ends a profile after its last block: moves to the start of the cycle and continues after the cycle.
+    /// After the last block of a profile: moves to the start of the cycle, and continues after the block of the cycle.
     pub(in crate::nc) fn end_profile(&mut self, items: &mut Vec<Item>) -> Option<Spot> {
         let Some(&Frame::Profile { back, end, start }) = self.frames.last() else { return None };
         if self.at.byte < end.byte {
@@ -90,7 +90,7 @@ impl Simulator<'_> {
         Some(back)
     }
 
-    /// Finds a profile: the one that an earlier cycle has followed, else one after this block.
+    /// Finds a profile: a profile that an earlier cycle has followed, otherwise one after this block.
     fn profile(&mut self, asked: Profiled, after: Spot) -> Result<Found, RunError> {
         let numbers = [asked.first, asked.last];
         if asked.how == How::Finish
@@ -128,10 +128,10 @@ impl Simulator<'_> {
         Ok(Found { numbers, begin, end })
     }
 
-    /// Reads the cuts of a profile by a trial run of its blocks. `in_passes`: the profile is cut by G71 or G72.
+    /// Reads the cuts of a profile by a trial run of its blocks. `in_passes`: the cycle is G71 or G72.
     fn read_profile(&mut self, found: &Found, in_passes: bool) -> Result<Profile, RunError> {
         self.go(found.begin)?;
-        // the trial run works on copies, so that the state changes only when the profile is run as the finish
+        // the trial run uses copies of the state: only the finish changes the state itself
         let (mut aside, mut parameters) = (self.state.clone(), self.parameters.clone());
         let (mut items, mut reading) = (Vec::new(), Reading::default());
         while self.at.byte < found.end.byte && self.read_line()? {
@@ -156,7 +156,7 @@ impl Simulator<'_> {
     }
 }
 
-/// Refuses a profile whose first block moves along both axes. Such a profile is of type II, for pockets.
+/// Refuses a profile whose first block moves along X and Z. Such a profile is of type II, for pockets.
 fn is_first_kind(block: &Block) -> Done {
     if [letters("XU"), letters("ZW")].iter().all(|words| block.has(*words)) {
         let message = "the first block of the profile moves along X and Z: the cycle then cuts pockets, and each \
@@ -166,7 +166,7 @@ fn is_first_kind(block: &Block) -> Done {
     Ok(())
 }
 
-/// The number of a block.
+/// The block number of a block.
 fn number_of(line: &[u8]) -> Option<f64> {
     let mut words = tokens(line).filter(|token| !matches!(token.kind, Kind::Blank | Kind::Delete));
     match words.next()?.kind {
@@ -175,16 +175,16 @@ fn number_of(line: &[u8]) -> Option<f64> {
     }
 }
 
-/// A profile while it is read.
+/// A profile that is being read.
 #[derive(Debug, Default)]
 struct Reading {
     profile: Option<Profile>,
-    /// Whether a rapid has moved the tool away. No cut may follow.
+    /// Whether a rapid has already left the profile. A cut must not follow.
     is_over: bool,
 }
 
 impl Reading {
-    /// Takes an action of a block.
+    /// Handles an action of a block of the profile.
     fn take(&mut self, item: &Item) -> Done {
         let point = |to: &Position| [to[0], to[2]];
         let (to, arc, rapid) = match &item.action {

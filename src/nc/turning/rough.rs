@@ -1,11 +1,11 @@
-//! Passes that remove the stock outside a profile. These are pure functions from a profile to moves.
+//! Calculates the passes that remove the stock outside a profile. The functions here only convert a profile to moves.
 
 use super::MOST;
 use crate::diag::Code;
 use crate::nc::fault::{Done, refuse};
 use crate::nc::profiled::How;
 
-/// A point: radius and Z.
+/// A point: the radius, then Z.
 pub(super) type Point = [f64; 2];
 
 /// A piece of a profile.
@@ -13,11 +13,11 @@ pub(super) type Point = [f64; 2];
 pub(super) struct Piece {
     /// End of the piece.
     pub to: Point,
-    /// The centre, and whether the arc turns counter-clockwise from Z to X; `None`: a straight piece.
+    /// The centre of an arc, and whether the arc is counterclockwise from Z to X; `None`: the piece is straight.
     pub arc: Option<(Point, bool)>,
 }
 
-/// A profile: a first move from the start of the cycle, then the cuts.
+/// A profile: the first move from the start of the cycle, then the cuts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Profile {
     /// Whether the first move is a rapid.
@@ -35,7 +35,7 @@ pub(super) enum Move {
     Cut(Piece),
 }
 
-/// Positions closer than this are equal.
+/// Positions that differ by less than this are equal.
 const SAME: f64 = 1e-7;
 
 /// The moves of a cycle that begins and ends at `start`.
@@ -44,8 +44,8 @@ pub(super) fn moves(profile: &Profile, start: Point, how: &How) -> Done<Vec<Move
         How::Finish => Ok(Vec::new()),
         How::Pattern { outside, count, left } => Ok(pattern(profile, start, outside, count, left)),
         How::Passes { across, depth, back, left } => {
-            // a profile for cuts along X is mirrored to one for cuts along Z: its axes are exchanged, and arcs change
-            // direction
+            // for passes along X, the profile is mirrored so that the passes are along Z: X and Z are exchanged, and
+            // arcs change their direction
             let turned = |point: Point| if across { [point[1], point[0]] } else { point };
             let piece = |piece: &Piece| Piece {
                 to: turned(piece.to),
@@ -80,7 +80,7 @@ fn first(profile: &Profile, to: Point) -> Move {
     if profile.rapid { Move::Rapid(to) } else { Move::Cut(Piece { to, arc: None }) }
 }
 
-/// G73: the whole profile, each pass nearer to the final shape.
+/// G73: passes along the whole profile, each nearer to the final shape.
 fn pattern(profile: &Profile, start: Point, outside: Point, count: u32, left: Point) -> Vec<Move> {
     let mut list = Vec::new();
     for pass in 0..count {
@@ -94,8 +94,8 @@ fn pattern(profile: &Profile, start: Point, outside: Point, count: u32, left: Po
     list
 }
 
-/// G71: passes along the second coordinate, each deeper along the first, then one pass along the profile with the
-/// allowance for the finish. Only type I is run: a profile that goes back on itself is refused.
+/// G71 and G72: passes along the second coordinate, each deeper along the first one. The last pass follows the profile,
+/// with the allowance for the finish. Only profiles of type I are run: a profile whose direction reverses is refused.
 fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, across: bool) -> Done<Vec<Move>> {
     let inwards = (profile.begin[0] - start[0]).signum();
     let last = profile.pieces.last().map_or(profile.begin, |piece| piece.to);
@@ -137,7 +137,7 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     let clear = moved(start, left);
     let (begin, pieces) = (moved(profile.begin, left), profile.pieces.iter().map(|piece| shifted(piece, left)));
     let pieces: Vec<Piece> = pieces.collect();
-    // a level that differs from the profile's beginning only by rounding is not a separate pass
+    // if the last level differs from the beginning of the profile only by rounding, it is not a separate pass
     let count = (((begin[0] - clear[0]).abs() - SAME) / depth).ceil();
     if count > MOST {
         return refuse(Code::PN018, format!("{code} of more than {MOST} passes"), "write a larger depth");
@@ -147,7 +147,7 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
         list.push(Move::Rapid(clear));
     }
     let infeed = |level: f64| first(profile, [level, clear[1]]);
-    // the last level is the beginning of the profile, and the last pass follows the profile to its end
+    // the last level is the beginning of the profile, so its pass follows the profile to the end
     for pass in 1..count as u32 {
         let level = clear[0] + inwards * depth * f64::from(pass);
         let end = crossing(begin, &pieces, level, inwards);
@@ -166,11 +166,11 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     Ok(list)
 }
 
-/// How far an arc extends beyond its ends along an axis, in the direction of `sense`.
+/// The distance by which an arc extends beyond its ends along an axis, in the direction of `sense`.
 fn bulges(from: Point, piece: &Piece, axis: usize, sense: f64) -> f64 {
     let Some((centre, ccw)) = piece.arc else { return 0.0 };
     let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
-    // angles are measured from Z to X
+    // angles are measured from Z towards X
     let angle = |point: Point| (point[0] - centre[0]).atan2(point[1] - centre[1]);
     let turn = if ccw { 1.0 } else { -1.0 };
     let sweep = (turn * (angle(piece.to) - angle(from))).rem_euclid(std::f64::consts::TAU);
@@ -181,11 +181,12 @@ fn bulges(from: Point, piece: &Piece, axis: usize, sense: f64) -> f64 {
     if ahead < sweep { centre[axis] * sense + radius - most } else { 0.0 }
 }
 
-/// The position where a pass at this level meets the profile. Beyond the profile's end, this is its last coordinate.
+/// The second coordinate at which a pass at this level meets the profile. If it does not meet the profile, the last
+/// coordinate of the profile.
 fn crossing(begin: Point, pieces: &[Piece], level: f64, inwards: f64) -> f64 {
     let mut from = begin;
     for piece in pieces {
-        // the profile goes outwards, so the pass ends where the profile first reaches the level
+        // the profile only goes outwards, so the pass ends where the profile first reaches the level
         if (piece.to[0] - level) * inwards <= SAME {
             return meets(from, piece, level);
         }

@@ -40,7 +40,7 @@ impl Body<'_> {
             Err(Without::Divisor(divisor)) => return Err(Box::new(division_by_zero(divisor))),
             Err(Without::Value(var)) => {
                 self.value_of(var, b' ')?;
-                // an optional variable has no value here; leaving `@set` out would keep the old value
+                // without a value, skipping `@set` would keep the old value of the variable
                 let message = format!("[{}] has no value here, but @set needs one", var.name());
                 return fault(Code::PR001, message, format!("set it only if there is a value: `@if [{}]`", var.name()));
             }
@@ -49,7 +49,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// A calculated value; `None` if it contains a variable whose word is optional and has no value.
+    /// A calculated value; `None` if it contains a variable that has no value and whose word is optional.
     pub(super) fn calculated(&self, index: u32, letter: u8) -> Done<Option<f64>> {
         match self.writer.shape.program.formulas[index as usize].number(&self.now(letter)) {
             Ok(value) => Ok(Some(value)),
@@ -58,8 +58,8 @@ impl Body<'_> {
         }
     }
 
-    /// The condition of the control (for example the work offset) that is the only variable of the value, with the job's value
-    /// for it.
+    /// The only variable of the value if that is a condition of the control, such as the work offset; and the job's
+    /// value for it.
     fn condition_of(&self, vars: VarSet, letter: u8) -> Done<Option<(VarId, f64)>> {
         match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
             Some(var) => Ok(self.value_of(var, letter)?.map(|own| (var, own))),
@@ -81,9 +81,9 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Prints a letter and a calculated value. An axis word with a calculated position is treated like a typed one: it may be in
-    /// another frame. A value calculated from one condition alone, as `H[work-53]`, counts as printing that condition: the job's
-    /// value is not printed again.
+    /// Prints a letter and a calculated value. A calculated axis position is treated like a typed one: it may be in
+    /// another frame. A value that is calculated from one condition alone, as `H[work-53]`, counts as printing that
+    /// condition, so the job's value is not printed again.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
         let shape = self.writer.shape;
         let info = &shape.letters[letter];

@@ -75,8 +75,8 @@ const POSITIONS: VarSet = VarSet::of(&[
     VarId::Pointd,
 ]);
 
-/// Variables of feeds, speeds, pecks and dwells. Rounded to zero, such a value would stop the machine, peck without end or
-/// vanish.
+/// Variables of feeds, speeds, pecks and dwells. If such a value were rounded to zero, the machine would stop, peck
+/// without end, or skip the dwell.
 const FEEDS: VarSet =
     VarSet::of(&[VarId::Frate, VarId::Plunge, VarId::Pitch, VarId::Vbite, VarId::Dwell, VarId::Speed]);
 
@@ -300,7 +300,7 @@ impl Body<'_> {
         }
         match var {
             VarId::D => self.writer.said.set_depth_moved(false),
-            // a new length register without a position moves the depth, as G43 does
+            // a new length register without a position moves the depth axis, as G43 does
             VarId::Lcomp if !self.line().prints(shape, |_, var| var == Some(VarId::D)) => {
                 self.writer.said.set_depth_moved(true);
             }

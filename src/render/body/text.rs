@@ -7,7 +7,7 @@ use crate::render::texts;
 use crate::render::values::property_text;
 
 impl Body<'_> {
-    /// Are all texts in the comment that begins here empty in this job?
+    /// Are all texts in the comment at this operation empty in this job?
     pub(super) fn comment_is_empty(&self, at: usize, words: usize) -> bool {
         texts::are_empty(&self.writer.shape.program.ops[at + 1..][..words], &self.writer.want.texts, &|row| {
             property_text(row, self.writer.want, self.writer.said).is_empty()

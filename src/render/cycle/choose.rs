@@ -65,7 +65,7 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
     Ok(None)
 }
 
-/// The sequence for each kind of cycle (render.md section 3).
+/// The form's sequence for a kind of cycle; `None` if the form has none.
 fn candidate(spec: &CycleSpec, shape: &Shape) -> Option<SequenceId> {
     use SequenceId as S;
     let program = shape.program;
@@ -95,8 +95,8 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
     let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak) || spec.mode.is_some();
     let custom = matches!(spec.kind, CycleKind::Custom1 | CycleKind::Custom2 | CycleKind::Custom3);
     let program = shape.program;
-    let own = !custom; // only the form knows what a custom cycle must print
-    let across = own && program.settings.machine == Machine::Mill; // a lathe drills at its centre
+    let own = !custom; // only the form defines what a custom cycle must print
+    let across = own && program.settings.machine == Machine::Mill; // a lathe drills at the centre of the part
     let absolute = |code: control::Code| code.is_g(program.settings.inc_abs[1]);
     let positions = &[VarId::H, VarId::V, VarId::D, VarId::Vclear, VarId::Rplane];
     let steps = program.settings.incremental && prints(positions) && !prints_code(routine, absolute, shape);
@@ -124,7 +124,7 @@ pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<
         (spec.starts.is_some_and(|s| s > 1.0), &[VarId::Vclear], "several starts: [vclear]"),
         (spec.hole_diameter.is_some(), &[], "the rapid to the cone (`hole_diameter`)"),
         (other_angle, &[], "the spindle angle (`orient`)"),
-        // at the control's own angle, only a cycle that leaves the wall stops the spindle oriented
+        // a control orients the spindle in a boring cycle only if the cycle also jogs the tool off the wall
         (spec.kind == CycleKind::Bore && spec.orient.is_some(), &[VarId::Sleave], "an oriented spindle: [sleave]"),
         (spec.jog.is_some(), &[], "the lift of the jog (`jog`)"),
         (spec.offset_y.is_some(), &[], "a jog along both axes (`offset_y`)"),

@@ -55,7 +55,7 @@ pub fn hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     }
 }
 
-/// Prints a hole.
+/// Prints a hole, and the moves to it.
 pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     let program = shape.program;
@@ -107,7 +107,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     };
     let lost = routine.is_some_and(|routine| sequence_loses(routine, &target, shape, cx.said));
     if cx.said.turns(&target, shape) || lost {
-        // a cycle can't turn the part: leave the cycle, index or move, then start it again
+        // a cycle can't turn the part: leave the cycle, index or move, then start the cycle again
         leave_cycle(cx, drill)?;
         set_targets(&target, shape, cx.want, cx.said)?;
         if cx.said.is_unsettled(cx.want) {
@@ -130,7 +130,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
                 sequence_hole(routine, &planned, cx, drill)?;
             }
             if planned.heights.return_plane < heights.return_plane - SAME {
-                // the last start of a thread ends lower than the return plane: raise the tool before it crosses
+                // the last start of a thread ends lower than the return plane: raise the tool before it moves across
                 leave_cycle(cx, drill)?;
                 split_rapid(&target, cx)?;
             }

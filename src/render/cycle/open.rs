@@ -107,7 +107,7 @@ pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     };
     cx.said.stand.position = last;
     set_targets(&last, shape, cx.want, cx.said)?;
-    // a cycle turns no part: the known angles of rotary axes stay valid
+    // a cycle does not turn the part, so the known angles of rotary axes stay valid
     let turned = ROTARY.filter(|&axis| !cx.said.differs_from(&last, 1 << axis, shape));
     let turned = turned.fold(0, |axes, axis| axes | 1 << axis);
     cx.said.forget_letters();

@@ -70,7 +70,8 @@ pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Dr
     want.set(VarId::Depth, hole.heights.point - hole.heights.bottom);
     want.set(VarId::Frate, hole.planes.feed);
     want.set(VarId::Plunge, spec.plunge.unwrap_or(hole.planes.feed));
-    // without a step the cycle goes down in one; a tap has the default step only if the job names a mode of pecking
+    // without a step, the hole is made in one stroke; a tap has the default step only if the job names a mode of
+    // pecking
     let pecks = !spec.kind.is_tap() || spec.mode.is_some();
     let step = spec.step.or(shape.defaults.step.filter(|_| pecks)).or(Some(hole.heights.clear - hole.heights.bottom));
     want.put(VarId::Vbite, step);

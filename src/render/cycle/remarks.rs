@@ -1,4 +1,4 @@
-//! Warnings about values that a cycle lacks or that contradict each other, without being errors.
+//! Warnings about missing or contradictory values of a cycle that are no errors.
 
 use super::planned::SAME;
 use crate::diag::Code;
@@ -8,7 +8,7 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// Warns of values that a cycle lacks or that contradict each other, without being errors.
+/// Warns of missing or contradictory values of a cycle that are no errors.
 pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, want: &Want, out: &mut Printer) {
     let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
     if pecks && spec.step.or(shape.defaults.step).is_none() && spec.pecks.is_empty() {
@@ -16,7 +16,7 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
         out.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
     }
     let clear = spec.clear.unwrap_or(shape.defaults.clear);
-    // if the first point is above the plane, the tool returns to its clearance: no contradiction
+    // if the first point is above the plane, the tool returns to its own clearance, which is no contradiction
     if let Some(height) = spec.return_height.filter(|height| (0.0..clear - SAME).contains(height)) {
         let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
         out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");

@@ -119,7 +119,8 @@ fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Dri
     (exit, known)
 }
 
-/// Is the tool certainly at the clearance after an emulated sequence? It is, with G99 and no axis word after the control's cycle.
+/// Is the tool certainly at the clearance after an emulated sequence? It is if G99 is active and no axis word follows
+/// the control's cycle.
 fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
     let number = shape.program.settings.return_plane[0];
     let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
@@ -188,8 +189,9 @@ fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
         && !typed(&|word| matches!(word.letter, b'K' | b'L') && word.value == 0.0)
 }
 
-/// Prints waiting changes before a hole. While the control is in its cycle they wait for Cancel: a block between the holes would
-/// be read as a hole. The only differences then are those of the sequence itself, as `G95` for a tap.
+/// Prints waiting changes before a hole. While the control is in its cycle, the changes wait for Cancel, because a
+/// block between the holes would be read as a hole. The only differences then are those of the sequence itself, as
+/// `G95` for a tap.
 fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
     let shape = cx.shape;
     if !cx.said.is_unsettled(cx.want) {

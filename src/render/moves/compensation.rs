@@ -51,7 +51,7 @@ struct Switch {
     /// The block also prints the offset register.
     offset: bool,
     feed: Option<f64>,
-    /// The job requests a rapid. A sequence of the form prints a feed move all the same: slower, but not wrong.
+    /// The job requests a rapid. A sequence of the form may print a feed move instead, which is slower but correct.
     rapid: bool,
 }
 

@@ -1,6 +1,6 @@
-//! The usual cut: straight, after another one, with positions in words and nothing else to print or to check. Most moves of long
-//! jobs are of this kind. It is printed in one pass without the questions that its form and state have already answered. The
-//! general path of [`super::line`] prints the same block for it.
+//! Prints the usual cut: a straight cut after another one, with positions in words, and with nothing else to print or
+//! check. Most moves of long jobs are of this kind. The cut is printed in one pass, without checks whose results the
+//! form and the state already determine. For such a cut, the general code of [`super::line`] prints the same block.
 
 use crate::number::nearest;
 use crate::render::cx::Cx;

@@ -71,7 +71,7 @@ pub fn unwound(target: &Axes, given: u8, shape: &Shape, said: &Said) -> Axes {
     inside
 }
 
-/// Prints Unwind. Afterwards the tool is where it was, and the angle is reduced modulo 360.
+/// Prints Unwind. Afterwards the tool is at its previous position, and the angle is reduced modulo 360.
 pub fn unwind(axis: usize, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;

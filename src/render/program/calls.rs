@@ -189,7 +189,7 @@ fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
         settle(cx)?;
     }
     let at = Axes { given: call.at.given, ..target };
-    // the whole position: a part alone would move down before it moves across
+    // the whole position is needed: a part of it could move the tool down before it moves across
     if (0..6).any(|axis| at.get(axis).is_some() && !prints_axis(routine, axis, shape)) {
         if says_work(routine, shape) {
             upons(VarSet::of(&[VarId::Work]), cx)?;

@@ -37,7 +37,7 @@ impl Angles {
         }
     }
 
-    /// Is any angle known? In a subprogram: did it print one?
+    /// Is any angle known? In a subprogram: did the subprogram print an angle?
     pub fn is_known(&self) -> bool {
         self.now.iter().any(Option::is_some)
     }
@@ -47,7 +47,7 @@ impl Angles {
         self.wound != [0.0; 3]
     }
 
-    /// Have the same turns been removed?
+    /// Have the same turns been removed as in the other state?
     pub fn wound_as(&self, other: &Angles) -> bool {
         self.wound == other.wound
     }

@@ -11,7 +11,7 @@ use crate::render::want::Want;
 const SPINDLE: VarSet = VarSet::of(&[VarId::Speed, VarId::Direct, VarId::Speedtype]);
 
 impl Said {
-    /// Conditions that the job requests and that are not printed yet. The next move counts as using them.
+    /// Conditions that the next move needs, but that are not printed yet.
     pub fn lacks(&self, want: &Want, shape: &Shape) -> VarSet {
         let mut set = VarSet::default();
         for (var, said) in self.conditions.each() {
@@ -39,7 +39,7 @@ impl Said {
         }
     }
 
-    /// Records a printed word of this letter if it is the speed.
+    /// Records a printed word; it is the speed if it has the speed's letter.
     #[inline]
     pub fn speed_word(&mut self, letter: u8, value: f64, line: Line, want: &Want, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
@@ -49,8 +49,8 @@ impl Said {
         }
     }
 
-    /// Records a word that was a parameter of a code. If its letter is that of the speed, the speed is unknown and printed again
-    /// before the next move.
+    /// Records a word that was a parameter of a code. If its letter is that of the speed, the speed is unknown and is
+    /// printed again before the next move.
     pub fn parameter_of_code(&mut self, letter: u8, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
             self.conditions.put(VarId::Speed, None);

@@ -10,9 +10,9 @@ use crate::span::Span;
 pub enum Shift {
     /// No axis words.
     None,
-    /// Those in the open block.
+    /// The axis words in the open block.
     Block,
-    /// All from here to the end of the sequence.
+    /// All axis words from here to the end of the sequence.
     Body,
 }
 

@@ -4,21 +4,21 @@ use super::piece::{NORMAL, PERIOD, Piece, TANGENTIAL, Vector};
 use crate::times::corner::PathMode;
 use crate::times::rates::{AxisRates, Rates, size};
 
-/// The share of an acceleration that a kink may use: below it, two moves count as tangent.
+/// A kink between two moves may use this share of the acceleration. Below it, the moves count as tangent.
 const KINK: f64 = 0.1;
-/// Two directions within two degrees of opposite: the tool reverses.
+/// If two directions are within two degrees of opposite, in radians, the tool reverses.
 const BACK: f64 = 2.0 * std::f64::consts::PI / 180.0;
-/// The rest of a move becomes part of the blend if it takes fewer periods than this.
+/// If the rest of a move takes fewer servo periods than this, it becomes part of the blend.
 const LEAST_PERIODS: f64 = 4.0;
 
 /// The transition between two moves.
 pub(super) enum Joint {
     Stop,
-    /// The moves continue, at most at this speed.
+    /// The moves continue without a stop, at most at this speed.
     Tangent(f64),
-    /// The next move begins this time before the end of the one before it.
+    /// The next move begins this many seconds before the end of the move before it.
     Overlap(f64),
-    /// An arc of this length is inserted; both moves are already shortened for it.
+    /// An arc of this length is inserted. Both moves are already shortened for the arc.
     Arc {
         length: f64,
         speed: f64,
@@ -27,7 +27,7 @@ pub(super) enum Joint {
     },
 }
 
-/// Finds the transition of two moves, and shortens them for it.
+/// Finds the transition between two moves, and shortens the moves for it.
 pub(super) fn joint(last: &mut Piece, next: &mut Piece, mode: PathMode, rates: &Rates) -> Joint {
     let (before, after) = (last.directions[1], next.directions[0]);
     let together: Vector = std::array::from_fn(|axis| before[axis] + after[axis]);
@@ -35,7 +35,7 @@ pub(super) fn joint(last: &mut Piece, next: &mut Piece, mode: PathMode, rates: &
     if mode == PathMode::Stop || last.is_cut != next.is_cut || turns || size(&together) < BACK {
         return Joint::Stop;
     }
-    // the jump of each axis' speed within one period, as a share of its acceleration
+    // the jump of the speed of each axis within one servo period, as a share of the acceleration of the axis
     let slower = last.wanted.min(last.most).min(next.wanted.min(next.most));
     let jump = slower / PERIOD + next.acceleration;
     let share = |axis: usize| {
@@ -88,10 +88,10 @@ fn half_angle(last: &Piece, next: &Piece) -> f64 {
     (-dot(&last.directions[1], &next.directions[0])).clamp(-1.0, 1.0).acos() / 2.0
 }
 
-/// A parabolic blend: the net speed through the corner, and the time by which the next move begins early.
+/// For a parabolic blend: the speed through the corner, and the time by which the next move begins early.
 fn overlap(last: &Piece, next: &Piece, tolerance: Option<f64>) -> (f64, f64) {
     let half = half_angle(last, next);
-    // both moves at half of their accelerations
+    // in a blend, both moves have half of their acceleration
     let halved = |piece: &Piece| {
         let mut piece = piece.clone();
         piece.begins_in_overlap = true;
@@ -111,7 +111,7 @@ fn overlap(last: &Piece, next: &Piece, tolerance: Option<f64>) -> (f64, f64) {
         }
         (v1, v2)
     };
-    // the ends of both moves are not known at this point: half of each is reserved for them
+    // the speeds at the other ends of the moves are not known yet: half of each move is reserved for them
     let (v1, v2) = speeds(0.5);
     (half.sin() * (v1 + v2) / 2.0, speeds(1.0).0 / a1)
 }
@@ -121,7 +121,7 @@ struct Arc {
     length: f64,
     speed: f64,
     acceleration: f64,
-    /// The length that it takes from each move.
+    /// The length by which each move is shortened.
     trims: [f64; 2],
 }
 
@@ -141,7 +141,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     let within = tolerance.filter(|tolerance| *tolerance > 0.0).unwrap_or(f64::INFINITY);
     let within = within.min(last.nominal / 4.0).min(next.nominal / 4.0);
     let whole = half;
-    // the length that may be taken from each; a curve towards the other move makes the corner sharper
+    // the length that the arc may take from each move; a move that curves towards the other one makes the corner sharper
     let mut room = |piece: &Piece, other: &Vector, at: usize, share: f64, of_line: f64| {
         let Some(round) = piece.round else { return of_line };
         let towards = dot(&round.inwards[at], other) * if at == 1 { 1.0 } else { -1.0 } > 0.0;
@@ -159,7 +159,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     }
     let turn = std::f64::consts::PI - 2.0 * half;
     let in_plane = |of: fn(&AxisRates) -> Option<f64>| {
-        // the greatest circle in the plane of the corner that all axes allow
+        // the greatest value in the plane of the corner that no axis exceeds
         let along = |axis: usize| (1.0 - normal[axis] * normal[axis]).max(0.0).sqrt().max(1e-12);
         (0..3).filter_map(|axis| Some(of(&rates.axes[axis])? / along(axis))).fold(f64::INFINITY, f64::min)
     };
@@ -186,7 +186,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     })
 }
 
-/// The greatest speed through the corner between two lines that exceeds the limit of neither line.
+/// The greatest speed through the corner between two lines at which both lines keep their speed limits.
 fn altitude(last: &Piece, next: &Piece, turn: f64) -> f64 {
     if last.round.is_some() || next.round.is_some() {
         return 0.0;

@@ -1,6 +1,6 @@
-//! Corners as in the trajectory planner of LinuxCNC 2.9. The rules were measured on its simulator, in 225 runs of 45 programs
-//! in each of its modes. They are stated here in words. A corner between two moves is tangent, is a stop, is an overlap (a
-//! parabolic blend, at half the acceleration), or gets a small arc.
+//! Corners as in the trajectory planner of LinuxCNC 2.9. The rules come from measurements on LinuxCNC's simulator: 225
+//! runs of 45 programs in each of the path modes. A corner between two moves is one of four kinds: tangent, a stop, an
+//! overlap (a parabolic blend, at half the acceleration), or a small inserted arc.
 
 mod joint;
 mod piece;
@@ -16,15 +16,15 @@ use piece::{End, Piece};
 /// Maximum number of lines that are joined into one.
 const MOST_JOINED: usize = 100;
 
-/// The state from one move to the next.
+/// The state between two moves.
 #[derive(Clone, Debug)]
 pub(super) struct Linuxcnc {
     mode: PathMode,
-    /// The last move; its end depends on the next move.
+    /// The last move. Its end depends on the next move.
     last: Option<Piece>,
-    /// The square of the greatest speed at its beginning.
+    /// The square of the greatest speed at the beginning of the last move.
     most_entry: f64,
-    /// A feed, and the consecutive cuts at this feed that may be joined into one line.
+    /// A feed, and consecutive cuts at this feed that may be joined into one line.
     chain: (f64, Vec<Way>),
     /// Row of the last of these cuts in the times of blocks.
     chain_row: usize,
@@ -40,7 +40,7 @@ impl Linuxcnc {
         self.mode = mode;
     }
 
-    /// A line; `feed` is that of a cut, in millimetres per second.
+    /// Adds a line. `feed` is the feed of a cut in millimetres per second; `None`: a rapid.
     pub fn line(&mut self, way: &Way, feed: Option<f64>, rates: &Rates, queue: &mut Queue) {
         let tolerance = self.joined_within();
         let Some(feed) = feed.filter(|_| tolerance > 0.0 && way[3..] == [0.0; 3]) else {
@@ -55,11 +55,11 @@ impl Linuxcnc {
         self.chain_row = queue.row();
     }
 
-    /// An arc at a feed in millimetres per second.
+    /// Adds an arc at a feed in millimetres per second.
     pub fn arc(&mut self, curve: &Curve, feed: f64, rates: &Rates, queue: &mut Queue) {
         let sagitta = curve.radius() * (1.0 - (curve.sweep.abs() / 2.0).min(std::f64::consts::PI).cos());
         if curve.plane == [0, 1] && sagitta < self.joined_within() {
-            // two lines that meet in its middle
+            // the arc becomes two lines that meet at its middle
             for half in curve.parts(2) {
                 self.line(&half, Some(feed), rates, queue);
             }
@@ -69,8 +69,8 @@ impl Linuxcnc {
         self.add(Piece::arc(curve, feed, rates), queue.row(), rates, queue);
     }
 
-    /// Ends the moves, at a stop or at the end of the program. With G64, the last move is also calculated with half the
-    /// acceleration, as a move that blends into the next.
+    /// Ends the moves, at a stop or at the end of the program. With G64, the last move is also calculated with half of
+    /// the acceleration, like a move that blends into the next one.
     pub fn stop(&mut self, rates: &Rates, queue: &mut Queue) {
         self.end_chain(rates, queue);
         if let Some(mut last) = self.last.take() {
@@ -81,7 +81,7 @@ impl Linuxcnc {
         self.most_entry = 0.0;
     }
 
-    /// Greatest distance of joined lines from the points between them: P of G64.
+    /// Greatest allowed distance of a joined line from the points that it replaces: P of G64.
     fn joined_within(&self) -> f64 {
         match self.mode {
             PathMode::Blend(tolerance) => tolerance.unwrap_or(0.0),
@@ -89,7 +89,7 @@ impl Linuxcnc {
         }
     }
 
-    /// May this cut be joined to the waiting cuts? All points between must be near the line to its end.
+    /// Whether this cut can be joined to the waiting cuts. All points between them must be near the line to the end of this cut.
     fn joins(&self, way: &Way, tolerance: f64) -> bool {
         let chain = &self.chain.1;
         let add = |at: [f64; 3], way: &Way| std::array::from_fn(|axis| at[axis] + way[axis]);

@@ -1,12 +1,13 @@
-//! A move and its limits.
+//! A move and the limits of its speed.
 
 use crate::times::curve::Curve;
 use crate::times::leg::Leg;
 use crate::times::rates::{Rates, Way, size};
 
-/// A period of the servo thread, in seconds: no move is shorter.
+/// The period of the servo thread, in seconds. No move is shorter than this.
 pub(super) const PERIOD: f64 = 0.001;
-/// Shares of the acceleration on an arc: along it, if all of the acceleration across is used, and across it.
+/// Shares of the acceleration on an arc. `TANGENTIAL` is the share along the path while the whole share across the path is in
+/// use; `NORMAL` is the share across the path.
 pub(super) const TANGENTIAL: f64 = 0.5;
 pub(super) const NORMAL: f64 = 0.866_025_403_784_438_6;
 
@@ -15,7 +16,7 @@ pub(super) const NORMAL: f64 = 0.866_025_403_784_438_6;
 pub(super) enum End {
     Stop,
     Tangent,
-    /// The next move begins before this one ends.
+    /// The move ends after the next move has begun.
     Overlap,
 }
 
@@ -25,45 +26,45 @@ pub(super) type Vector = [f64; 3];
 /// A move. Speeds are in millimetres per second.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Directions at its beginning and its end.
+    /// Directions at the beginning and at the end of the move.
     pub directions: [Vector; 2],
-    /// Its remaining length.
+    /// The remaining length of the move.
     pub length: f64,
-    /// Its length before blends shortened it.
+    /// The length of the move before blends shortened it.
     pub nominal: f64,
-    /// Its greatest possible speed.
+    /// The greatest possible speed of the move.
     pub most: f64,
-    /// Its programmed speed.
+    /// The programmed speed of the move.
     pub wanted: f64,
     pub acceleration: f64,
     pub round: Option<Round>,
     pub is_cut: bool,
-    /// Its row in the times of blocks.
+    /// The row of the move in the times of blocks.
     pub row: usize,
     pub end: End,
-    /// No move follows: the share of acceleration for its end then does not reduce the speed on an arc.
+    /// Whether no move follows. The acceleration for the end of the move then does not reduce the speed on an arc.
     pub is_last: bool,
-    /// It begins in an overlap.
+    /// Whether the move begins in an overlap with the move before it.
     pub begins_in_overlap: bool,
-    /// The share of its acceleration that the kinks at its two ends use.
+    /// The shares of the acceleration that the kinks at the two ends of the move use.
     pub kinks: [f64; 2],
 }
 
-/// The arc of a move.
+/// The data of an arc.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
     pub radius: f64,
-    /// The effective radius, including its rise.
+    /// The effective radius, which takes the rise of the helix into account.
     pub bend: f64,
     pub sweep: f64,
-    /// The axis of its plane.
+    /// The direction perpendicular to the plane of the arc.
     pub axis: Vector,
-    /// From its beginning and its end to its centre.
+    /// Directions from the beginning and from the end of the arc to its centre.
     pub inwards: [Vector; 2],
 }
 
 impl Piece {
-    /// A line; `None`: it has no length, or its speed is unknown.
+    /// A line; `None`: the line has no length, or its speed is unknown.
     pub fn line(way: &Way, feed: Option<f64>, rates: &Rates) -> Option<Piece> {
         let length = rates.length(way);
         if length == 0.0 {
@@ -81,7 +82,7 @@ impl Piece {
         Some(Piece::new([direction; 2], length, [most, wanted], acceleration, feed.is_some()))
     }
 
-    /// An arc.
+    /// An arc; `None`: the arc has no length, or its speed is unknown.
     pub fn arc(curve: &Curve, feed: f64, rates: &Rates) -> Option<Piece> {
         let [a, b] = curve.plane;
         let (radius, length) = (curve.radius(), curve.length());
@@ -112,7 +113,7 @@ impl Piece {
         };
         let (fast, strong) = (smaller(|axis| axis.rapid), smaller(|axis| axis.acceleration));
         let across = (strong * NORMAL * radius).sqrt().min(fast);
-        // the straight path to its end is a further limit
+        // the straight path from the beginning to the end of the arc sets a further limit
         let mut way = Way::default();
         (0..3).for_each(|axis| way[axis] = rise[axis]);
         (way[a], way[b]) = (end[0] - begin[0], end[1] - begin[1]);
@@ -159,12 +160,12 @@ impl Piece {
         }
     }
 
-    /// Its speed without the adjacent moves.
+    /// The speed of the move without the adjacent moves.
     pub fn speed(&self) -> f64 {
         self.wanted.min(self.fastest())
     }
 
-    /// The greatest speed; on an arc it depends on the acceleration that is left across.
+    /// The greatest speed of the move. On an arc it depends on the share of the acceleration across the path.
     fn fastest(&self) -> f64 {
         let most = self.most.min(self.length / PERIOD);
         match self.round {
@@ -173,13 +174,13 @@ impl Piece {
         }
     }
 
-    /// The acceleration that remains after the share of its ends.
+    /// The acceleration without the share for the kinks at the ends of the move.
     fn share(&self) -> f64 {
         let overlaps = self.begins_in_overlap || self.end == End::Overlap;
         self.acceleration * (1.0 - self.kinks[0].max(self.kinks[1])) * if overlaps { 0.5 } else { 1.0 }
     }
 
-    /// The acceleration along it.
+    /// The acceleration along the move.
     pub fn along(&self) -> f64 {
         let share = self.share();
         let Some(round) = self.round else { return share };
@@ -191,7 +192,7 @@ impl Piece {
         }
     }
 
-    /// Converts it to a leg with this greatest speed at its beginning.
+    /// Converts the move to a leg. `most_entry` is the square of the greatest speed at its beginning.
     pub fn leg(&self, most_entry: f64) -> Leg {
         let speed = self.speed();
         Leg {

@@ -1,4 +1,4 @@
-//! Converts objects of a job to events, with checks that need more than one key.
+//! Converts the objects of a job to events. Makes the checks that need more than one key.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,16 +15,16 @@ type Done = Result<(), Stop>;
 /// The largest number of tools that a message lists.
 const MOST_NAMED: usize = 20;
 
-/// Takes the parts of a job in order and pushes events.
+/// Receives the parts of a job in their order and pushes the events for them.
 pub struct Builder<'s> {
     hold: Hold<'s>,
-    /// The place of the next event. Readers update line and column.
+    /// The location of the next event. Readers set its line and column.
     pub place: Place,
     /// The tools in the order of the job.
     tools: Vec<Tool>,
-    /// The first tool of each number.
+    /// For each tool number, the index of the first tool with this number.
     by_number: HashMap<u64, usize>,
-    /// Tool numbers with their turrets. Each pair may occur only once.
+    /// Tool numbers, each with its turret position. Each pair may occur only once.
     listed: HashSet<(u64, Option<u64>)>,
     tool_needed: bool,
     tool: Option<f64>,
@@ -86,7 +86,7 @@ impl<'s> Builder<'s> {
         self.push(Event::Start(&start))
     }
 
-    /// Begins a subprogram. Subprograms come before the operations that call them.
+    /// Begins a subprogram. Subprograms must come before the operations.
     pub fn subprogram(&mut self, head: SubprogramHead) -> Done {
         self.leave_cycle("a subprogram")?;
         if self.in_subprogram || self.place.operation > 0 {
@@ -158,7 +158,7 @@ impl<'s> Builder<'s> {
         self.hold.tool_change(change, self.place)
     }
 
-    /// Pushes an item of a path that is not a cycle.
+    /// Pushes an item of a path, except a cycle.
     pub fn item(&mut self, item: &ItemObject) -> Done {
         self.leave_cycle("an item")?;
         self.in_operation()?;
@@ -188,7 +188,7 @@ impl<'s> Builder<'s> {
         }
     }
 
-    /// Pushes an item without a move.
+    /// Pushes an item that is not a move.
     fn between_moves(&mut self, item: &ItemObject) -> Done {
         if let Some(section) = item.begin {
             return self.push(Event::Begin(section.0));
@@ -239,7 +239,7 @@ impl<'s> Builder<'s> {
         Ok(())
     }
 
-    /// Pushes a rapid or a line without an object between. These two items are most of every job.
+    /// Pushes a rapid or a line without creating an item object first. Most items of a job are of these two kinds.
     #[inline]
     pub fn simple_move(&mut self, to: Axes, feed: Option<f64>, rapid: bool) -> Done {
         if self.in_cycle || (self.place.operation == 0 && !self.in_subprogram) {
@@ -263,7 +263,7 @@ impl<'s> Builder<'s> {
         self.push(Event::CycleBegin(&spec))
     }
 
-    /// Pushes a point of the open cycle.
+    /// Pushes one point of the open cycle.
     pub fn hole(&mut self, hole: Hole) -> Done {
         if !self.in_cycle {
             return fault(Code::PJ011, "a point outside a cycle", "begin the cycle first, as {\"cycle\": {...}}");

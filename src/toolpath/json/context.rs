@@ -1,4 +1,4 @@
-//! The current position of a reader in the document, and its failure.
+//! The current location of a reader in the document, and the failure that stopped it.
 
 use std::cell::{Cell, RefCell};
 use std::fmt::Write;
@@ -9,21 +9,21 @@ use crate::diag::{Code, Diag, Location};
 use crate::lang::did_you_mean;
 use crate::toolpath::{ReadError, Stop};
 
-/// A step of the path inside the document.
+/// A step of the path inside the document: a key or an index.
 #[derive(Clone, Copy, Debug)]
 pub enum Step {
     /// A key.
     Key(&'static str),
-    /// An index, from 0.
+    /// An index in a list, from 0.
     Index(u64),
 }
 
-/// Data that the readers of one job share: the path to the current value, and the failure that stopped them.
+/// Data that the readers of one job share: the path to the current value, and the failure that stopped reading.
 #[derive(Default)]
 pub struct Context {
-    /// Line and column of the last byte read. Only the document reader counts them.
+    /// Line and column of the last byte read. Only the reader of documents counts them.
     pub at: Cell<(u64, u32)>,
-    /// Line and column where the last point began.
+    /// Line and column where the last point of a cycle began.
     pub point_at: Cell<(u64, u32)>,
     path: RefCell<Vec<Step>>,
     failure: RefCell<Option<Stop>>,
@@ -35,12 +35,12 @@ impl Context {
         self.path.borrow_mut().push(step);
     }
 
-    /// Leaves one step of the path. Not called after an error, so that the path still shows the location.
+    /// Leaves one step of the path. It is not called after an error, so the path then shows the location of the error.
     pub fn leave(&self) {
         self.path.borrow_mut().pop();
     }
 
-    /// Counts the lines and columns of bytes that are taken.
+    /// Adds the lines and columns of bytes that were read.
     pub fn pass(&self, bytes: &[u8]) {
         let (line, column) = self.at.get();
         let lines = memchr::memchr_iter(b'\n', bytes);
@@ -50,24 +50,24 @@ impl Context {
         });
     }
 
-    /// Keeps a finding of postform and returns an error that carries it through serde.
+    /// Keeps a finding and returns an error for serde. `Context::explain` replaces this error by the finding.
     pub fn fail<E: de::Error>(&self, diag: Diag) -> E {
         self.fail_with(diag.into())
     }
 
-    /// Keeps the stop of a sink and returns an error that carries it through serde.
+    /// Keeps the reason why a sink stopped and returns an error for serde.
     pub fn fail_with<E: de::Error>(&self, stop: Stop) -> E {
         *self.failure.borrow_mut() = Some(stop);
         E::custom("stopped")
     }
 
-    /// Keeps a finding that ends the input and returns an error that carries it through a reader.
+    /// Keeps a finding that ends the input and returns an error for a reader of bytes.
     pub fn fail_reading(&self, diag: Diag) -> std::io::Error {
         *self.failure.borrow_mut() = Some(diag.into());
         std::io::Error::other("stopped")
     }
 
-    /// The path, such as `operations[0].path[3].line`.
+    /// The path to the current value, such as `operations[0].path[3].line`.
     pub fn path(&self) -> String {
         let mut text = String::new();
         for step in self.path.borrow().iter() {
@@ -80,7 +80,7 @@ impl Context {
         text
     }
 
-    /// The failure after a serde error. `line` and `column` are the location of the error.
+    /// The failure behind an error of serde. `line` and `column` are the location of that error.
     pub fn explain(&self, error: serde_json::Error, line: u64, column: u32) -> ReadError {
         let failure = self.failure.borrow_mut().take();
         if failure.is_none() && error.is_io() {
@@ -91,10 +91,10 @@ impl Context {
     }
 }
 
-/// A finding if the first bytes show that the text is not UTF-8.
+/// The finding for a text that is not UTF-8, as far as its first bytes show this.
 pub fn not_utf_8(start: &[u8]) -> Option<Diag> {
     let marked = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
-    // without a byte order mark, every other byte is zero
+    // UTF-16 without a byte order mark: every second byte is zero
     let bare = matches!(start, [0, b'{', ..] | [b'{', 0, ..]);
     (marked || bare).then(|| {
         Diag::new(Code::PJ001, "the job is UTF-16")
@@ -102,7 +102,7 @@ pub fn not_utf_8(start: &[u8]) -> Option<Diag> {
     })
 }
 
-/// Converts a serde error to a finding in postform's words.
+/// Converts an error of serde to a finding in postform's terms.
 fn of_serde(error: &serde_json::Error) -> Diag {
     let text = error.to_string();
     let text = text.rsplit_once(" at line ").map_or(text.as_str(), |(message, _)| message);
@@ -132,9 +132,9 @@ fn of_serde(error: &serde_json::Error) -> Diag {
     }
 }
 
-/// A suggestion for a word that is not in the list, or for a text instead of a number.
+/// A suggestion for a word that is not in the list of words, or for a text that should be a number.
 fn meant(text: &str) -> Option<String> {
-    /// Words from people and other formats.
+    /// Words that users or other formats use instead of postform's words.
     const ALSO: [(&str, &str); 10] = [
         ("metric", "mm"),
         ("millimeter", "mm"),
@@ -161,7 +161,7 @@ fn meant(text: &str) -> Option<String> {
     }
 }
 
-/// A correction for common mistakes in JSON.
+/// The correction for a common mistake in JSON.
 fn instead(text: &str) -> Option<&'static str> {
     const KNOWN: [(&str, &str); 5] = [
         ("expected `,`", "a comma is missing before it, perhaps at the end of the line above"),

@@ -1,4 +1,4 @@
-//! Converts objects of a job to the types of events, and checks their values.
+//! Converts the objects of a job to the types of events, and checks their values.
 
 use super::objects::{ArcObject, CallObject, CycleObject, SpindleObject, ThreadObject, ToolObject};
 use super::values::{Number, PeckMode, SpeedMode, StepFrom};
@@ -6,7 +6,7 @@ use crate::diag::{Code, Diag};
 use crate::toolpath::CycleKind;
 use crate::toolpath::{Arc, Call, CycleSpec, Orient, Peck, Plane, Spindle, Thread, Tool};
 
-/// A fault in the job. The reader adds its location.
+/// The error for a fault in the job. The reader adds the location.
 pub(super) fn fault<T, E: From<Box<Diag>>>(
     code: Code,
     message: impl Into<String>,

@@ -1,4 +1,4 @@
-//! `job.json`: one document, read as a stream.
+//! Reads `job.json`, which is one JSON document, as a stream.
 
 use std::cell::{Cell, RefCell};
 use std::fmt;
@@ -19,19 +19,19 @@ use super::window::{AsItStands, Counting, Text, Window};
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop};
 
-/// The largest number of points of a cycle that wait for keys after the points. If there are more, points are passed on
-/// at once.
+/// The largest number of points of a cycle that wait for keys after the points. If a cycle has more points, they are
+/// passed on without waiting.
 const MOST_WAITING: usize = 4096;
 
 /// Reads a job document and pushes its events. Memory does not grow with the job.
 ///
 /// # Errors
-/// The job is wrong, or the sink can't do what the job requests.
+/// The job has an error, or the sink can't do what the job requests.
 pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
     read_from(AsItStands(input), sink)
 }
 
-/// Reads a job document from an input that can seek. Its keys may be in any order.
+/// Reads a job document from an input that can seek. The keys of its objects may then be in any order.
 ///
 /// # Errors
 /// As [`read_document`].
@@ -41,7 +41,7 @@ pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> 
     match found {
         Order::Late(parts) => read_from(InParts::new(input, &parts), sink),
         Order::Usual => read_document(input, sink),
-        // report faults of the text first, because the reader would report keys after the fault as missing
+        // report syntax errors of the text first; otherwise the reader would report keys after the error as missing
         Order::Broken => {
             let is_whole = read_text(AsItStands(&mut input), |text, _, _| {
                 IgnoredAny::deserialize(&mut *text).and_then(|_| text.end())
@@ -62,7 +62,7 @@ fn read_from(input: impl Text, sink: &mut dyn Sink) -> Result<(), ReadError> {
     })
 }
 
-/// Reads a JSON text.
+/// Reads a JSON text. `read` deserializes it.
 fn read_text<T: Text>(
     input: T,
     read: impl FnOnce(&mut serde_json::Deserializer<IoRead<Counting<'_, T>>>, &Context, &Window) -> serde_json::Result<()>,
@@ -85,12 +85,12 @@ fn read_text<T: Text>(
     })
 }
 
-/// Data that all seeds of one document share.
+/// Data that all parts of one document share.
 struct Job<'a, 's> {
     context: &'a Context,
     window: &'a Window,
     builder: RefCell<Builder<'s>>,
-    /// Plain items of the path that were passed on besides the last one.
+    /// Number of plain items that were passed on by the last call of `plain_items`, without the last one.
     passed: Cell<u64>,
 }
 
@@ -106,9 +106,9 @@ impl<'s> Job<'_, 's> {
         )))
     }
 
-    /// Passes on plain items from the text that is already read, as long as one follows the other. serde_json has taken the
-    /// first brace of the first one. Of the last one, the last brace is left: serde_json then finds an empty object. Returns
-    /// `false` if there is no plain item.
+    /// Passes on plain items from the buffered text, as long as one directly follows another. serde_json has already read
+    /// the opening brace of the first item. The closing brace of the last item stays in the buffer, so serde_json reads an
+    /// empty object. Returns `false` if there is no plain item.
     fn plain_items<E: serde::de::Error>(&self) -> Result<bool, E> {
         let (buffer, start, to) = (self.window.buffer.borrow(), self.window.from.get(), self.window.to.get());
         if start == 0 || buffer[start - 1] != b'{' {
@@ -139,7 +139,7 @@ impl<'s> Job<'_, 's> {
         Ok(count > 0)
     }
 
-    /// Sets the place to the beginning of the next value.
+    /// Sets the location to the beginning of the next value.
     fn mark(&self) {
         let (line, column) = self.context.at.get();
         let mut builder = self.builder.borrow_mut();
@@ -148,9 +148,9 @@ impl<'s> Job<'_, 's> {
     }
 }
 
-/// An object whose last key is a list. The list is passed on while it is read.
+/// An object whose last key is a list. The elements of the list are passed on while they are read.
 trait Streamed: Object {
-    /// The key of the list, as a list of one.
+    /// The name of that key, as a list with one element.
     const LIST: &'static [&'static str];
 }
 impl Streamed for OperationHead {
@@ -160,7 +160,7 @@ impl Streamed for SubprogramHead {
     const LIST: &'static [&'static str] = &["path"];
 }
 
-/// Reads a streamed object. `head` takes the keys before the list. Returns whether the list was present.
+/// Reads a streamed object. `head` receives the keys before the list. Returns whether the object has the list.
 fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
     job: &Job,
     mut map: A,
@@ -192,7 +192,7 @@ fn streamed<'de, T: Streamed, A: MapAccess<'de>>(
     Ok(listed)
 }
 
-/// The part that a seed reads. Lists are passed on element by element.
+/// The part of the document that a seed reads. The elements of lists are passed on one by one.
 #[derive(Clone, Copy)]
 enum Part {
     Job,
@@ -283,7 +283,7 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
     }
 }
 
-/// Reads the job: its head, then its subprograms, then its operations. Each list is passed on while it is read.
+/// Reads the job: its head, then its subprograms, then its operations. Elements of the lists are passed on while they are read.
 fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const LISTS: &[&str] = &["subprograms", "operations"];
     let (mut head, mut seen, mut done) = (Some(JobHead::default()), 0, "");
@@ -315,7 +315,7 @@ fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     }
 }
 
-/// Reads a path item. A cycle is passed on while it is read, and must be the item's only key.
+/// Reads an item of a path. A cycle is passed on while it is read, and the item must have no other key.
 fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const CYCLE: &[&str] = &["cycle"];
     job.builder.borrow_mut().place.item += 1;
@@ -344,7 +344,7 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     job.build(|b| b.item(&item))
 }
 
-/// Reads a cycle. Its first points are held back until the keys after them are read; later points are passed on at once.
+/// Reads a cycle. Up to a limit, its points wait until the keys after them are read. Above the limit they are passed on at once.
 fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const POINTS: &[&str] = &["points"];
     let (mut object, mut seen) = (CycleObject::default(), 0);
@@ -382,7 +382,7 @@ fn pass_on<E: serde::de::Error>(job: &Job, waiting: &mut Vec<(Point, (u64, u32))
     Ok(())
 }
 
-/// Reads the points of a cycle. Returns whether they were passed on.
+/// Reads the points of a cycle. The result is whether they were passed on.
 struct Points<'w, 'j, 'a, 's> {
     job: &'j Job<'a, 's>,
     object: &'w CycleObject,

@@ -1,11 +1,11 @@
-//! A fast reader for the three kinds of lines that are most of every JSON Lines job: `{"line":[1.5,2,-0.1],"feed":300}`,
-//! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. Lines with any other form are read by serde. So both readers report the
-//! same errors. A property test checks that they read the same values.
+//! A fast reader for the three most frequent kinds of lines in a JSON Lines job: `{"line":[1.5,2,-0.1],"feed":300}`,
+//! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. serde reads all other lines, including wrong ones, so all errors come
+//! from one reader. A property test checks that both readers read the same values.
 
 use crate::number::short_decimal;
 use crate::toolpath::Axes;
 
-/// The kind of a plain line.
+/// The kind of a plain line. A plain line is one that the fast reader can read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A feed move.
@@ -16,19 +16,19 @@ pub enum Kind {
     Point,
 }
 
-/// A plain line.
+/// The content of a plain line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Simple {
     /// The kind of the line.
     pub kind: Kind,
     /// The position.
     pub to: Axes,
-    /// The feed of a line, if given.
+    /// The feed; `None` if the line has none.
     pub feed: Option<f64>,
 }
 
-/// Reads a plain line with its line end from the beginning of `text`, and returns its length too. `None`: the line is not
-/// plain, or `text` does not contain its end.
+/// Reads a plain line and its line end from the beginning of `text`. Returns the line and its length. `None`: the line is
+/// not plain, or `text` does not contain its end.
 #[inline]
 pub fn simple(text: &[u8]) -> Option<(Simple, usize)> {
     let mut at = Cursor::<false> { rest: text };
@@ -45,8 +45,8 @@ pub fn simple(text: &[u8]) -> Option<(Simple, usize)> {
     Some((simple, text.len() - at.rest.len()))
 }
 
-/// Reads a plain item of a document, from the byte after its first brace to its last one, and returns the length of that. Line
-/// ends are blanks. `None`: the item is not plain, or `text` does not contain its end.
+/// Reads a plain item of a document. `text` begins after the opening brace. Returns the item and its length up to the closing
+/// brace. Line ends count as spaces. `None`: the item is not plain, or `text` does not contain its end.
 #[inline]
 pub fn simple_item(text: &[u8]) -> Option<(Simple, usize)> {
     let mut at = Cursor::<true> { rest: text };
@@ -54,7 +54,7 @@ pub fn simple_item(text: &[u8]) -> Option<(Simple, usize)> {
     (at.rest.first() == Some(&b'}')).then(|| (simple, text.len() - at.rest.len()))
 }
 
-/// The text after a comma and an opening brace with blanks around them, if it begins so.
+/// The text after a comma and an opening brace, with spaces around them; `None` if `text` begins differently.
 #[inline]
 pub fn next_item(text: &[u8]) -> Option<&[u8]> {
     let mut at = Cursor::<true> { rest: text };
@@ -65,13 +65,13 @@ pub fn next_item(text: &[u8]) -> Option<&[u8]> {
     Some(at.rest)
 }
 
-/// `LINES`: line ends are blanks.
+/// Reads from the beginning of a text. `LINES`: line ends count as spaces.
 struct Cursor<'a, const LINES: bool> {
     rest: &'a [u8],
 }
 
 impl<const LINES: bool> Cursor<'_, LINES> {
-    /// Reads the members of an object.
+    /// Reads the members of a plain object.
     #[inline]
     fn simple(&mut self) -> Option<Simple> {
         let kind = if self.take(b"\"line\":[").is_some() {
@@ -114,7 +114,7 @@ impl<const LINES: bool> Cursor<'_, LINES> {
         Some(())
     }
 
-    /// The kind of a line, and the bracket of its position.
+    /// Reads the kind of a line and the opening bracket of its position.
     fn kind(&mut self) -> Option<Kind> {
         self.blanks();
         let kind = if self.take(b"\"line\"").is_some() {
@@ -147,8 +147,8 @@ impl<const LINES: bool> Cursor<'_, LINES> {
         Some(())
     }
 
-    /// A decimal number of at most 15 digits without exponent. Its digits and its power of ten are exact doubles, so one
-    /// division gives the nearest double, as in any correct reader.
+    /// Reads a decimal number of at most 15 digits without an exponent. The digits and the power of ten are exact as
+    /// doubles, so one division gives the nearest double, as in any correct reader.
     #[inline]
     fn number(&mut self) -> Option<f64> {
         let (negative, digits) = match self.rest {
@@ -157,7 +157,7 @@ impl<const LINES: bool> Cursor<'_, LINES> {
         };
         let Some(short) = short_decimal(digits, 0) else { return self.long_number() };
         let rest = &digits[short.length..];
-        // JSON requires a digit on both sides of a point, and no leading zero before other digits
+        // JSON requires a digit before and after the point, and no leading zero before other digits
         if short.whole == 0
             || (short.whole > 1 && digits[0] == b'0')
             || (short.point && short.decimals == 0)
@@ -170,7 +170,7 @@ impl<const LINES: bool> Cursor<'_, LINES> {
         Some(if negative { -value } else { value })
     }
 
-    /// As [`Cursor::number`], for numbers of more digits.
+    /// Like [`Cursor::number`], for numbers with more digits.
     #[cold]
     fn long_number(&mut self) -> Option<f64> {
         let (negative, digits) = match self.rest {
@@ -203,7 +203,7 @@ impl<const LINES: bool> Cursor<'_, LINES> {
     }
 }
 
-/// Appends leading digits to a value. Too many digits wrap around; the caller checks their number.
+/// Appends the digits at the beginning of `bytes` to a value. Too many digits wrap around, so the caller checks their number.
 #[inline]
 fn run_of_digits(mut bytes: &[u8], mut value: i64) -> (i64, &[u8]) {
     while let [digit @ b'0'..=b'9', rest @ ..] = bytes {
@@ -213,7 +213,7 @@ fn run_of_digits(mut bytes: &[u8], mut value: i64) -> (i64, &[u8]) {
     (value, bytes)
 }
 
-/// Powers of ten that are exact doubles.
+/// Powers of ten. Each is exact as a double.
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 #[cfg(test)]
@@ -254,11 +254,11 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// The fast reader reads the same numbers as a JSON reader.
+        /// The fast reader reads the same numbers as serde_json.
         #[test]
         fn numbers_are_those_of_serde(text in "-?(0|[1-9][0-9]{0,8})(\\.[0-9]{1,9})?") {
             let expected: f64 = serde_json::from_str(&text).unwrap();
-            // at the end of the text, and before more of it
+            // the number is at the end of the text, or more text follows
             for rest in ["", "{\"line\":[1,2]}\n"] {
                 let line = format!("{{\"line\":[{text}]}}\n{rest}");
                 if let Some((found, length)) = simple(line.as_bytes()) {

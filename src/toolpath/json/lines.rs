@@ -1,4 +1,4 @@
-//! JSON Lines: one object per line, so that a job can be written and read as a stream.
+//! JSON Lines: one object on each line. Such a job can be written and read as a stream.
 
 use std::fmt;
 use std::io::Read;
@@ -16,13 +16,13 @@ use super::values::Point;
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{Hole, ReadError, Sink, Stop};
 
-/// The longest line. A file with longer lines is not a job.
+/// The maximum length of a line. A file with longer lines is not a job.
 const LONGEST: usize = 4 << 20;
 
 /// Reads a job in JSON Lines and pushes its events. Memory does not grow with the job.
 ///
 /// # Errors
-/// The job is wrong, or the sink can't do what the job requests.
+/// The job has an error, or the sink can't do what the job requests.
 pub fn read_lines(mut input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let context = Context::default();
     let mut lines = Lines { builder: Builder::new(sink), context: &context, started: false, ended: false };
@@ -87,12 +87,12 @@ struct Lines<'c, 's> {
 }
 
 impl Lines<'_, '_> {
-    /// Has the job started, but not ended?
+    /// Whether the job has started and not ended.
     fn is_open(&self) -> bool {
         self.started && !self.ended
     }
 
-    /// A plain line.
+    /// Handles a plain line.
     #[inline]
     fn simple(&mut self, simple: Simple) -> Result<(), ReadError> {
         let done = match simple.kind {
@@ -105,7 +105,7 @@ impl Lines<'_, '_> {
         done.map_err(|stop| self.placed(stop))
     }
 
-    /// A line of any form.
+    /// Handles a line that is not plain.
     fn other(&mut self, line: &[u8]) -> Result<(), ReadError> {
         if line.iter().all(u8::is_ascii_whitespace) {
             return Ok(());
@@ -181,7 +181,7 @@ impl Lines<'_, '_> {
         }
     }
 
-    /// Checks the end of the job after the last line.
+    /// Checks after the last line that the job is complete.
     fn end(self) -> Result<(), ReadError> {
         if self.ended {
             return Ok(());
@@ -275,7 +275,7 @@ impl<'de> Visitor<'de> for LineSeed<'_> {
     }
 }
 
-/// A cycle with or without its points.
+/// A cycle. Its points may be on the same line or on later lines.
 struct CycleLine {
     cycle: CycleObject,
     points: Option<Vec<Point>>,

@@ -1,5 +1,5 @@
-//! Job files: `job.json` as one document, `.jsonl` line by line. Both are read as streams, without keeping the path in
-//! memory.
+//! Reads job files: `job.json` is one document, `.jsonl` has one object on each line. Both are read as streams, so the
+//! path is not kept in memory.
 
 mod build;
 mod context;

@@ -1,4 +1,4 @@
-//! The objects of a job. Each is a table of keys, which defines its reader and its schema.
+//! The objects of a job. Each is defined by a table of its keys, from which its reader and its schema are generated.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -18,11 +18,11 @@ pub trait Object: Default {
     const NAME: &'static str;
     /// Keys of the object.
     const KEYS: &'static [&'static str];
-    /// Reads the value of key number `key`.
+    /// Reads the value of the key with index `key` in `KEYS`.
     fn read<'de, A: MapAccess<'de>>(&mut self, key: usize, map: &mut A, context: &Context) -> Result<(), A::Error>;
 }
 
-/// A value inside an object: a leaf, or another object.
+/// A value inside an object: a number, text or list of numbers, or another object.
 pub trait Value: Sized {
     /// Reads the value.
     fn read<'de, A: MapAccess<'de>>(map: &mut A, context: &Context) -> Result<Self, A::Error>;
@@ -54,7 +54,7 @@ impl<T: super::values::Words> Value for Word<T> {
     }
 }
 
-/// A nested object or list of objects.
+/// Values that are other objects or lists of them.
 macro_rules! nested {
     ($($type:ty)*) => { $(
         impl Value for $type {
@@ -255,7 +255,7 @@ impl Value for super::values::Point {
     }
 }
 
-/// The name of a section such as `"leadin"`, or `true` at the end of JSON Lines.
+/// The value of `end`: the name of a section, such as `"leadin"`, or `true` at the end of a JSON Lines job.
 #[derive(Clone, Copy, Debug)]
 pub enum EndWord {
     /// A part of the path ends.
@@ -308,7 +308,7 @@ impl schemars::JsonSchema for EndWord {
     }
 }
 
-/// `{"val1": 2.5, "through": "high"}`: values by name, in order.
+/// Values of variables and properties by name, in their order, such as `{"val1": 2.5, "through": "high"}`.
 #[derive(Debug, Default, PartialEq)]
 pub struct Values(pub Vec<(String, Given)>);
 
@@ -349,13 +349,13 @@ impl schemars::JsonSchema for Values {
     }
 }
 
-/// Reads a key and returns its index in the list of known keys. An unknown key is an error with a suggestion.
+/// Reads a key and returns its index in the list of known keys. For an unknown key, returns an error with a suggestion.
 pub struct KeySeed<'c> {
     /// The shared context.
     pub context: &'c Context,
     /// Name of the object in messages.
     pub object: &'static str,
-    /// Keys of the object, in parts.
+    /// The known keys of the object, in two parts.
     pub keys: [&'static [&'static str]; 2],
 }
 
@@ -383,7 +383,7 @@ impl Visitor<'_> for KeySeed<'_> {
     }
 }
 
-/// Records that a key occurred. A second time is an error.
+/// Records that a key occurred. If it occurs a second time, returns an error.
 pub fn once<E: serde::de::Error>(seen: &mut u64, key: usize, name: &str, context: &Context) -> Result<(), E> {
     if *seen & 1 << key != 0 {
         return Err(context.fail(Diag::new(Code::PJ010, format!("the key `{name}` is given twice")).help("keep one")));
@@ -392,14 +392,14 @@ pub fn once<E: serde::de::Error>(seen: &mut u64, key: usize, name: &str, context
     Ok(())
 }
 
-/// Reads an object from its table of keys.
+/// Reads an object by its table of keys.
 pub struct ObjectSeed<'c, T> {
     context: &'c Context,
     object: PhantomData<T>,
 }
 
 impl<'c, T> ObjectSeed<'c, T> {
-    /// A seed in this context.
+    /// A reader that uses this context.
     pub fn new(context: &'c Context) -> Self {
         ObjectSeed { context, object: PhantomData }
     }
@@ -444,7 +444,7 @@ impl<'c, T> ListSeed<'c, T> {
     }
 }
 
-/// An error for a list that is too long.
+/// The error for a list that is too long.
 fn too_many<E: serde::de::Error>(most: usize) -> E {
     E::custom(format!("a list of more than {most}: is a decimal point missing?"))
 }

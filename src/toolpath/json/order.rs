@@ -1,33 +1,33 @@
-//! Allows the keys of an object in any order, as JSON does. If a list comes before other keys of its object, the text is
-//! read in parts, with the list last.
+//! Allows the keys of a job's objects in any order, as JSON does. The reader needs lists after all other keys. If a list
+//! comes earlier, the text is read in parts, with the list last.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
-/// A piece of the text, or a separator between two pieces.
+/// A part of the text to read next, or a character between two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Bytes `from..to`, with the line and column of the first byte, from 1.
+    /// The bytes from `from` to `to` (excluded), with the line and column of the first byte, from 1.
     Text { from: u64, to: u64, line: u64, column: u32 },
-    /// One byte of JSON.
+    /// One byte of JSON, such as a comma.
     Sign(u8),
 }
 
-/// Number of bytes at the end of the text that show the order of keys.
+/// Number of bytes at the end and at the beginning of the text that are examined first.
 const TAIL: u64 = 512;
 const HEAD: u64 = 16 << 10;
 
-/// The order of the keys of a job.
+/// How the keys of a job are ordered in its text.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Order {
-    /// The text is read from start to end: its beginning and its end show the usual order, or it is not such a document.
+    /// The text is read from start to end. Either its keys are in the usual order, or it is not a job document.
     Usual,
-    /// Lists come before other keys: the text is read in these parts.
+    /// Lists come before other keys. The text is read in these parts.
     Late(Vec<Part>),
-    /// Lists come before other keys, and the text is not a complete JSON document or has invalid lists.
+    /// Lists come before other keys, but the text is not a complete JSON document or has invalid lists.
     Broken,
 }
 
-/// Determines the order of the keys of a job.
+/// Determines the order of the keys in a job.
 ///
 /// # Errors
 /// Reading the input fails.
@@ -54,7 +54,8 @@ pub fn order(input: &mut (impl Read + Seek)) -> io::Result<Order> {
     })
 }
 
-/// Whether a job ends with the list of its operations, and the last operation ends with its path.
+/// Whether the text ends like a job in the usual order: the operations are its last list, and the path is the last key of the last
+/// operation.
 fn ends_as_usual(tail: &[u8]) -> bool {
     let mut signs = tail.iter().rev().filter(|byte| !byte.is_ascii_whitespace());
     let mut next = || signs.next().copied();
@@ -62,13 +63,13 @@ fn ends_as_usual(tail: &[u8]) -> bool {
         return false;
     }
     match next() {
-        Some(b'[') => true, // no operation
+        Some(b'[') => true, // there is no operation
         Some(b'}') => next() == Some(b']'),
         _ => false,
     }
 }
 
-/// The text, byte by byte.
+/// Scans the text byte by byte.
 struct Scan<R> {
     input: BufReader<R>,
     next: Option<u8>,
@@ -80,9 +81,9 @@ struct Scan<R> {
     is_late: bool,
 }
 
-/// A key with its value.
+/// The text of a key and its value.
 struct Entry {
-    /// Index of the list; `None`: the key is not a list.
+    /// Index of the list; `None` if the value is not a list that is read as a stream.
     list: Option<usize>,
     parts: Vec<Part>,
 }
@@ -93,12 +94,12 @@ impl<R: Read> Scan<R> {
         Scan { input, next: None, at: 0, line: 1, column: 1, is_late: false }
     }
 
-    /// The parts of a job; `None`: the text is not a job, or is not complete.
+    /// The parts of a job; `None`: the text is not a job, or it is not complete.
     fn job(&mut self) -> io::Result<Option<Vec<Part>>> {
         self.begin()?;
         let mut parts = Vec::new();
         let whole = self.object(&mut parts, &["subprograms", "operations"], true)?;
-        // the reader handles any text after the job
+        // the reader checks the text after the job
         let (from, line, column) = self.here();
         parts.push(Part::Text { from, to: u64::MAX, line, column });
         Ok(whole.map(|_| parts))
@@ -116,7 +117,7 @@ impl<R: Read> Scan<R> {
         }
     }
 
-    /// Skips the byte order mark of UTF-8.
+    /// Skips the byte order mark of UTF-8, if there is one.
     fn begin(&mut self) -> io::Result<()> {
         self.next = self.read()?;
         if self.next == Some(0xef) {
@@ -146,7 +147,7 @@ impl<R: Read> Scan<R> {
         Ok(())
     }
 
-    /// Takes this byte after skipping spaces. Returns `false` if another byte is next.
+    /// Skips spaces and then this byte. Returns `false` if the next byte is another one.
     fn takes(&mut self, sign: u8) -> io::Result<bool> {
         self.blanks()?;
         let is_next = self.next == Some(sign);
@@ -156,7 +157,7 @@ impl<R: Read> Scan<R> {
         Ok(is_next)
     }
 
-    /// A string as written, cut to the length of keys; `None`: there is no string.
+    /// Reads a string as written, cut to a length that is sufficient for keys. `None`: there is no string.
     fn string(&mut self) -> io::Result<Option<Vec<u8>>> {
         const LONGEST: usize = 64;
         if !self.takes(b'"')? {
@@ -169,7 +170,7 @@ impl<R: Read> Scan<R> {
                 Some(b'"') => break,
                 Some(b'\\') => {
                     self.pass()?;
-                    text.push(b'\\'); // no key of a job has a backslash
+                    text.push(b'\\'); // no key of a job contains a backslash
                 }
                 Some(byte) if text.len() < LONGEST => text.push(byte),
                 Some(_) => {}
@@ -180,7 +181,7 @@ impl<R: Read> Scan<R> {
         Ok(Some(text))
     }
 
-    /// Skips a value of any kind. Returns `false` if the text ends first.
+    /// Skips any value. Returns `false` if the text ends first.
     fn value(&mut self) -> io::Result<bool> {
         self.blanks()?;
         let mut depth = 0u64;
@@ -217,8 +218,8 @@ impl<R: Read> Scan<R> {
         Part::Text { from, to: self.at, line, column }
     }
 
-    /// Adds the parts of an object, its lists last. Returns whether a list comes before another key, here or in a nested
-    /// object; `None`: this is not an object.
+    /// Adds the parts of an object, with its lists last. Returns whether a list comes before another key, here or in an
+    /// object inside. `None`: there is no object.
     fn object(&mut self, parts: &mut Vec<Part>, lists: &[&str], is_job: bool) -> io::Result<Option<bool>> {
         let start = {
             self.blanks()?;
@@ -278,7 +279,7 @@ impl<R: Read> Scan<R> {
         Ok(Some(true))
     }
 
-    /// Adds the parts of a list of objects with its key.
+    /// Adds the parts of a list of objects and of its key.
     fn list(&mut self, begin: (u64, u64, u32), parts: &mut Vec<Part>) -> io::Result<Option<bool>> {
         self.takes(b'[')?;
         parts.push(self.text(begin));
@@ -301,11 +302,11 @@ impl<R: Read> Scan<R> {
     }
 }
 
-/// A text that is read in parts.
+/// A reader that reads a text in parts.
 pub struct InParts<'p, R> {
     input: R,
     parts: std::slice::Iter<'p, Part>,
-    /// Remaining bytes of the current part.
+    /// Number of bytes of the current part that are not read yet.
     left: u64,
 }
 
@@ -315,8 +316,8 @@ impl<'p, R: Read + Seek> InParts<'p, R> {
         InParts { input, parts: parts.iter(), left: 0 }
     }
 
-    /// Reads bytes, but not beyond the end of a part. At the beginning of a part, also returns the line and column of its
-    /// first byte.
+    /// Reads bytes, but not beyond the end of a part. If they are the first of a part, also returns the line and column
+    /// of the first byte.
     pub fn read_part(&mut self, out: &mut [u8]) -> io::Result<(usize, Option<(u64, u32)>)> {
         let mut begins = None;
         if self.left == 0 {
@@ -335,7 +336,7 @@ impl<'p, R: Read + Seek> InParts<'p, R> {
         }
         let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(out.len());
         let count = self.input.read(&mut out[..most])?;
-        // a file that was shortened meanwhile ends in the middle of a value
+        // if the file was shortened meanwhile, the text ends inside a value
         self.left = if count == 0 { 0 } else { self.left - count as u64 };
         Ok((count, begins))
     }
@@ -377,7 +378,7 @@ mod tests {
             reordered(r#"{"operations": [], "name": "]}\"", "subprograms": [ ] , "units": "mm" }"#).unwrap(),
             r#"{"name": "]}\"","units": "mm","subprograms": [],"operations": []}"#
         );
-        // the end of the text by itself would indicate the usual order
+        // if only the end of this text were examined, the order would seem usual
         assert_eq!(
             reordered(r#"{"operations": [{"path": [], "tool": 1}], "subprograms": [{"number": 1, "path": []}]}"#)
                 .unwrap(),

@@ -1,4 +1,4 @@
-//! Points of a cycle.
+//! Reads the points of a cycle.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use super::values::{Number, Point, Position, position};
 use crate::diag::{Code, Diag};
 use crate::toolpath::Hole;
 
-/// Reads a point: a position, or an object with a depth of its own.
+/// Reads a point: a position, or an object with a position and its own depth.
 pub struct PointSeed<'c> {
     /// The shared context.
     pub context: &'c Context,

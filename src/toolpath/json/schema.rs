@@ -1,11 +1,11 @@
-//! The JSON Schema of a job document, made from the tables of its reader.
+//! The JSON Schema of a job document. It is generated from the tables of the reader.
 
 use serde_json::{Value, json};
 
 use super::objects::{CycleObject, ItemObject, JobHead, OperationHead, SubprogramHead};
 use super::values::{Point, Position};
 
-/// The schema as a document. Lists that are read as streams are not in the tables and are added by this function.
+/// The schema as a document. This function adds the lists that are read as streams, because they are not in the tables.
 pub fn schema() -> Value {
     let mut generator = schemars::SchemaGenerator::default();
     let list =
@@ -35,7 +35,7 @@ pub fn schema() -> Value {
     root
 }
 
-/// Removes null: a key may be left out but must not be null. Only coordinates of a position may be null.
+/// Removes null from the schema: a key may be left out, but its value must not be null. Only coordinates may be null.
 fn without_null(schema: &mut Value) {
     let Value::Object(object) = schema else { return };
     for (key, value) in object.iter_mut() {

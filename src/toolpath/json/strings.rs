@@ -1,21 +1,21 @@
-//! Limits the length of strings in a job. A longer string is refused before it is in memory.
+//! Limits the length of strings in a job. A string that is too long is refused before it is completely in memory.
 
 use crate::diag::{Code, Diag};
 
 /// The longest string, in bytes as written.
 pub const LONGEST: usize = 1 << 20;
 
-/// Tracks the strings of a JSON text.
+/// Follows a JSON text and measures its strings.
 #[derive(Default)]
 pub struct Strings {
-    /// Bytes of the open string so far.
+    /// Number of bytes of the current string so far; `None` outside strings.
     open: Option<usize>,
-    /// Whether the next byte comes after a backslash.
+    /// Whether the previous byte is a backslash.
     escaped: bool,
 }
 
 impl Strings {
-    /// Takes the next bytes. Returns `false` if a string is too long.
+    /// Processes the next bytes. Returns `false` if a string is too long.
     pub fn take(&mut self, bytes: &[u8]) -> bool {
         let mut from = 0;
         while from < bytes.len() {
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn strings_are_followed_over_all_borders() {
-        // feeds the text in chunks of each size
+        // passes the text in chunks of this size
         let taken = |text: &str, parts: usize| {
             text.as_bytes().chunks(parts).all({
                 let mut strings = Strings::default();
@@ -71,7 +71,7 @@ mod tests {
             assert!(taken(&format!("{{\"{long}\":[\"{long}\",\"\\\\\"],\"\\\"\":1}}"), parts));
             assert!(!taken(&format!("[\"\\\"\",\"{long}a\"]"), parts));
             assert!(!taken(&format!("\"{}\"", "\\\"".repeat(LONGEST / 2 + 1)), parts));
-            // bytes outside strings are not counted
+            // bytes outside of strings are not counted
             assert!(taken(&" ".repeat(2 * LONGEST), parts));
         }
     }

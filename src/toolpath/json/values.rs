@@ -1,4 +1,4 @@
-//! Leaf values of a job: numbers, words from a list, positions.
+//! The simple values of a job: numbers, words of a list, positions.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -37,7 +37,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// A number, a text, or `true` or `false`, which are read as `yes` and `no`.
+/// Reads a number, a text, or `true` and `false`, which become `yes` and `no`.
 impl<'de> Deserialize<'de> for Given {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct GivenVisitor;
@@ -66,13 +66,13 @@ impl<'de> Deserialize<'de> for Given {
     }
 }
 
-/// A value that is written as a word of a fixed list.
+/// A value that is written as one word of a fixed list.
 pub trait Words: Copy + 'static {
     /// The words and their values.
     const WORDS: &'static [(&'static str, Self)];
 }
 
-/// One of the words of `T`.
+/// A value of type `T`, read from its word.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Word<T>(pub T);
 
@@ -141,7 +141,7 @@ impl Words for Coolant {
     const WORDS: &'static [(&'static str, Self)] = &Coolant::NAMES;
 }
 
-/// Coolant: a kind, or a list of kinds that are on at once.
+/// Coolant, written as one kind or as a list of kinds that are on at the same time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinds(pub Coolant);
 
@@ -193,7 +193,7 @@ impl schemars::JsonSchema for Kinds {
     }
 }
 
-/// The mode of a spindle speed.
+/// The unit of a spindle speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum SpeedMode {
@@ -201,7 +201,7 @@ pub enum SpeedMode {
     Css,
 }
 
-/// Kind of pecks of a tap.
+/// How a tap pecks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum PeckMode {
@@ -209,7 +209,7 @@ pub enum PeckMode {
     Chipbreak,
 }
 
-/// The start position for the steps of a peck cycle.
+/// From where the steps of a peck cycle are counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum StepFrom {
@@ -217,7 +217,7 @@ pub enum StepFrom {
     Point,
 }
 
-/// A list that a single hole needs in memory. It has at most `MOST_PECKS` entries.
+/// A list that postform keeps in memory for a hole. It has at most `MOST_PECKS` entries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Few<T>(pub Vec<T>);
 
@@ -235,11 +235,11 @@ impl<T: schemars::JsonSchema> schemars::JsonSchema for Few<T> {
     }
 }
 
-/// A position of up to six numbers. `null` keeps the position of the axis.
+/// A position of up to six numbers. For `null`, the axis keeps its position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position(pub Axes);
 
-/// Reads a position from an open sequence.
+/// Reads a position from a sequence that is already open.
 pub fn position<'de, A: SeqAccess<'de>>(mut seq: A) -> Result<Position, A::Error> {
     let mut axes = Axes::default();
     let mut axis = 0;

@@ -1,4 +1,4 @@
-//! The text of a document as it is read: a window of it, with the line and column of its beginning.
+//! Buffers the text of a document: a window into the text, with the line and column where it begins.
 
 use std::cell::{Cell, RefCell};
 use std::io::{Read, Seek};
@@ -7,17 +7,17 @@ use super::context::Context;
 use super::order::InParts;
 use super::strings::{Strings, too_long};
 
-/// A text that is read in parts.
+/// A text that may be read in parts.
 pub(super) trait Text {
-    /// Reads the next bytes. If they are from another location in the text, also returns the line and column of the first
-    /// byte.
+    /// Reads the next bytes. If they do not follow the previous bytes in the file, also returns the line and column of
+    /// the first byte.
     fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)>;
 
-    /// Whether the text may begin with a byte order mark.
+    /// Whether reading begins at the start of the file, where a byte order mark may be.
     const IS_WHOLE: bool;
 }
 
-/// A text in its own order.
+/// A text that is read from start to end.
 pub(super) struct AsItStands<R>(pub R);
 
 impl<R: Read> Text for AsItStands<R> {
@@ -37,10 +37,10 @@ impl<R: Read + Seek> Text for InParts<'_, R> {
     const IS_WHOLE: bool = false;
 }
 
-/// The part of the text that was read and not yet taken.
+/// The part of the text that is buffered and not yet consumed.
 pub(super) struct Window {
     pub buffer: RefCell<Box<[u8; 64 * 1024]>>,
-    /// Where the rest begins and ends.
+    /// The beginning and end of this part in the buffer.
     pub from: Cell<usize>,
     pub to: Cell<usize>,
 }
@@ -51,7 +51,7 @@ impl Default for Window {
     }
 }
 
-/// Counts lines and columns of the bytes taken. serde_json takes one byte at a time.
+/// A reader that counts the lines and columns of the bytes that are consumed. serde_json consumes one byte at a time.
 pub(super) struct Counting<'a, R> {
     input: R,
     context: &'a Context,
@@ -60,7 +60,7 @@ pub(super) struct Counting<'a, R> {
 }
 
 impl<'a, R: Text> Counting<'a, R> {
-    /// A reader of a text. What it has read and not passed on is in the window.
+    /// A reader of a text. The bytes that it has read and not passed on are in the window.
     pub fn new(input: R, context: &'a Context, window: &'a Window) -> Counting<'a, R> {
         Counting { input, context, strings: Strings::default(), window }
     }
@@ -79,7 +79,7 @@ impl<'a, R: Text> Counting<'a, R> {
         Ok(window.to.get() - window.from.get())
     }
 
-    /// Reads more bytes. Returns 0 at the end.
+    /// Reads more bytes into the window. Returns 0 at the end of the text.
     fn fill(&mut self) -> std::io::Result<usize> {
         let (mut buffer, to) = (self.window.buffer.borrow_mut(), self.window.to.get());
         loop {
@@ -90,7 +90,7 @@ impl<'a, R: Text> Counting<'a, R> {
                     if let Some((line, column)) = begins {
                         self.context.at.set((line, column - 1));
                     }
-                    // serde would keep a whole string in memory first
+                    // otherwise serde_json would first keep the whole string in memory
                     if !self.strings.take(&buffer[to..to + count]) {
                         return Err(self.context.fail_reading(too_long()));
                     }

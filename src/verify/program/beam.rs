@@ -1,4 +1,4 @@
-//! Checks that a torch or laser is on in cuts and off in rapids, and that rapids do not move at the height of the cuts.
+//! Checks that a torch or laser is on in cuts and off in rapids, and that no rapid moves across at the height of the cuts.
 
 use super::Program;
 use crate::control::Control;
@@ -6,19 +6,19 @@ use crate::diag::Code;
 use crate::lang::Beam;
 use crate::nc::{Position, Rotation};
 
-/// State of the torch or laser of a program.
+/// The torch or laser of a program, and what was found about its heights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switched {
     beam: Beam,
     /// Whether the control turns a laser off in rapids, as Grbl does in its laser mode.
     is_off_in_rapids: bool,
-    /// Height of the last cut, if the program contains it.
+    /// Height of the last cut, if the height is known.
     cut: Option<f64>,
-    /// Whether a rapid has since gone higher than that cut, or home.
+    /// Whether a rapid has gone higher than the last cut since then, or home.
     is_up: bool,
-    /// Whether a rapid has gone across higher than the cut before it.
+    /// Whether some rapid across was higher than the cut before it.
     lifts: bool,
-    /// Line of the first rapid that goes across at the height of the cut before it.
+    /// Line of the first rapid across that was not higher than the cut before it.
     low: Option<u64>,
 }
 
@@ -30,7 +30,7 @@ impl Switched {
 }
 
 impl Program<'_> {
-    /// Whether the torch or laser is on; `None`: the program has none.
+    /// Whether the torch or laser is on; `None`: the machine has neither.
     pub(super) fn beam_is_on(&self) -> Option<bool> {
         self.beam.map(|switched| self.is_on(switched.beam))
     }
@@ -40,13 +40,13 @@ impl Program<'_> {
         self.state.rotation != Some(Rotation::Stop) && (beam == Beam::Torch || self.state.speed != Some(0.0))
     }
 
-    /// Checks a cut to `to`, in the program's own numbers.
+    /// Checks a cut to the position `to`, which is in the program's units.
     pub(super) fn beam_cuts(&mut self, to: &Position, line: u64) {
         let Some(switched) = &mut self.beam else { return };
         let height_is_known = self.simulator.state().at_machine() & 0b100 == 0;
         (switched.cut, switched.is_up) = (height_is_known.then_some(to[2]), false);
         let beam = switched.beam;
-        // M4 is the other direction, which does not light a torch
+        // M4 turns the other way, which does not light a torch
         let is_lit = beam != Beam::Torch || self.state.rotation != Some(Rotation::Ccw);
         if !self.is_on(beam) || !is_lit {
             let message = format!("the {} is off in this cut", beam.name());
@@ -55,7 +55,7 @@ impl Program<'_> {
         }
     }
 
-    /// Checks a rapid to `to`, in the program's own numbers. `across`: along X or Y. `machine`: the axes that go home.
+    /// Checks a rapid to the position `to`, in the program's units. `across`: along X or Y. `machine`: the axes that go home.
     pub(super) fn beam_goes(&mut self, to: &Position, across: bool, machine: u8, line: u64) {
         let Some(switched) = &mut self.beam else { return };
         switched.is_up |= machine & 0b100 != 0 || switched.cut.is_some_and(|cut| to[2] > cut);
@@ -68,7 +68,7 @@ impl Program<'_> {
             None => {}
         }
         let (beam, is_off) = (switched.beam, switched.is_off_in_rapids);
-        // a form that lifts the tool in one rapid must lift it in all
+        // if the form lifts the tool in one rapid, it must lift it in all of them
         if let Some(low) = switched.low.take_if(|_| switched.lifts) {
             let message = format!(
                 "the {} moves across at cutting height, although the form lifts it at other moves",

@@ -2,12 +2,12 @@
 
 use crate::verify::passage::TOO_LONG;
 
-/// The reason why a cut can't be compared.
+/// The reason why a cut of the program can't be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// The passage before the cut is too long.
+    /// The passage before the cut is too long to keep.
     TooLong,
-    /// This line has an increment from an unknown position.
+    /// This line has an incremental move from an unknown position.
     Astray(u64),
     /// The feed move of this line ends at a position that is known only at the machine.
     Home(u64),

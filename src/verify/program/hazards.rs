@@ -1,4 +1,4 @@
-//! Hazards of a program that no control refuses. They are found while the program runs, independent of the job.
+//! Finds hazards of a program that no control refuses. They are found while the program runs, without the job.
 
 use super::Program;
 use crate::control::Rules;
@@ -7,7 +7,7 @@ use crate::nc::Rotation;
 use crate::verify::finding::Finding;
 
 impl Program<'_> {
-    /// Reports a move in a frame that G92 set at a position known only at the machine.
+    /// Reports a move in a frame that G92 set while the position was known only at the machine.
     pub(super) fn check_frame(&mut self, unknown: u8, line: u64) {
         if self.scale.axes(self.simulator.state().frame_unknown()) & !unknown != 0 {
             let message = "the program moves in a frame that G92 set at an unknown machine position";
@@ -15,7 +15,7 @@ impl Program<'_> {
         }
     }
 
-    /// Whether the frame is moved along X or Y. A move along an ignored depth is allowed.
+    /// Whether the program moves its coordinate frame along X or Y. For a form without depth axis, a move along Z is allowed.
     pub(super) fn frame_goes_across(&self) -> bool {
         let state = self.simulator.state();
         state.frame_unknown() & 0b11 != 0 || state.frame_shift()[..2] != [0.0; 2] || self.simulator.sets_offset_across()
@@ -46,13 +46,13 @@ impl Program<'_> {
         } else if !self.ended && self.control.rules() == Rules::Fanuc {
             self.hazard(Code::PV016, line, "the program has no end", "print M30 or M2 in EndCode");
         } else if !self.ended && self.state.rotation != Some(Rotation::Stop) {
-            // `%` ends the program and switches nothing off
+            // `%` ends the program and switches neither spindle nor coolant off
             self.hazard(Code::PV016, line, "the program ends while its spindle turns", "print M2 or M30 in EndCode");
         }
     }
 
     pub(super) fn hazard(&mut self, code: Code, line: u64, message: &str, help: &'static str) {
-        // a form repeats the same mistake at every tool
+        // a form repeats the same mistake at every tool, so it is reported once and counted
         if let Some(told) = self.hazards.iter_mut().find(|told| told.code == code && told.message == message) {
             told.times += 1;
             return;

@@ -1,4 +1,4 @@
-//! The program's side: its cuts, each with everything before it.
+//! The program's side of the comparison: its cuts, each with everything before it.
 
 mod beam;
 mod doubt;
@@ -25,7 +25,7 @@ use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
-/// A program that is run as far as requested.
+/// A program that is simulated only as far as the comparison needs.
 pub(super) struct Program<'a> {
     simulator: Simulator<'a>,
     control: &'static Control,
@@ -36,13 +36,13 @@ pub(super) struct Program<'a> {
     /// Position of the tool.
     at: Place,
     unknown: u8,
-    /// Those of the `unknown` axes whose machine position is given in the program.
+    /// The axes among `unknown` whose machine position is given in the program.
     placed: u8,
     state: Shared,
     spin: Spin,
     mode: FeedMode,
     cycle: bool,
-    /// Rotation of the spindle before a tap of the control, which starts the spindle itself.
+    /// Rotation of the spindle before the tapping cycle of a control, because this cycle starts the spindle itself.
     before_tap: Option<Option<Rotation>>,
     due: Due,
     scale: Scale,
@@ -52,14 +52,14 @@ pub(super) struct Program<'a> {
     pub wire: Codes,
     /// Coolant codes of the form: on, off, mist.
     coolant: [f64; 3],
-    /// Everything before the cut.
+    /// Everything between the last cut and the next one.
     pub passage: Passage,
     cuts: bool,
-    /// The reason why the cut can't be compared.
+    /// The reason why the current cut can't be compared.
     doubt: Option<Doubt>,
     /// Whether a code ended the program.
     ended: bool,
-    /// An error of running ahead. It is returned at the next request for a cut.
+    /// An error while running ahead. The next request for a cut returns it.
     failed: Option<RunError>,
     cut: Option<Cut>,
     /// Hazards found so far.
@@ -67,10 +67,10 @@ pub(super) struct Program<'a> {
 }
 
 impl<'a> Program<'a> {
-    /// A program that runs with these settings and with the form's meaning of its words.
+    /// A program that runs with these settings. The form defines the meaning of some of its words.
     pub fn new(input: impl Read + Seek + 'a, settings: RunSettings, expectation: &Expectation) -> Program<'a> {
         let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
-        // the state at power-up
+        // the state after power-on
         let state = State {
             side: Some(None),
             rotation: Some(Rotation::Stop),
@@ -125,7 +125,7 @@ impl<'a> Program<'a> {
         self.scale.units = units;
     }
 
-    /// Sets the number of subprograms before the main program. Each has its O word.
+    /// Sets the number of subprograms before the main program. Each of them begins with an O word.
     pub fn begin_behind(&mut self, subprograms: usize) {
         self.simulator.begin_behind(subprograms);
     }
@@ -147,25 +147,25 @@ impl<'a> Program<'a> {
         self.begins(0b011);
     }
 
-    /// Begins the program at a position that is known only at the machine.
+    /// Sets the start of the program to a position that is known only at the machine. `unknown`: its unknown axes.
     fn begins(&mut self, unknown: u8) {
         self.unknown = unknown;
         let start = Rapid { to: place(&[0.0; 6]), unknown, spin: None };
         self.passage = Passage::new(Some(start), self.frame());
     }
 
-    /// Sets the units of compared positions.
+    /// Sets the units in which positions are compared.
     pub fn want(&mut self, units: Units) {
         self.scale.wanted = units;
     }
 
-    /// The cut that the program has reached.
+    /// The cut that the program has reached and that is not yet taken.
     pub fn cut(&self) -> Option<&Cut> {
         self.cut.as_ref()
     }
 
-    /// Runs the program to its next cut. The cut stays until it is taken. `None`: the program has ended, or the passage
-    /// before the cut is too long ([`Doubt::TooLong`]).
+    /// Runs the program to its next cut. The cut stays current until it is taken. `None`: the program has ended, or the
+    /// passage before the cut is too long ([`Doubt::TooLong`]).
     ///
     /// # Errors
     /// The program can't be read, or its control refuses a block.
@@ -177,14 +177,14 @@ impl<'a> Program<'a> {
         Ok(self.cut())
     }
 
-    /// The reason why the reached cut can't be compared.
+    /// The reason why the current cut can't be compared.
     #[inline]
     pub fn doubt(&self) -> Option<Doubt> {
         self.doubt
     }
 
-    /// Runs the program up to its next cut while more text waits. This does not depend on the job's events before its own
-    /// next cut.
+    /// Runs the program ahead, up to its next cut, while more text waits. The job's events before its own next cut have
+    /// no influence on this part.
     pub fn run_on(&mut self, waits: &dyn Fn() -> bool) {
         while self.failed.is_none() && waits() {
             match self.goes_on() {
@@ -195,13 +195,13 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Whether the program failed to run on.
+    /// Whether running ahead has failed.
     pub fn has_failed(&self) -> bool {
         self.failed.is_some()
     }
 
-    /// Takes the actions of the last block up to its next cut. If there is no cut, runs the next block. Returns `false`
-    /// at a cut, at the end, or if the passage is too long.
+    /// Processes the actions of the last block up to its next cut. If it has no cut, runs the next block. Returns
+    /// `false` at a cut, at the end, or if the passage is too long.
     #[inline]
     fn goes_on(&mut self) -> Result<bool, RunError> {
         if self.next < self.items.len() {
@@ -217,7 +217,7 @@ impl<'a> Program<'a> {
                 self.doubt = Some(Doubt::TooLong);
             }
         }
-        // a Grbl would accept more blocks if its sender continued
+        // Grbl would accept more blocks after M2 or M30 if its sender continued, but nothing is compared after the end
         if self.cut.is_some() || self.over || self.ended || self.doubt == Some(Doubt::TooLong) {
             return Ok(false);
         }
@@ -233,7 +233,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Passes over the current cut: the passage before it continues to the next cut.
+    /// Skips the current cut: the passage before it continues to the next cut.
     pub fn pass_over(&mut self) {
         if let Some(cut) = self.cut.take() {
             self.at = cut.end();
@@ -241,7 +241,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// The beginning of the path: the end of the last cut.
+    /// The beginning of the path, which is the end of the last cut.
     pub fn start(&self) -> Rapid {
         self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, spin: None })
     }
@@ -274,7 +274,7 @@ impl<'a> Program<'a> {
             Action::Rapid { to, machine, astray, placed } => self.rapid(to, [*machine, *astray, *placed], item.line),
             Action::Threading(words) => self.state.thread = *words,
             Action::Feed { to, feed, lead, home, .. } => {
-                // a feed that follows the spindle
+                // the control synchronises the feed with the spindle
                 let feed = match (lead, self.mode, self.state.speed) {
                     (Some(lead), FeedMode::PerMinute, Some(speed)) if !self.state.css => lead * speed,
                     (Some(lead), FeedMode::PerRev, _) => *lead,
@@ -304,9 +304,9 @@ impl<'a> Program<'a> {
                 self.passage.waits.push(mark);
             }
             Action::Stop(kind) => self.stop(*kind, item),
-            // Grbl reads M1 and continues, as other controls do with the optional stop off
+            // Grbl ignores M1, like other controls whose optional stop is off
             Action::LeftOut(_, Meaning::StopOptional) => self.stop(StopKind::Optional, item),
-            // a speed alone starts nothing
+            // a speed without a direction does not start the spindle
             Action::Spindle(_, speed) if !item.by_cycle && self.simulator.only_says_speed() => {
                 self.state.speed = Some(*speed);
             }
@@ -345,7 +345,7 @@ impl<'a> Program<'a> {
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
             Action::Frame if self.scale.flat && !self.frame_goes_across() => {}
-            // this is reported at the first move in the frame
+            // this is reported later, at the first move in the new frame
             Action::Frame if self.scale.axes(self.simulator.state().frame_unknown()) != 0 => {}
             Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
                 let message = "the program moves its coordinate frame, so the positions of the job are shifted";
@@ -411,7 +411,7 @@ impl<'a> Program<'a> {
     fn stop(&mut self, kind: StopKind, item: &Item) {
         let mark = self.passage.mark(kind, item.line, toolpath::Place::default());
         self.passage.stops.push(mark);
-        // a Haas stops the spindle; on other controls a form must not rely on its running on
+        // a Haas stops the spindle at M0; on other controls a form must not rely on a running spindle
         if kind == StopKind::Program && !item.by_cycle && !self.control.is_linuxcnc() {
             self.state.rotation = Some(Rotation::Stop);
             self.state.coolant = Some(Cooling::Off);
@@ -434,7 +434,7 @@ impl<'a> Program<'a> {
             }
         }
         if self.control.is_lathe() {
-            self.unknown |= 0b101; // the turret indexes, and the active spindle changes with it
+            self.unknown |= 0b101; // the turret indexes, so X and Z are unknown
             return;
         }
         self.state.rotation = Some(Rotation::Stop);
@@ -442,7 +442,7 @@ impl<'a> Program<'a> {
         self.unknown |= 0b100;
     }
 
-    /// Handles a code that is not simulated. It may be a coolant code of the form, or make the next tap rigid.
+    /// Handles a code that is not simulated. It may be a coolant code of the form or the code that makes the next tap rigid.
     fn left_out(&mut self, code: control::Code, meaning: Meaning) {
         self.passage.codes.push((code.letter, code.tenths));
         if meaning == Meaning::RigidAhead && self.state.rigid.is_some() {

@@ -1,4 +1,4 @@
-//! Rapids and cuts of the program, with checks before them.
+//! The rapids and cuts of the program, and the checks before them.
 
 use super::{Doubt, Program};
 use crate::nc::{Action, Item, Position};
@@ -16,7 +16,7 @@ impl Program<'_> {
             return; // nothing moves
         }
         self.check_frame(unknown, line);
-        // on a mill the height must be known, on a lathe both axes
+        // on a mill the height must be known, on a lathe X and Z
         let heights = if self.scale.lathe { 0b101 } else { 0b100 };
         let watched = if self.scale.wire.is_some() { 0b11 } else { heights };
         if self.scale.axes(astray) & watched != 0 {

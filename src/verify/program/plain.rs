@@ -1,12 +1,12 @@
-//! The usual cut of a program: straight, directly after another one and in the same state. It is compared without being made a
-//! [`Cut`](super::Cut), because most cuts of long programs are of this kind.
+//! The most frequent cut of a program: straight, directly after another cut and with the same state. It is compared without
+//! creating a [`Cut`](super::Cut), because most cuts of long programs are of this kind.
 
 use super::Program;
 use crate::nc::{Action, Item, RunError};
 use crate::toolpath::FeedMode;
 use crate::verify::cut::{Place, Rapid, Shared};
 
-/// A usual cut.
+/// A cut of the most frequent kind.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Plain {
     /// The end of the cut.
@@ -16,7 +16,7 @@ pub(in super::super) struct Plain {
 }
 
 impl Program<'_> {
-    /// The position and the state in which a usual cut would begin. `None`: the next cut is not usual.
+    /// The position and the state at which a cut of this kind would begin. `None`: the next cut is of another kind.
     #[inline]
     pub fn before_plain(&self) -> Option<(&Place, FeedMode, &Shared)> {
         let is_usual = self.cut.is_none()
@@ -35,8 +35,8 @@ impl Program<'_> {
         is_usual.then_some((&self.at, self.mode, &self.state))
     }
 
-    /// Runs the next block after [`Program::before_plain`], and returns its cut if this is usual. The cut must then be ended by
-    /// [`Program::take_plain`]; otherwise [`Program::run_to_cut`] reaches it.
+    /// Runs the next block after [`Program::before_plain`]. Returns its cut if it is of this kind. Then call
+    /// [`Program::take_plain`]; otherwise [`Program::run_to_cut`] reaches the cut.
     #[inline]
     pub fn next_plain(&mut self) -> Option<Plain> {
         if let Err(error) = self.run_block() {
@@ -64,7 +64,7 @@ impl Program<'_> {
         self.ends_cut(cut.to);
     }
 
-    /// Runs the next block. Its actions are taken afterwards.
+    /// Runs the next block. Its actions are processed later.
     #[inline]
     pub(super) fn run_block(&mut self) -> Result<(), RunError> {
         self.items.clear();
@@ -77,11 +77,11 @@ impl Program<'_> {
         Ok(())
     }
 
-    /// Ends a cut: the next passage begins.
+    /// Ends a cut and begins the next passage.
     #[inline]
     pub(super) fn ends_cut(&mut self, at: Place) {
         self.at = at;
-        // a cut may contain a height that was unknown before
+        // the end of the cut may give a height that was unknown before
         self.unknown = self.scale.unknown(self.simulator.state().at_machine());
         self.passage.begin(Rapid { to: at, unknown: self.unknown, spin: Some(self.spin) });
         self.cuts = true;

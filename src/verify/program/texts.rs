@@ -1,4 +1,4 @@
-//! Texts of the program's lines, for findings.
+//! The texts of the program's lines, for findings.
 
 use super::Program;
 use crate::verify::recent_lines::Recent;
@@ -9,7 +9,7 @@ impl Program<'_> {
         String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
     }
 
-    /// The text of a recent line; empty if the line is too old.
+    /// The text of a recent line; empty if the line is no longer kept.
     pub fn text_of(&self, line: u64) -> String {
         let now = || (line == self.simulator.line()).then(|| self.text());
         self.recent.text(line).or_else(now).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! An editor as `postform lsp` sees one: messages over its standard input and output.
+//! An editor for tests of `postform lsp`: it exchanges messages over the server's standard input and output.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-/// Longer than any answer takes on a machine that does much else.
+/// Longer than any answer takes, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A session with the server.
@@ -17,13 +17,13 @@ pub struct Editor {
     child: Child,
     input: Option<ChildStdin>,
     messages: Receiver<Value>,
-    /// Messages that nobody waited for.
+    /// Messages that came while the editor waited for another one.
     pub others: Vec<Value>,
     next: i32,
     folder: PathBuf,
 }
 
-/// What an editor of today can do.
+/// The capabilities of a current editor.
 pub fn able() -> Value {
     json!({
         "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } },
@@ -33,7 +33,7 @@ pub fn able() -> Value {
 }
 
 impl Editor {
-    /// The server in a folder, before `initialize`.
+    /// Starts the server in a folder, before `initialize`.
     pub fn start(folder: &Path) -> Editor {
         let mut command = Command::new(env!("CARGO_BIN_EXE_postform"));
         command.arg("lsp").current_dir(folder);
@@ -52,7 +52,7 @@ impl Editor {
         Editor { child, input, messages, others: Vec::new(), next: 0, folder: folder.to_path_buf() }
     }
 
-    /// The server in a folder, ready, for an editor that can do this.
+    /// Starts the server in a folder for an editor with these capabilities, and initializes it.
     pub fn open(folder: &Path, capabilities: &Value, options: &Value) -> Editor {
         let mut editor = Editor::start(folder);
         let root = uri(folder);
@@ -65,7 +65,7 @@ impl Editor {
         editor
     }
 
-    /// Sends bytes as they are.
+    /// Sends bytes unchanged.
     pub fn send(&mut self, bytes: &[u8]) {
         self.input.as_mut().unwrap().write_all(bytes).unwrap();
     }
@@ -75,17 +75,17 @@ impl Editor {
         self.send(format!("Content-Length: {}\r\n\r\n{text}", text.len()).as_bytes());
     }
 
-    /// A notice.
+    /// Sends a notification.
     pub fn tell(&mut self, method: &str, params: &Value) {
         self.post(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
     }
 
-    /// The next message.
+    /// Receives the next message.
     pub fn next(&mut self) -> Value {
         self.messages.recv_timeout(PATIENCE).expect("an answer of the server")
     }
 
-    /// A request and the whole message that answers it.
+    /// Sends a request. Returns the whole message with the answer.
     pub fn answer(&mut self, method: &str, params: &Value) -> Value {
         self.next += 1;
         let id = self.next;
@@ -99,19 +99,19 @@ impl Editor {
         }
     }
 
-    /// A request and its result.
+    /// Sends a request. Returns its result.
     pub fn ask(&mut self, method: &str, params: &Value) -> Value {
         let mut message = self.answer(method, params);
         assert!(message["error"].is_null(), "{method}: {message}");
         message["result"].take()
     }
 
-    /// A file of the folder as the protocol names it.
+    /// The URI of a file in the folder.
     pub fn uri(&self, name: &str) -> String {
         uri(&self.folder.join(name))
     }
 
-    /// Opens a file of the folder with this text, and gives its findings.
+    /// Opens a file of the folder with this text. Returns its findings.
     pub fn show(&mut self, name: &str, language: &str, text: &str) -> Vec<Value> {
         let uri = self.uri(name);
         let item = json!({ "uri": uri, "languageId": language, "version": 1, "text": text });
@@ -119,7 +119,7 @@ impl Editor {
         self.findings(&uri)
     }
 
-    /// Changes a text that is open, and gives its findings.
+    /// Changes an open text. Returns its findings.
     pub fn change(&mut self, name: &str, text: &str) -> Vec<Value> {
         let uri = self.uri(name);
         let params = json!({ "textDocument": { "uri": uri, "version": 2 }, "contentChanges": [{ "text": text }] });
@@ -127,7 +127,7 @@ impl Editor {
         self.findings(&uri)
     }
 
-    /// The findings that come next for a text.
+    /// Waits for the next findings of a text.
     pub fn findings(&mut self, uri: &str) -> Vec<Value> {
         loop {
             let message = self.next();
@@ -143,7 +143,7 @@ impl Editor {
         self.input = None;
     }
 
-    /// Waits for the end: the exit status, and what was said on standard error.
+    /// Waits for the end. Returns the exit status, and the text on standard error.
     pub fn end(mut self) -> (ExitStatus, String) {
         self.input = None;
         let mut said = String::new();
@@ -151,7 +151,7 @@ impl Editor {
         (self.child.wait().unwrap(), said)
     }
 
-    /// `shutdown` and `exit`, as every editor says them: nothing was amiss.
+    /// Sends `shutdown` and `exit`, as every editor does. The server must end without an error.
     pub fn quit(mut self) {
         self.ask("shutdown", &Value::Null);
         self.tell("exit", &Value::Null);
@@ -160,7 +160,7 @@ impl Editor {
     }
 }
 
-/// The name of a file.
+/// The URI of a file.
 pub fn uri(path: &Path) -> String {
     format!("file://{}", path.display())
 }
@@ -182,7 +182,7 @@ fn message(input: &mut impl BufRead) -> Option<Value> {
     serde_json::from_slice(&body).ok()
 }
 
-/// The place of a byte of a text that is all ASCII.
+/// The protocol's position of a byte in a text that is only ASCII.
 pub fn place(text: &str, at: usize) -> Value {
     let before = &text[..at];
     let line = before.matches('\n').count();

@@ -1,11 +1,11 @@
-//! Commands run in a folder of their own.
+//! Runs commands in a folder that belongs to one test.
 
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// A folder of a test, empty at first.
+/// The folder of a test. It is empty at first.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -13,7 +13,7 @@ impl Folder {
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lint").join(name);
         _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).unwrap();
-        // no configuration of whoever runs the tests
+        // an empty postform.toml hides the configuration of the person who runs the tests
         fs::write(path.join("postform.toml"), "").unwrap();
         Folder(path)
     }
@@ -46,12 +46,12 @@ impl Folder {
     }
 }
 
-/// What a command printed.
+/// Standard output of a command.
 pub fn out(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-/// What a command said beside it.
+/// Standard error of a command.
 pub fn err(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }

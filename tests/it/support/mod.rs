@@ -1,4 +1,4 @@
-//! What the tests share: rendering through the library, without the command line.
+//! Functions that the tests share: rendering with the library, without the command line.
 
 pub mod editor;
 pub mod folder;
@@ -20,7 +20,7 @@ use postform::internals::source::Source;
 use postform::internals::survey::Surveyor;
 use postform::toolpath::{Flow, ReadError, Sink, Stop};
 
-/// A control that ships; for a name that is none, the usual one.
+/// A built-in control; for an unknown name, the default control.
 pub fn control(name: &str) -> &'static Control {
     Control::named(name).unwrap_or_else(Control::usual)
 }
@@ -30,16 +30,16 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_path_buf()
 }
 
-/// A form from text; it calls no other.
+/// Checks a form from text; it calls no other form.
 pub fn check(text: &str) -> Checked {
     analyse(Source::from_text("form.pf", text), Limits::Classic, &mut |_| Err("can't be found".into()))
 }
 
-/// A form from a file; one that it calls stands beside it.
+/// Checks a form from a file. A form that it calls is in the same folder.
 pub fn check_file(path: &Path) -> Checked {
     let folder = path.parent().unwrap().to_path_buf();
     let mut form = Source::from_bytes(path.to_string_lossy(), &fs::read(path).unwrap());
-    // of a file that holds several posts, the folder says which
+    // if a file contains several posts, the sample's folder selects one
     if let Some(post) = tests_of(&folder).1 {
         form = one_post(form, post.as_str()).unwrap_or_else(|names| panic!("{names:?}"));
     }
@@ -48,15 +48,15 @@ pub fn check_file(path: &Path) -> Checked {
     })
 }
 
-/// A form that ships, by its file in postforms/, without the comments of its header: for tests of what moves.
+/// A shipped form by its file in postforms/, without the comments of its header. For tests of motions.
 pub fn plain_post(file: &str) -> String {
     without_header(&fs::read_to_string(root().join("postforms").join(file)).unwrap())
 }
 
-/// A form as it is without its header: the property, and what asks for it.
+/// The form without its header: without the property, and without the lines under its condition.
 pub fn without_header(form: &str) -> String {
     let mut kept = String::new();
-    // how deep the directives lie in `@if [header]`, and whether its `@else` is reached
+    // the nesting depth of directives in `@if [header]`, and whether its `@else` was reached
     let (mut depth, mut in_else) = (0, false);
     for line in form.lines() {
         let begins = line.trim_start();
@@ -78,7 +78,7 @@ pub fn without_header(form: &str) -> String {
     kept.replace("Operation\nEnd\n", "")
 }
 
-/// What is wrong, where a sink takes no more events.
+/// The error with which a sink refuses an event.
 pub fn wrong(flow: Flow) -> Box<Diag> {
     match flow {
         Flow::Break(Stop::Wrong(diag)) => diag,
@@ -86,7 +86,7 @@ pub fn wrong(flow: Flow) -> Box<Diag> {
     }
 }
 
-/// What a job prints.
+/// The result of printing a job.
 #[derive(Debug)]
 pub struct Rendered {
     pub text: String,
@@ -139,7 +139,7 @@ pub fn render(form: &str, job: &str) -> Result<Rendered, Box<Diag>> {
     render_checked(&check(form), job.as_bytes(), false, Options::default())
 }
 
-/// The lines that a job prints, or the code of the error.
+/// The lines that a job prints, or the error's code and message.
 pub fn program(form: &str, job: &str) -> Vec<String> {
     match render(form, job) {
         Ok(rendered) => rendered.text.lines().map(str::to_owned).collect(),
@@ -147,7 +147,7 @@ pub fn program(form: &str, job: &str) -> Vec<String> {
     }
 }
 
-/// A complete small mill form with these lines in its head and these sequences at its end.
+/// A complete small form for a mill, with these lines in its head and these sequences at its end.
 pub fn mill(head: &str, sequences: &str) -> String {
     format!(
         "{head}\nStartCode\n%0\nEnd\n1stToolChange\nT[tool] M6\nS[speed] M[direct]\nG0 G[work] X[h] Y[v] Z[d]\nEnd\n\
@@ -164,7 +164,7 @@ pub fn job(path: &str) -> String {
     )
 }
 
-/// The program of `mill` and `job` without what comes before and after the path.
+/// The program of `mill` and `job`, without the blocks before and after the path.
 pub fn path_lines(head: &str, sequences: &str, path: &str) -> Vec<String> {
     let lines = program(&mill(head, sequences), &job(path));
     if lines.len() == 1 {
@@ -173,7 +173,7 @@ pub fn path_lines(head: &str, sequences: &str, path: &str) -> Vec<String> {
     lines[4..lines.len() - 1].to_vec()
 }
 
-/// All samples: a folder each.
+/// The folders of all samples.
 pub fn samples() -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join("samples")).unwrap().map(|e| e.unwrap().path());
     let mut folders: Vec<_> = entries.filter(|path| path.is_dir()).collect();
@@ -191,7 +191,7 @@ pub fn sample_form(folder: &Path) -> Option<PathBuf> {
     tests_of(folder).0.first().map(|form| folder.join(form))
 }
 
-/// What a sample's own postform.toml says under [test]: forms, and a post.
+/// The settings under [test] in a sample's own postform.toml: forms, and a post.
 fn tests_of(folder: &Path) -> (Vec<String>, Option<String>) {
     let Ok(text) = fs::read_to_string(folder.join("postform.toml")) else { return Default::default() };
     let test = postform::Config::parse(&text).unwrap().test;
@@ -222,13 +222,13 @@ pub fn render_sample_with(folder: &Path, form: &Path, options: Options) -> Resul
     render_checked_sample(folder, &check_file(form), options)
 }
 
-/// Renders a sample with a form that was read.
+/// Renders a sample with a checked form.
 pub fn render_checked_sample(folder: &Path, form: &Checked, options: Options) -> Result<Rendered, Box<Diag>> {
     let (job, kind) = sample_job(folder);
     render_kind(form, &fs::read(job).unwrap(), kind, options)
 }
 
-/// Fails with the lines that differ.
+/// Panics with the lines that differ.
 pub fn assert_same(what: &str, expected: &str, found: &str) {
     if expected != found {
         let diff = similar::TextDiff::from_lines(expected, found);

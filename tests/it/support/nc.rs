@@ -1,4 +1,4 @@
-//! Programs run by the simulator and by LinuxCNC's interpreter, in one language.
+//! Runs programs in the simulator and in LinuxCNC's interpreter, and gives both results in the same form.
 #![allow(dead_code)]
 
 use std::ffi::OsStr;
@@ -10,7 +10,8 @@ use std::sync::Mutex;
 
 use postform::internals::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
 
-/// Runs LinuxCNC's interpreter on files that are written first. One at a time: it keeps its tool table in the home folder.
+/// Writes files, and runs LinuxCNC's interpreter on them. Only one at a time, because it keeps its tool table in the
+/// home folder.
 pub fn rs274(files: &[(&Path, &str)], arguments: &[&OsStr]) -> Output {
     static ONE: Mutex<()> = Mutex::new(());
     let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -21,12 +22,12 @@ pub fn rs274(files: &[(&Path, &str)], arguments: &[&OsStr]) -> Output {
     Command::new("rs274").args(arguments).env("HOME", home).current_dir(home).output().unwrap()
 }
 
-/// What a machine does, in the words of both.
+/// An action of the machine, for both.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Call {
     Rapid([f64; 6]),
     Feed([f64; 6]),
-    /// End, centre in the plane, turns (negative: clockwise).
+    /// End, centre in the plane, number of turns (negative: clockwise).
     Arc([f64; 6], [f64; 2], i32),
     Dwell(f64),
     Spindle(Rotation),
@@ -36,7 +37,7 @@ pub enum Call {
 }
 
 impl Call {
-    /// The same within the four decimals that the interpreter prints.
+    /// Are two actions equal within the four decimals that the interpreter prints?
     pub fn is(&self, other: &Call) -> bool {
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 6e-5);
         match (self, other) {
@@ -48,10 +49,10 @@ impl Call {
     }
 }
 
-/// How a program ended: the refused line, if one was.
+/// The end of a program: the refused line, if there is one.
 pub type Ended = Result<(), u64>;
 
-/// What the simulator makes of a program.
+/// The actions of the simulator for a program.
 pub fn simulated(program: &[u8], settings: RunSettings) -> (Vec<Call>, Ended, Vec<Item>) {
     let mut simulator = Simulator::new(Cursor::new(program), settings);
     let mut items = Vec::new();
@@ -152,7 +153,7 @@ pub fn interpreted(canon: &str) -> Vec<Call> {
         }
         calls.extend(call);
         if name == "RIGID_TAP" {
-            // in, back and out again, in one call
+            // one call moves in, back out, and restores the spindle
             let mut to = at;
             to[..3].copy_from_slice(&numbers[..3]);
             let turns = [Call::Spindle(spindle.reversed()), Call::Feed(at), Call::Spindle(spindle)];
@@ -162,7 +163,7 @@ pub fn interpreted(canon: &str) -> Vec<Call> {
     calls
 }
 
-/// The first place where two programs differ, for a message.
+/// The first difference between two programs, for a message.
 pub fn difference(ours: &[Call], theirs: &[Call]) -> Option<String> {
     let at = (0..ours.len().max(theirs.len())).find(|&i| match (ours.get(i), theirs.get(i)) {
         (Some(a), Some(b)) => !a.is(b),

@@ -1,4 +1,4 @@
-//! The pages of docs/rules as tests: fragments of forms put into whole ones.
+//! Makes tests of the pages in docs/rules: it inserts their fragments of forms into whole forms.
 #![allow(dead_code)]
 
 use std::fs;
@@ -12,14 +12,14 @@ use postform::internals::syntax::{Form, Head, parse};
 
 use super::{plain_post, root};
 
-/// A page: its sections by heading.
+/// A page: its sections by their headings.
 pub struct Page {
     pub code: String,
     pub title: String,
     pub sections: Vec<(String, String)>,
 }
 
-/// A fence: what stands after `pf`, and the lines.
+/// A code block: the words after `pf`, and the lines.
 pub struct Fence {
     pub kind: String,
     pub text: String,
@@ -42,7 +42,7 @@ impl Page {
         found.unwrap_or_else(|| panic!("{} has no section `{heading}`", self.code)).1.as_str()
     }
 
-    /// The one fence of a section.
+    /// The single code block of a section.
     pub fn fence(&self, heading: &str) -> Fence {
         let body = self.section(heading).strip_prefix("```pf").unwrap_or_else(|| panic!("{} {heading}", self.code));
         let (kind, rest) = body.split_once('\n').unwrap();
@@ -52,7 +52,7 @@ impl Page {
 }
 
 impl Fence {
-    /// The whole form: a shipped post in which the fragment stands for what it names itself.
+    /// The whole form: a shipped post in which the fragment replaces the items with the same names.
     pub fn form(&self) -> Vec<u8> {
         let fragment = repeated(&self.text);
         if self.kind == "whole" {
@@ -73,7 +73,7 @@ impl Fence {
     }
 }
 
-/// A line that ends with `×90` stands for so many.
+/// A line that ends with `×90` is repeated 90 times.
 fn repeated(text: &str) -> String {
     let lines = text.lines().map(|line| match line.rsplit_once(" ×") {
         Some((line, times)) => vec![line; times.parse().unwrap()].join("\n"),
@@ -82,7 +82,7 @@ fn repeated(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// A form with a fragment in it: what the fragment names is taken out of the form.
+/// A form with a fragment in it. Items of the form with the same names as in the fragment are removed.
 fn merged(base: &str, fragment: &str) -> String {
     let tree = |text: &str| parse(&Source::from_text("f", text), 0);
     let own = names(&tree(fragment));
@@ -104,7 +104,7 @@ fn merged(base: &str, fragment: &str) -> String {
     out + &tail
 }
 
-/// The lines before the first sequence and the comments above it, and those from there on.
+/// The lines before the first sequence and its comments, and the lines from there on.
 fn split(text: &str, tree: &Form) -> (String, String) {
     let Some(first) = tree.sequences().next() else { return (format!("{text}\n"), String::new()) };
     let lines: Vec<&str> = text.lines().collect();
@@ -119,7 +119,7 @@ fn names(tree: &Form) -> Vec<String> {
     tree.items.iter().filter_map(name).collect()
 }
 
-/// What an item gives a name to.
+/// The name that an item defines.
 fn name(item: &Head) -> Option<String> {
     match item {
         Head::Format { letter, .. } => Some(format!("format {}", letter.text)),
@@ -145,7 +145,7 @@ fn extent(item: &Head) -> (usize, usize) {
     (span.start as usize, span.end as usize)
 }
 
-/// A form from bytes; it calls no other.
+/// Checks a form from bytes; it calls no other form.
 pub fn checked(bytes: &[u8]) -> Checked {
     analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
 }
@@ -162,7 +162,7 @@ pub fn codes(diags: &[Diag]) -> Vec<&'static str> {
     codes
 }
 
-/// A form with fixes made until there are none; `None`: there were none.
+/// A form after all fixes; `None`: there was nothing to fix.
 pub fn after_fixes(form: &Checked, unsafe_too: bool) -> Option<Checked> {
     let text = &form.files[0].text;
     let mut read = |changed: &Changed| checked(changed.get("form.pf").unwrap_or(text).as_bytes());

@@ -23,7 +23,7 @@ const MOST_NAMED: usize = 20;
 struct Kind {
     /// The indices of their jobs.
     jobs: Vec<usize>,
-    /// The first of them, and the differences in its program.
+    /// The first of these jobs, and the differences in its program.
     example: Option<(usize, String)>,
 }
 

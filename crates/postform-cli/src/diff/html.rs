@@ -1,4 +1,4 @@
-//! A comparison as one self-contained HTML page: it can be mailed, and loads nothing from the network.
+//! A comparison as one self-contained HTML page. The page can be mailed, and loads nothing from the network.
 
 use std::fmt::Write as _;
 use std::io::Cursor;

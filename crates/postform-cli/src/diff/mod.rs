@@ -51,7 +51,7 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
 /// The differences between two programs.
 struct Difference {
     shown: Shown,
-    /// Its kind, equal for programs that differ in the same words; empty: no difference.
+    /// The kind of the difference. It is equal for programs that differ in the same words; empty: no difference.
     kind: String,
 }
 
@@ -67,7 +67,8 @@ impl Difference {
     }
 }
 
-/// Compares two programs by the options. The inner `Err`: they can't be compared, and the reason has been shown.
+/// Compares two programs by the options. The inner `Err`: the programs can't be compared, and the reason has been
+/// shown.
 fn difference(
     args: &DiffArgs,
     old: &Side,

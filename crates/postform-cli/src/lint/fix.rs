@@ -18,8 +18,8 @@ use super::super::forms::FormFile;
 use super::super::output;
 use super::Linted;
 
-/// Fixes a form: safe fixes with `--fix`, all with `--fix --unsafe-fixes`. The effect of unsafe fixes on a program is shown
-/// before anything is written. If it can't be shown, they are not applied.
+/// Fixes a form: safe fixes with `--fix`, all with `--fix --unsafe-fixes`. The effect of unsafe fixes on a program is
+/// shown before anything is written. If the effect can't be shown, the unsafe fixes are not applied.
 pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, String> {
     if file.path == Path::new("-") {
         return Err("error: fixes change files: standard input can't be fixed".into());

@@ -22,7 +22,7 @@ use super::{Ending, output};
 
 /// The findings of lint in a form, and the fixes that were applied.
 pub struct Linted {
-    /// Findings; if there are none, without the form's text.
+    /// The findings. If there are none, they do not contain the form's text.
     findings: Findings,
     /// The changes of the form's files, in words.
     story: String,
@@ -91,7 +91,7 @@ fn report(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     })
 }
 
-/// The text of a form, with its limits.
+/// Reads a form, with the limits from the options or postform.toml.
 fn read(path: &Path, args: &LintArgs) -> Result<FormFile, String> {
     let limits = args.limits.map(LimitsArg::limits).or(Config::near(path)?.limits).unwrap_or_default();
     FormFile::read(path, limits)?.of_post(args.post.as_deref())

@@ -31,7 +31,7 @@ pub fn of(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     found
 }
 
-/// A form: the findings of lint, with the levels of its folder.
+/// The findings of a form: those of lint, with the levels of the form's folder.
 fn form(view: &View, server: &Server) -> Vec<lsp::Diagnostic> {
     let mut found: Vec<lsp::Diagnostic> = view.trouble.iter().map(|message| trouble(message, line(0))).collect();
     for (index, diag) in view.document.findings().iter().enumerate() {
@@ -75,7 +75,7 @@ fn call_of(view: &View, file: u32) -> postform::Span {
     calls.find(of).map(|statement| statement.line.span).unwrap_or_default()
 }
 
-/// A program: the errors and warnings of its control.
+/// The findings of a program: the errors and warnings of its control.
 fn nc(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let (control, mut found) = match server.control_of(text) {
         Ok((control, _)) => (control, Vec::new()),
@@ -115,7 +115,7 @@ fn at_location(diag: &Diag, source: &Source, by: &str) -> lsp::Diagnostic {
     diagnostic(diag, range(source, span), by)
 }
 
-/// A job in the folder's postform.toml: its errors, and the parts that its form can't print.
+/// The findings of a job in the folder's postform.toml: its errors, and the parts that its form can't print.
 fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Ok(config) = Config::near(path) else { return Vec::new() };
@@ -155,7 +155,7 @@ fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     diags.iter().map(in_job).collect()
 }
 
-/// postform.toml: its errors.
+/// The errors of postform.toml.
 fn settings(text: &Text) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Err(message) = Config::from_text(path, &text.source.text) else { return Vec::new() };

@@ -57,7 +57,7 @@ pub fn run(_: &LspArgs) -> Result<Ending, String> {
         );
     }
     let (send, frames) = sync_channel(WAITING);
-    // the thread ends with its input, or with the process
+    // the reading thread ends when the input ends, or with the process
     let reader = thread::Builder::new().spawn(move || {
         let mut input = BufReader::new(io::stdin());
         loop {

@@ -11,7 +11,7 @@ use super::view::View;
 
 fn location(server: &Server, view: &View, span: Span) -> Option<lsp::Location> {
     let source = view.document.files().get(span.file as usize)?;
-    // a form that was never saved has no file; it is the open one
+    // a form that was never saved has no file, so the location is in the open text
     let uri = view.uri(span.file, &server.texts)?;
     Some(lsp::Location { uri, range: range(source, span) })
 }

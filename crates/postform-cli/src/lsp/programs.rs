@@ -61,7 +61,7 @@ pub fn form_of(server: &Server, text: &Text) -> Option<(lsp::Uri, usize)> {
 pub struct ProgramParams {
     /// The form.
     uri: lsp::Uri,
-    /// Its job, counted from 0; the default is the current job.
+    /// The job of the form, counted from 0; the default is the current job.
     #[serde(default)]
     job: Option<usize>,
     /// A text of the form in place of the open one, such as the committed text.

@@ -31,7 +31,7 @@ pub fn completion(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     let list = match text.kind {
         Kind::Form => {
             let Some(view) = server.view(&text.uri) else { return Vec::new() };
-            // a form with an incomplete word prints nothing: the values are those of its last program
+            // a form with an incomplete word prints nothing, so the values are those of its last program
             let last = server.last_view(&text.uri);
             view.document.complete(view.file, place, view.current().or(last.as_ref().and_then(|view| view.current())))
         }

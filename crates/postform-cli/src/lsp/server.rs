@@ -22,7 +22,7 @@ use crate::files;
 pub struct Settings {
     /// The control of programs that name none, if no postform.toml does: a name or a file.
     pub control: Option<String>,
-    /// The current job of forms, ranked before those of postform.toml: a path.
+    /// The path of the current job of forms. It ranks before the jobs in postform.toml.
     pub job: Option<PathBuf>,
     /// Hints after words: `on`, `off`, or `auto`, which is off in files over 500 lines.
     pub inlay_hints: Option<String>,
@@ -66,7 +66,7 @@ pub struct Server {
     pub folders: Vec<PathBuf>,
     /// Texts whose findings must be sent.
     pub stale: BTreeSet<String>,
-    /// A change outside the viewed form: its hints and lenses may have changed.
+    /// Something changed outside the viewed form, so its hints and lenses may have changed too.
     pub beside: bool,
     /// Programs that were written as files for the editor.
     pub programs: RefCell<Programs>,
@@ -82,7 +82,7 @@ impl Server {
         let kind = self.texts.get(uri).map(|text| text.kind);
         let views = std::mem::take(self.views.get_mut());
         self.last.get_mut().extend(views.into_iter().filter(|(_, view)| view.document.post().is_some()));
-        // a form may be called by others and print jobs; a program is checked on its own
+        // other forms may call the form, and it may print jobs; a program is checked alone
         let touched = |text: &&Text| kind == Some(Kind::Form) && matches!(text.kind, Kind::Form | Kind::Other);
         self.stale.extend(self.texts.all().filter(touched).map(|text| text.uri.as_ref().to_owned()));
         self.stale.insert(uri.as_ref().to_owned());

@@ -45,7 +45,7 @@ const MOST_FORMS: usize = 500;
 /// Maximum number of parts in a list.
 const MOST_SYMBOLS: usize = 2000;
 
-/// The parts of all forms in the open folders whose name contains this text, in any case.
+/// The parts of all forms in the open folders. The name of a part must contain this text, in upper or lower case.
 pub fn everywhere(server: &Server, asked: &str) -> Vec<lsp::WorkspaceSymbol> {
     let asked = asked.to_ascii_lowercase();
     let mut paths = forms::named(&server.folders).unwrap_or_default();
@@ -156,7 +156,8 @@ pub fn format(server: &Server, uri: &lsp::Uri) -> Option<Vec<lsp::TextEdit>> {
     Some(vec![lsp::TextEdit { range: range(&text.source, whole), new_text: laid_out }])
 }
 
-/// The canonical layout of the lines of a range. A change of the layout that goes beyond the range is left out: its lines belong together.
+/// The canonical layout of the lines of a range. A change that goes beyond the range is left out, because its lines
+/// belong together.
 pub fn format_range(server: &Server, uri: &lsp::Uri, within: lsp::Range) -> Option<Vec<lsp::TextEdit>> {
     let text = server.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
     let laid_out = postform::internals::fmt::format(&text.source);

@@ -27,9 +27,9 @@ pub enum Kind {
 pub struct Text {
     /// The URI in the editor.
     pub uri: Uri,
-    /// Its file, if there is one.
+    /// The file of the text, if there is one.
     pub path: Option<PathBuf>,
-    /// Its version number in the editor.
+    /// The version number of the text in the editor.
     pub version: i32,
     /// The kind of the text.
     pub kind: Kind,
@@ -74,7 +74,7 @@ impl Texts {
         self.0.values().find(|text| text.path.as_deref() == Some(path))
     }
 
-    /// All of them.
+    /// All open texts.
     pub fn all(&self) -> impl Iterator<Item = &Text> {
         self.0.values()
     }

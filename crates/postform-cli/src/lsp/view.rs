@@ -24,7 +24,7 @@ const LARGEST_JOB: u64 = 32 << 20;
 /// A job of the form.
 #[derive(Clone, Debug)]
 pub struct JobText {
-    /// Its display name: `bracket`.
+    /// The display name of the job: `bracket`.
     pub name: String,
     /// The file of the job.
     pub path: PathBuf,
@@ -34,15 +34,15 @@ pub struct JobText {
 
 /// The results for an open form.
 pub struct View {
-    /// The form, with the forms that it calls. For a called form it is the caller.
+    /// The form, with the forms that it calls. If the open file is a called form, this is its caller.
     pub document: Document,
     /// The file of the document that is open.
     pub file: u32,
-    /// The settings of its folder.
+    /// The settings of the form's folder.
     pub config: Config,
     /// An error in the folder's postform.toml.
     pub trouble: Option<String>,
-    /// The jobs that it prints, the current one first.
+    /// The jobs that the form prints, the current one first.
     pub jobs: Vec<JobText>,
     currents: Vec<OnceCell<Option<Current>>>,
     sample: OnceCell<Option<Current>>,
@@ -66,7 +66,7 @@ impl View {
         let checked = form.analyse(&open);
         let own = text.path.as_deref().map(files::name).unwrap_or_default();
         let file = checked.files.iter().position(|source| source.name == own);
-        // the root contains a call of this form, but the call fails
+        // the root contains a call of the open form, but the call fails
         let Some(file) = file.map(|file| file as u32) else { return View::new(text, text.path.as_deref(), texts, job) };
         let document = Document::of(checked, &config.levels).with_properties(&config.properties);
         let jobs: Vec<JobText> = job
@@ -102,7 +102,7 @@ impl View {
         &self.document.files()[self.file as usize]
     }
 
-    /// The URI of one of its files.
+    /// The URI of one of the form's files.
     pub fn uri(&self, file: u32, texts: &Texts) -> Option<Uri> {
         let path = self.path(file)?;
         Some(texts.of_path(&path).map_or_else(|| uri::of_path(&path), |text| text.uri.clone()))

@@ -145,7 +145,7 @@ impl Forms {
     }
 }
 
-/// Keeps the messages of work that makes a job fail.
+/// Runs some work for a job and keeps its messages. If the work fails, the messages become the reason for the failure.
 fn refused<R>(work: impl FnOnce() -> Result<Result<R, Ending>, String>) -> Result<R, Refused> {
     let (done, messages) = kept(work);
     match done {
@@ -242,7 +242,8 @@ fn apart(planned: &[Planned]) -> Result<(), String> {
 /// Maximum number of equal program numbers that are named.
 const MOST_NUMBERS: usize = 5;
 
-/// Warns of programs with the same number: a control that stores programs by their numbers keeps only one of them.
+/// Warns of programs with the same number: a control that stores programs by their numbers keeps only one program for
+/// each number.
 fn same_numbers(planned: &[Planned], forms: &[Ready]) {
     let prints: Vec<bool> = forms
         .iter()

@@ -30,7 +30,7 @@ impl Part {
         }
     }
 
-    /// Its name in file names: `T3`, `OP02`, `G54`, `SETUP1`.
+    /// The part's name in file names: `T3`, `OP02`, `G54`, `SETUP1`.
     pub fn name(self) -> String {
         match self {
             Part::Tool(tool) => format!("T{tool}"),

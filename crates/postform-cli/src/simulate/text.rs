@@ -17,7 +17,7 @@ pub struct Shown {
 /// Axes of a machine.
 #[derive(Debug)]
 struct Axes {
-    /// Their letters in the text, in the order of a position.
+    /// The letters of the axes in the text, in the order of a position.
     letters: [&'static [u8]; 6],
     /// Number of leading axes that are always shown; the others are shown only if they are not 0.
     always: usize,
@@ -40,7 +40,8 @@ impl Shown {
     }
 }
 
-/// A line that is written backwards, from its end to its beginning: digits are produced in this order, and nothing is copied twice.
+/// A line that is written from its end to its beginning, because digits are produced in this order. No text is copied
+/// twice.
 struct Backwards {
     bytes: [u8; 320],
     at: usize,

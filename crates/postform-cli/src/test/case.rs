@@ -90,9 +90,9 @@ pub struct Tried {
     pub printed: Vec<(u32, u32)>,
 }
 
-/// The result of a case.
+/// The kind of result of a case.
 pub enum End {
-    /// As expected.
+    /// The program or error is as expected.
     Passed,
     /// A different program: the text for people, and the first different line of the expected program, from 1.
     Differs { text: String, line: usize },

@@ -15,7 +15,7 @@ use super::super::report::Reporter;
 
 /// A tested form.
 pub struct Entry {
-    /// Its file.
+    /// The file of the form.
     pub path: PathBuf,
     /// The file's name without its extension; names of expected programs contain it.
     pub name: String,
@@ -121,7 +121,7 @@ impl Posts {
         &self.entries[at]
     }
 
-    /// All of them.
+    /// All tested forms.
     pub fn all(&self) -> &[Entry] {
         &self.entries
     }

@@ -56,6 +56,6 @@ pub struct Save {
 pub struct Close {
     /// The job, counted from 0.
     pub job: usize,
-    /// Its name, from the scene.
+    /// The name of the job, from the scene.
     pub name: String,
 }

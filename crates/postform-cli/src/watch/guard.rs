@@ -1,7 +1,7 @@
-//! Admits requests only from the page that this program served to this machine.
+//! Admits requests only from the page that this program served, and only from this machine.
 //!
-//! Any web site that is open in a browser can send requests to ports of its machine, but it does not have the token. If a
-//! site's own host name leads to this machine, the `Host` field shows that name. A request with a body must come from the
+//! Any web site that is open in a browser can send requests to ports of its machine, but it does not have the token. If the
+//! host name of a foreign site leads to this machine, the `Host` field contains that name. A request with a body must come from the
 //! page's own origin.
 
 use super::http::{Answer, Asked};

@@ -29,13 +29,13 @@ struct Events {
 }
 
 impl Events {
-    /// Are they the events of a job whose file is in this state?
+    /// Are these the events of this job, read when its file was in this state?
     fn is_of(&self, job: &Opened, stamp: Option<Stamp>) -> bool {
         self.content == job.content && self.stamp == stamp
     }
 }
 
-/// A file that was changed so shortly before may change again without another time of the change.
+/// If the last change of a file is more recent than this, the file may change again without a new time stamp.
 const SETTLED: Duration = Duration::from_secs(1);
 
 /// The events of a longer job are not kept, but read again each time: 300,000 events take 35 MB.
@@ -44,7 +44,7 @@ const MOST_KEPT: usize = 300_000;
 /// A job.
 #[derive(Clone, PartialEq)]
 pub struct Opened {
-    /// Its display name.
+    /// The display name of the job.
     pub name: String,
     content: Content,
 }

@@ -50,7 +50,7 @@ impl Kept {
     }
 }
 
-/// This user's folder for files that last only for a session.
+/// The folder of this user for files that last only for a session.
 fn folder() -> Option<PathBuf> {
     let named = std::env::var_os("XDG_RUNTIME_DIR").filter(|value: &OsString| Path::new(value).is_absolute());
     let own = || cfg!(any(windows, target_os = "macos")).then(std::env::temp_dir);

@@ -1,4 +1,4 @@
-//! Arcs of a job: the program makes them as arcs or in parts, and all parts lie on them.
+//! Arcs of a job. The program makes each as an arc or in parts, and all parts must be on the arc.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,7 +6,7 @@ use super::{Judge, shown};
 use crate::judge::wants::axes;
 use crate::judge::{Act, Place, Want, Wanted, What, near, same};
 
-/// How far an arc of the job turns; a straight cut does not.
+/// The angle of the job's arc; 0 for a straight cut.
 pub(super) fn turn(wanted: &Wanted) -> f64 {
     let Want::Arc { plane, center, ccw, turns } = &wanted.want else { return 0.0 };
     let [first, second] = axes(plane);
@@ -47,11 +47,11 @@ impl Judge<'_> {
         };
         let size = radius(&wanted.from);
         let whole = turn(wanted);
-        // how far lines may leave it, and how an angle shows a length
+        // largest distance of chords from the arc, and the tolerance as an angle
         let loose = self.within + 0.03;
         let slack = (4.0 * self.within + 0.001) / size.max(1e-6) + 1e-6;
         if whole * size <= 2.0 * self.within {
-            // too short to be told from nothing, but for its height
+            // the arc is too short for the digits of the program; only its height counts
             let reach = size * 2.0 + loose + (wanted.to[third] - wanted.from[third]).abs();
             while let Some(act) = self.next().filter(|act| {
                 !same(&act.from, &wanted.to, self.within)
@@ -60,7 +60,7 @@ impl Judge<'_> {
             }) {
                 self.take();
                 if same(&act.to, &wanted.to, self.within) {
-                    break; // what comes next is another cut
+                    break; // the next act is another cut
                 }
             }
             return None;
@@ -79,7 +79,7 @@ impl Judge<'_> {
             let part = match act.what {
                 What::Feed => {
                     let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(TAU);
-                    // a chord is short
+                    // a chord covers less than half a turn
                     let turn = if turn > TAU / 2.0 { turn - TAU } else { turn };
                     if *ccw { turn } else { -turn }
                 }
@@ -110,7 +110,7 @@ impl Judge<'_> {
             }
             let ends = done >= whole - slack && same(&act.to, &wanted.to, self.within);
             let height = wanted.from[third] + (wanted.to[third] - wanted.from[third]) * (done / whole);
-            // the digits of its plane say little of the height of a steep helix
+            // for a steep helix, rounding in the plane changes the expected height
             let digits = 0.05 + 2.0 * self.within / (size * whole);
             if !ends && !near(act.to[third], height, loose + digits * (wanted.to[third] - wanted.from[third]).abs()) {
                 return Some(format!("line {}: {} is not as high as the helix", act.line, shown(&act.to)));
@@ -135,7 +135,7 @@ impl Judge<'_> {
     }
 }
 
-/// A place in the middle of an arc, in its plane.
+/// The point in the middle of an arc, in its plane.
 fn middle(act: &Act, [first, second]: [usize; 2], about: [f64; 2], ccw: bool, full: bool) -> [f64; 2] {
     let angle = |place: &Place| (place[second] - about[1]).atan2(place[first] - about[0]);
     let turn = (angle(&act.to) - angle(&act.from)).rem_euclid(TAU);

@@ -1,9 +1,10 @@
-//! Holes of a job: the program makes them by a cycle of the control or by moves, from the clearance to the bottom.
+//! Holes of a job. The program makes each by a cycle of the control or by moves, from the clearance to the bottom.
 
 use super::{Judge, shown};
 use crate::judge::{Act, Want, Wanted, What, near, turned};
 
-/// How far above the bottom a peck begins again at most, in millimetres: 0.1 inch, and what digits make of it.
+/// Maximum height above the bottom at which a last peck begins, in millimetres: 0.1 inch, and an allowance for
+/// rounding.
 const BACK: f64 = 2.6;
 
 impl Judge<'_> {
@@ -25,7 +26,7 @@ impl Judge<'_> {
         {
             return Some(difference);
         }
-        // how high the tool was on its way to the holes
+        // greatest height of the tool before the hole
         let ways = self.acts[..self.find().unwrap_or(self.at)].iter().filter(|act| act.what == What::Rapid);
         let came = ways.map(|act| act.to[2]).filter(|height| height.is_finite()).fold(*plane, f64::max);
         if let What::Hole { code, r, z, .. } = act.what {
@@ -39,7 +40,7 @@ impl Judge<'_> {
             }
             let known: &[f64] = match kind.as_str() {
                 "drill" | "csink" | "face" => &[81.0, 82.0],
-                // a form may peck where the job breaks chips, and the reverse
+                // a form may print a pecking cycle for a chip-breaking one, and the reverse
                 "deep" | "chipbreak" => &[83.0, 73.0, 81.0, 82.0],
                 "tap" => &[84.0, 81.0, 82.0],
                 "ltap" => &[74.0, 81.0, 82.0],
@@ -53,7 +54,7 @@ impl Judge<'_> {
             }
             return self.feed(wanted, &act);
         }
-        // moves: down to the bottom, and out again where that is a feed
+        // single moves: down to the bottom, and out again if the cycle feeds out
         let back = kind == "back";
         let begins = if back { f64::NAN } else { *clear };
         if !back && !near(act.from[2], begins, self.within) {
@@ -66,7 +67,7 @@ impl Judge<'_> {
             }
             self.take();
             if near(act.to[2], *bottom, self.within) {
-                // a last peck may be shorter than the digits can say; what begins higher is the next hole's
+                // a last peck may be shorter than the last digit; a feed that begins higher belongs to the next hole
                 let pecks = matches!(kind.as_str(), "deep" | "chipbreak");
                 let again = |act: &Act| {
                     act.what == What::Feed
@@ -93,14 +94,14 @@ impl Judge<'_> {
         let out = if feeds_out { self.next() } else { None };
         if let Some(out) = out.filter(|out| over(out) && near(out.from[2], *bottom, self.within) && out.to[2] > *bottom)
         {
-            // LinuxCNC's own taps feed out to where the series began, where G98 is in force
+            // with G98, LinuxCNC's own taps feed out to the height at which the series of holes began
             let is_between = out.to[2] >= clear - self.within && out.to[2] <= came + self.within;
             if !is_between {
                 return Some(format!("line {}: out to {:.4}, not {clear:.4}", out.line, out.to[2]));
             }
             self.take();
         }
-        // its own dwell at the bottom is none of the job's
+        // a dwell of the form at the bottom is not one of the job's
         while self
             .acts
             .get(self.at)

@@ -1,5 +1,5 @@
-//! Holes by the second planner: a program makes each by a cycle of the control, or by exactly the moves that the words of CYCLE ask
-//! for.
+//! Holes by the second planner. A program makes each by a cycle of the control, or by exactly the moves that the words
+//! of CYCLE request.
 
 use super::{Judge, shown};
 use crate::judge::{Act, Wanted, What, near, same};
@@ -10,7 +10,7 @@ impl Judge<'_> {
         if hole.kind == Kind::Manual {
             return self.by_hand(wanted, hole);
         }
-        // RAPTO to the bottom: nothing is left to be fed
+        // RAPTO leads to the bottom, so no feed move remains
         if near(begins(hole).from, hole.bottom, 1e-9) {
             return None;
         }
@@ -41,7 +41,7 @@ impl Judge<'_> {
         (0..2).all(|axis| near(act.to[axis], over[axis], self.within))
     }
 
-    /// Over the hole at its clearance, then a stop.
+    /// The tool must be over the hole at its clearance, and the program must stop there.
     fn by_hand(&mut self, wanted: &Wanted, hole: &Hole) -> Option<String> {
         while let Some(act) = self.acts.get(self.at) {
             self.at += 1;
@@ -50,7 +50,7 @@ impl Judge<'_> {
                     self.low = f64::INFINITY;
                     return None;
                 }
-                // also the stop at which a person changes the tool
+                // a stop may also be that for changing the tool by hand
                 What::Stop(_) | What::Rapid | What::Dwell(_) | What::Orient(_) | What::Tool => {}
                 What::Feed if same(&act.from, &act.to, self.within) => {}
                 _ => break,
@@ -74,7 +74,7 @@ impl Judge<'_> {
             (Kind::Bore, _) => &[85.0, 86.0, 76.0, 89.0],
             (Kind::BoreBack, _) => &[87.0],
             (Kind::Ream, _) => &[85.0, 89.0],
-            // a form may peck where the job breaks chips, and the reverse
+            // a form may print a pecking cycle for a chip-breaking one, and the reverse
             (Kind::Deep | Kind::Chips, _) => &[83.0, 73.0],
             (Kind::Thru | Kind::Manual, _) => &[],
         };
@@ -106,11 +106,11 @@ impl Judge<'_> {
         self.feed(wanted, act)
     }
 
-    /// Each stroke from its height to its height at its feed; dwells, orientations and jogs between them.
+    /// Compares each stroke: start, end and feed; and dwells, orientations and jogs between strokes.
     fn by_moves(&mut self, wanted: &Wanted, hole: &Hole) -> Option<String> {
         let mut turn = None;
         let mut begins = Height { from: hole.clear, to: hole.clear };
-        // what is asked for since the last stroke
+        // the requests since the last stroke
         let mut asked: Vec<Move> = Vec::new();
         let mut is_first = true;
         for part in &hole.moves {
@@ -123,14 +123,14 @@ impl Judge<'_> {
                     turn = Some(way);
                     asked.push(*part);
                 }
-                // the extra rapid of RAPTO may go down to where the feed ends
+                // the extra rapid of RAPTO may already reach the end of this feed
                 Move::Feed(to, _) if begins.from == to => {}
                 Move::Feed(to, feed) => {
                     let Some(at) = self.find() else {
                         return Some(format!("the hole at {} stops short", shown(&wanted.to)));
                     };
                     let act = self.acts[at];
-                    // some controls feed out of a tap to where G98 goes
+                    // some controls feed out of a tap to the return level of G98
                     let ends = Height { from: to, to: if to == hole.clear { hole.plane } else { to } };
                     if let Some(difference) = self.between(hole, &asked, at, is_first) {
                         return Some(difference);
@@ -160,7 +160,7 @@ impl Judge<'_> {
                 Move::Stop => {}
             }
         }
-        // what comes after the last stroke ends with the next cut
+        // moves after the last stroke, up to the next cut
         let until = self.find().unwrap_or(self.acts.len());
         if hole.kind == Kind::Tap || hole.kind == Kind::Ream {
             return None;
@@ -169,7 +169,7 @@ impl Judge<'_> {
         let out =
             self.acts[self.at..until].iter().find(|act| act.what == What::Rapid && leaves(act, hole, self.within));
         let lowest = out.map_or(f64::INFINITY, |act| act.from[2]);
-        // its dwell is none that comes after it
+        // a dwell of the hole is not a dwell after the hole
         let is_own = |act: &Act| matches!(act.what, What::Dwell(_)) && near(act.from[2], hole.bottom, self.within);
         self.at += self.acts[self.at..until].iter().take_while(|act| is_own(act)).count();
         difference.or_else(|| {
@@ -178,7 +178,8 @@ impl Judge<'_> {
         })
     }
 
-    /// What the program does since the last stroke, up to a cut: dwells, orientations, jogs, the spindle, and how high it goes.
+    /// Compares everything from the last stroke up to a cut: dwells, orientations, jogs, the spindle, and the greatest
+    /// height.
     fn between(&self, hole: &Hole, asked: &[Move], until: usize, is_first: bool) -> Option<String> {
         let acts = &self.acts[self.at..until];
         let line = acts.first().map_or(0, |act| act.line);
@@ -201,7 +202,7 @@ impl Judge<'_> {
             if asked.iter().any(stops) && first_up.is_some_and(|act| act.state.direction != 5.0) {
                 return Some(format!("line {line}: out with the spindle turning"));
             }
-            // a full retract
+            // checks the height of a full retract
             let heights =
                 asked.iter().filter_map(|part| if let Move::Rapid(_, h) = part { Some(h.from) } else { None });
             let top = heights.fold(f64::NEG_INFINITY, f64::max);
@@ -216,7 +217,7 @@ impl Judge<'_> {
         if turns > acts.iter().filter(|act| matches!(act.what, What::Orient(_))).count() {
             return Some(format!("line {line}: the spindle is not oriented"));
         }
-        // places beside the hole, in their order
+        // the positions beside the hole, in order
         let mut ends = acts.iter().filter(|act| act.what == What::Rapid).map(|act| act.to);
         for part in asked {
             let Move::Rapid(over, height) = part else { continue };
@@ -234,7 +235,7 @@ impl Judge<'_> {
     }
 }
 
-/// Where the first stroke begins.
+/// The height at which the first stroke begins.
 fn begins(hole: &Hole) -> Height {
     let clear = Height { from: hole.clear, to: hole.clear };
     let first = hole.moves.iter().position(|part| matches!(part, Move::Feed(..))).unwrap_or(0);
@@ -246,7 +247,7 @@ fn begins(hole: &Hole) -> Height {
         .unwrap_or(clear)
 }
 
-/// Does it go to another place than the hole and what is beside it?
+/// Does the act leave the hole and the positions beside it?
 fn leaves(act: &Act, hole: &Hole, within: f64) -> bool {
     let beside = hole.moves.iter().any(|part| {
         matches!(part, Move::Rapid(over, _) if (0..2).all(|axis| over[axis].is_nan() || near(over[axis], act.to[axis], within)))

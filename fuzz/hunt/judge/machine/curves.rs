@@ -34,7 +34,7 @@ impl Machine {
         Ok(())
     }
 
-    /// G33.1 of LinuxCNC: down with the spindle and back up to where it began, K a turn.
+    /// G33.1 of LinuxCNC: down in step with the spindle, and back up to the start; K is the lead.
     pub(super) fn rigid_tap(&mut self, block: &Block<'_>, line: usize) -> Result<(), String> {
         let pitch = block.get(b'K').ok_or("G33.1 without K")? * self.scale;
         if self.state.direction == 5.0 || self.state.speed <= 0.0 {
@@ -92,7 +92,7 @@ impl Machine {
         if self.state.feed.0.is_nan() {
             return Err("no feed".into());
         }
-        // up to R first where the tool is lower, across, then down
+        // first up to R if the tool is lower, then across, then down
         let mut over = to;
         over[2] = if here[2] < r { r } else { here[2] };
         if here[2] < r {
@@ -105,7 +105,7 @@ impl Machine {
         end[2] = out;
         self.act(line, what, end);
         self.state.feed = feed;
-        // a tap starts a spindle that stands
+        // a tap starts a stopped spindle
         match code {
             84.0 if self.state.direction == 5.0 => self.state.direction = 3.0,
             74.0 if self.state.direction == 5.0 => self.state.direction = 4.0,
@@ -115,7 +115,7 @@ impl Machine {
     }
 }
 
-/// The centre of an arc by its radius; negative for the longer way.
+/// The centre of an arc from its radius; a negative radius means the longer arc.
 pub(in crate::judge) fn by_radius(from: [f64; 2], end: [f64; 2], radius: f64, ccw: bool) -> Option<[f64; 2]> {
     let (dx, dy) = (end[0] - from[0], end[1] - from[1]);
     let chord = dx.hypot(dy);
@@ -124,7 +124,7 @@ pub(in crate::judge) fn by_radius(from: [f64; 2], end: [f64; 2], radius: f64, cc
         return None;
     }
     let height = square.max(0.0).sqrt();
-    // the centre lies left of the chord for a short counter-clockwise arc
+    // the centre of a short counter-clockwise arc is to the left of the chord
     let side = if ccw == (radius > 0.0) { 1.0 } else { -1.0 };
     let middle = [(from[0] + end[0]) / 2.0, (from[1] + end[1]) / 2.0];
     Some([middle[0] - side * height * dy / chord, middle[1] + side * height * dx / chord])

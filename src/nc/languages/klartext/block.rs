@@ -14,15 +14,15 @@ use crate::toolpath::Side;
 
 const FEED_WANTED: &str = "write F or FMAX in the block; after a cycle too, because the feed is unknown";
 
-/// Words of a polar position: the word, whether it is the angle, and whether it is an increment.
+/// The words of a polar position: the name, whether it is the angle, and whether it is an increment.
 const POLAR: [(&[u8], bool, bool); 4] =
     [(b"PR", false, false), (b"PA", true, false), (b"IPR", false, true), (b"IPA", true, true)];
 
-/// Words of the compensation side.
+/// The words for the side of compensation.
 const SIDES: [(&[u8], Side, Meaning); 2] =
     [(b"RL", Side::Left, Meaning::SideLeft), (b"RR", Side::Right, Meaning::SideRight)];
 
-/// Reads a block.
+/// Reads the words of a block.
 pub struct Words<'s> {
     pub own: &'s mut Klartext,
     pub state: &'s State,
@@ -39,7 +39,7 @@ pub enum Path {
     Arc,
     /// `CR`: an arc by its radius.
     Radius,
-    /// `CP`: an arc about the centre to a polar position.
+    /// `CP`: an arc about the centre, to a polar position.
     PolarArc,
 }
 
@@ -54,7 +54,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// A number, or a parameter with its sign: `+10`, `-Q5`.
+    /// Reads a number, or a parameter with its sign: `+10`, `-Q5`.
     pub(super) fn number(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
         if let Some(value) = cursor.signed() {
             return Ok(value);
@@ -77,18 +77,18 @@ impl Words<'_> {
         }
     }
 
-    /// An operand of a function: a number, or a parameter with its sign.
+    /// Reads an operand of a function: a number, or a parameter with its sign.
     pub fn operand(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
         self.number(cursor)
     }
 
-    /// A formula of parameters.
+    /// Reads a formula with parameters, and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
         let values: &Values<'_> = &|name| self.own.value(name);
         formula(cursor, values)
     }
 
-    /// `X+10`, `IY-5`: the axis, its value, and whether it is an increment.
+    /// Reads an axis word such as `X+10` or `IY-5`. Returns the axis, its value, and whether it is an increment.
     pub(super) fn axis(&self, cursor: &mut Cursor<'_>) -> Done<Option<(usize, f64, bool)>> {
         let rest = cursor.rest();
         let by = rest.first().is_some_and(|byte| byte.eq_ignore_ascii_case(&b'I'));
@@ -193,7 +193,7 @@ impl Words<'_> {
                 );
             }
         }
-        // M99 makes the last call and ends the calls after every block
+        // M99 calls the cycle once more, and ends the calls after each block
         if calls || goes && self.own.calls_always {
             self.call()?;
         }
@@ -214,7 +214,7 @@ impl Words<'_> {
         }
     }
 
-    /// The position for polar words about the centre. The angle is measured from +X.
+    /// The position that polar words give, about the centre. The angle is measured from +X.
     fn polar(&mut self, at: [f64; 6], words: [Option<(f64, bool)>; 2], keeps: bool) -> Done<[f64; 2]> {
         let center = self.center()?;
         let now = [at[0] - center[0], at[1] - center[1]];
@@ -237,7 +237,7 @@ impl Words<'_> {
         Ok([center[0] + radius * cos, center[1] + radius * sin])
     }
 
-    /// Sets the words of an arc that begins at the tool position.
+    /// Sets the words of an arc that begins at the position of the tool.
     fn arc(
         &mut self,
         path: Path,
@@ -281,7 +281,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Reads `F500`, `FMAX`, `F AUTO`. Returns `true` for a rapid.
+    /// Reads `F500`, `FMAX` or `F AUTO`. Returns whether the move is a rapid.
     pub(super) fn feed(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
         if cursor.takes_word("MAX") {
             return Ok(true);
@@ -295,12 +295,12 @@ impl Words<'_> {
             return Err(Fault::at(Code::PN016, cursor.at(), message, "write the feed per minute"));
         }
         let value = self.number(cursor)?;
-        // in inch programs, feeds are in tenths of an inch
+        // in inch programs, feeds are written in tenths of an inch
         self.own.feed = Some(if self.own.inch { value / 10.0 } else { value });
         Ok(false)
     }
 
-    /// Reads an M code such as `M3`. Returns `true` if the cycle is called.
+    /// Reads an M code such as `M3`. Returns whether it calls the cycle.
     fn switch(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
         let begin = cursor.at();
         *cursor = cursor.from(begin + 1);
@@ -320,7 +320,7 @@ impl Words<'_> {
         Ok(false)
     }
 
-    /// `M140 MB MAX` moves to the end of the travel. `MB50`, a distance along the tool, is not run.
+    /// Runs `M140 MB MAX`, a move to the end of the travel. `MB50`, a distance along the tool, is refused.
     fn back_along_tool(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let begin = cursor.at();
         if !cursor.takes_word("MB") || !cursor.takes_word("MAX") {
@@ -339,12 +339,12 @@ impl Words<'_> {
         };
         self.block.call = Some(call.clone());
         self.block.is_empty = false;
-        // no manual states whether the feed of the moves or Q206 of the cycle is in force afterwards
+        // the manuals do not state which feed is active after the cycle: the feed of the moves, or Q206 of the cycle
         self.own.feed = None;
         Ok(())
     }
 
-    /// Reads `CYCL CALL` with M codes.
+    /// Reads `CYCL CALL` and the M codes after it.
     pub fn cycle_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
         if cursor.takes_word("POS") {
             self.path(Path::Line, cursor)?;
@@ -367,7 +367,7 @@ impl Words<'_> {
         self.call()
     }
 
-    /// Shortens the line if a rounding or chamfer follows: the line then ends at the start of the corner.
+    /// If a rounding or chamfer follows, shortens the line, so that it ends at the start of the corner.
     fn corner_ahead(&mut self, at: [f64; 6]) -> Done {
         let Some([rounding, next]) = self.own.ahead.take() else { return Ok(()) };
         let target = |words: &Self, from: [f64; 2]| -> Done<[f64; 2]> {
@@ -423,7 +423,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Runs `RND R3 F200` and `CHF 2`, which the previous line has prepared.
+    /// Runs `RND R3 F200` or `CHF 2`. The line before it has calculated the corner.
     pub fn rounding(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let Some(corner) = self.own.corner.take() else {
             return refuse(Code::PN009, "a rounding or chamfer without a line before it", "write it between two lines");
@@ -432,7 +432,7 @@ impl Words<'_> {
         self.number(cursor)?;
         let mut feed = self.own.feed;
         if cursor.takes(b"F") {
-            // this feed is in force for the corner only
+            // this feed is active only in the corner
             let held = feed;
             self.feed(cursor)?;
             feed = self.own.feed;
@@ -456,7 +456,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Reads `CC X+10 Y+20`. `CC` alone sets the centre to the tool position.
+    /// Reads `CC X+10 Y+20`. `CC` without words sets the centre to the position of the tool.
     pub fn circle_center(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let at = self.state.place.position;
         let mut center = if cursor.is_over() { [at[0], at[1]] } else { self.own.center.unwrap_or([at[0], at[1]]) };
@@ -472,7 +472,7 @@ impl Words<'_> {
     }
 }
 
-/// Whether a polar path lacks its words.
+/// Whether a block with a polar path does not have the words that it needs.
 fn is_astray(path: Path, words: [Option<(f64, bool)>; 2]) -> bool {
     match path {
         Path::Polar => words == [None; 2],

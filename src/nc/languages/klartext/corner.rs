@@ -1,4 +1,4 @@
-//! `RND` and `CHF` between two lines.
+//! Calculates the corners of `RND` and `CHF` between two lines.
 
 use crate::diag::Code;
 use crate::nc::fault::{Done, refuse};
@@ -6,19 +6,20 @@ use crate::nc::fault::{Done, refuse};
 /// A rounded or chamfered corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
-    /// The new end of the first line.
+    /// The point at which the first line now ends.
     pub start: [f64; 2],
-    /// The new start of the second line.
+    /// The point at which the second line now begins.
     pub end: [f64; 2],
-    /// The centre of the arc, and whether it turns counter-clockwise; `None`: a straight chamfer.
+    /// The centre of the arc, and whether the arc is counterclockwise; `None`: the corner is a chamfer.
     pub arc: Option<([f64; 2], bool)>,
 }
 
 impl Corner {
-    /// The corner between the lines `from`-`at` and `at`-`to`. `size`: the radius, or the length of a chamfer's side.
+    /// The corner between the line from `from` to `at` and the line from `at` to `to`. `size` is the radius, or the
+    /// length of a side of the chamfer.
     ///
     /// # Errors
-    /// The lines are too short, or do not meet at an angle.
+    /// The lines are too short, or they don't meet at an angle.
     pub fn new(from: [f64; 2], at: [f64; 2], to: [f64; 2], size: f64, rounds: bool) -> Done<Corner> {
         let unit = |a: [f64; 2], b: [f64; 2]| {
             let length = (b[0] - a[0]).hypot(b[1] - a[1]);

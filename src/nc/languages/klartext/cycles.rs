@@ -1,5 +1,5 @@
-//! Drilling cycles of Klartext: 200 to 203, 205 to 207, 209 and 240. Each follows its section "cycle run" in the manuals
-//! of TNC 320, 620 and 640.
+//! The drilling cycles of Klartext: 200 to 203, 205 to 207, 209 and 240. They are made as the section "cycle run" of
+//! each cycle in the manuals of TNC 320, 620 and 640 describes.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::nc::call::{Canned, Plan, Stand, Step};
 use crate::nc::fault::{Done, refuse};
 use crate::toolpath::Units;
 
-/// For each cycle: the required parameters and the optional ones.
+/// For each cycle, its number, the required parameters, and the optional ones.
 const CYCLES: [(u16, &[u16], &[u16]); 9] = [
     (200, &[200, 201, 206, 202, 203, 204], &[210, 211, 395]),
     (201, &[200, 201, 206, 203, 204], &[211, 208]),
@@ -24,25 +24,25 @@ const CYCLES: [(u16, &[u16], &[u16]); 9] = [
     (240, &[200, 343, 201, 206, 203, 204], &[344, 211]),
 ];
 
-/// A definition of a drilling cycle.
+/// The definition of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
-    /// The number of the cycle.
+    /// Number of the cycle.
     pub number: u16,
-    /// The parameters by number. `MAX` is stored as infinity.
+    /// Values of the parameters by their numbers. `MAX` is stored as infinity.
     pub words: BTreeMap<u16, f64>,
 }
 
 impl Cycle {
-    /// Whether there is a drilling cycle of this number.
+    /// Whether the drilling cycle with this number is supported.
     pub fn is_known(number: u16) -> bool {
         CYCLES.iter().any(|(own, ..)| *own == number)
     }
 
-    /// Checks that the definition has all required parameters, and none that is not run.
+    /// Checks that the definition has all required parameters, and no parameter that is not supported.
     ///
     /// # Errors
-    /// A parameter is missing or unknown.
+    /// A parameter is missing, or is not supported.
     pub fn check(&self) -> Done {
         let Some((number, needs, takes)) = CYCLES.iter().find(|(own, ..)| *own == self.number) else { return Ok(()) };
         if let Some(missing) = needs.iter().find(|word| !self.words.contains_key(word)) {
@@ -71,7 +71,7 @@ impl Cycle {
         self.words.get(&word).copied().unwrap_or(0.0)
     }
 
-    /// Works out the hole. `None`: the depth is 0, and the cycle does nothing.
+    /// Calculates the hole. `None`: the depth is 0, so the cycle does nothing.
     ///
     /// # Errors
     /// The cycle refuses its parameters.
@@ -85,14 +85,14 @@ impl Cycle {
         let (r, bottom) = (surface + self.get(200), surface + depth);
         let clear = r.max(surface + self.get(204));
         let (turning, speed) = (stand.turning, stand.speed);
-        // in inch programs, feeds are in tenths of an inch
+        // in inch programs, feeds are written in tenths of an inch
         let of_feed = |word: u16| if inch { self.get(word) / 10.0 } else { self.get(word) };
         let into = of_feed(206);
         let mut feed = into;
         let mut steps = vec![Step::Rapid(r)];
         let at_bottom = dwell(self.get(211));
         let mut peck = 0.0;
-        // an infinite feed is a rapid; 0 means the feed of the way in
+        // out of the hole: an infinite feed means a rapid, and 0 means the feed into the hole
         let out_feed = if self.get(208) == 0.0 { into } else { of_feed(208) };
         let retract = |steps: &mut Vec<Step>, height: f64| match out_feed.is_finite() && out_feed < 99_999.0 {
             true => steps.push(Step::Feed(height, out_feed)),
@@ -261,13 +261,13 @@ impl Cycle {
         Ok(Some(Canned { hole, steps }))
     }
 
-    /// The length of the next stroke: shorter by Q212, but at least Q205.
+    /// The length of the next stroke: the length of the last one minus Q212, but at least Q205.
     fn shorter(&self) -> impl Fn(f64, f64) -> f64 + use<> {
         let (less, least) = (self.get(212), self.get(205));
         move |stroke, _| if less > 0.0 { (stroke - less).max(least) } else { stroke }
     }
 
-    /// Adds the strokes of a hole. The tool leaves the hole after each stroke except the last.
+    /// Adds the strokes of a hole. After each stroke except the last, the tool leaves the hole.
     fn pecks(
         &self,
         all: &[f64],

@@ -1,4 +1,4 @@
-//! Definition blocks: `TOOL CALL`, `CYCL DEF`, `TRANS DATUM`.
+//! Reads blocks that define something: `TOOL CALL`, `CYCL DEF`, `TRANS DATUM`.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::diag::Code;
 use crate::nc::fault::{Done, Fault, refuse};
 
 impl Words<'_> {
-    /// Reads `TOOL CALL 5 Z S2000 F300 DL+0.1`. Without a tool, the block sets the speed only.
+    /// Reads `TOOL CALL 5 Z S2000 F300 DL+0.1`. Without a tool, the block only sets the speed.
     pub fn tool_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let tool = match cursor.peek() {
             Some(b'"') => {
@@ -73,7 +73,7 @@ impl Words<'_> {
         (at + 1) as f64
     }
 
-    /// `CYCL DEF 200 DRILLING ~ Q200=2 ..`, `CYCL DEF 7.1 X+10`, `CYCL DEF 247 .. Q339=2`.
+    /// Reads a definition: `CYCL DEF 200 DRILLING ~ Q200=2 ..`, `CYCL DEF 7.1 X+10`, or `CYCL DEF 247 .. Q339=2`.
     pub fn cycle_definition(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let begin = cursor.at();
         let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
@@ -110,7 +110,7 @@ impl Words<'_> {
                 let Some(seconds) = seconds else { return Err(cursor.unreadable()) };
                 self.dwell(seconds)?;
             }
-            // accepted only with values that do not rotate or scale
+            // a rotation or scaling is accepted only with the value that changes nothing
             (10 | 11, _) => {
                 let text = cursor.rest();
                 let neutral = if cycle == 10 { 0.0 } else { 1.0 };
@@ -126,19 +126,19 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Sets a dwell in seconds.
+    /// Sets the words of a dwell in seconds.
     pub fn dwell(&mut self, seconds: f64) -> Done {
         self.code(Meaning::Dwell)?;
         self.block.put(b'P', seconds);
         Ok(())
     }
 
-    /// Reads parameters such as `Q200=2 Q201=-20`. Text before the first one is the name of the cycle.
+    /// Reads parameters such as `Q200=2 Q201=-20`. Text before the first parameter is the name of the cycle.
     fn parameters(&mut self, cursor: &mut Cursor<'_>) -> Done<BTreeMap<u16, f64>> {
         let mut words = BTreeMap::new();
         while !cursor.is_over() {
             let begin = cursor.at();
-            // the name of the cycle comes before the first parameter and has no `=`
+            // the name of the cycle is before the first parameter, and no `=` follows it
             let astray = !words.is_empty() || cursor.peek() == Some(b'=');
             let Some(name) = cursor.name() else {
                 if astray {
@@ -170,7 +170,7 @@ impl Words<'_> {
         Ok(words)
     }
 
-    /// `CYCL DEF 7.1 X+10`, `TRANS DATUM AXIS X+10 Y+5`.
+    /// Reads a shift of the datum: `CYCL DEF 7.1 X+10`, or `TRANS DATUM AXIS X+10 Y+5`.
     pub fn datum(&mut self, cursor: &mut Cursor<'_>) -> Done {
         self.code(Meaning::Frame)?;
         let shift = *self.state.shift();
@@ -182,7 +182,7 @@ impl Words<'_> {
         if self.block.has_axes() { Ok(()) } else { Err(cursor.unreadable()) }
     }
 
-    /// `TRANS DATUM RESET`.
+    /// Runs `TRANS DATUM RESET`, which sets the shift of the datum to zero.
     pub fn datum_reset(&mut self) -> Done {
         self.code(Meaning::Frame)?;
         for letter in self.state.control.axes() {
@@ -191,12 +191,12 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Reads M codes without a path: `M5`, `STOP M9`.
+    /// Reads M codes in a block without a path: `M5`, `STOP M9`.
     pub fn switches(&mut self, cursor: &mut Cursor<'_>) -> Done {
         self.path(Path::Line, cursor)
     }
 
-    /// Sets the units of `BEGIN PGM NAME MM`.
+    /// Sets the units that `BEGIN PGM NAME MM` contains.
     pub fn units(&mut self, inch: bool) -> Done {
         self.own.inch = inch;
         self.code(if inch { Meaning::Inch } else { Meaning::Mm })

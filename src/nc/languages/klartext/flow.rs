@@ -1,4 +1,4 @@
-//! Blocks and program flow: labels, repeated parts, conditions.
+//! Reads blocks, and runs those that control the program flow: labels, repeated parts, conditions.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -21,7 +21,7 @@ pub fn skip_number(cursor: &mut Cursor<'_>) {
     }
 }
 
-/// The line without its comment, with decimal commas changed to points.
+/// The line without its comment. Decimal commas become points.
 fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     let line = line.trim_ascii_end();
     if memchr::memchr2(b',', b';', line).is_none() {
@@ -40,7 +40,7 @@ fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(plain)
 }
 
-/// The label that a line defines: `LBL 5`, `LBL "POCKET"`.
+/// The label that a line defines: `LBL 5` or `LBL "POCKET"`.
 fn label(line: &[u8]) -> Option<String> {
     let line = plain(line);
     let mut cursor = Cursor::new(&line, 0);
@@ -48,7 +48,7 @@ fn label(line: &[u8]) -> Option<String> {
     if cursor.takes_word("LBL") { name(&mut cursor) } else { None }
 }
 
-/// The number or name of a label.
+/// Reads the number or the name of a label.
 fn name(cursor: &mut Cursor<'_>) -> Option<String> {
     match cursor.quoted() {
         Some(name) => Some(String::from_utf8_lossy(name).into_owned()),
@@ -57,7 +57,8 @@ fn name(cursor: &mut Cursor<'_>) -> Option<String> {
 }
 
 impl Simulator<'_> {
-    /// Reads the lines of a block: a line that ends with `~` is continued. Also checks whether a rounding follows.
+    /// Reads the lines of a block: a line that ends with `~` continues on the next one. Also checks whether a rounding
+    /// or chamfer follows.
     pub(in crate::nc) fn read_klartext_lines(&mut self) -> Result<bool, RunError> {
         self.klartext.begin = self.at;
         if !self.read_line()? {
@@ -106,7 +107,7 @@ impl Simulator<'_> {
         Ok(found)
     }
 
-    /// Reads the rounding that follows, and the block after it.
+    /// Reads the rounding or chamfer that follows, and the block after it.
     fn read_corner(&mut self) -> Result<(), RunError> {
         let (back, text) = (self.at, self.line.clone());
         let mut ahead = [Vec::new(), Vec::new()];
@@ -127,7 +128,7 @@ impl Simulator<'_> {
         self.rewind(back)
     }
 
-    /// Goes back to an earlier position in the input. This is not a jump of the program.
+    /// Goes back to an earlier position in the input. This does not count as a jump of the program.
     fn rewind(&mut self, back: Spot) -> Result<(), RunError> {
         let offset = i128::from(back.byte) - i128::from(self.at.byte);
         self.input.seek_relative(i64::try_from(offset).unwrap_or(0))?;
@@ -135,7 +136,7 @@ impl Simulator<'_> {
         Ok(())
     }
 
-    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
+    /// Reads the line into the block. Returns a jump if there is nothing to run.
     pub(in crate::nc) fn read_klartext(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         let line = std::mem::take(&mut self.line);
@@ -163,7 +164,7 @@ impl Simulator<'_> {
             return Ok(self.block.comment.is_none().then_some(Jump::On));
         }
         if cursor.takes(b"*") {
-            // the heading of a program section
+            // a block that begins with `*` is the heading of a section
             let start = cursor.at().min(line.len());
             self.block.comment = Some((start, end.max(start)));
             return Ok(None);
@@ -266,7 +267,7 @@ impl Simulator<'_> {
         Ok(None)
     }
 
-    /// Runs `CALL LBL 1`, and `CALL LBL 1 REP 3`, which runs the part before it 3 more times.
+    /// Runs `CALL LBL 1`, or `CALL LBL 1 REP 3`, which runs the part between the label and this block 3 more times.
     fn call_label(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let Some(label) = name(cursor) else { return Err(cursor.unreadable()) };
         if !cursor.takes_word("REP") && !cursor.takes(b"REP") {
@@ -293,7 +294,7 @@ impl Simulator<'_> {
         Ok(Jump::Search(Search::Label(label, None)))
     }
 
-    /// Runs `FN 1: Q2 = +Q1 + +5` and `FN 9: IF +Q1 EQU +Q2 GOTO LBL 5`.
+    /// Runs a function: `FN 1: Q2 = +Q1 + +5` or `FN 9: IF +Q1 EQU +Q2 GOTO LBL 5`.
     fn function(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let begin = cursor.at();
         let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
@@ -370,7 +371,7 @@ impl Simulator<'_> {
         Ok(if is_so { Jump::Search(Search::Label(label, None)) } else { Jump::On })
     }
 
-    /// Searches for the target and jumps to it.
+    /// Searches for the target of a jump, and jumps there.
     pub(in crate::nc) fn search_klartext(&mut self, search: Search) -> Result<(), RunError> {
         if self.klartext.labels.is_none() {
             let (back, farthest, text) = (self.at, self.farthest, self.line.clone());
@@ -404,7 +405,7 @@ impl Simulator<'_> {
     }
 }
 
-/// The name of a parameter.
+/// Reads the name of a parameter.
 fn parameter(cursor: &mut Cursor<'_>) -> Done<String> {
     let begin = cursor.at();
     let name = cursor.name().map(|name| String::from_utf8_lossy(name).to_ascii_uppercase());
@@ -414,7 +415,7 @@ fn parameter(cursor: &mut Cursor<'_>) -> Done<String> {
     }
 }
 
-/// Whether the block is `PLANE RESET`, or `PLANE SPATIAL` with three zeros.
+/// Whether the rest of the block is that of `PLANE RESET`, or of `PLANE SPATIAL` with three angles of zero.
 fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
     if cursor.takes_word("RESET") {
         return true;
@@ -425,7 +426,7 @@ fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
     [&b"SPA"[..], b"SPB", b"SPC"].iter().all(|word| cursor.takes(word) && cursor.signed() == Some(0.0))
 }
 
-/// Whether the first line of the text is a rounding or chamfer. `None`: the text does not contain the whole line.
+/// Whether the first line of a text is a rounding or chamfer. `None`: the text does not contain the whole line.
 fn is_corner(text: &[u8]) -> Option<bool> {
     let line = match memchr::memchr(b'\n', text) {
         Some(end) => &text[..end],
@@ -437,7 +438,7 @@ fn is_corner(text: &[u8]) -> Option<bool> {
     Some(cursor.is_next(b"RND") || cursor.is_next(b"CHF"))
 }
 
-/// `END PGM` ends the program as M30 does.
+/// Ends the program at `END PGM`, like M30.
 fn items_end(block: &mut crate::nc::block::Block, control: &'static crate::control::Control) -> Done {
     block.m_word(30.0, 0, control)
 }

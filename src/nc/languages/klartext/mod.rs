@@ -13,37 +13,37 @@ use std::collections::HashMap;
 use crate::nc::call::Call;
 use crate::nc::way::Spot;
 
-/// State of a program besides the state of the machine.
+/// The state of a Klartext program, in addition to the state of the machine.
 #[derive(Debug, Default)]
 pub struct Klartext {
-    /// Q, QL and QR parameters by their names.
+    /// The values of the parameters Q, QL and QR, by name.
     values: HashMap<String, f64>,
-    /// The drilling cycle that was defined last.
+    /// The drilling cycle in the last definition.
     cycle: Option<Call>,
-    /// M89: the cycle is called after every positioning block.
+    /// Whether the cycle is called after every positioning block: M89.
     calls_always: bool,
-    /// The circle centre of `CC`.
+    /// The centre that `CC` sets.
     center: Option<[f64; 2]>,
-    /// The radius of a polar position.
+    /// The radius of the last polar position.
     radius: Option<f64>,
-    /// The feed in force, in the program's units per minute.
+    /// The active feed, in the program's units per minute.
     feed: Option<f64>,
-    /// The feed of `TOOL CALL`, for `F AUTO`.
+    /// The feed of `TOOL CALL`, which `F AUTO` uses.
     tool_feed: Option<f64>,
     inch: bool,
-    /// Whether `BEGIN PGM` was read.
+    /// Whether `BEGIN PGM` has been read.
     begun: bool,
     /// Position in the input before the current block.
     begin: Spot,
-    /// The rounding or chamfer after the current block, and the block after that.
+    /// If a rounding or chamfer follows the current block: the text of this block, and of the block after it.
     ahead: Option<[Vec<u8>; 2]>,
-    /// The rounding that the previous block has prepared.
+    /// The corner that the previous line has calculated.
     corner: Option<corner::Corner>,
-    /// Tool names in order. They are numbered from 1.
+    /// Names of the tools in the order of their first use. Their index, from 1, is the number of the tool.
     tools: Vec<Vec<u8>>,
-    /// Labels with their positions in the input.
+    /// Labels with their positions in the input; `None`: the input has not been searched yet.
     labels: Option<HashMap<String, Spot>>,
-    /// `CALL LBL 1 REP 3`: the line of the call, and the number of repeats left.
+    /// For each `CALL LBL 1 REP 3`: the line of the call, and the number of repeats that are left.
     repeats: Vec<(u64, u32)>,
 }
 
@@ -54,7 +54,7 @@ impl Klartext {
     }
 }
 
-/// Whether the name is a parameter: `Q5`, `QL1`, `QR2`.
+/// Whether a name is that of a parameter: `Q5`, `QL1`, `QR2`.
 fn is_parameter(name: &str) -> bool {
     let number = ["QL", "QR", "Q"].iter().find_map(|start| name.strip_prefix(start));
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))

@@ -13,31 +13,31 @@ use crate::nc::codes::{Group, bit, group, letters, takes_axes};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 
-/// Reads a block.
+/// Reads the words of a block.
 pub struct Words<'s> {
     pub own: &'s mut Osp,
     pub state: &'s State,
     pub block: &'s mut Block,
-    /// The block's words that concern cycles and offsets.
+    /// Words of the block for cycles and offsets.
     pub said: Said,
 }
 
-/// Words of a block that have no field in `Block`.
+/// Words of a block that the type `Block` can't store.
 #[derive(Default)]
 pub struct Said {
     /// The code of a cycle.
     pub cycle: Option<Name>,
-    /// Whether the block ends the cycle: by G80 or a motion.
+    /// Whether the block ends the cycle, by G80 or by a motion.
     pub ends: bool,
-    /// NCYL: no hole is made.
+    /// Whether the block makes no hole: NCYL.
     pub no_hole: bool,
-    /// NOEX: no axis moves.
+    /// Whether the block moves no axis: NOEX.
     pub no_move: bool,
-    /// FA: the feed out.
+    /// The feed out of the hole: FA.
     pub feed_out: Option<f64>,
-    /// G15, which selects an offset from here on, or G16, which selects it for this block.
+    /// G15 selects an offset until the next G15, G16 only for this block.
     pub offset: Option<Meaning>,
-    /// G71: the level to which cycles return.
+    /// Whether the block sets the level to which cycles return: G71.
     pub level: bool,
 }
 
@@ -53,7 +53,7 @@ impl Words<'_> {
         self.settle()
     }
 
-    /// A formula.
+    /// Reads a formula and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
         let values: &Values<'_> = &|name| self.own.value(name);
         formula(cursor, values)
@@ -156,7 +156,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Converts the words of a block to those of the simulator.
+    /// Converts the words of a block to the words of the simulator.
     fn settle(&mut self) -> Done {
         if let Some(meaning) = self.said.offset {
             self.offset(meaning)?;
@@ -167,7 +167,7 @@ impl Words<'_> {
             };
             self.own.level = Some(level);
             self.block.given &= !bit(b'Z');
-            // a return to the level now goes to the new level
+            // cycles that return to this level use the new value from now on
             if let Some(Back::Level(_)) = self.own.back {
                 self.own.back = Some(Back::Level(level));
             }
@@ -176,13 +176,13 @@ impl Words<'_> {
             let Some(seconds) = self.block.get(b'F').or(self.block.get(b'P')) else {
                 return refuse(Code::PN007, "G4 without its time", "write G4 F2 for two seconds");
             };
-            self.block.given &= !bit(b'F'); // the feed in force does not change
+            self.block.given &= !bit(b'F'); // the active feed does not change
             self.block.put(b'P', seconds);
         }
         self.cycle()
     }
 
-    /// Handles G15 H1, an offset from here on, and G16 H0, machine positions in this block.
+    /// Handles G15 H1, which selects an offset, and G16 H0, which means machine positions in this block.
     fn offset(&mut self, meaning: Meaning) -> Done {
         let said = self.block.get(b'H').filter(|number| number.fract() == 0.0 && (0.0..=105.0).contains(number));
         let Some(number) = said else {
@@ -204,7 +204,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Sets the cycle in force and the hole that the block makes.
+    /// Sets the active cycle, and the hole that the block makes.
     fn cycle(&mut self) -> Done {
         if self.said.ends {
             if self.said.cycle.is_some() {
@@ -261,7 +261,7 @@ impl Words<'_> {
             return Ok(());
         }
         if block.has(letters("XY")) {
-            // the block moves to the hole at rapid
+            // the block moves to the hole by a rapid
             let control = self.state.settings.control;
             if let Some(row) = control.first(Meaning::Rapid) {
                 block.put_g(row, group(row, control.rules()), takes_axes(row, control.rules()));

@@ -1,4 +1,4 @@
-//! Drilling cycles: G73 to G89, G274 and G284. Their heights are absolute. M52, M53 and M54 select the return level.
+//! The drilling cycles G73 to G89, G274 and G284. Their heights are absolute. M52, M53 and M54 select the return level.
 
 use super::super::strokes::depths;
 use crate::control::{Code as Name, Motions};
@@ -10,39 +10,39 @@ use crate::nc::fault::{Done, refuse};
 /// The return level of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Back {
-    /// M52: the upper limit of the axis, which is known only at the machine.
+    /// M52: the upper limit of the axis, whose position is known only at the machine.
     Top,
-    /// M53: the level of `G71 Z`.
+    /// M53: the level that `G71 Z` sets.
     Level(f64),
-    /// M54: R.
+    /// M54: the R level.
     R,
 }
 
-/// A cycle with the words that are in force.
+/// A cycle with the active values of its words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
     /// The code of the cycle.
     pub code: Name,
     /// The motions of the cycle.
     pub motions: Motions,
-    /// The bottom, Z.
+    /// The bottom of the hole: Z.
     pub depth: Option<f64>,
     pub r: Option<f64>,
-    /// Q: a peck, or the shift of a bore.
+    /// Q: the length of a peck, or the shift of a boring cycle.
     pub step: Option<f64>,
-    /// I and J: chip breaks and retracts of G83, the shift of G76.
+    /// I and J: the depths of chip breaks and retracts in G83, or the shift of G76.
     pub parts: [Option<f64>; 2],
-    /// FA: the feed out.
+    /// FA: the feed out of the hole.
     pub feed_out: Option<f64>,
     /// The return level.
     pub back: Option<Back>,
 }
 
 impl Cycle {
-    /// Works out the hole.
+    /// Calculates the hole.
     ///
     /// # Errors
-    /// The cycle lacks a word, or the documentation leaves the result open.
+    /// The cycle lacks a word, or the documentation does not define the result.
     fn hole(&self, stand: &Stand) -> Done<Canned> {
         let name = self.code;
         let lacks = |what: &str, help: &'static str| refuse(Code::PN007, format!("{name} without {what}"), help);

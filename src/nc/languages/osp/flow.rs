@@ -1,4 +1,4 @@
-//! Blocks and program flow: labels, jumps, subprograms, variables.
+//! Reads blocks, and runs those that control the program flow: labels, jumps, subprograms, variables.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -11,14 +11,14 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
 
-/// The columns of the first comment of a line. Its closing bracket may be missing at the end of the line.
+/// The columns of the first comment of a line. A comment without a closing bracket ends at the end of the line.
 fn comment(line: &[u8]) -> Option<(usize, usize)> {
     let open = memchr::memchr(b'(', line)?;
     let close = line[open..].iter().position(|byte| *byte == b')').map(|at| open + at);
     Some((open + 1, close.unwrap_or(line.trim_ascii_end().len())))
 }
 
-/// The line with its comments replaced by spaces.
+/// The line, with spaces in place of its comments.
 fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     if memchr::memchr(b'(', line).is_none() {
         return Cow::Borrowed(line.trim_ascii_end());
@@ -35,7 +35,7 @@ fn plain(line: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(plain)
 }
 
-/// The name of a program that begins at this line: `O100` alone in its block.
+/// The name of the program that begins at this line: `O100`, without other words.
 fn program(line: &[u8]) -> Option<String> {
     memchr::memchr2(b'O', b'o', line)?; // most lines have no O
     let line = plain(line);
@@ -45,20 +45,20 @@ fn program(line: &[u8]) -> Option<String> {
     is_name.then(|| String::from_utf8_lossy(line).to_ascii_uppercase())
 }
 
-/// The name of a block, `N10` or `NLOOP`, up to the next space. Leading zeros of a number are ignored.
+/// Reads the name of a block: `N10` or `NLOOP`, up to the next space. Leading zeros of a number are dropped.
 fn block_name(cursor: &mut Cursor<'_>) -> Option<String> {
     let name = capitals(pass_block_name(cursor)?);
     let number = name.get(1..)?.parse::<u32>().ok();
     Some(number.map_or_else(|| name.to_string(), |number| format!("N{number}")))
 }
 
-/// Skips the name of a block and returns it as written.
+/// Skips the name of a block, and returns it as written.
 fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<&'l [u8]> {
     let rest = cursor.rest();
     if !rest.first()?.eq_ignore_ascii_case(&b'N') {
         return None;
     }
-    // handles `N10G0`, and words such as NCYL
+    // a number may be followed by a word without a space, as in `N10G0`; names include words such as NCYL
     let length = match rest[1..].iter().take_while(|byte| byte.is_ascii_digit()).count() {
         0 => rest.iter().take_while(|byte| byte.is_ascii_alphanumeric()).count(),
         numbered => 1 + numbered,
@@ -72,12 +72,12 @@ fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<&'l [u8]> {
 }
 
 impl Simulator<'_> {
-    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
+    /// Reads the line into the block. Returns a jump if there is nothing to run.
     pub(in crate::nc) fn read_osp(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.osp.at_depth(self.frames.len());
         if self.line.trim_ascii_start().starts_with(b"$") || self.line.trim_ascii() == b"%" {
-            return Ok(Some(Jump::On)); // header of a file transfer
+            return Ok(Some(Jump::On)); // this is the header of a file transfer
         }
         self.block.comment = comment(&self.line);
         let line = std::mem::take(&mut self.line);
@@ -121,7 +121,7 @@ impl Simulator<'_> {
         Ok((nothing && block.comment.is_none()).then_some(Jump::On))
     }
 
-    /// Runs statements that control the program flow or set a variable. `None`: the block is not such a statement.
+    /// Runs statements that control the program flow or set a variable. `None`: the block contains other words.
     fn osp_way(&mut self, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
@@ -164,7 +164,7 @@ impl Simulator<'_> {
                 words.own.arguments = arguments;
                 Jump::Search(Search::Call(program, Vec::new(), times as u32))
             }
-            // `VC1=..`, `LOOP=..`; words of one letter are axes or other words
+            // `VC1=..` and `LOOP=..` set variables; words of one letter are axes or other words
             name if name.len() > 1 && cursor.peek() == Some(b'=') && name != "FA" && !is_word(name) => {
                 let common = name.strip_prefix("VC").is_some_and(|number| number.parse::<u16>().is_ok());
                 if name.starts_with('V') && !common {
@@ -201,7 +201,7 @@ impl Simulator<'_> {
         if cursor.is_over() { Ok(Some(jump)) } else { Err(cursor.unreadable()) }
     }
 
-    /// Searches for the target and jumps to it.
+    /// Searches for the target of a jump, and jumps there.
     pub(in crate::nc) fn search_osp(&mut self, search: Search) -> Result<(), RunError> {
         if self.osp.labels.is_none() {
             let (back, farthest, text) = (self.at, self.farthest, self.line.clone());
@@ -236,7 +236,7 @@ impl Simulator<'_> {
         });
         let (spot, missing) = match &search {
             Search::Label(label, _) => {
-                // a main program may have no name
+                // the main program may have no name
                 let spot = match &here {
                     Some(program) => found(program, label),
                     None => labels.and_then(|labels| {
@@ -263,7 +263,7 @@ impl Simulator<'_> {
     }
 }
 
-/// Whether the name is a letter with a number, such as `X1` of `X1=5`.
+/// Whether a name is one of the letters G, M, N and O with a number, not a variable.
 fn is_word(name: &str) -> bool {
     let bytes = name.as_bytes();
     matches!(bytes[0], b'G' | b'M' | b'N' | b'O') && bytes[1..].iter().all(u8::is_ascii_digit)

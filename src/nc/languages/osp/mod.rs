@@ -11,22 +11,23 @@ use std::collections::HashMap;
 use crate::nc::way::Spot;
 use cycles::{Back, Cycle};
 
-/// State of a program besides the state of the machine.
+/// The state of an Okuma program, in addition to the state of the machine.
 #[derive(Debug, Default)]
 pub struct Osp {
-    /// Common variables, `VC1`.
+    /// Values of the common variables, such as `VC1`.
     common: HashMap<String, f64>,
-    /// Local variables, one map for each running subprogram; the main program is first.
+    /// Values of the local variables: one map for the main program, then one for each running subprogram.
     local: Vec<HashMap<String, f64>>,
-    /// The arguments of the next call.
+    /// The arguments for the next call.
     arguments: HashMap<String, f64>,
-    /// The cycle in force with its words.
+    /// The active cycle, with its words.
     cycle: Option<Cycle>,
-    /// The return level of cycles; `None`: no M52, M53 or M54 since the last G80.
+    /// The return level of cycles; `None`: no M52, M53 or M54 has followed the last G80.
     back: Option<Back>,
-    /// The level of `G71 Z`.
+    /// The level that `G71 Z` has set.
     level: Option<f64>,
-    /// Positions of labels, by program and name. A program itself has an empty label name.
+    /// Positions of labels, by program and label. An empty label is the beginning of the program; `None`: the input has
+    /// not been searched yet.
     labels: Option<HashMap<(String, String), Spot>>,
 }
 
@@ -35,7 +36,7 @@ impl Osp {
         self.local.last().and_then(|own| own.get(name)).or_else(|| self.common.get(name)).copied()
     }
 
-    /// Keeps the variables of this many nested subprograms, and creates those of the running one.
+    /// Removes the variables of subprograms that have ended, and adds those of the subprogram that is running.
     fn at_depth(&mut self, depth: usize) {
         self.local.truncate(depth + 1);
         while self.local.len() < depth + 1 {

@@ -15,9 +15,9 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 use crate::toolpath::Units;
 
-/// Words of path control and look-ahead. They change nothing that is compared.
+/// Words for path control and look-ahead. They have no effect on anything that is compared.
 const HARMLESS: [&str; 27] = [
-    // these turn off features that no program that is run can have turned on
+    // these turn off features that are refused when a program turns them on
     "TRAFOOF",
     "FNORM",
     "DIAMOF",
@@ -47,7 +47,7 @@ const HARMLESS: [&str; 27] = [
     "RTLIOF",
 ];
 
-/// Words of features that are not run, with the name of the feature.
+/// Words of features that are not run, each with a name of the feature for messages.
 const NOT_RUN: [(&str, &str); 22] = [
     ("TRAORI", "a transformation of five axes"),
     ("TRANSMIT", "polar coordinate interpolation"),
@@ -73,16 +73,16 @@ const NOT_RUN: [(&str, &str); 22] = [
     ("WHENEVER", "a synchronised action"),
 ];
 
-/// The name of the feature of a word, if the feature is not run.
+/// The name of the feature that a word belongs to, if the feature is not run.
 pub(super) fn not_run(name: &str) -> Option<&'static str> {
     NOT_RUN.iter().find(|(word, _)| *word == name).map(|(_, what)| *what)
 }
 
-/// Reads the words of a block that moves or switches.
+/// Reads the words of a block that contains moves or switches.
 pub struct Words<'s> {
     pub own: &'s mut Siemens,
     pub state: &'s State,
-    /// The block. It also marks axis words as absolute (`AC`) or incremental (`IC`).
+    /// The block. Axis words are marked as absolute (`AC`) or incremental (`IC`) in it.
     pub block: &'s mut Block,
 }
 
@@ -119,7 +119,7 @@ impl Words<'_> {
             }
             let Some(value) = cursor.signed() else { return Err(cursor.unreadable()) };
             if cursor.takes(b"=") {
-                // `M1=3`, `S1=1000`: words of the first spindle
+                // in `M1=3` and `S1=1000`, the first 1 is the number of the spindle
                 return match letter {
                     b'M' | b'S' | b'T' if value == 1.0 => self.assigned(letter, cursor, column),
                     b'M' | b'S' | b'T' => {
@@ -168,7 +168,7 @@ impl Words<'_> {
         }
     }
 
-    /// Reads a tool number, or the name in `T="DRILL"`.
+    /// Reads a tool number, or a tool name as in `T="DRILL"`.
     fn tool(&mut self, cursor: &mut Cursor<'_>) -> Done<f64> {
         if cursor.peek() != Some(b'"') {
             return self.value(cursor);
@@ -177,7 +177,7 @@ impl Words<'_> {
         Ok(self.own.tool(name))
     }
 
-    /// Reads `X=R1*2`, `X=AC(10)`, `X=IC(-5)`.
+    /// Reads the value after `=`: `X=R1*2`, `X=AC(10)`, `X=IC(-5)`.
     fn assigned(&mut self, letter: u8, cursor: &mut Cursor<'_>, column: usize) -> Done {
         let axis = self.state.control.axes().iter().position(|axis| *axis == letter);
         let center = b"IJK".iter().position(|own| *own == letter);
@@ -227,11 +227,11 @@ impl Words<'_> {
         }
     }
 
-    /// Converts the words of a block to those of the simulator.
+    /// Converts the words of a block to the words of the simulator.
     fn settle(&mut self) -> Done {
         let block = &mut *self.block;
         if let Some(edge) = block.get(b'D') {
-            // a cutting edge has the length and radius of the tool in the spindle
+            // a D word selects a cutting edge, with its length and radius, of the tool in the spindle
             let own = block.get(b'T').filter(|_| block.means(Meaning::ToolChange)).or(self.state.tool.loaded);
             let register = if edge == 0.0 { 0.0 } else { own.unwrap_or(0.0) + (edge - 1.0) / 100.0 };
             block.put(b'D', register);
@@ -243,7 +243,7 @@ impl Words<'_> {
                 (None, Some(turns)) if self.state.drive.speed > 0.0 => turns * 60.0 / self.state.drive.speed,
                 _ => return refuse(Code::PN007, "G4 without its time", "write G4 F2 for two seconds, or S for turns"),
             };
-            block.given &= !(bit(b'F') | bit(b'S')); // the feed and speed in force do not change
+            block.given &= !(bit(b'F') | bit(b'S')); // the active feed and speed do not change
             block.put(b'P', seconds);
         }
         if let Some(units) = block.g_meaning(Group::Units) {
@@ -251,7 +251,7 @@ impl Words<'_> {
                 .units(units == Meaning::Inch, block.row(Group::Units).is_some_and(|row| row.code.tenths >= 7000))?;
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Reference) {
-            // the numbers of its axis words are ignored
+            // the values of the axis words in this block are ignored
             for (axis, letter) in self.state.control.axes().iter().enumerate() {
                 if block.get(*letter).is_some() {
                     block.put(*letter, 0.0);
@@ -270,13 +270,13 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// A formula.
+    /// Reads a formula and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
         let values: &Values<'_> = &|name| self.own.value(name);
         formula(cursor, values)
     }
 
-    /// Reads the arguments of a call. An omitted argument is `None`.
+    /// Reads the arguments of a call. An argument that is left out is `None`.
     pub fn arguments(&self, cursor: &mut Cursor<'_>) -> Done<Vec<Option<f64>>> {
         let mut arguments = Vec::new();
         if !cursor.takes(b"(") {
@@ -298,7 +298,7 @@ impl Words<'_> {
         }
     }
 
-    /// Reads a cycle with its arguments. `None`: the name is not a drilling cycle that is run.
+    /// Reads the arguments of a cycle. `None`: the name is not that of a supported drilling cycle.
     pub fn cycle(&self, name: &str, cursor: &mut Cursor<'_>) -> Done<Option<Call>> {
         let number = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u16>().ok());
         let Some((number, most)) = number.and_then(|number| Some((number, Cycle::most_arguments(number)?))) else {
@@ -344,7 +344,7 @@ impl Words<'_> {
             };
             holes.map(place).collect()
         };
-        // a row begins at the nearer end
+        // the row is drilled from the end that is nearer to the tool
         let [x, y, _] = crate::nc::arcs::axes_of(self.state.modes.plane).map(|axis| self.state.place.position[axis]);
         let far = |place: Option<&[f64; 2]>| place.map_or(0.0, |place| (place[0] - x).hypot(place[1] - y));
         if !circle && far(at.back()) < far(at.front()) {
@@ -355,7 +355,7 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Reads `TRANS`, which sets the frame, or `ATRANS`, which moves it further.
+    /// Reads `TRANS`, which sets the shift of the frame, or `ATRANS`, which adds to it.
     pub fn translate(&mut self, adds: bool, cursor: &mut Cursor<'_>) -> Done {
         let Some(row) = self.state.control.first(Meaning::Frame) else {
             return refuse(Code::PN016, "a moved frame is not supported", "run the program without it");
@@ -391,7 +391,7 @@ impl Words<'_> {
 }
 
 impl Siemens {
-    /// Records the units of a block. G70 and G71 do not change the unit of feeds, which is that of the machine.
+    /// Records the units that a block sets. G70 and G71 do not change the unit of feeds, which is that of the machine.
     fn units(&mut self, inch: bool, with_feed: bool) -> Done {
         let units = if inch { Units::Inch } else { Units::Mm };
         let before = self.units.replace(units);
@@ -403,7 +403,7 @@ impl Siemens {
     }
 }
 
-/// Whether the word changes nothing that is compared.
+/// Whether a word has no effect on anything that is compared.
 pub fn is_harmless(name: &str) -> bool {
     HARMLESS.contains(&name)
 }

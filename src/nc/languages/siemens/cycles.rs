@@ -1,4 +1,4 @@
-//! Drilling cycles of 840D and 828D: CYCLE81 to CYCLE89 and CYCLE840, from the Programming Guide Cycles, section 2.1.
+//! The drilling cycles of 840D and 828D, CYCLE81 to CYCLE89 and CYCLE840, as in the Programming Guide Cycles, section 2.1.
 
 use super::super::strokes::{depths, dwell};
 use crate::control::{Code as Name, Motions};
@@ -8,7 +8,7 @@ use crate::nc::call::{Canned, Plan, Stand, Step};
 use crate::nc::fault::{Done, refuse};
 use crate::toolpath::Units;
 
-/// Coarse pitches of metric threads by their nominal diameter, ISO 261.
+/// The pitches of metric coarse threads by nominal diameter, from ISO 261.
 const COARSE: [(f64, f64); 21] = [
     (3.0, 0.5),
     (4.0, 0.7),
@@ -36,25 +36,25 @@ const COARSE: [(f64, f64); 21] = [
 /// A call of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
-    /// The number: 81 to 89, or 840.
+    /// Number of the cycle: 81 to 89, or 840.
     pub number: u16,
-    /// The arguments in order. An omitted argument is `None`.
+    /// The arguments in their order. An argument that is left out is `None`.
     pub arguments: Vec<Option<f64>>,
 }
 
-/// The levels that all cycles share.
+/// The heights that all cycles have.
 struct Levels {
-    /// RTP: the return level of the tool.
+    /// The return level: RTP.
     back: f64,
-    /// RFP: the reference plane, at the top of the part.
+    /// The reference plane at the top of the part: RFP.
     reference: f64,
-    /// RFP + SDIS: the level where the feed begins.
+    /// The height at which the feed begins: RFP + SDIS.
     r: f64,
     bottom: f64,
 }
 
 impl Cycle {
-    /// The number of arguments of a cycle; `None`: there is no such cycle.
+    /// The maximum number of arguments of a cycle; `None`: the cycle is not supported.
     pub fn most_arguments(number: u16) -> Option<usize> {
         Some(match number {
             81 | 82 | 87 => 6,
@@ -104,10 +104,10 @@ impl Cycle {
         Ok(Levels { back, reference, r: reference + clearance, bottom })
     }
 
-    /// Works out the hole with the feed and spindle in force.
+    /// Calculates the hole with the active feed and spindle speed.
     ///
     /// # Errors
-    /// The cycle refuses its arguments, or the documentation leaves the result open.
+    /// The cycle refuses its arguments, or the documentation does not define the result.
     fn hole(&self, stand: &Stand) -> Done<Canned> {
         let levels = self.levels()?;
         let (feed, speed, turning) = (stand.feed, stand.speed, stand.turning);
@@ -204,8 +204,8 @@ impl Cycle {
         Ok(Canned { hole, steps })
     }
 
-    /// Adds the strokes of CYCLE83, which may become shorter. After each, the chip is broken or cleared. Returns the
-    /// first stroke.
+    /// Adds the strokes of CYCLE83, which may become shorter with the depth. After each stroke the chips are broken or
+    /// cleared. Returns the length of the first stroke.
     fn pecks(
         &self,
         levels: &Levels,
@@ -232,7 +232,7 @@ impl Cycle {
                 factor if factor < 0.0 => stroke * -factor,
                 amount => {
                     let shorter = (stroke - amount).max(amount);
-                    // the last two strokes are equal
+                    // the last two strokes have the same length
                     if shorter < left && left < 2.0 * shorter { left / 2.0 } else { shorter }
                 }
             };
@@ -269,7 +269,7 @@ impl Cycle {
         Ok(first)
     }
 
-    /// The pitch of a tap in the program's units. A negative pitch is a left-hand thread.
+    /// The pitch of a tap in the program's units. It is negative for a left-hand thread.
     fn pitch(&self, size: usize, pitch: usize, table: usize, stand: &Stand) -> Done<f64> {
         let mm = if stand.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
         let by_size = match self.get(size) {
@@ -300,7 +300,7 @@ impl Cycle {
         }
     }
 
-    /// Adds the steps of CYCLE84 and CYCLE840: in, reverse, and out. Returns the motions and the feed.
+    /// Adds the steps of CYCLE84 or CYCLE840: into the hole, reversal, and out. Returns the motions and the feed.
     fn tap(
         &self,
         levels: &Levels,
@@ -368,7 +368,7 @@ impl Cycle {
         Ok((motions, feed))
     }
 
-    /// SDAC: the rotation of the spindle after a tap. Without a direction, CYCLE84 stops the spindle.
+    /// The rotation of the spindle after a tap: SDAC. If SDAC has no direction, CYCLE84 leaves the spindle stopped.
     fn after_tap(&self, stand: &Stand) -> Option<Step> {
         let rotation = match (self.number, self.get(if self.number == 84 { 6 } else { 7 }) as i32) {
             (84 | 840, 3) => Rotation::Cw,

@@ -11,7 +11,7 @@ use crate::nc::simulator::Simulator;
 use crate::nc::way::{Jump, Search};
 
 impl Simulator<'_> {
-    /// Reads the line into the block. Returns a jump if the control has nothing else to do.
+    /// Reads the line into the block. Returns a jump if there is nothing to run.
     pub(in crate::nc) fn read_siemens(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.siemens.at_depth(self.frames.len());
@@ -31,7 +31,7 @@ impl Simulator<'_> {
         Ok(jump)
     }
 
-    /// Begin of a section. The previous section ends here, unless this section is the first or is called.
+    /// Runs the first line of a section. If the previous section runs into this one, it ends here; a main program must not do so.
     fn section_begins(&mut self) -> Done<Option<Jump>> {
         let is_proc = !self.line.trim_ascii_start().starts_with(b"%");
         if let (true, Some(arguments)) = (is_proc, self.siemens.arguments.take()) {
@@ -112,7 +112,7 @@ impl Simulator<'_> {
         }
         let begin = cursor.at();
         let mut words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
-        // `MCALL CYCLE81(..)` and `CYCLE81(..)`
+        // a modal cycle, `MCALL CYCLE81(..)`, or a single one, `CYCLE81(..)`
         let modal = cursor.takes_word("MCALL");
         if modal && cursor.is_over() {
             words.own.modal = None;
@@ -124,11 +124,11 @@ impl Simulator<'_> {
             _ if name.starts_with("CYCLE") => match words.cycle(&name, &mut cursor)? {
                 Some(call) if modal => words.own.modal = Some(call),
                 Some(call) => words.block.call = Some(call),
-                // without arguments it ends a tilted plane, which no program that is run can have begun
+                // CYCLE800 without arguments ends a tilted plane, which is refused at its beginning
                 None if name == "CYCLE800" && [&b""[..], b"()"].contains(&cursor.rest().trim_ascii()) => {
                     return Ok(None);
                 }
-                // CYCLE832 sets smoothing
+                // CYCLE832 only sets the smoothing of the path
                 None if name == "CYCLE832" => _ = words.arguments(&mut cursor)?,
                 None => {
                     let message = format!("{name} is not supported");
@@ -149,7 +149,7 @@ impl Simulator<'_> {
         if cursor.is_over() { Ok(None) } else { Err(cursor.unreadable()) }
     }
 
-    /// Runs statements that control the program flow or set variables. `None`: the line is not such a statement.
+    /// Runs statements that control the program flow or set variables. `None`: the line is another statement.
     fn siemens_way(&mut self, head: &Head<'_>, cursor: &mut Cursor<'_>) -> Done<Option<Jump>> {
         let begin = cursor.at();
         let words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
@@ -233,7 +233,7 @@ impl Simulator<'_> {
                 return if cursor.is_over() { Ok(None) } else { Err(cursor.unreadable()) };
             }
             "WORKPIECE" | "GROUP_BEGIN" | "GROUP_END" => Jump::On,
-            // `R1=5`, `NAME=5`
+            // sets a variable: `R1=5`, `NAME=5`
             name if cursor.peek() == Some(b'=')
                 && !cursor.rest().starts_with(b"==")
                 && is_variable(name, words.own) =>
@@ -241,7 +241,7 @@ impl Simulator<'_> {
                 cursor.takes(b"=");
                 let value = words.value(cursor)?;
                 words.own.set(name, value);
-                // one block may set several
+                // one block may set several variables
                 while let Some(name) = cursor.name() {
                     let name = String::from_utf8_lossy(name).to_ascii_uppercase();
                     cursor.needs(b"=")?;
@@ -284,7 +284,7 @@ impl Simulator<'_> {
         Ok(Some(jump))
     }
 
-    /// Handles a line that opens a part: the part is entered or skipped.
+    /// Handles a line that opens a part of the program: the part is run or skipped.
     fn opens(&self, enters: bool) -> Jump {
         match self.siemens.parts.get(&self.at.line) {
             Some(_) if enters => Jump::On,
@@ -293,7 +293,7 @@ impl Simulator<'_> {
         }
     }
 
-    /// Runs `REPEAT LABEL P=3`: the lines between the label and this line run 3 more times.
+    /// Runs `REPEAT LABEL P=3`: the lines between the label and this line are run 3 more times.
     fn repeats(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let Some(label) = cursor.name() else { return Err(cursor.unreadable()) };
         let label = String::from_utf8_lossy(label).to_ascii_uppercase();
@@ -323,7 +323,7 @@ impl Simulator<'_> {
     }
 }
 
-/// Reads `GOTOF LABEL`.
+/// Reads a jump such as `GOTOF LABEL`.
 fn goes_to(cursor: &mut Cursor<'_>) -> Done<Jump> {
     let Some(word) = cursor.name() else { return Err(cursor.unreadable()) };
     let forwards = match String::from_utf8_lossy(word).to_ascii_uppercase().as_str() {
@@ -345,7 +345,7 @@ fn is_variable(name: &str, own: &Siemens) -> bool {
     own.value(name).is_some() || name.strip_prefix('R').is_some_and(|number| number.parse::<u32>().is_ok())
 }
 
-/// Whether the name can name a subprogram: it begins with two letters, such as `POCKET`, or is L with a number.
+/// Whether a name can be that of a subprogram: it begins with two letters, such as `POCKET`, or it is L with a number.
 fn line_name(name: &str) -> bool {
     let is_numbered =
         name.strip_prefix('L').is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()));
@@ -353,7 +353,7 @@ fn line_name(name: &str) -> bool {
     is_numbered || letters == 2
 }
 
-/// Whether the name calls a subprogram. A call is the name alone or with arguments.
+/// Whether a name calls a subprogram. A call is the name without further words, or the name with its arguments.
 fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     let own = ["CYCLE", "HOLES", "TRANS", "ATRANS", "MCALL", "SUPA"];
     let rest = cursor.rest();
@@ -362,7 +362,7 @@ fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     is_name && alone && !is_known && !own.iter().any(|known| name.starts_with(known))
 }
 
-/// The number of calls: `P3` after a call.
+/// The number of calls, which may follow a call as `P3`.
 fn calls(cursor: &mut Cursor<'_>) -> f64 {
     if cursor.takes(b"P") || cursor.takes(b"p") { cursor.unsigned().unwrap_or(-1.0) } else { 1.0 }
 }

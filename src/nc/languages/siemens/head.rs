@@ -1,27 +1,27 @@
-//! The beginning of a line: its number, its label, its first word; and the parts that a word opens or ends.
+//! Reads the beginning of a line: its number, its label and its first word. Also finds the program parts that a word opens or ends.
 
 use std::borrow::Cow;
 
 use super::super::cursor::{Cursor, capitals};
 
-/// Words that open a part, each with the word that ends it.
+/// The words that open a part of the program, each with the word that ends the part.
 pub const PARTS: [(&str, &str); 5] =
     [("IF", "ENDIF"), ("WHILE", "ENDWHILE"), ("FOR", "ENDFOR"), ("LOOP", "ENDLOOP"), ("REPEAT", "UNTIL")];
 
 /// The beginning of a line.
 #[derive(Default)]
 pub struct Head<'l> {
-    /// The number of `N100`.
+    /// The block number, from `N100`.
     number: Option<f64>,
     label: Option<Cow<'l, str>>,
-    /// The first word after the number and label, in upper case.
+    /// The first word after the block number and the label, in upper case.
     pub word: Cow<'l, str>,
-    /// The byte where the statement begins.
+    /// The byte at which the statement begins.
     pub start: usize,
 }
 
 impl Head<'_> {
-    /// Whether this line is the target of a jump to the label. A block number is a label such as `N100`.
+    /// Whether this line is the target of a jump to a label. The label may also be a block number such as `N100`.
     pub fn is(&self, label: &str) -> bool {
         self.label.as_deref() == Some(label)
             || self.number.is_some_and(|number| label.strip_prefix('N').is_some_and(|own| own == number.to_string()))
@@ -44,7 +44,7 @@ pub fn without_comment(line: &[u8]) -> (&[u8], Option<(usize, usize)>) {
     (line, None)
 }
 
-/// The number of a line, and the rest of the line.
+/// The block number of a line, and a cursor after it.
 pub fn number(line: &[u8]) -> (Option<f64>, Cursor<'_>) {
     let mut cursor = Cursor::new(line, 0);
     while cursor.peek() == Some(b'/') {
@@ -80,7 +80,7 @@ pub fn head(line: &[u8]) -> Head<'_> {
     head
 }
 
-/// The name of the section that begins at this line: `%_N_NAME_SPF`, `PROC NAME`.
+/// The name of the section that begins at this line, from `%_N_NAME_SPF` or `PROC NAME`.
 pub fn section(line: &[u8]) -> Option<String> {
     let text = line.trim_ascii();
     let name = if let Some(name) = text.strip_prefix(b"%_N_") {
@@ -100,13 +100,13 @@ pub fn section(line: &[u8]) -> Option<String> {
     Some(String::from_utf8_lossy(name).to_ascii_uppercase())
 }
 
-/// The index in `PARTS` of the part that the line opens.
+/// The index in `PARTS` of the part that a line opens.
 pub fn opens(head: &Head<'_>, line: &[u8]) -> Option<usize> {
     let at = PARTS.iter().position(|(open, _)| *open == head.word)?;
     let rest = String::from_utf8_lossy(without_comment(line).0).to_ascii_uppercase();
     match head.word.as_ref() {
         "IF" if rest.contains("GOTO") => None,
-        // `REPEAT LABEL P=3` repeats the lines before it
+        // `REPEAT LABEL P=3` opens no part: it repeats earlier lines
         "REPEAT" if rest[head.start.min(rest.len())..].trim() != "REPEAT" => None,
         _ => Some(at),
     }

@@ -8,12 +8,12 @@ use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Search, Spot};
 
 impl Simulator<'_> {
-    /// Position in the input before the line that was read last.
+    /// Position in the input before the current line.
     fn this_line(&self) -> Spot {
         Spot { byte: self.at.byte - self.line.len() as u64, line: self.at.line - 1 }
     }
 
-    /// Searches for the target and jumps to it.
+    /// Searches for the target of a jump, and jumps there.
     pub(in crate::nc::languages) fn search_siemens(&mut self, search: Search) -> Result<(), RunError> {
         let text = self.line.clone();
         let (back, farthest) = (self.at, self.farthest);
@@ -27,7 +27,7 @@ impl Simulator<'_> {
             Search::Call(name, arguments, times) => self.find_program(&name, arguments, times, back),
         };
         self.line = text;
-        // reading ahead is not a jump back
+        // reading ahead must not count as a jump back
         self.farthest = farthest;
         match found? {
             Ok(spot) => self.go(spot),
@@ -38,7 +38,7 @@ impl Simulator<'_> {
         }
     }
 
-    /// Reads the lines from a position to the end of the input. `each` ends the reading by returning `false`.
+    /// Reads the lines from a position to the end of the input. If `each` returns `false`, the reading ends.
     fn lines_from(&mut self, spot: Spot, each: &mut dyn FnMut(&[u8], Spot, Spot) -> bool) -> Result<(), RunError> {
         self.go(spot)?;
         while self.read_line()? {
@@ -54,7 +54,7 @@ impl Simulator<'_> {
         let mut sections = vec![Section { name: String::new(), start }];
         self.lines_from(start, &mut |line, before, _| {
             if let Some(name) = section(line) {
-                // `PROC NAME` after the header of the same name begins no new section
+                // `PROC NAME` after a header with the same name does not begin another section
                 if sections.last().is_none_or(|last| last.name != name) {
                     sections.push(Section { name, start: before });
                 }
@@ -65,7 +65,7 @@ impl Simulator<'_> {
         Ok(())
     }
 
-    /// The index of a line's section, and the line before which the next section begins.
+    /// The index of the section that contains a line, and the first line of the next section.
     fn section_of(&self, line: u64) -> (usize, u64) {
         let sections = self.siemens.sections.as_deref().unwrap_or_default();
         let at = sections.iter().rposition(|section| section.start.line <= line).unwrap_or(0);
@@ -107,7 +107,7 @@ impl Simulator<'_> {
         })
     }
 
-    /// Finds the end of the part that the line before `back` opens.
+    /// Finds the end of the part that is opened by the line before `back`.
     fn find_part(&mut self, text: &[u8], back: Spot, enters: bool) -> Result<Done<Spot>, RunError> {
         let own = head(text);
         let Some(kind) = opens(&own, text) else { return Ok(Ok(back)) };
@@ -141,7 +141,7 @@ impl Simulator<'_> {
             return Ok(refuse(Code::PN015, message, "end each part with its own word"));
         };
         let opening = Spot { byte: back.byte - text.len() as u64, line: line - 1 };
-        // records the targets of the lines at the middle and at the end of the part
+        // records where the run continues after the line in the middle of the part, and after its last line
         let start = if matches!(own.word.as_ref(), "WHILE" | "FOR") { opening } else { back };
         if own.word != "IF" {
             self.siemens.ends.insert(end_line.line + 1, start);

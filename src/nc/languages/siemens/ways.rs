@@ -1,4 +1,5 @@
-//! State of a Siemens program besides the state of the machine: parameters, the modal cycle, positions of program parts.
+//! The state of a Siemens program, in addition to the state of the machine: parameters, the modal cycle, positions of
+//! program parts.
 
 use std::collections::HashMap;
 
@@ -6,59 +7,59 @@ use crate::nc::call::Call;
 use crate::nc::way::Spot;
 use crate::toolpath::Units;
 
-/// State that is kept from block to block.
+/// The state that is kept between blocks.
 #[derive(Debug, Default)]
 pub struct Siemens {
-    /// R parameters by their names, `R1`.
+    /// The values of the R parameters by name, such as `R1`.
     pub(super) parameters: HashMap<String, f64>,
-    /// Variables of `DEF`, one map for each running subprogram; the main program is first.
+    /// The values of variables that `DEF` defines: one map for the main program, then one for each running subprogram.
     pub(super) variables: Vec<HashMap<String, f64>>,
-    /// The cycle of `MCALL`.
+    /// The cycle that `MCALL` has made modal.
     pub(super) modal: Option<Call>,
-    /// Tool names in order. They are numbered from 1.
+    /// Names of the tools in the order of their first use. Their index, from 1, is the number of the tool.
     tools: Vec<Vec<u8>>,
-    /// The units that the program has set last.
+    /// The units that the program has last set.
     pub(super) units: Option<Units>,
-    /// Arguments of a call until its `PROC` line is read.
+    /// The arguments of a call. They are stored until the `PROC` line of the subprogram is read.
     pub(super) arguments: Option<Vec<Option<f64>>>,
-    /// The programs of the input in order; `None`: the input was not searched yet.
+    /// The programs of the input in their order; `None`: the input has not been searched yet.
     pub(super) sections: Option<Vec<Section>>,
-    /// Parts of structured blocks by the line that opens them.
+    /// The parts of structured blocks, by the line that opens each part.
     pub(super) parts: HashMap<u64, Part>,
-    /// Jump targets of the lines that end a part, by line.
+    /// The targets of lines that end a part, by line.
     pub(super) ends: HashMap<u64, Spot>,
-    /// The positions of a label, by section and name.
+    /// The positions of each label, by section and name.
     pub(super) labels: HashMap<(usize, String), Vec<Spot>>,
-    /// `REPEAT` of a label: its line, and the number of repeats left.
+    /// For each `REPEAT` with a label: the line of the `REPEAT`, and the number of repeats that are left.
     pub(super) repeats: Vec<(u64, u32)>,
-    /// The line of the `FOR` that its `ENDFOR` jumped back to.
+    /// The line of the `FOR` to which the last `ENDFOR` has jumped back.
     pub(super) next_round: Option<u64>,
 }
 
-/// A program or subprogram of the input.
+/// A main program or subprogram of the input.
 #[derive(Clone, Debug)]
 pub struct Section {
     pub name: String,
-    /// Position before the first line.
+    /// Position before the first line of the section.
     pub start: Spot,
 }
 
-/// A structured block.
+/// A part of the program that is opened and ended by words such as `IF` and `ENDIF`.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
-    /// Position after the `ELSE`.
+    /// Position after the line with `ELSE`.
     pub middle: Option<Spot>,
-    /// Position after the line that ends it.
+    /// Position after the line that ends the part.
     pub end: Spot,
 }
 
 impl Siemens {
-    /// The value of a name.
+    /// The value of a variable or parameter.
     pub(super) fn value(&self, name: &str) -> Option<f64> {
         self.variables.last().and_then(|own| own.get(name)).or_else(|| self.parameters.get(name)).copied()
     }
 
-    /// Sets a variable or parameter. Returns `false` if there is none of this name.
+    /// Sets a variable or parameter. Returns `false` if none has this name.
     pub(super) fn set(&mut self, name: &str, value: f64) -> bool {
         if let Some(own) = self.variables.last_mut().and_then(|own| own.get_mut(name)) {
             *own = value;
@@ -73,13 +74,13 @@ impl Siemens {
         is_parameter
     }
 
-    /// Keeps the variables of this many nested subprograms, and creates those of the running one.
+    /// Removes the variables of subprograms that have ended, and adds those of the subprogram that is running.
     pub(super) fn at_depth(&mut self, depth: usize) {
         self.variables.truncate(depth + 1);
         self.variables.resize_with(depth + 1, HashMap::new);
     }
 
-    /// The number of a tool: its name if that is a number, else its index among the tool names of the program.
+    /// The number of a tool. If the name is a number, it is this number, otherwise the index among the tool names of the program.
     pub(super) fn tool(&mut self, name: &[u8]) -> f64 {
         let number = std::str::from_utf8(name).ok().and_then(|name| name.parse::<u32>().ok());
         if let Some(number) = number {

@@ -5,6 +5,7 @@ use std::io::{BufRead, Read};
 use super::archive::unpacked;
 use crate::control;
 use crate::diag::{Code, Diag};
+use crate::number::decimal;
 use crate::toolpath::{ReadError, Stop};
 
 /// Maximum length of a line in a path, in bytes.
@@ -21,11 +22,11 @@ pub(super) enum Return {
 
 /// One line of a path.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Command {
+pub(super) enum Command<'a> {
     /// A comment, without its parentheses.
     Comment(String),
     /// A code and its words.
-    Code(control::Code, Words),
+    Code(control::Code, &'a Words),
 }
 
 /// The words of a command, by their capital letters. Each letter occurs only once.
@@ -62,10 +63,10 @@ impl Words {
 pub(super) fn each(
     name: &str,
     path: Option<impl BufRead>,
-    mut take: impl FnMut(u64, &Command) -> Result<(), Stop>,
+    mut take: impl FnMut(u64, &Command<'_>) -> Result<(), Stop>,
 ) -> Result<(), ReadError> {
     let Some(mut path) = path else { return Ok(()) };
-    let mut line = Vec::new();
+    let (mut line, mut words) = (Vec::new(), Words::default());
     let mut number = 0;
     loop {
         line.clear();
@@ -77,37 +78,41 @@ pub(super) fn each(
             return Ok(());
         }
         number += 1;
-        let text = String::from_utf8_lossy(&line);
         if count == LONGEST {
-            return Err(ReadError::Job(unread(&text)));
+            return Err(ReadError::Job(unread(&line)));
         }
-        if let Some(command) = parse(text.trim()).ok_or_else(|| unread(&text))? {
+        if let Some(command) = parse(&line, &mut words).ok_or_else(|| unread(&line))? {
             take(number, &command)?;
         }
     }
 }
 
-fn unread(text: &str) -> Box<Diag> {
+fn unread(line: &[u8]) -> Box<Diag> {
     let help = "write the line as FreeCAD saves it: a command and its words, as `G1 X1.000000`";
-    let message = format!("a line of a path that can't be read: {}", text.trim());
+    let message = format!("a line of a path that can't be read: {}", String::from_utf8_lossy(line).trim());
     Box::new(Diag::new(Code::PD003, message).help(help))
 }
 
-/// Parses a line. `Some(None)`: the line is empty. `None`: the line can't be read.
-fn parse(line: &str) -> Option<Option<Command>> {
+/// Parses a line; `words` gets its words. `Some(None)`: the line is empty. `None`: the line can't be read.
+fn parse<'a>(line: &[u8], words: &'a mut Words) -> Option<Option<Command<'a>>> {
+    let line = line.trim_ascii();
     if line.is_empty() {
         return Some(None);
     }
     // FreeCAD does not always remove inner parentheses, so the comment extends to the last one
-    if let Some(rest) = line.strip_prefix('(') {
-        let text = rest.rfind(')').map_or(rest, |end| &rest[..end]);
-        return Some(Some(Command::Comment(text.trim().to_owned())));
+    if let Some(rest) = line.strip_prefix(b"(") {
+        let end = rest.iter().rposition(|byte| *byte == b')').unwrap_or(rest.len());
+        return Some(Some(Command::Comment(String::from_utf8_lossy(&rest[..end]).trim().to_owned())));
     }
-    let (words, notes) = line.split_once(';').unwrap_or((line, ""));
-    let mut tokens = words.split_ascii_whitespace();
+    let (line, notes) = match memchr::memchr(b';', line) {
+        Some(at) => (&line[..at], &line[at + 1..]),
+        None => (line, &line[line.len()..]),
+    };
+    let mut tokens = line.split(u8::is_ascii_whitespace).filter(|token| !token.is_empty());
     let (letter, value) = word(tokens.next()?)?;
     let code = control::Code::of(letter, value)?;
-    let mut words = Words { returns: returns(notes)?, ..Words::default() };
+    words.values.clear();
+    words.returns = if notes.is_empty() { None } else { returns(str::from_utf8(notes).ok()?)? };
     for token in tokens {
         let (letter, value) = word(token)?;
         if words.get(letter).is_some() {
@@ -119,9 +124,13 @@ fn parse(line: &str) -> Option<Option<Command>> {
 }
 
 /// Reads a word: a letter and a finite number.
-fn word(token: &str) -> Option<(u8, f64)> {
-    let letter = *token.as_bytes().first()?;
-    let value: f64 = token.get(1..)?.parse().ok()?;
+fn word(token: &[u8]) -> Option<(u8, f64)> {
+    let (&letter, number) = token.split_first()?;
+    let (sign, digits) = number.strip_prefix(b"-").map_or((1.0, number), |digits| (-1.0, digits));
+    let value = match decimal(digits).filter(|number| number.length == digits.len()) {
+        Some(number) => sign * number.value(),
+        None => str::from_utf8(number).ok()?.parse().ok()?,
+    };
     (letter.is_ascii_uppercase() && value.is_finite()).then_some((letter, value))
 }
 
@@ -144,8 +153,8 @@ mod tests {
     use super::*;
 
     fn code(line: &str) -> (String, Words) {
-        match parse(line) {
-            Some(Some(Command::Code(code, words))) => (code.to_string(), words),
+        match parse(line.as_bytes(), &mut Words::default()) {
+            Some(Some(Command::Code(code, words))) => (code.to_string(), words.clone()),
             other => panic!("{line}: {other:?}"),
         }
     }
@@ -160,7 +169,7 @@ mod tests {
         assert_eq!(words.beyond(b"F"), Some('X'));
         let (_, words) = code("G84 F1.25 S300 ; RetractMode:'G98' operation:'tapping' depth:1.500000");
         assert_eq!(words.returns, Some(Return::Before));
-        assert_eq!(parse(""), Some(None));
+        assert_eq!(parse(b" \r\n", &mut Words::default()), Some(None));
     }
 
     #[test]
@@ -168,7 +177,9 @@ mod tests {
         for (line, text) in
             [("(Slot 8 wide))", "Slot 8 wide)"), ("(TC: 1/4\" X5)", "TC: 1/4\" X5"), ("()", ""), ("(open", "open")]
         {
-            assert_eq!(parse(line), Some(Some(Command::Comment(text.into()))), "{line}");
+            let mut words = Words::default();
+            let parsed = parse(line.as_bytes(), &mut words);
+            assert_eq!(parsed, Some(Some(Command::Comment(text.into()))), "{line}");
         }
     }
 
@@ -186,7 +197,7 @@ mod tests {
             "G81 Z1 ; spin:'fast'",
             "G1 X1 (c)",
         ] {
-            assert_eq!(parse(line), None, "{line}");
+            assert_eq!(parse(line.as_bytes(), &mut Words::default()), None, "{line}");
         }
     }
 }

@@ -101,7 +101,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
     }
 
     /// Converts the command on a line of the path.
-    pub fn take(&mut self, line: u64, command: &Command) -> Done {
+    pub fn take(&mut self, line: u64, command: &Command<'_>) -> Done {
         self.place.item = line;
         let taken = match command {
             Command::Comment(text) => self.comment(text),

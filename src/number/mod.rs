@@ -11,5 +11,5 @@ mod write;
 pub use format::{Digits, LetterFormat, Point, Sign};
 pub(crate) use quantise::nearest;
 pub use quantise::{POWERS, quantise};
-pub use read::short_decimal;
+pub use read::{decimal, short_decimal};
 pub use write::{Lead, Printing, Unprintable, write_number};

@@ -1,10 +1,10 @@
-//! Reads short decimal numbers eight bytes at a time.
+//! Reads decimal numbers, the short ones eight bytes at a time.
 
-/// A decimal number without sign and exponent. It has at most seven digits on each side of the point and at most eight in all.
+/// A decimal number without sign and exponent, of at most 15 digits.
 #[derive(Clone, Copy, Debug)]
-pub struct Short {
+pub struct Decimal {
     /// The digits as a whole number.
-    digits: u32,
+    digits: i64,
     /// Number of digits before the point.
     pub whole: usize,
     /// Number of digits after the point.
@@ -15,17 +15,51 @@ pub struct Short {
     pub length: usize,
 }
 
-impl Short {
+impl Decimal {
     /// The nearest double. Both operands are exact, so the division rounds only once.
     #[inline(always)]
     pub fn value(&self) -> f64 {
-        const POWERS: [f64; 8] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7];
-        f64::from(self.digits) / POWERS[self.decimals & 7]
+        const POWERS: [f64; 16] =
+            [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+        self.digits as f64 / POWERS[self.decimals & 15]
     }
 }
 
-/// Reads the number that begins at byte `at` of the text. `None`: there is no digit, there are too many digits, or the text
-/// is too short. A general reader must then read the number.
+/// Reads the number at the beginning of the text. `None`: there is no digit, or there are more than 15.
+///
+/// ```
+/// use postform::internals::number::decimal;
+/// let number = decimal(b"1234567.891 Y1").unwrap();
+/// assert_eq!((number.value(), number.length, number.decimals), (1234567.891, 11, 3));
+/// ```
+#[inline]
+pub fn decimal(text: &[u8]) -> Option<Decimal> {
+    short_decimal(text, 0).or_else(|| long_decimal(text))
+}
+
+/// Reads a number digit by digit.
+#[inline(never)]
+fn long_decimal(text: &[u8]) -> Option<Decimal> {
+    let (digits, whole) = run_of_digits(text, 0);
+    let point = text.get(whole) == Some(&b'.');
+    let (digits, decimals) = if point { run_of_digits(&text[whole + 1..], digits) } else { (digits, 0) };
+    let fits = (1..=15).contains(&(whole + decimals));
+    fits.then_some(Decimal { digits, whole, decimals, point, length: whole + usize::from(point) + decimals })
+}
+
+/// Appends the digits at the beginning of `text` to a number. Returns it and their count. Too many digits wrap around, so the
+/// caller checks the count.
+fn run_of_digits(text: &[u8], mut number: i64) -> (i64, usize) {
+    let count = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    for digit in &text[..count] {
+        number = number.wrapping_mul(10).wrapping_add(i64::from(digit - b'0'));
+    }
+    (number, count)
+}
+
+/// Reads the number that begins at byte `at` of the text, if it has at most seven digits on each side of the point and at most
+/// eight in all. `None`: there is no digit, there are too many digits, or the text is too short. A general reader must then read
+/// the number.
 ///
 /// ```
 /// use postform::internals::number::short_decimal;
@@ -33,7 +67,7 @@ impl Short {
 /// assert_eq!((number.value(), number.length, number.decimals), (12.5, 5, 2));
 /// ```
 #[inline(always)]
-pub fn short_decimal(text: &[u8], at: usize) -> Option<Short> {
+pub fn short_decimal(text: &[u8], at: usize) -> Option<Decimal> {
     let before = eight_bytes(text, at)?;
     let whole = run_length(before);
     if whole == 8 {
@@ -58,8 +92,8 @@ pub fn short_decimal(text: &[u8], at: usize) -> Option<Short> {
     // join neighbours: digits to pairs, pairs to groups of four, these to the number
     let pairs = (digits.wrapping_mul(10 << 8 | 1) >> 8) & 0x00ff_00ff_00ff_00ff;
     let fours = (pairs.wrapping_mul(100 << 16 | 1) >> 16) & 0x0000_ffff_0000_ffff;
-    let digits = (fours.wrapping_mul(10_000 << 32 | 1) >> 32) as u32;
-    Some(Short { digits, whole, decimals, point, length: whole + usize::from(point) + decimals })
+    let digits = i64::from((fours.wrapping_mul(10_000 << 32 | 1) >> 32) as u32);
+    Some(Decimal { digits, whole, decimals, point, length: whole + usize::from(point) + decimals })
 }
 
 /// Eight bytes of the text; the first byte is the lowest. After the end of the text, the bytes are zero.
@@ -125,6 +159,18 @@ mod tests {
             }
             if digits == 0 && ends {
                 prop_assert!(found.is_none());
+            }
+        }
+
+        /// Long numbers have the values of the standard library, too, and more than 15 digits are refused.
+        #[test]
+        fn long_values_are_the_nearest_doubles(number in "[0-9]{0,12}(\\.[0-9]{0,12})?", after in "([ -,/:-~][ -~]{0,9})?") {
+            let digits = number.bytes().filter(u8::is_ascii_digit).count();
+            let found = decimal(format!("{number}{after}").as_bytes());
+            prop_assert_eq!(found.is_some(), (1..=15).contains(&digits));
+            if let Some(found) = found {
+                prop_assert_eq!(found.length, number.len());
+                prop_assert_eq!(found.value().to_bits(), number.parse::<f64>().expect(&number).to_bits());
             }
         }
     }

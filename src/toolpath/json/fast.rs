@@ -2,7 +2,7 @@
 //! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. serde reads all other lines, including wrong ones, so all errors come
 //! from one reader. A property test checks that both readers read the same values.
 
-use crate::number::short_decimal;
+use crate::number::decimal;
 use crate::toolpath::Axes;
 
 /// The kind of a plain line. A plain line is one that the fast reader can read.
@@ -147,74 +147,28 @@ impl<const LINES: bool> Cursor<'_, LINES> {
         Some(())
     }
 
-    /// Reads a decimal number of at most 15 digits without an exponent. The digits and the power of ten are exact as
-    /// doubles, so one division gives the nearest double, as in any correct reader.
+    /// Reads a decimal number of at most 15 digits without an exponent.
     #[inline]
     fn number(&mut self) -> Option<f64> {
         let (negative, digits) = match self.rest {
             [b'-', rest @ ..] => (true, rest),
             rest => (false, rest),
         };
-        let Some(short) = short_decimal(digits, 0) else { return self.long_number() };
-        let rest = &digits[short.length..];
+        let number = decimal(digits)?;
+        let rest = &digits[number.length..];
         // JSON requires a digit before and after the point, and no leading zero before other digits
-        if short.whole == 0
-            || (short.whole > 1 && digits[0] == b'0')
-            || (short.point && short.decimals == 0)
+        if number.whole == 0
+            || (number.whole > 1 && digits[0] == b'0')
+            || (number.point && number.decimals == 0)
             || matches!(rest, [b'e' | b'E', ..])
         {
             return None;
         }
         self.rest = rest;
-        let value = short.value();
-        Some(if negative { -value } else { value })
-    }
-
-    /// Like [`Cursor::number`], for numbers with more digits.
-    #[cold]
-    fn long_number(&mut self) -> Option<f64> {
-        let (negative, digits) = match self.rest {
-            [b'-', rest @ ..] => (true, rest),
-            rest => (false, rest),
-        };
-        let (whole, rest) = run_of_digits(digits, 0);
-        let whole_digits = digits.len() - rest.len();
-        // JSON requires a digit before the point and no leading zero before other digits
-        if whole_digits == 0 || (whole_digits > 1 && digits[0] == b'0') {
-            return None;
-        }
-        let (value, decimals, rest) = match rest {
-            [b'.', fraction @ ..] => {
-                let (value, rest) = run_of_digits(fraction, whole);
-                let decimals = fraction.len() - rest.len();
-                if decimals == 0 {
-                    return None;
-                }
-                (value, decimals, rest)
-            }
-            rest => (whole, 0, rest),
-        };
-        if whole_digits + decimals > 15 || matches!(rest, [b'e' | b'E', ..]) {
-            return None;
-        }
-        self.rest = rest;
-        let value = value as f64 / POWERS[decimals];
+        let value = number.value();
         Some(if negative { -value } else { value })
     }
 }
-
-/// Appends the digits at the beginning of `bytes` to a value. Too many digits wrap around, so the caller checks their number.
-#[inline]
-fn run_of_digits(mut bytes: &[u8], mut value: i64) -> (i64, &[u8]) {
-    while let [digit @ b'0'..=b'9', rest @ ..] = bytes {
-        value = value.wrapping_mul(10).wrapping_add(i64::from(digit - b'0'));
-        bytes = rest;
-    }
-    (value, bytes)
-}
-
-/// Powers of ten. Each is exact as a double.
-const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 #[cfg(test)]
 mod tests {

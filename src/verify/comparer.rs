@@ -176,7 +176,7 @@ impl Intent for Sides<'_> {
     fn rapid(&mut self, rapid: Rapid) -> Done {
         // a rapid to the current position is ignored
         let here = self.job.here();
-        if here.is_some_and(|here| here.to == rapid.to && here.unknown == rapid.unknown) && rapid.spin.is_none() {
+        if here.is_some_and(|here| here.to == rapid.to && here.unknown == rapid.unknown) {
             return Ok(());
         }
         self.job.aside |= self.hole.over.is_some_and(|over| !same(&over.at, &rapid.to, ACROSS, self.limits.tolerance));
@@ -191,6 +191,11 @@ impl Intent for Sides<'_> {
             None => self.hole.highest = None,
         }
         if hole.is_none() && fast_path::goes_on(self, cut) {
+            return Ok(());
+        }
+        if let Some(hole) = hole.filter(|hole| !hole.pecks)
+            && fast_path::drills(self, cut, hole)?
+        {
             return Ok(());
         }
         if let Some(hole) = hole.filter(|hole| hole.pecks) {

@@ -3,8 +3,11 @@
 //! same result for the cuts handled here.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
+use super::intent::{Done, Expected};
 use super::modal::is_feed;
+use super::rapids::{moves_as_before, same_rapids};
 use super::sides::Sides;
+use crate::lang::Machine;
 
 /// Shortest cut for the fast path, in tolerances. The rounding of either side can't remove a longer cut.
 const LONG: f64 = 4.0;
@@ -35,4 +38,47 @@ pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> bool {
         s.leave(cut, None);
     }
     is_usual
+}
+
+/// Whether the program's next cut is the job's cut of a hole, after the same rapids and in the same state. If so, the cut is
+/// done.
+///
+/// # Errors
+/// The program can't be run to its next cut.
+pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool> {
+    s.run_to_cut()?;
+    let tolerance = s.limits.tolerance;
+    let Some(found) = s.program.cut() else { return Ok(false) };
+    let (What::Line { to }, What::Line { to: is }) = (&cut.what, &found.what) else { return Ok(false) };
+    let is_long = (0..3).any(|axis| (to[axis] - cut.from[axis]).abs() > LONG * tolerance);
+    let both_plain = [&s.job, &s.program.passage].into_iter().all(|passage| passage.only_moves() && !passage.new_tool);
+    let agree = s.agreed.as_ref().is_some_and(|[wanted, is]| *wanted == cut.state && *is == found.state);
+    let is_usual = is_long
+        && s.machine == Machine::Mill
+        && both_plain
+        && agree
+        && cut.unknown | found.unknown | found.home | found.open == 0
+        && cut.mode == found.mode
+        && cut.lead.is_none()
+        && found.lead.is_none()
+        && same(&cut.from, &found.from, ALL, tolerance)
+        && same(to, is, ALL, tolerance)
+        && turn_as_far([&cut.from, to], [&found.from, is])
+        && has_feed_of_hole(cut, found, hole)
+        && moves_as_before(s)
+        && same_rapids(s);
+    if is_usual {
+        s.before = found.state.clone();
+        (s.slipped, s.slips) = (None, 0);
+        s.program.take();
+        s.leave(cut, Some(hole));
+    }
+    Ok(is_usual)
+}
+
+fn has_feed_of_hole(cut: &Cut, found: &Cut, hole: &Expected) -> bool {
+    match (cut.feed, found.feed) {
+        (Some(wanted), Some(is)) => is_feed(wanted, is, hole.is_tap),
+        _ => true,
+    }
 }

@@ -312,11 +312,12 @@ impl Passage {
 
     /// Whether the next cut follows directly on the last cut, without any action between them.
     pub fn is_plain(&self) -> bool {
-        self.rapids.is_empty()
-            && self.legs.len() == 1
-            && self.stops.is_empty()
-            && self.waits.is_empty()
-            && self.does.is_empty()
+        self.rapids.is_empty() && self.only_moves()
+    }
+
+    /// Whether only rapids in one frame are between the last cut and the next.
+    pub fn only_moves(&self) -> bool {
+        self.legs.len() == 1 && self.stops.is_empty() && self.waits.is_empty() && self.does.is_empty()
     }
 }
 

@@ -8,6 +8,13 @@ use super::ways::{Compared, are_the_same, compare as compare_way, enters_hole, l
 use crate::diag::Code;
 use crate::lang::Machine;
 
+/// Whether the rapids to a cut are the same on both sides, one by one, from the same known start.
+pub(super) fn same_rapids(s: &Sides<'_>) -> bool {
+    let tolerance = s.limits.tolerance;
+    let (Some(a), Some(b)) = (s.job.start, s.program.passage.start) else { return false };
+    are_the_same(&[a], &[b], tolerance) && are_the_same(&s.job.rapids, &s.program.passage.rapids, tolerance)
+}
+
 /// Compares the paths of job and program to the next cut.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     let tolerance = s.limits.tolerance;
@@ -21,11 +28,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     }
     let (lost, changed) = (s.job.changed(), s.program.passage.changed());
     // fast path: most paths are equal, so their corners need no comparison
-    let starts = [s.job.start, s.program.passage.start];
-    if let ([Some(a), Some(b)], false) = (starts, lost || changed)
-        && are_the_same(&[a], &[b], tolerance)
-        && are_the_same(&s.job.rapids, &s.program.passage.rapids, tolerance)
-    {
+    if !(lost || changed) && same_rapids(s) {
         return;
     }
     if lost {
@@ -87,17 +90,21 @@ fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     });
 }
 
+/// Whether the program moves in the frame and with the length register of its last cut.
+pub(super) fn moves_as_before(s: &Sides<'_>) -> bool {
+    let (frame, length) = (s.frame_before(), s.before.length);
+    frame.tool.is_some()
+        && s.program.passage.legs().all(|(leg, _)| leg.frame == frame && leg.lengths.iter().all(|own| *own == length))
+}
+
 /// Checks the frames of a path. Each move must be in a frame of the job, with the offset registers of that frame.
 pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;
-    let before = (s.frame_before(), s.before.length);
-    let as_before = |(leg, _): (&Leg, &[Rapid])| {
-        (leg.frame == before.0 && leg.frame.tool.is_some()) && leg.lengths.iter().all(|length| *length == before.1)
-    };
-    if passage.legs().all(as_before) {
+    if moves_as_before(s) {
         return;
     }
+    let before = (s.frame_before(), s.before.length);
     let is_frame =
         |a: &Frame, b: &Frame| a.work.is_none_or(|work| Some(work) == b.work) && (!tools || a.tool == b.tool);
     let mut wrong = None;

@@ -3,11 +3,13 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::io::Cursor;
 
-use postform::{Job, NoFiles, Options, Post, Source};
+use postform::internals::nc::{Action, Item, RunSettings, Simulator};
+use postform::{Job, NoFiles, Options, Post, Source, Verdict};
 use proptest::prelude::*;
 
-use crate::support::root;
+use crate::support::{control, root};
 
 /// Sequences of a hole in other forms than the shipped ones: words in another order, conditions on the hole, words that depend on
 /// its position or number, values in comments, several lines.
@@ -41,12 +43,11 @@ const CYCLES: [&str; 8] = [
     r#""kind":"bore","depth":4,"clear":2,"feed":70"#,
 ];
 
-/// A point of a cycle: position, top, and sometimes a feed before it.
+/// A point of a cycle: position and top.
 #[derive(Clone, Debug)]
 struct Point {
     at: [String; 2],
     top: i8,
-    feed: bool,
 }
 
 fn point() -> impl Strategy<Value = Point> {
@@ -60,7 +61,7 @@ fn point() -> impl Strategy<Value = Point> {
         value.boxed(),
         prop_oneof![3 => "-?[0-9]{1,2}".prop_map(|text| number(&text)), 1 => Just("7".to_owned())].boxed(),
     ];
-    (at, top, prop::bool::weighted(0.03)).prop_map(|(at, top, feed)| Point { at, top, feed })
+    (at, top).prop_map(|(at, top)| Point { at, top })
 }
 
 /// A number as JSON has it, without needless zeros before it.
@@ -77,10 +78,7 @@ fn job(cycles: &[(usize, Vec<Point>)], fourth: bool) -> String {
     writeln!(text, "{{\"rapid\":[0,0,25{angle}]}}").unwrap();
     for (kind, points) in cycles {
         writeln!(text, "{{\"cycle\":{{{}}}}}", CYCLES[*kind]).unwrap();
-        for Point { at: [x, y], top, feed } in points {
-            if *feed {
-                text += "{\"feed\":333}\n";
-            }
+        for Point { at: [x, y], top } in points {
             writeln!(text, "{{\"point\":[{x},{y},{top}{angle}]}}").unwrap();
         }
         writeln!(text, "{{\"cycle_end\":true}}\n{{\"rapid\":[0,0,25{angle}]}}").unwrap();
@@ -135,7 +133,7 @@ fn a_hole_at_the_same_position_prints_both_words() {
     let points: Vec<Point> = points
         .iter()
         .map(|at| at.split_once(',').unwrap())
-        .map(|(x, y)| Point { at: [x.to_owned(), y.to_owned()], top: 0, feed: false })
+        .map(|(x, y)| Point { at: [x.to_owned(), y.to_owned()], top: 0 })
         .collect();
     let program = printed(&form, &job(&[(0, points)], false)).unwrap();
     let lines: Vec<&str> = program.lines().skip_while(|line| !line.contains("G81")).take(5).collect();
@@ -147,9 +145,54 @@ fn a_hole_at_the_same_position_prints_both_words() {
 fn the_sequences_print() {
     let form = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
     let points: Vec<Point> =
-        ["10", "30", "30", "50"].map(|x| Point { at: [x.to_owned(), "20".to_owned()], top: 0, feed: false }).to_vec();
+        ["10", "30", "30", "50"].map(|x| Point { at: [x.to_owned(), "20".to_owned()], top: 0 }).to_vec();
     for drill in DRILLS {
         let program = printed(&with_drill(&form, drill), &job(&[(0, points.clone())], false));
         assert!(program.is_ok(), "{drill}: {program:?}");
+    }
+}
+
+/// The ends and feeds of a program's cuts, up to a block that the control refuses.
+fn cuts(program: &[u8]) -> Vec<[f64; 4]> {
+    let mut simulator = Simulator::new(Cursor::new(program), RunSettings::new(control("linuxcnc")));
+    let mut items: Vec<Item> = Vec::new();
+    while matches!(simulator.step(&mut items), Ok(true)) {}
+    let cut = |item: &Item| match item.action {
+        Action::Feed { to: [x, y, z, ..], feed, .. } => Some([x, y, z, feed]),
+        _ => None,
+    };
+    items.iter().filter_map(cut).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Holes are compared in a short way, too. A program that cuts elsewhere, or with another feed, is not the job's.
+    #[test]
+    fn a_hole_at_another_position_is_found(
+        cycles in prop::collection::vec((0..3_usize, prop::collection::vec(point(), 1..12)), 1..3),
+        which in 0_usize..10_000,
+        digit in b'0'..=b'9',
+    ) {
+        let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+        let job = job(&cycles, false);
+        let right = printed(&form, &job).unwrap();
+        let post = Post::compile(Source::from_text("linuxcnc.pf", &form), &NoFiles).unwrap();
+        let mut wrong = right.clone().into_bytes();
+        let begin = right.find(" G8").unwrap();
+        let digits: Vec<usize> = (begin..wrong.len()).filter(|&at| wrong[at].is_ascii_digit()).collect();
+        wrong[digits[which % digits.len()]] = digit;
+        let [is, wanted] = [&wrong[..], right.as_bytes()].map(cuts);
+        let far = |(a, b): (&[f64; 4], &[f64; 4])| {
+            (0..3).any(|axis| (a[axis] - b[axis]).abs() > 0.01) || (a[3] - b[3]).abs() > b[3] * 0.02
+        };
+        let differs = is.len() != wanted.len() || is.iter().zip(&wanted).any(far);
+        let verdict = post.verify(Job::json_lines(&job), std::str::from_utf8(&wrong).unwrap()).unwrap();
+        let passes = matches!(verdict, Verdict::Identical | Verdict::Equivalent(_));
+        prop_assert!(!(differs && passes), "{verdict:?} for {}", String::from_utf8_lossy(&wrong));
+        // the right program has the cuts of the job
+        let verdict = post.verify(Job::json_lines(&job), &right).unwrap();
+        let passes = matches!(verdict, Verdict::Identical | Verdict::Equivalent(_));
+        prop_assert!(passes, "{verdict:?} for {right}");
     }
 }

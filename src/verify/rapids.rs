@@ -4,7 +4,7 @@ use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
 use super::passage::{Frame, Leg};
 use super::sides::Sides;
-use super::ways::{Compared, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
+use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
 use crate::diag::Code;
 use crate::lang::Machine;
 
@@ -65,10 +65,9 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         }
         Compared::AsGood { .. } => stays_at_wall(s, line),
         Compared::Turning => turns_otherwise(s, line),
-        Compared::Lower(to, limit) => {
-            s.found(Code::PV009, line, "print the height before the position, or return to [rplane]", || {
-                format!("a rapid goes to {}, lower than the job's rapids here, Z{}", shown(&to, 0b111), number(limit))
-            });
+        Compared::Lower(low) => {
+            let help = "print the height before the position, or return to [rplane]";
+            s.found(Code::PV009, line, help, || low.message());
         }
         Compared::Elsewhere(to) => {
             s.found(Code::PV001, line, "check the words that the form prints for the rapids here", || {
@@ -260,7 +259,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             job.set(None, own, tolerance);
             program.set(None, rapids, tolerance);
             match compare_way(job, program, false, tolerance) {
-                Compared::Lower(to, _) | Compared::Elsewhere(to) => {
+                Compared::Lower(Low { to, .. }) | Compared::Elsewhere(to) => {
                     lower = lower.or(Some(to));
                     false
                 }

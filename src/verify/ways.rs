@@ -1,6 +1,6 @@
 //! Compares the program's path from one cut to the next with the job's path.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, shown};
 use super::rapid_path::{RapidPath, across};
 
 /// The result of comparing the program's path with the job's.
@@ -11,12 +11,36 @@ pub(super) enum Compared {
     /// The path moves the axes in another order, or is higher than the job's path, but is nowhere lower.
     /// `step_by_step`: each move across corresponds to one of the job.
     AsGood { step_by_step: bool },
-    /// The path goes to this position, lower than the job's path. The number is the lowest allowed height.
-    Lower(Place, f64),
+    /// The path is lower than the job's path.
+    Lower(Low),
     /// The path moves across to this position, to which the job does not go.
     Elsewhere(Place),
     /// The path is the job's, but the spindle is in another state.
     Turning,
+}
+
+/// A rapid of the program that is too low.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Low {
+    /// The end of the rapid.
+    pub to: Place,
+    /// The lowest height of the rapid.
+    pub height: f64,
+    /// The lowest height that is allowed.
+    pub limit: f64,
+}
+
+impl Low {
+    /// The message about a rapid before a cut.
+    pub fn message(&self) -> String {
+        let (to, limit) = (shown(&self.to, 0b111), number(self.limit));
+        let begin = number(self.height);
+        if begin >= limit {
+            return format!("a rapid goes to {to}, which is not above the job's first position here, Z{limit}");
+        }
+        let from = if begin < number(self.to[DEPTH]) { format!("from Z{begin} ") } else { String::new() };
+        format!("a rapid goes {from}to {to}, lower than the job's rapids here, Z{limit}")
+    }
 }
 
 /// Up to this length, in tolerances, a rapid across may be a rapid straight up whose ends were rounded.
@@ -86,8 +110,10 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
             && !same(&corner.to, &first.to, 0b11 & !first.unknown, tolerance)
     };
     let astray = program.corners[..arrived].iter().skip(usize::from(program.begun)).find(astray);
-    if let Some(corner) = low.or(crosses.map(|(_, b)| b)).or(astray) {
-        return Compared::Lower(corner.to, first.to[DEPTH]);
+    let at_end = |corner: &Rapid| (corner.to, height(corner));
+    let crosses = crosses.map(|(a, b)| (b.to, height(a).min(height(b))));
+    if let Some((to, height)) = low.map(at_end).or(crosses).or(astray.map(at_end)) {
+        return Compared::Lower(Low { to, height, limit: first.to[DEPTH] });
     }
     compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)
 }
@@ -186,7 +212,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
                 .is_some_and(|(_, _, lowest)| height(corner) >= lowest - tolerance)
         };
         if at_corners.is_none() || !across(job, tolerance).any(is_on) {
-            return Compared::Lower(corner.to, floor);
+            return Compared::Lower(Low { to: corner.to, height: height(corner), limit: floor });
         }
     }
     // while the tool leaves, the spindle must be stopped, or stopped at its angle, if the job requires it
@@ -212,7 +238,8 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
             let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
-            return if goes_there && !stays { Compared::Lower(to, highest) } else { Compared::Elsewhere(to) };
+            let lower = Low { to, height: low, limit: highest };
+            return if goes_there && !stays { Compared::Lower(lower) } else { Compared::Elsewhere(to) };
         }
     }
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }

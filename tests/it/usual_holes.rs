@@ -196,3 +196,32 @@ proptest! {
         prop_assert!(passes, "{verdict:?} for {right}");
     }
 }
+
+/// What a block between two holes of a cycle changes is found at the next hole, also if its position is right.
+#[test]
+fn a_change_between_two_holes_is_found() {
+    let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
+    let post = Post::compile(Source::from_text("linuxcnc.pf", &form), &NoFiles).unwrap();
+    let points = ["10", "30", "50", "70", "90"].map(|x| Point { at: [x.to_owned(), "20".to_owned()], top: 0 });
+    let job = job(&[(0, points.to_vec())], false).replace("\"feed\":700", "\"feed\":700,\"coolant\":\"flood\"");
+    let right = printed(&form, &job).unwrap();
+    assert_eq!(right.matches("X70.\n").count(), 1, "{right}");
+    let changes = [
+        ("M5", "PV011"),
+        ("S700", "PV011"),
+        ("M4", "PV011"),
+        ("M9", "PV024"),
+        ("F50.", "PV006"),
+        ("G55", "PV012"),
+        ("G43 H7", "PV014"),
+        ("G43 H7\nG43 H1\nM5\nM3", "none"),
+    ];
+    for (block, code) in changes {
+        let wrong = right.replace("X70.\n", &format!("{block}\nX70.\n"));
+        let found = match post.verify(Job::json_lines(&job), &wrong).unwrap() {
+            Verdict::Different(findings) => findings.iter().map(|finding| finding.code.name()).collect::<Vec<_>>(),
+            _ => vec!["none"],
+        };
+        assert!(found.contains(&code), "{block}: {found:?}\n{wrong}");
+    }
+}

@@ -77,3 +77,20 @@ fn a_new_tool_goes_down_in_the_offset_of_its_cut() {
     let right = "G0 G90 G55 X40. Y60.\nS1950 M3\nG43 H2 Z3. M9\n";
     is_wrong(TOOL, right, "G0 G90 X40. Y60.\nS1950 M3\nG55 G43 H2 Z3. M9\n", "PV012");
 }
+
+/// The message shows the height where the rapid is too low, which may be that of its begin.
+#[test]
+fn a_rapid_that_begins_too_low_is_shown_with_that_height() {
+    let post = haas();
+    let right = printed(&post, END);
+    assert_eq!(right.matches("X0 Y0\n").count(), 1, "{right}");
+    let low = |program: String| match post.verify(Job::json(END), &program).unwrap() {
+        Verdict::Different(findings) => findings.iter().map(|finding| finding.message.clone()).collect::<Vec<_>>(),
+        other => panic!("{other}\n{program}"),
+    };
+    let found = low(right.replace("Z50. M9\n", "Z3. M9\nX0.5 Z50.\nX0\n"));
+    assert!(
+        found.iter().any(|message| message.contains("goes from Z3 to X0.5 Y0 Z50, lower than")),
+        "{found:?}\n{right}"
+    );
+}

@@ -181,7 +181,13 @@ fn tried(
             if many::single(&args.jobs).is_some() { output::json(&document) } else { output::json_line(&document) }
         }
     };
-    Ok((text, if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings }))
+    let ending = if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings };
+    // of several jobs, --quiet leaves only those that fail
+    let hidden = args.options.quiet
+        && ending == Ending::Clean
+        && args.format == VerifyFormat::Text
+        && many::single(&args.jobs).is_none();
+    Ok((if hidden { String::new() } else { text }, ending))
 }
 
 /// The message of an error while the program is stored.

@@ -21,7 +21,7 @@ const TANGENT: f64 = 0.99;
 pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>) -> Done {
     let State { job, motion, arcs, cycle, .. } = state;
     if job.notes.dialect() == Dialect::Ncl {
-        let help = "the path follows its points in straight lines; let NCL write arcs for a smoother program";
+        let help = "the tool moves in straight lines from point to point; let NCL write arcs for a smoother program";
         job.notes.warn(Code::PL008, "a CIRCLE of NCL is printed as straight lines through its points", help);
         return Ok(());
     }

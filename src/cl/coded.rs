@@ -132,9 +132,11 @@ pub(super) fn read_options(
                 let group = group_for(&mut coded.groups, |g| g.feed.is_some());
                 group.feed = Some((name.clone(), numbers[0]));
             }
-            Opt::Side => {
-                notes.warn(Code::PL008, "SIDE of CYCLE/TAP is unknown and is ignored", "check the tap in the program")
-            }
+            Opt::Side => notes.warn(
+                Code::PL008,
+                "the effect of SIDE in CYCLE/TAP is unknown: SIDE is ignored",
+                "check the tap in the program",
+            ),
             option if coded.has(option) => {
                 return fault(Code::PC019, format!("{name} is given twice"), "keep one");
             }

@@ -75,7 +75,7 @@ fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cyc
         Some(CodedReturn::Clearance) => match spec.clear {
             Some(clear) => Some(at[2] + clear),
             None => {
-                let help = "give the cycle CLEAR, or RETURN a height";
+                let help = "write CLEAR in the cycle, or a height after RETURN";
                 return fault(Code::PC040, "RETURN without a height, and no CLEAR before it", help);
             }
         },

@@ -318,7 +318,8 @@ impl<'s> Job<'s> {
         } else {
             format!("{count} rapids before the first tool, from line {} on, are left out", place.line)
         };
-        let help = "the machine moves to its tool change by itself; put LOADTL before all other rapids";
+        let help = "the machine moves to its tool change position by itself; put LOADTL before the first rapid that \
+                    must be printed";
         self.notes.warn_at(*place, Code::PL008, message, help);
         self.waiting.retain(|waiting| !is_rapid(waiting));
     }

@@ -161,7 +161,7 @@ pub(super) fn godlta(words: &[Word], state: &mut State<'_>) -> Done {
 /// Handles FROM, which sets the tool's first position without a motion.
 pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.is_active() {
-        state.job.notes.warn(Code::PC058, "FROM inside a cycle", "take it out, or end the cycle before");
+        state.job.notes.warn(Code::PC058, "FROM inside a cycle", "remove FROM, or end the cycle before it");
     }
     match numbers(words).as_deref() {
         Some([x, y, z, axis @ ..]) => {

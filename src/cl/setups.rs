@@ -29,8 +29,9 @@ fn one_origin(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
         None => job.setup = Some((words.to_vec(), job.notes.place.line)),
         Some((before, _)) if before.as_slice() == words => {}
         Some((_, line)) => {
-            let message =
-                format!("this {name} differs from the {name} of line {line}: its positions have another origin");
+            let message = format!(
+                "this {name} differs from the {name} of line {line}: the positions after it have another origin"
+            );
             let help = format!("let the CAM system write a separate file for each {name}: each file is a setup");
             return fault(Code::PL004, message, help);
         }
@@ -68,7 +69,7 @@ pub(super) fn must_agree((z, line): ([f64; 3], u64), axis: [f64; 3]) -> Done {
     if lies_along(z, axis) {
         return Ok(());
     }
-    let message = format!("the z axis of the CSYS of line {line} is not the axis of this tool: this is another setup");
+    let message = format!("the tool axis is not the z axis of the CSYS of line {line}: this is another setup");
     let help = format!(
         "put TLAXIS/{},{},{} after the CSYS if the tool points along it, or let the CAM system write each setup into \
          a separate file",

@@ -79,8 +79,8 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
         Some(like) if depth == LONGEST_CHAIN => {
             return Err(reader.wrong(
                 like.span().start,
-                "`like` leads in a circle back to this control",
-                "remove one `like` of the circle",
+                "this control is based on itself through `like`",
+                "remove `like` from one of the controls",
             ));
         }
         Some(like) => match find(like.get_ref(), depth + 1) {
@@ -266,8 +266,8 @@ impl Reader<'_> {
         let of_another = |key: &str, at: usize, of: &str| {
             self.wrong(
                 at,
-                format!("`{key}` belongs to {of}"),
-                format!("this row means `{}`: remove the key", meaning.name()),
+                format!("`{key}` is only for {of}"),
+                format!("the meaning of this row is `{}`: remove the key", meaning.name()),
             )
         };
         let motions = match &row.motions {
@@ -306,7 +306,7 @@ impl Reader<'_> {
         };
         let tool = match &row.tool {
             Some(at) if meaning != Meaning::ToolNumber => {
-                return Err(of_another("tool", at.span().start, "codes that mean `tool-number`"));
+                return Err(of_another("tool", at.span().start, "codes with the meaning `tool-number`"));
             }
             tool => tool.as_ref().map(|at| *at.get_ref()),
         };

@@ -41,11 +41,14 @@ pub(super) fn back_bore(
 ) -> Result<(), Problem> {
     let Some(below) = spec.rapto else {
         let message =
-            "a back bore without `rapto`: the distance below the point where its upward cut begins is missing";
+            "a back bore without `rapto`: the distance from the point down to the start of the upward cut is missing";
         return Err(Problem::new(Code::PC012, message, "give `rapto`"));
     };
     if -below > plan.bottom {
-        let message = format!("the cut of a back bore ends {} below the point, but begins at {below}", -plan.bottom);
+        let message = format!(
+            "the cut of a back bore ends {} below the point, but begins only {below} below the point",
+            -plan.bottom
+        );
         return Err(Problem::new(Code::PC014, message, "give a smaller `depth`, or a deeper `rapto`"));
     }
     let angle = spec.orient.map_or(defaults.orient, |orient| orient.angle(defaults.orient));

@@ -53,7 +53,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         ToolLength::Code => "by G43; without H it is the tool's own length",
         ToolLength::Register => "by H alone",
         ToolLength::Tool => "by calling the tool or one of its edges",
-        ToolLength::None => "it has no length registers",
+        ToolLength::None => "never: the control has no tool lengths",
     };
     let others = match traits.complete {
         true => "refused",
@@ -74,7 +74,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         ("unit of P of a dwell", dwell.to_owned()),
         ("I, J and K are measured", centres.to_owned()),
         ("the tool length offset is turned on", length.to_owned()),
-        ("G91 of the program before", kept(traits.modes_at_start).to_owned()),
+        ("G91 that the previous program left on", kept(traits.modes_at_start).to_owned()),
         ("the spindle at M0 and M1", kept(traits.spindle_at_stop).to_owned()),
         ("codes that are not listed", others.to_owned()),
     ]
@@ -150,7 +150,7 @@ pub fn text(control: &Control) -> String {
 /// The text of docs/controls/NAME.md.
 pub fn page(control: &Control) -> String {
     let mut text = format!(
-        "# {}\n\n<!-- made from controls/{}.toml: `just overwrite` -->\n\nForms name it by `Control {1}`, commands by `--control {1}`.\n",
+        "# {}\n\n<!-- made from controls/{}.toml: `just overwrite` -->\n\nA form selects this control with the line `Control {1}`, a command with the option `--control {1}`.\n",
         control.title(),
         control.name()
     );
@@ -168,8 +168,7 @@ pub fn page(control: &Control) -> String {
 pub fn index() -> String {
     let mut text = String::from(
         "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md \
-         explains how to add one, `postform new --control-file NAME` prints a template. `rules = \"none\"` is for a \
-         control without G codes: its forms print, lint checks no codes, and programs are not proven.\n\n| control | \
+         explains how to add one, `postform new --control-file NAME` prints a template. `rules = \"none\"` is for a control without G codes: postform prints programs for it, but checks no codes and proves no programs.\n\n| control | \
          title | codes | cycles |\n| --- | --- | --- | --- |\n",
     );
     for control in names().filter_map(Control::named) {
@@ -199,13 +198,13 @@ fn counts(control: &Control) -> (usize, usize) {
 /// A commented control file to start from, for a control similar to this one.
 pub fn file(control: &Control) -> String {
     format!(
-        "# A control of your own. Put it beside the form and write `Control my-control.toml` in the form; simulate and verify take
+        "# A control of your own. Put it into the form's folder and write `Control my-control.toml` in the form; simulate and verify take
 # it with `--control my-control.toml`. Everything that is not in this file is as in {name}: `postform explain {name}`.
 name = \"my-control\"
 title = \"My machine\"
 like = \"{name}\"
 
-# For a language without G codes, as Klartext: its forms print, lint checks no codes, and no program is proven.
+# For a control whose language postform does not read: postform prints programs for it, but checks no codes and proves no program.
 # rules = \"none\"
 
 # Differences other than codes: remove the first `#` of a line where your control differs.

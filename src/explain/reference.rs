@@ -55,8 +55,8 @@ pub fn variables() -> String {
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
-    text += "\n## Texts\n\nTexts are for comments and names; they are not in the manual. `[toolname:12]` has a \
-        width: see [language](language.md#texts).\n\n";
+    text += "\n## Texts\n\nTexts are for comments and names. They are additions of postform: the manual does not \
+             contain them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
     text += "| variable | is | set by |\n| --- | --- | --- |\n";
     for row in TEXTS {
         text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);

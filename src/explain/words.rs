@@ -29,7 +29,7 @@ cycles! {
     "tap"       "feed to the bottom, reverse the spindle, feed out"
     "ltap"      "as tap, with a left-hand thread"
     "bore"      "feed to the bottom, stop the spindle, rapid out"
-    "back"      "down beside the hole with the spindle oriented, across, feed up"
+    "back"      "down off the axis of the hole with the spindle oriented, across to the axis, feed up"
     "ream"      "feed in, feed out"
     "deep"      "pecks with a full retract after each"
     "chipbreak" "pecks with a short retract after each"
@@ -244,7 +244,7 @@ pub fn cycle(name: &str) -> Option<String> {
     let kind = CycleKind::parse(name)?;
     let served_by = match kind.sequence() {
         Some(id) => format!("{}, or a Custom labelled {}", id.name(), row.name),
-        None if kind == CycleKind::Face => "a Custom labelled face, or Drill if it prints [dwell]".to_owned(),
+        None if kind == CycleKind::Face => "a Custom labelled face, or a Drill that prints [dwell]".to_owned(),
         None => format!("a Custom labelled {}", row.name),
     };
     let lines = [

@@ -36,7 +36,9 @@ pub fn check(text: &str, control: &'static Control) -> Checked {
     if let Some(at) = checked.diags.iter().position(unpointed) {
         let mut told = checked.diags.swap_remove(at);
         told.severity = Severity::Warning;
-        told.help = Some("write X1. for whole units; the following numbers are read as if they had a point".into());
+        told.help = Some(
+            "write X1. for whole units; postform reads all later numbers of the program as if they had a point".into(),
+        );
         checked = run(text, RunSettings { unpointed: Unpointed::Whole, ..RunSettings::new(control) });
         checked.diags.insert(0, told);
     }

@@ -91,8 +91,8 @@ impl<'s> Joining<'s> {
         } else if first.machine != own.machine {
             Some(self.wrong(1, "it is for another type of machine", "join jobs for the same machine", place))
         } else if first.set != own.set {
-            let why = "its head sets other values under `set`, which apply to the whole program";
-            Some(self.wrong(1, why, "give all heads the same `set`, or set values in the operations", place))
+            let why = "its `set` for the whole program contains other values";
+            Some(self.wrong(1, why, "give all jobs the same `set`, or set values in the operations", place))
         } else {
             None
         };
@@ -154,9 +154,9 @@ impl<'s> Joining<'s> {
         };
         let mut help = "give it in the first operation of the job, or print the jobs separately";
         let why = if let Some(missing) = missing {
-            format!("its first operation does not give its {missing}, so that of the job before would stay in force")
+            format!("its first operation does not give its {missing}: the value of the job before would stay active")
         } else if let Some(name) = held.set.iter().find(|name| !change.set.iter().any(|(own, _)| own == *name)) {
-            format!("its first operation does not set `{name}`, so the value of the job before would stay in force")
+            format!("its first operation does not set `{name}`: the value of the job before would stay active")
         } else if held.has_text {
             help = "make the job with text the last one, or print the jobs separately";
             "a job before it contains text for the program, whose effect is unknown".to_owned()
@@ -171,7 +171,7 @@ impl<'s> Joining<'s> {
             "the tool stays the same, so nothing retracts it between the jobs".to_owned()
         } else if let Some(axis) = self.missing_axis(change) {
             format!(
-                "it does not begin with a rapid or a hole that gives {axis}, so the position of the job before would count"
+                "its first move is not a rapid or a hole that gives {axis}: the position of the job before would apply"
             )
         } else {
             return Ok(());

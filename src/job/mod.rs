@@ -126,8 +126,8 @@ impl<'a> Job<'a> {
         let format = Format::of_name(name).or_else(|| Format::of_content(text.as_ref()));
         let format = format.ok_or_else(|| {
             Error::usage(
-                "the format of the job is unknown: neither its name nor its beginning is that of JSON, a CL file or \
-                 an NC program",
+                "the format of the job is unknown: its name and its beginning are not those of JSON, a CL file or an \
+                 NC program",
             )
         })?;
         Ok(Job::bytes(format, text).named(name))

@@ -137,8 +137,9 @@ impl<'s> Selecting<'s> {
             First::Hole(_, hole) => hole.at = self.filled(hole.at),
             First::Cut => {
                 let name = change.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
-                let message =
-                    format!("the operation{name} begins with a cut, at the end of an operation that is left out");
+                let message = format!(
+                    "the operation{name} begins with a cut from the last position of an operation that is left out"
+                );
                 let help = "include the operation before it too";
                 return Flow::Break(Diag::new(Code::PR060, message).help(help).place(place).into());
             }

@@ -94,7 +94,7 @@ sequences! {
     Operation         "Operation"         plain "ML"  ""    Ours "the beginning of an operation: after its tool change, before its first move" "operation" "operations"
     EndOperation      "EndOperation"      plain "ML"  ""    Ours "the end of an operation: after its last move" "end of an operation" "operations"
     CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job ([text]), instead of the generated one" "`comment`" "operations"
-    MoveHome          "MoveHome"          plain "MLE" ""    Ours "the way home to the machine's own position, without coordinates in the job" "`home`" "operations"
+    MoveHome          "MoveHome"          plain "MLE" ""    Ours "the move to the machine's home position, which has no coordinates in the job" "`home`" "operations"
     WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, if no other sequence prints it" "`work`" "operations"
     SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, if no other sequence prints it" "`spindle`" "operations"
     CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "other coolant, if no other sequence prints it" "`coolant`" "operations"

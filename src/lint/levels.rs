@@ -47,7 +47,9 @@ impl Levels {
         let family = CODES.iter().filter(is_code).filter(|row| upper.len() == 3 && row.name.starts_with(&upper));
         let codes: Vec<Code> = family.filter(|row| row.severity != Severity::Error).map(|row| row.code).collect();
         if codes.is_empty() {
-            return Err("is neither a code of a finding in forms, as PF303, nor a family, as PF3");
+            return Err(
+                "is neither the code of a finding in forms (such as PF303) nor a family of codes (such as PF3)",
+            );
         }
         self.0.extend(codes.into_iter().map(|code| (code, level)));
         Ok(())

@@ -63,7 +63,7 @@ impl State {
                     }
                     if self.modes.centers_absolute {
                         let Some(value) = word else {
-                            let help = "under G90.1 both coordinates of the centre are written";
+                            let help = "write both coordinates of the centre: G90.1 requires this";
                             return refuse(Code::PN009, "half a centre", help);
                         };
                         center[axis] = value;

@@ -134,7 +134,8 @@ impl State {
                 if self.control.is_linuxcnc() {
                     self.warnings.push((
                         Code::PN034,
-                        "G88 does not retract: the next hole is approached as if the operator had retracted",
+                        "G88 does not retract: the simulation assumes that the operator retracts the tool before the \
+                         next hole",
                     ));
                     self.comes_to(hole, true);
                     self.place.position = hole.over(hole.clear);
@@ -161,8 +162,8 @@ impl State {
         if from.is_none() && hole.peck < back_off {
             self.warnings.push((
                 Code::PN032,
-                "a peck is shorter than the back-off of the control: its rapid ends above the start of the peck \
-                 before",
+                "a peck is shorter than the back-off of the control: the rapid after it ends above the start of this \
+                 peck",
             ));
         }
         let mut depth = from.unwrap_or(hole.r - hole.peck);

@@ -39,7 +39,7 @@ impl State {
         if same && reused && kept.written.is_some_and(|written| written != mode) {
             self.warnings.push((
                 Code::PN030,
-                "an R or depth that was written in another mode is used again with the same number",
+                "R or the depth was written in another mode, and the same number is used again in this mode",
             ));
         }
         if !reused {

@@ -389,7 +389,7 @@ impl<'a> Simulator<'a> {
                 return Ok(Jump::To(back));
             }
             if self.repeated > MOST_REPEATED {
-                let message = format!("more than {MOST_REPEATED} actions by repeats, loops and pecks");
+                let message = format!("repeats, loops and pecks make more than {MOST_REPEATED} actions");
                 return refuse(Code::PN015, message, "check Q, K or L, and nested loops");
             }
         }

@@ -404,12 +404,12 @@ impl<'m> Check<'m> {
             (0..3).filter(|axis| self.places.unframed & 1 << axis != 0).map(|axis| LETTERS[axis]).collect();
         if !unframed.is_empty() {
             fit.not_checked.push(format!(
-                "{unframed} after G92 or G10 at an unknown machine position: after G53, or before the first position \
-                 with a tool length"
+                "{unframed} after a G92 or G10 whose machine position is unknown (after G53, or before the first \
+                 position with a tool length)"
             ));
         }
         if self.places.astray {
-            fit.not_checked.push("increments from an unknown machine position, as after a tool change".into());
+            fit.not_checked.push("increments from an unknown machine position, for example after a tool change".into());
         }
         if self.was_compensated {
             fit.not_checked

@@ -80,8 +80,8 @@ impl Fit {
                 Finding {
                     code: Code::PM001,
                     message: format!(
-                        "no value of {} is possible: line {} needs at least {}, line {} at most {}: the travel of {} \
-                         is {over} too short",
+                        "no value of {} is possible, because line {} needs at least {} and line {} at most {}: the \
+                         travel of {} is {over} too short",
                         self.what(row, control),
                         row.lines[0],
                         machine.at(row.axis, row.between[0]),

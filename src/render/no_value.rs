@@ -10,7 +10,9 @@ use crate::span::Span;
 #[cold]
 pub fn no_value<T>(var: VarId) -> Done<T> {
     let help = match var {
-        VarId::Nexttool => "list the tools ahead under `tool_order`, or render without `--stream`".to_owned(),
+        VarId::Nexttool => {
+            "list the tools under `tool_order` at the beginning of the job, or render without `--stream`".to_owned()
+        }
         VarId::Cuttime => {
             "the time of a cut is unknown, as at a constant surface speed; test it first: `@if [cuttime]`".to_owned()
         }

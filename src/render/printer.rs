@@ -458,7 +458,7 @@ fn too_long(block: TooLong) -> Done {
     Err(Box::new(match replaced {
         Some(span) => diag
             .at(span, "this makes the block too long")
-            .help("remove this Replace: the next one replaces its text again"),
+            .help("remove this Replace: a later Replace replaces its new text again"),
         None => diag.help("split it into several blocks, or shorten its comment"),
     }))
 }

@@ -73,7 +73,8 @@ fn blocks(control: &Control, found: &Found, asked: &Asked, way: Way) -> Result<(
         let home = Code { letter: b'G', tenths: 280 };
         control.row(home).filter(|row| row.meaning == Meaning::Reference).map(|row| {
             notes.push(
-                "the program goes home along X first: move a tool in a bore or behind a shoulder out by hand before"
+                "the program first goes home along X: if the tool is in a bore or behind a shoulder, move it out by \
+                 hand before the start"
                     .to_owned(),
             );
             vec![format!("{} U0", row.code), format!("{} W0", row.code)]

@@ -35,10 +35,10 @@ pub fn same(
             (Some(one), Some(_)) if !placed && one.goes_down_unsaid() => {
                 return refuse(
                     format!(
-                        "at line {} the program goes down at an X and Y that are given only before the entry",
+                        "at line {} the program goes down, but its X and Y are given only before the entry",
                         old.line()
                     ),
-                    "begin at another line, after which X and Y are given before the tool goes down",
+                    "begin at another line, so that X and Y are given between this line and the move down",
                 );
             }
             (Some(one), Some(other)) if one.is_as(other) => moves += 1,

@@ -92,7 +92,7 @@ impl Arguments<'_> {
                 let text = given.filter(|_| self.typed).map(|_| arg.text.clone());
                 Ok(Code { code: control::Code { letter: given.unwrap_or(letter as u8), ..code }, text })
             }
-            None => bad(Some(arg), format!("`{}` is not a code, as `{letter}0`", arg.text)),
+            None => bad(Some(arg), format!("`{}` is not a code such as `{letter}0`", arg.text)),
         }
     }
 

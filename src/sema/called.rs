@@ -135,7 +135,10 @@ impl Analysis {
         } else if is_outside(&name) {
             Some("is outside the form's folder".to_owned())
         } else if open.contains(&name) || self.called.contains(&name) {
-            Some("was called before: each form can be called once, and not in a circle".to_owned())
+            Some(
+                "was called before: a form can be called only once, and it can't call itself through other forms"
+                    .to_owned(),
+            )
         } else if open.len() >= MOST_CALLS {
             Some(format!("is called at a depth of {MOST_CALLS} calls"))
         } else {

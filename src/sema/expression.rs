@@ -72,7 +72,7 @@ pub fn text(expr: &Result<Expr, Unread>, row: u16, context: &Context, diags: &mu
         diags.push(
             Diag::new(
                 Code::PF706,
-                format!("[{}] is a choice: a text of the job may not be one of its words", property.name),
+                format!("[{}] is a choice, but a text of the job may be none of its words", property.name),
             )
             .at(expr.span, "any text of the job")
             .help(format!("test the text with `@if`, and set {}", property.kind.takes())),

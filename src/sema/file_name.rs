@@ -73,8 +73,9 @@ impl Setting for Extension {
         let fits =
             (1..=LONGEST_EXTENSION).contains(&extension.len()) && extension.bytes().all(|c| c.is_ascii_alphanumeric());
         if !fits {
-            let message =
-                format!("`{text}` is not an extension: use up to {LONGEST_EXTENSION} letters and digits, as `mpf`");
+            let message = format!(
+                "`{text}` is not an extension: write up to {LONGEST_EXTENSION} letters and digits, such as `mpf`"
+            );
             return bad(args.all.first(), message);
         }
         self.0 = extension.to_owned();

@@ -95,7 +95,10 @@ impl Analysis {
             self.report(
                 Diag::new(
                     Code::PF709,
-                    format!("the branches of {} print {least} or {most} lines: two kinds of cycles", id.name()),
+                    format!(
+                        "the branches of {} print {least} or {most} lines: these are two kinds of cycles",
+                        id.name()
+                    ),
                 )
                 .at(
                     span,

@@ -86,7 +86,7 @@ impl Setting for Vec<MoreWork> {
         let number =
             digits.parse::<f64>().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
         let (Some(letter), Some(number)) = (letter, number) else {
-            return bad(Some(word), format!("`{}` is not a word, as `G505` or `P1`", word.text));
+            return bad(Some(word), format!("`{}` is not a word such as `G505` or `P1`", word.text));
         };
         self.push(MoreWork { first, code, letter: letter.to_ascii_uppercase() as u8, number });
         Ok(())

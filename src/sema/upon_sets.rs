@@ -21,7 +21,7 @@ pub(super) fn check(form: &Form, diags: &mut Vec<Diag>) {
         each_formula(sequence.steps.as_deref().unwrap_or_default(), &mut |formula, at| {
             let Some((_, by, upon)) = set.iter().find(|(target, ..)| formula.asks(*target)) else { return };
             diags.push(
-                Diag::new(Code::PF707, format!("a value that Upon [{upon}] sets is tested before Upon prints"))
+                Diag::new(Code::PF707, format!("a value that Upon [{upon}] sets is tested before the Upon is printed"))
                     .at(at, "tested before the Upon of this sequence prints")
                     .at(*by, "set here")
                     .help(format!("test [{upon}] itself, or set the value in the sequence that tests it")),

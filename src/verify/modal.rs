@@ -74,8 +74,8 @@ fn turning([wanted, is]: [&State; 2]) -> Option<Differs> {
         let message = format!("the speed limit of the spindle is {said}, but {} in the job", number(limit));
         return Some((Code::PV011, "print G50 S[maxrpm] before the surface speed", message));
     }
-    let counts = if is.css { "a surface speed (G96)" } else { "in revolutions" };
-    Some((Code::PV011, "print G[speedtype]", format!("the spindle speed is {counts}, but not in the job")))
+    let [is, wanted] = [is, wanted].map(|state| if state.css { "a surface speed" } else { "in revolutions" });
+    Some((Code::PV011, "print G[speedtype]", format!("the spindle speed is {is}, but {wanted} in the job")))
 }
 
 fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
@@ -157,7 +157,7 @@ pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
             (FeedMode::PerRev, FeedMode::PerMinute, Some(speed)) => is /= speed,
             _ => {
                 s.found(Code::PV006, found.line, "print G[feedtype]", || {
-                    "another feed mode: per minute, per revolution or inverse time".to_owned()
+                    "the feed mode is different (per minute, per revolution or inverse time)".to_owned()
                 });
                 return;
             }

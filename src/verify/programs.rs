@@ -144,7 +144,7 @@ pub fn compare_motions(
         let now = hole(&mut b, found, tolerance).map_err(|error| NoMotion(1, error))?;
         let [old, new] = [&before, &now].map(|depths| depths.iter().copied().fold(f64::INFINITY, f64::min));
         if (old - new).abs() > tolerance {
-            let message = format!("a hole goes to Z{}, in the old program to Z{}", number(new), number(old));
+            let message = format!("a hole goes to Z{}, but to Z{} in the old program", number(new), number(old));
             let blocks = [(lines[0], String::new()), (lines[1], String::new())];
             return Ok(Motions { difference: Some(MotionDifference { message, blocks }), ..motions });
         }
@@ -172,7 +172,7 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
             0 => shown(&cut.from, 0b111),
             _ => "an unknown machine position".to_owned(),
         });
-        return Some(format!("a cut begins at {new}, in the old program at {old}"));
+        return Some(format!("a cut begins at {new}, but at {old} in the old program"));
     }
     if cut.open != found.open {
         return Some("in one program a cut goes to an unknown machine position".to_owned());
@@ -182,7 +182,7 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     }
     if !same(&cut.from, &found.from, ALL, tolerance) {
         return Some(format!(
-            "a cut begins at {}, in the old program at {}",
+            "a cut begins at {}, but at {} in the old program",
             shown(&found.from, 0b111),
             shown(&cut.from, 0b111)
         ));
@@ -190,7 +190,7 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     match way {
         Compared::Same | Compared::AsGood { .. } | Compared::Turning => {}
         Compared::Lower(Low { to, .. }) => {
-            return Some(format!("a rapid goes to {}, lower than in the old program", shown(&to, 0b111)));
+            return Some(format!("a rapid goes to {}, which is lower than in the old program", shown(&to, 0b111)));
         }
         Compared::Elsewhere(to) => return Some(format!("the rapids near {} follow another path", shown(&to, 0b111))),
     }
@@ -207,38 +207,38 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     }
     let (a, b) = (cut.end(), found.end());
     if !same(&a, &b, ALL, tolerance) {
-        return Some(format!("a cut goes to {}, in the old program to {}", shown(&b, 0b111), shown(&a, 0b111)));
+        return Some(format!("a cut goes to {}, but to {} in the old program", shown(&b, 0b111), shown(&a, 0b111)));
     }
     match (cut.lead, found.lead) {
         (None, None) => {}
         (Some(a), Some(b)) if (a - b).abs() <= 1e-6 * a.abs() + tolerance => {}
         (Some(a), Some(b)) => {
-            return Some(format!("the lead of a thread is {}, in the old program {}", number(b), number(a)));
+            return Some(format!("the lead of a thread is {}, but {} in the old program", number(b), number(a)));
         }
         _ => return Some("in one program a cut is synchronized with the spindle, as for a thread".to_owned()),
     }
     if cut.lead.is_some() && cut.state.thread != found.state.thread {
         let text = |words: Threading| {
             format!(
-                "at {} degrees, flanks of {}, {} leads to leave",
+                "at {} degrees, with flanks of {} degrees and a runout of {} leads",
                 number(words.start),
                 number(words.flanks),
                 number(words.pull_out)
             )
         };
         return Some(format!(
-            "a thread begins {}, in the old program {}",
+            "a thread begins {}, but {} in the old program",
             text(found.state.thread),
             text(cut.state.thread)
         ));
     }
     if cut.mode != found.mode {
-        return Some("another feed mode: per minute, per revolution or inverse time".to_owned());
+        return Some("the feed mode is different (per minute, per revolution or inverse time)".to_owned());
     }
     if let (Some(a), Some(b)) = (cut.feed, found.feed)
         && (a - b).abs() > 1e-6 * a.abs() + tolerance
     {
-        return Some(format!("the feed is {}, in the old program {}", number(b), number(a)));
+        return Some(format!("the feed is {}, but {} in the old program", number(b), number(a)));
     }
     let taps = cut.by_cycle && found.by_cycle && !names.by_order;
     if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
@@ -296,15 +296,19 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
         (a, b) => a != b,
     };
     if let Some((name, a, b)) = pairs.into_iter().find(|(_, a, b)| differ(*a, *b)) {
-        return Some(format!("{name} is {}, in the old program {}", text(b), text(a)));
+        return Some(format!("{name} is {}, but {} in the old program", text(b), text(a)));
     }
     if before.css != now.css {
         let counts = |css| if css { "a surface speed (G96)" } else { "in revolutions (G97)" };
-        return Some(format!("the spindle speed is {}, in the old program {}", counts(now.css), counts(before.css)));
+        return Some(format!(
+            "the spindle speed is {}, but {} in the old program",
+            counts(now.css),
+            counts(before.css)
+        ));
     }
     if before.limit != now.limit {
         return Some(format!(
-            "the speed limit of the spindle is {}, in the old program {}",
+            "the speed limit of the spindle is {}, but {} in the old program",
             text(now.limit),
             text(before.limit)
         ));
@@ -314,7 +318,7 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
     }
     if before.coolant != now.coolant {
         let text = |coolant: Option<Cooling>| coolant.map_or("unknown", Cooling::name);
-        return Some(format!("the coolant is {}, in the old program {}", text(now.coolant), text(before.coolant)));
+        return Some(format!("the coolant is {}, but {} in the old program", text(now.coolant), text(before.coolant)));
     }
     (before.side != now.side).then(|| "cutter compensation is different".to_owned())
 }
@@ -340,13 +344,22 @@ fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     };
     let (before, now) = (stops(old), stops(new));
     if before != now {
-        return Some(format!("the stops before this cut are {}, in the old program {}", listed(&now), listed(&before)));
+        return Some(format!(
+            "the stops before this cut are {}, but {} in the old program",
+            listed(&now),
+            listed(&before)
+        ));
     }
     let pairs = || old.passage.waits.iter().zip(&new.passage.waits);
     let same = old.passage.waits.len() == new.passage.waits.len()
         && pairs().all(|(a, b)| same_dwell(a.what, b.what) && in_cut(old, a) == in_cut(new, b));
-    (!same)
-        .then(|| format!("dwells before this cut: {}, in the old program {}", listed(&waits(new)), listed(&waits(old))))
+    (!same).then(|| {
+        format!(
+            "the dwells before this cut are {}, but {} in the old program",
+            listed(&waits(new)),
+            listed(&waits(old))
+        )
+    })
 }
 
 /// Compares the changes of the spindle's rotation between two cuts.
@@ -359,22 +372,27 @@ fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<Strin
     if names.by_order && before.last() == now.last() {
         return None;
     }
-    (before != now)
-        .then(|| format!("the spindle before this cut: {}, in the old program {}", listed(&now), listed(&before)))
+    (before != now).then(|| {
+        format!(
+            "the changes of the spindle before this cut are {}, but {} in the old program",
+            listed(&now),
+            listed(&before)
+        )
+    })
 }
 
 /// Compares where a lathe's turret indexes: with X, Z, both or neither at home.
 fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let text = |axes: Option<&u8>| match axes {
         None => "at no tool change",
-        Some(0) => "at a position of the program",
+        Some(0) => "at a position from the program",
         Some(0b001) => "at home only along X",
         Some(0b100) => "at home only along Z",
         Some(_) => "at home",
     };
     let (before, now) = (&old.passage.turrets, &new.passage.turrets);
     let differ = (0..before.len().max(now.len())).find(|at| before.get(*at) != now.get(*at))?;
-    Some(format!("the turret turns {}, in the old program {}", text(now.get(differ)), text(before.get(differ))))
+    Some(format!("the turret turns {}, but {} in the old program", text(now.get(differ)), text(before.get(differ))))
 }
 
 /// Checks that the new program does not move fewer axes home than the old one: Z, or X and Z of a lathe. Programs for
@@ -406,8 +424,9 @@ fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     };
     let (before, now) = (angles(old), angles(new));
     let text = |list: &[String]| if list.is_empty() { "no angle".to_owned() } else { listed(list) };
-    (before != now)
-        .then(|| format!("the spindle angle before this cut is {}, in the old program {}", text(&now), text(&before)))
+    (before != now).then(|| {
+        format!("the spindle angle before this cut is {}, but {} in the old program", text(&now), text(&before))
+    })
 }
 
 fn listed(names: &[String]) -> String {

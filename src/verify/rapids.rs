@@ -148,7 +148,9 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let text = |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
     s.found(code, line, "print the offsets before the first height", || match length {
         Some(length) => {
-            format!("the tool moves to this cut with {} in {}", text("H", length), text("work offset ", frame.work))
+            let length =
+                length.map_or("no tool length offset".to_owned(), |h| format!("tool length offset H{}", number(h)));
+            format!("the tool moves to this cut with {length} in {}", text("work offset ", frame.work))
         }
         None => {
             let tool = if tools { text("T", frame.tool) } else { "the tool".to_owned() };
@@ -171,7 +173,7 @@ pub(super) fn away(machine: Machine) -> u8 {
 fn goes_home(s: &mut Sides<'_>, line: u64) {
     let away = away(s.machine);
     if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
-        s.found(Code::PV001, line, "print the control's code for it in MoveHome, as `G28 G91 Z0.`", || {
+        s.found(Code::PV001, line, "print the control's code for a move home in MoveHome, as `G28 G91 Z0.`", || {
             "the job sends the tool home here, but the program does not".to_owned()
         });
     }
@@ -273,7 +275,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let Some((to, work)) = low else { return };
     let work = work.map_or(String::new(), |work| format!(" in work offset {}", number(work)));
     s.found(Code::PV009, line, "print the height before the position, or return to [rplane]", || {
-        format!("a rapid goes to {}{work}, lower than the job's rapids there", shown(&to, 0b111))
+        format!("a rapid goes to {}{work}, which is below the job's rapids there", shown(&to, 0b111))
     });
 }
 

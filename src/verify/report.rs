@@ -53,7 +53,7 @@ impl Report {
         }
         let (why, help) = match self.wrong.take() {
             Some(diag) => (diag.message, diag.help.unwrap_or_default()),
-            None => ("the job was not compared as far as its end".into(), String::new()),
+            None => ("the comparison stopped before the end of the job".into(), String::new()),
         };
         Some(Unproven { why, help, place: Some(self.place), ..Unproven::default() })
     }

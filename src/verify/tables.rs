@@ -29,15 +29,15 @@ pub(super) const OWN: [f64; 2] = [0.2, 2.0];
 
 /// Each quantity with its tolerance as text, as in docs/verify.md.
 pub fn tolerances() -> Vec<[String; 2]> {
-    let part = |part: f64| format!("{} % of itself", part * 100.0);
+    let part = |part: f64| format!("{} % of the value", part * 100.0);
     let row = |quantity: &str, near: String| [quantity.to_owned(), near];
     let [inch, mm] = PLACES;
     let [chord, chord_mm] = CHORDS;
     vec![
         row("position", format!("{inch} inch or {mm} mm (`--tolerance`)")),
-        row("line of a cut that is made of several moves", "as positions".into()),
+        row("straight cut that is made of several moves: distance of the moves from its line", "as positions".into()),
         row("arc made of lines", format!("{chord} inch or {chord_mm} mm, or the form's `Tolerance`, from the arc")),
-        row("arc made of arcs", "5 times as positions: centres are rounded too".into()),
+        row("arc made of arcs", "5 times the tolerance of positions, because centres are rounded too".into()),
         row("angle of a rotary axis", format!("{ANGLE} degrees")),
         row("angle of the spindle", format!("{ORIENTED} degrees")),
         row("feed", part(ROUNDED)),
@@ -48,8 +48,8 @@ pub fn tolerances() -> Vec<[String; 2]> {
         row(
             "peck",
             format!(
-                "up to {LONGER} times the job's longest peck; also for the depth that is cut before the tool \
-                 retracts out of the hole; a last peck below {} % of the longest may be left out",
+                "up to {LONGER} times the job's longest peck; the same limit applies to the depth that is cut before \
+                 the tool retracts out of the hole; a last peck below {} % of the longest may be left out",
                 LEFT * 100.0
             ),
         ),

@@ -15,7 +15,7 @@ pub(super) fn is_unknown(code: Code, control: &Control) -> bool {
     }
 }
 
-/// The reason as text: `fanuc has no G201 that we know`, or why postform does not run the code.
+/// The reason as text: `G201 is unknown for fanuc`, or why postform does not run the code.
 pub(super) fn unknown_code(diag: &Diag, control: &Control) -> String {
     let name = control.name();
     let code = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');

@@ -35,18 +35,18 @@ macro_rules! allowed {
 // columns: name, noun, difference, the only file that counts it, description
 allowed! {
     pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts, and holes that the job drills in one stroke and the program in pecks.";
-    ways    "path" "between cuts in another order of axes or higher" "rapids.rs" "Paths between cuts that move the axes in another order, or higher.";
-    tails   "path" "after the last cut to another position" "rapids.rs" "Paths after the last cut that go to other positions, and nowhere lower.";
-    idle    "path" "without a cut at other positions" "rapids.rs" "Paths of a tool that makes no cut, or in a work offset without a cut: to other positions, and nowhere lower.";
+    ways    "path" "between cuts with another order of axes or a greater height" "rapids.rs" "Paths between cuts that move the axes in another order, or at a greater height.";
+    tails   "path" "after the last cut to another position" "rapids.rs" "Paths after the last cut that go to other positions, but nowhere lower than the job's path.";
+    idle    "path" "without a cut at other positions" "rapids.rs" "Paths of a tool that makes no cut, or in a work offset without a cut, that go to other positions, but nowhere lower than the job's path.";
     arcs    "arc" "made of parts" "arcs.rs" "Arcs made of several lines or arcs.";
     parts   "straight cut" "made of parts" "lines.rs" "Straight cuts made of several moves.";
-    short   "cut" "shorter than the tolerance left out or added" "align.rs" "Cuts that only one side has: in the job shorter than the tolerance, in the program shorter than twice the tolerance.";
-    outs    "hole" "with a higher retract at feed" "lines.rs" "Taps and reamed holes whose retract is at feed as far as the return plane.";
+    short   "cut" "left out or added with a length below the tolerance" "align.rs" "Cuts that only one side has: in the job shorter than the tolerance, in the program shorter than twice the tolerance.";
+    outs    "hole" "with a higher retract at feed" "lines.rs" "Taps and reamed holes whose retract at feed ends only at the return plane.";
     entries "cut" "interrupted and continued" "align.rs" "Cuts that are interrupted and continued at the same position.";
-    slow    "rapid" "at feed to turn compensation on or off" "comparer.rs" "Feed moves instead of the job's rapids that turn compensation on or off.";
+    slow    "rapid" "at feed to turn compensation on or off" "comparer.rs" "Moves at feed that turn compensation on or off, where the job has a rapid.";
     dwells  "dwell" "added by the form" "pauses.rs" "Dwells that the job does not have: outside cuts and holes; or up to 30 s in a cut, after the start of a stopped spindle or with a torch or laser on.";
     stops   "stop" "added by the form" "pauses.rs" "Stops that the job does not have, outside cuts and holes.";
-    pauses  "pause" "elsewhere between the same cuts" "pauses.rs" "Stops and dwells of the job that the program makes elsewhere between the same cuts; stops nowhere lower.";
+    pauses  "pause" "elsewhere between the same cuts" "pauses.rs" "Stops and dwells of the job that the program makes at another position between the same cuts; stops never at a lower one.";
     feeds   "feed" "set by the form" "modal.rs" "Cuts at a feed that the form contains, or computes from the job's feed: 0.2 to 2 times the job's feed.";
     speeds  "speed" "set by the form" "modal.rs" "Cuts at a speed that the form contains, or computes from the job's speed, as `S[min(speed,800)]`: 0.2 to 2 times the job's speed; never for taps.";
     threads "thread" "with other passes" "threads.rs" "Threads with other passes: no coarser than the job's, to the same depth.";
@@ -88,7 +88,7 @@ pub enum UnprovenKind {
 pub struct Unproven {
     /// The kind of reason.
     pub kind: UnprovenKind,
-    /// The reason, such as `fanuc has no G201 that we know`.
+    /// The reason, such as `G201 is unknown for fanuc`.
     pub why: String,
     /// How to remove the reason.
     pub help: String,

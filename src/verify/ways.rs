@@ -39,7 +39,7 @@ impl Low {
             return format!("a rapid goes to {to}, which is not above the job's first position here, Z{limit}");
         }
         let from = if begin < number(self.to[DEPTH]) { format!("from Z{begin} ") } else { String::new() };
-        format!("a rapid goes {from}to {to}, lower than the job's rapids here, Z{limit}")
+        format!("a rapid goes {from}to {to}, which is below the job's rapids here, Z{limit}")
     }
 }
 

@@ -164,7 +164,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
     fn text(&mut self) -> io::Result<Option<Rc<I::Item>>> {
         while self.texts.is_empty() && self.pull() {
             if self.events.iter().map(|batch| (**batch).as_ref().events.len()).sum::<usize>() > MOST_WAITING {
-                return Err(only_a_file("a long part of the job prints nothing"));
+                return Err(only_a_file("the form prints nothing for a long part of the job"));
             }
         }
         let Some(batch) = self.texts.pop_front() else { return Ok(None) };

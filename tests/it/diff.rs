@@ -173,7 +173,7 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
     assert_eq!(differs("M19 R90.", "M19 R90."), None);
     for (new, angle) in [("M19 R270.", "270 degrees"), ("M5", "no angle")] {
         let found = differs("M19 R90.", new).unwrap();
-        assert_eq!(found, format!("the spindle angle before this cut is {angle}, in the old program 90 degrees"));
+        assert_eq!(found, format!("the spindle angle before this cut is {angle}, but 90 degrees in the old program"));
     }
 }
 
@@ -194,13 +194,17 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
     };
     assert_eq!(differs("G21", "G21"), "none");
     for (from, to, message) in [
-        ("G96 S150", "G97 S150", "the spindle speed is in revolutions (G97), in the old program a surface speed (G96)"),
-        ("S2500", "S500", "the speed limit of the spindle is 500, in the old program 2500"),
-        ("G50 S2500\n", "", "the speed limit of the spindle is none, in the old program 2500"),
+        (
+            "G96 S150",
+            "G97 S150",
+            "the spindle speed is in revolutions (G97), but a surface speed (G96) in the old program",
+        ),
+        ("S2500", "S500", "the speed limit of the spindle is 500, but 2500 in the old program"),
+        ("G50 S2500\n", "", "the speed limit of the spindle is none, but 2500 in the old program"),
         ("G1 Z-20. F2.", "G32 Z-20. F2.", "in one program a cut is synchronized with the spindle, as for a thread"),
         ("G28 U0 W0", "G58 U0 W0", "in one program a cut goes to an unknown machine position"),
-        ("G28 U0 W0", "G28 W0", "the turret turns at home only along Z, in the old program at home"),
-        ("G28 U0 W0", "G28 U0", "the turret turns at home only along X, in the old program at home"),
+        ("G28 U0 W0", "G28 W0", "the turret turns at home only along Z, but at home in the old program"),
+        ("G28 U0 W0", "G28 U0", "the turret turns at home only along X, but at home in the old program"),
     ] {
         assert_eq!(differs(from, to), message, "{from} -> {to}");
     }
@@ -215,8 +219,8 @@ fn motions_of_threads_differ_in_their_words() {
     let twice = "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5 Q180000";
     let at = |angle: &str| {
         format!(
-            "a thread begins at {angle}, flanks of 0, 0 leads to leave, in the old program at 180 degrees, flanks of \
-             0, 0 leads to leave"
+            "a thread begins at {angle}, with flanks of 0 degrees and a runout of 0 leads, but at 180 degrees, with \
+             flanks of 0 degrees and a runout of 0 leads in the old program"
         )
     };
     assert_eq!(differs(twice, "G92 X38. Z-10. F1.5\nG92 X38. Z-10. F1.5"), Some(at("0 degrees")));
@@ -484,7 +488,7 @@ fn the_command_and_its_formats() {
     let motion = postform(&["diff", old, new, "--motion"]);
     assert_eq!(motion.status.code(), Some(1));
     assert!(
-        stdout(&motion).contains("the feed is 320, in the old program 300")
+        stdout(&motion).contains("the feed is 320, but 300 in the old program")
             && stdout(&motion).contains("N70 X30. F300."),
         "{}",
         stdout(&motion)

@@ -393,10 +393,10 @@ fn one_part_for_two_controls_is_compared_by_its_holes() {
     assert_eq!(same.difference, None);
     assert_eq!((same.cuts, same.pecks, same.feeds), (3, 2, 3));
     for (what, by, said) in [
-        ("Q201=-22", "Q201=-21", "a hole goes to Z31, in the old program to Z30"),
+        ("Q201=-22", "Q201=-21", "a hole goes to Z31, but to Z30 in the old program"),
         ("L X+20", "L X+21", "X21"),
-        ("Q206=636.62 Q202=12", "Q206=600 Q202=12", "the feed is 600, in the old program 637"),
-        ("S295", "S300", "the spindle speed is 300, in the old program 295"),
+        ("Q206=636.62 Q202=12", "Q206=600 Q202=12", "the feed is 600, but 637 in the old program"),
+        ("S295", "S300", "the spindle speed is 300, but 295 in the old program"),
         ("Q339=1", "Q339=2", "the work offset"),
     ] {
         let other = compared(&klartext.replace(what, by)).difference.map(|difference| difference.message);

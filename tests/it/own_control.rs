@@ -391,7 +391,7 @@ fn a_row_that_lacks_something_is_not_run_and_says_what() {
         ("\"G77\" = { is = \"cycle\", makes = \"tap\", pitch = \"IJ\" }", "\"IJ\"", "not a letter, and not letters"),
         ("\"G54\" = { is = \"work\", work = \"G53\" }", "\"G53\"", "`G53` is not a work offset"),
         ("\"G28\" = { is = \"reference\", point = 3 }", "3 }", "there are two reference points"),
-        ("\"G28\" = { is = \"rapid\", point = 1 }", "1 }", "`point` belongs to reference points"),
+        ("\"G28\" = { is = \"rapid\", point = 1 }", "1 }", "`point` is only for reference points"),
     ] {
         folder.write("own.toml", format!("name = \"own\"\nlike = \"haas\"\n[codes]\n{row}\n"));
         let at = row.find(at).unwrap() + 1;
@@ -600,7 +600,7 @@ fn a_code_brings_in_a_tool_of_a_bank() {
     assert!(err(&run).contains("the control file of router does not give its tool"), "{}", err(&run));
     folder.write("router.toml", bank.replace("tool-number", "harmless"));
     let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
-    assert!(err(&run).contains("`tool` belongs to codes that mean `tool-number`"), "{}", err(&run));
+    assert!(err(&run).contains("`tool` is only for codes with the meaning `tool-number`"), "{}", err(&run));
 }
 
 /// `T3 T7 M6` of a Mazak changes to tool 3 and prepares tool 7. Other controls accept only one T in a block.

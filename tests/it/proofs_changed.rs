@@ -168,8 +168,8 @@ fn holes_are_left_at_feed_up_to_the_return_plane() {
     let job = one(&format!(r#"{{"rapid":[0,0,25]}},{two},{{"rapid":[8,4,25]}}"#));
     assert_eq!(after("haas.pf", &job, &[]), "identical");
     let left = |up: &str| after("haas.pf", &job, &[("N100 Z2.\n", &format!("N100 {up}\n"))]);
-    let farther =
-        "equivalent: 1 path between cuts in another order of axes or higher, 1 hole with a higher retract at feed";
+    let farther = "equivalent: 1 path between cuts with another order of axes or a greater height, 1 hole with a higher \
+                   retract at feed";
     assert_eq!(left("Z2.003"), farther);
     assert_eq!(left("Z10."), farther);
     assert_eq!(left("Z10.003"), "PV004 1");
@@ -316,7 +316,7 @@ fn the_tool_comes_down_over_the_first_place() {
         r#"{"rapid":[0,-80,50]},{"line":[0,-80,-2]},{"rapid":[null,null,50]},{"home":true},{"rapid":[0,80,-10]},{"cycle":{"kind":"drill","clear":2,"depth":5,"feed":100,"points":[[0,80,-12]]}},{"rapid":[null,null,50]}"#,
     );
     assert!(
-        ["identical", "equivalent: 1 way in another order of axes or higher"]
+        ["identical", "equivalent: 1 path between cuts with another order of axes or a greater height"]
             .contains(&after("fanuc.pf", &home, &[]).as_str())
     );
     assert_eq!(after("fanuc.pf", &home, &[("X0 Y80. Z-10.", "X0 Z-10.")]), "PV009 1");

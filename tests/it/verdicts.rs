@@ -56,9 +56,10 @@ fn every_post_that_ships_has_a_verdict_on_every_sample() {
     let posts: Vec<(String, Post)> = posts.collect();
     let mut reasons = Reasons::default();
     let mut page = "# Verdicts on what ships\n\n\
-        Each post of [postforms/](../postforms) with the job of each sample ([samples/](../samples)), made by a test: `=` identical, `≈` equivalent, `?` not proven, \
-        `≠` different, both for the reason of that number below, `–` the post can't print the job: it is for another machine, or asks for what the post has no \
-        sequence for. [What the verdicts mean](verify.md)\n\n| job |"
+        A test prints the job of each sample ([samples/](../samples)) with each shipped post ([postforms/](../postforms)). \
+        The table shows the verdicts: `=` identical, `≈` equivalent, `?` not proven, `≠` different. A number refers to \
+        the reason below the table. `–`: the post can't print the job, because the job is for another machine or needs a \
+        sequence that the post does not have. [What the verdicts mean](verify.md)\n\n| job |"
         .to_owned();
     posts.iter().for_each(|(name, _)| page += &format!(" {name} |"));
     page += "\n| --- |";
@@ -76,7 +77,7 @@ fn every_post_that_ships_has_a_verdict_on_every_sample() {
             _ = write!(page, " {} |", cell(post, format, &job, &mut reasons));
         }
     }
-    page += "\n\nNot proven, or different, because\n\n";
+    page += "\n\nReasons for programs that are not proven or different:\n\n";
     for (number, why) in reasons.0.iter().enumerate() {
         _ = writeln!(page, "{}. {why}", number + 1);
     }

@@ -90,7 +90,7 @@ fn a_rapid_that_begins_too_low_is_shown_with_that_height() {
     };
     let found = low(right.replace("Z50. M9\n", "Z3. M9\nX0.5 Z50.\nX0\n"));
     assert!(
-        found.iter().any(|message| message.contains("goes from Z3 to X0.5 Y0 Z50, lower than")),
+        found.iter().any(|message| message.contains("goes from Z3 to X0.5 Y0 Z50, which is below")),
         "{found:?}\n{right}"
     );
 }

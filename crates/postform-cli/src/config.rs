@@ -151,7 +151,9 @@ impl Config {
         let Some(name) = strange.first() else { return Ok(()) };
         let names = own.iter().map(|property| property.name.as_str());
         let help = did_you_mean(name, names).unwrap_or_else(|| {
-            "`postform properties FORM` lists the properties of a form; remove the line, or fix its name".into()
+            "`postform properties FORM` lists the properties of a form; remove the line, or fix the name of the \
+             property"
+                .into()
         });
         let file = files::name(path);
         Err(format!(

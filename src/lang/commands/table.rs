@@ -29,9 +29,9 @@ macro_rules! command_rows {
             Feed "Feed" (Motion(1, 1)) once (of("G1")) Doc {feed: Code}
                 "motion word of generated feed moves";
             CW "CW" (Motion(1, 2)) once (of("G2")) Ours {=> clockwise}
-                "motion word of generated clockwise arcs; an M code after it is [direct]'s";
+                "motion word of generated clockwise arcs; an M code after it is the clockwise value of [direct]";
             CCW "CCW" (Motion(1, 2)) once (of("G3")) Ours {=> counter_clockwise}
-                "motion word of generated counter-clockwise arcs; an M code after it is [direct]'s";
+                "motion word of generated counter-clockwise arcs; an M code after it is the counter-clockwise value of [direct]";
             FeedCode "FeedCode" (Letters(1, 1)) once (of("F")) Doc {feed_code: u8}
                 "letter of generated feed words";
             SpeedCode "SpeedCode" (Letters(1, 1)) once (of("S")) Doc {speed_code: u8}
@@ -62,16 +62,16 @@ macro_rules! command_rows {
             StopCode "StopCode" (Codes('M', 2, 2)) once (of("0 1")) Ours {stop_code: [f64; 2]}
                 "values of [stop]: program stop, optional stop";
             LComp "LComp" (Number) once (of("0")) Ours {lcomp: f64} if (Printed(V::Lcomp))
-                "[lcomp] is the tool's own register, else tool number + this";
+                "[lcomp] of a tool without its own register is the tool number plus this number";
             DComp "DComp" (Number) once (of("0")) Ours {dcomp: f64}
-                "[dcomp] is the tool's own register, else tool number + this";
+                "[dcomp] of a tool without its own register is the tool number plus this number";
             Work "Work" (Codes('G', 1, 1)) once (of("54")) Ours {work: f64}
-                "[work] of fixture 1; later fixtures count up from it";
+                "[work] of fixture 1; the next fixtures have the next numbers";
             WorkDefault "WorkDefault" (Codes('G', 1, 1)) once (of("54")) Ours {work_default: f64}
-                "[work] when a job names none";
+                "[work] of a job without a work offset";
             MoreWork "MoreWork" (Words(2, 3, "the first fixture of the range, and the words of that fixture, as `7 G54.1 P1`"))
                 many (of("")) Ours {more_work: Vec<MoreWork>} if (Printed(V::Work)) eg "7 G54.1 P1"
-                "words that `G[work]` prints from this fixture on; their last number counts up";
+                "words that `G[work]` prints for this fixture; for each next fixture their last number increases by 1";
             IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}
                 "values of [incmode]";
             InchMm "Inch/MM" (Codes('G', 2, 2)) once (of("20 21")) Ours {inch_mm: [f64; 2]} if (Printed(V::Unitmode))
@@ -111,29 +111,29 @@ macro_rules! command_rows {
                 once (of("")) Ours {=> centre_of_circles} if (Arcs)
                 "centre words of full circles";
             CtrIncremental "CtrIncremental?" (Switch) once (of("Y")) Ours {centre_incremental: bool} if (Arcs)
-                "arc centres relative to the start, else absolute";
+                "`Y`: arc centres are relative to the start of the arc; `N`: they are absolute";
             ByQuadrants "ByQuadrants?" (Switch) once (of("N")) Doc {by_quadrants: bool}
                 "split arcs at the quadrant lines";
             ArcPlane "ArcPlane" (Motion(1, 3)) once (of("17 18 19")) Ours {planes: Vec<Code>}
                 "plane words; an arc in another plane is linearised";
             Helical "Helical?" (Switch) once (of("Y")) Ours {helical: bool}
-                "arcs may move along the tool axis, else they are linearised";
+                "`N`: arcs that also move along the tool axis are linearised";
             MinRad "MinRad" (Length) once (of("0.0005").mm("0.01")) Ours {min_radius: f64}
-                "smaller arcs are linearised";
+                "arcs with a smaller radius are linearised";
             MaxRad "MaxRad" (Length) once (of("999").mm("25000")) Ours {max_radius: f64}
-                "larger arcs are linearised";
+                "arcs with a larger radius are linearised";
             Tolerance "Tolerance" (LengthAboveZero) once (of("0.0005").mm("0.01")) Ours {tolerance: f64}
                 "largest distance of lines from a linearised arc";
             ArcWithLine "ArcWithLine?" (Switch) once (of("Y")) Ours {arc_with_line: bool}
-                "an arc after a line need not restate its motion code";
+                "an arc after a line leaves out its motion code if the code is still active";
             ArcWithSame "ArcWithSame?" (Switch) once (of("Y")) Ours {arc_with_same: bool}
-                "an arc after a like arc need not restate its motion code";
+                "an arc after an arc in the same direction leaves out its motion code";
             CircDir "CircDir" (Words(2, 2, "two words, clockwise and counter-clockwise, as `DR- DR+`"))
                 once (of("")) Ours {circle_direction: Option<[String; 2]>} if (Arcs) eg "DR- DR+"
                 "direction word at the end of an arc block";
             SecondCircle "2ndCircleCode" (Words(1, 9, "one word, as `M99`"))
                 once (of("")) Doc {second_circle: Option<String>} if (Arcs)
-                "word that begins a second arc line with the centre";
+                "word that begins the second block of an arc, which contains the centre";
             // leaving out unchanged words
             Modality "Modality?" (Switch) once (of("Y")) Ours {modality: bool}
                 "drop words that change nothing";
@@ -169,7 +169,7 @@ macro_rules! command_rows {
             Extension "Extension" (Words(1, 1, "letters and digits, as `mpf`"))
                 once (of("nc")) Ours {extension: Extension} eg "mpf"
                 "extension of a program's file, if `--output` is a folder";
-            Comment "Comment" (Words(1, 2, "opening mark and, unless empty, closing mark"))
+            Comment "Comment" (Words(1, 2, "the mark that begins a comment and, if necessary, the mark that ends it"))
                 once (of("( )")) Ours {comment: [String; 2]}
                 "comment marks";
             UpperComments "UpperCaseComments?" (Switch) once (of("Y")) Ours {upper_comments: bool}
@@ -210,11 +210,11 @@ macro_rules! command_rows {
             RevTurret2 "RevTurret2?" (Switch) once (of("N")) Ours {reverse_turret_2: bool}
                 "X reversed while [turret] is 2";
             Tools "Tools" (Text) many (of("")) Ours {}
-                "of the original desktop product: without effect";
+                "a command of the original desktop product, without effect";
             Drive "Drive" (Text) many (of("")) Ours {}
-                "of the original desktop product: without effect";
+                "a command of the original desktop product, without effect";
             WindowSize "WindowSize" (Text) many (of("")) Ours {}
-                "of the original desktop product: without effect";
+                "a command of the original desktop product, without effect";
             Limits "Limits" (Words(3, 3, "axis letter, least and greatest position, as `X -20 20`"))
                 many (of("")) Ours {limits: Vec<TravelLimit>}
                 "travel of an axis; the travel of a rotary axis controls Unwind";
@@ -227,17 +227,17 @@ macro_rules! command_rows {
             ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
                 "later passes print only X, or approach, cut, clear and return";
             CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
-                "clearance of a cycle without one";
+                "clearance of cycles for which the job gives none";
             CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"
-                "peck of a cycle without one";
+                "peck of cycles for which the job gives none";
             CycleMinStep "CycleMinStep" (Length) once (of("0")) Ours {cycle_min_step: f64}
                 "least peck";
             CycleBack "CycleBack" (Words(2, 2, "`deep`, `chipbreak` or `thru`, then a length"))
                 many (of("").by_units("deep 0.05, chipbreak 0.05, thru 0.05", "deep 1, chipbreak 1, thru 1"))
                 Ours {=> cycle_back} eg "deep 0.05"
-                "secondary clearance of a cycle without one";
+                "secondary clearance of cycles for which the job gives none";
             CycleDwell "CycleDwell" (Length) once (of("0.5")) Ours {cycle_dwell: f64}
-                "dwell in seconds of a facing cycle without one";
+                "dwell, in seconds, of facing cycles for which the job gives none";
             CycleDwellAt "CycleDwellAt" (Words(1, 2, "`steps`, `retracts` or both"))
                 once (of("")) Ours {=> cycle_dwell_at} eg "steps"
                 "where a peck cycle dwells besides the bottom";

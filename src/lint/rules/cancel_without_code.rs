@@ -9,7 +9,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(cancel) = view.body(SequenceId::Cancel) else { return };
     // on most controls a motion code also ends a cycle
     if cancel.meaning(Meaning::ends_cycle).is_none() {
-        diags
-            .push(Diag::new(Code::PF410, "Cancel does not cancel").at(cancel.span, "no G80").help("print `G80` in it"));
+        diags.push(
+            Diag::new(Code::PF410, "Cancel does not end the cycle").at(cancel.span, "no G80").help("print `G80` in it"),
+        );
     }
 }

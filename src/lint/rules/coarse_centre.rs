@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let name = char::from(letter);
             diags.push(
                 Diag::new(Code::PF308, format!("{name} has {} decimals, positions have {finest}", format.dec.count))
-                    .at(*span, "the control may alarm at its arcs")
+                    .at(*span, "the control may stop with an alarm at an arc")
                     .help(format!("give {name} {finest} decimals, too")),
             );
         }

@@ -12,7 +12,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let Some(help) = did_you_mean(kind, CycleKind::NAMES.iter().map(|(name, _)| *name)) else { continue };
         diags.push(
             Diag::new(Code::PF207, format!("`{kind}` is not a kind of cycle"))
-                .at(sequence.span, format!("this prints only `{}` of a job", sequence.id.name().to_lowercase()))
+                .at(
+                    sequence.span,
+                    format!("this is printed only for the kind `{}` of a job", sequence.id.name().to_lowercase()),
+                )
                 .help(help),
         );
     }

@@ -52,8 +52,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             _ => format!("write `{name}{better}`"),
         };
         diags.push(
-            Diag::new(Code::PF306, format!("{name} has {decimals} decimals, {what} needs {wanted}"))
-                .at(*span, "the others are rounded away")
+            Diag::new(Code::PF306, format!("{name} has {decimals} decimals, but {what} needs {wanted}"))
+                .at(*span, "the other decimals are lost")
                 .help(help),
         );
     }
@@ -80,10 +80,10 @@ fn built_in(view: &View, diags: &mut Vec<Diag>) {
         let name = char::from(letter);
         let better = LetterFormat { dec: Digits { count: wanted, fixed: false }, point: Point::Always, ..row.format };
         let what = if decimals == 0 { "whole numbers".to_owned() } else { format!("{decimals} decimals") };
-        let message = format!("{name} has no format and prints {what}, [{}] needs {wanted} decimals", var.name());
+        let message = format!("{name} has no format and prints {what}, but [{}] needs {wanted} decimals", var.name());
         diags.push(
             Diag::new(Code::PF306, message)
-                .at(word.span, "the others are rounded away")
+                .at(word.span, "the other decimals are lost")
                 .help(match (counts(view, letter), name.to_ascii_lowercase()) {
                     (true, small) if small != name => format!(
                         "print it as `{small}`, with `{small}{better}` and `Rename {small} {name}`, or without a letter: `[{}]`; whole \

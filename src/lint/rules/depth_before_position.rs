@@ -40,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if changes && before != 0b11 && blocks[down + 1..].iter().all(|block| across(block) == 0) {
             diags.push(
                 Diag::new(Code::PF416, format!("{} goes down without a position", body.name()))
-                    .at(word.span, "down at the tool change position")
+                    .at(word.span, "the tool goes down at the tool change position")
                     .help("print `G0 X[h] Y[v]` before it"),
             );
             continue;

@@ -30,7 +30,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let (unit, times) = if wanted { ("ms", "a thousandth of") } else { ("s", "a thousand times") };
     diags.push(
         Diag::new(Code::PF311, format!("P of a dwell is in {unit} on {}", settings.control().shown()))
-            .at(place, format!("the dwell would be {times} the time"))
+            .at(place, format!("the dwell would last {times} the programmed time"))
             .help(format!("write `Dwell G4 P {unit}`")),
     );
 }

@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if meaning.is_some_and(|meaning| meaning.group().is_none()) {
             diags.push(
                 Diag::new(Code::PF502, format!("{} acts once", arg.text))
-                    .at(arg.span, "the second one would not be printed, although the control needs it")
+                    .at(arg.span, "a repeated code would not be printed, although the control needs it in each block")
                     .help("name only modal codes: G0 to G3, G17 to G19"),
             );
         }

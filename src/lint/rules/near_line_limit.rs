@@ -10,7 +10,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let lines: Vec<Span> = bodies.filter(|body| !body.words.is_empty()).map(|body| body.line.span).collect();
     if (MOST_LINES * 9 / 10 + 1..=MOST_LINES).contains(&lines.len()) {
         diags.push(
-            Diag::new(Code::PF606, format!("{} sequence lines of at most {MOST_LINES} in a form", lines.len()))
+            Diag::new(Code::PF606, format!("the form has {} sequence lines: the limit is {MOST_LINES}", lines.len()))
                 .at(lines[lines.len() - 1], "the last one")
                 .help("take out sequences that are not used"),
         );

@@ -9,7 +9,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let count = body.begins().count();
         if (MOST_WORDS - 1..=MOST_WORDS).contains(&count) {
             diags.push(
-                Diag::new(Code::PF605, format!("{count} words of at most {MOST_WORDS} in a line"))
+                Diag::new(Code::PF605, format!("the line has {count} words: the limit is {MOST_WORDS}"))
                     .at(body.line.span, "almost full")
                     .help("break the line in two before it reaches the limit"),
             );

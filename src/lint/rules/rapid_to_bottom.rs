@@ -29,7 +29,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }
             if let (true, true, Some((word, _))) = (rapid, block.in_part(), down) {
                 diags.push(
-                    Diag::new(Code::PF415, format!("{} rapids to the bottom of the hole", body.name()))
+                    Diag::new(Code::PF415, format!("{} goes to the bottom of the hole at rapid", body.name()))
                         .at(word.span, "no feed motion code is active here")
                         .help("go to `Z[vclear]` at rapid, then feed: `G1 Z[d] F[frate]`"),
                 );

@@ -22,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             );
         } else if let Some(word) = so_far.stopped {
             diags.push(
-                Diag::new(Code::PF427, format!("{} stops the spindle again after it is on", body.name()))
+                Diag::new(Code::PF427, format!("{} starts the spindle and then stops it again", body.name()))
                     .at(word.span, "the tool does not turn in the first cut")
                     .help("print the spindle after it: `S[speed] M[direct]`"),
             );

@@ -42,7 +42,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             Diag::new(Code::PF210, format!("nothing uses [{}]", var.name()))
                 .at(body.span, "so this is never printed")
                 .help(format!(
-                    "print [{}] in the sequence before which this must print, or remove this sequence",
+                    "print [{}] in the sequence before which this Upon must be printed, or remove the Upon",
                     var.name()
                 )),
         );

@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let end = if let Tail::Comment(comment) = line.tail { comment.start } else { line.span.end };
         diags.push(
             Diag::new(Code::PF203, format!("{} has no effect", id.name()))
-                .at(statement.line.span, "of the original desktop product")
+                .at(statement.line.span, "a command of the original desktop product")
                 .help("you may keep or remove it")
                 .fix("remove the line", true, vec![(Span { end, ..line.span }, String::new())]),
         );

@@ -42,7 +42,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                         Code::PF313,
                         format!("{} is the {what}, but [{}] is not a {what}", char::from(letter), var.name()),
                     )
-                    .at(word.span, "another value than the control expects")
+                    .at(word.span, "the control expects another value here")
                     .help(format!("write `{}{right}`", char::from(letter))),
                 );
             }

@@ -11,7 +11,7 @@ const ERRORS: [Row; 24] = [
     (1, Code::PN001, "a word must begin with a letter", "take it out: Grbl has no `%`, no parameters and no expressions"),
     (2, Code::PN001, "a letter without its number", "write a plain number after it"),
     (4, Code::PN018, "F, N, P, S and T are not negative", "write it without the minus"),
-    (11, Code::PN001, "more than 79 characters, without spaces, slashes and comments", "break it into several blocks"),
+    (11, Code::PN001, "more than 79 characters without spaces, slashes and comments", "break it into several blocks"),
     (20, Code::PN003, "not a code or word of Grbl", "remove it, or print the program for a control that has it"),
     (21, Code::PN004, "two codes of one modal group", "write them in two blocks, or take one out"),
     (22, Code::PN008, "a cut without a feed", "write F with it; under G93 in every block that cuts"),

@@ -30,7 +30,8 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
         Motions::ShiftOut => {
             let help = "write the bore by hand, with `orient`, `offset` and the side";
             let code = hole.cycle.code;
-            let message = format!("{code}: a parameter of the control sets the side to which it moves off the wall");
+            let message =
+                format!("{code}: a parameter of the control sets the side to which the tool moves off the wall");
             return unsaid(line, message, help);
         }
         Motions::Back | Motions::ByHand => {

@@ -82,8 +82,9 @@ impl Reader<'_> {
 
     pub(super) fn coolant(&mut self, cooling: Cooling) {
         if !self.wanted.cool(cooling) {
-            let message = "flood and mist at once: the job has only the later one";
-            self.warnings.push(warning(self.place.line, message, "let the form print the other one"));
+            let message = "flood and mist are on at once, but the job contains only the coolant that was turned on \
+                           later";
+            self.warnings.push(warning(self.place.line, message, "let the form print the other coolant"));
         }
     }
 

@@ -357,7 +357,8 @@ impl<'a> Reader<'a> {
     /// be at the start position of the options.
     fn cut_from(&mut self, start: [f64; 3]) -> Done {
         let message = "a cut begins at an unknown machine position";
-        let help = "it begins at the position of `--assume-start`: check that the tool clears the clamps on its way";
+        let help = "the cut is assumed to begin at the position of `--assume-start`: check that the tool clears the \
+                    clamps on its way";
         self.warnings.push(warning(self.place.line, message, help));
         let unknown = if self.home.take().is_some() { self.known & 0b011 } else { self.known };
         for axis in (0..3).filter(|axis| unknown & 1 << axis == 0) {

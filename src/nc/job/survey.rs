@@ -84,7 +84,7 @@ pub(super) fn survey(
                             "turn the length offset off after the tool's last cut: in a job a tool has one length";
                         return unsaid(
                             item.line,
-                            "a tool cuts with its length offset and, after G49, without it",
+                            "a tool cuts with its length offset, and after G49 also without it",
                             help,
                         );
                     }
@@ -134,7 +134,7 @@ pub(super) fn survey(
                 }
                 Action::Length(None) => length = None,
                 Action::Length(Some(register)) if *register < 0.0 => {
-                    let help = "give the tool a register with the other sign, and G43";
+                    let help = "write G43, and change the sign of the length in the register";
                     return unsaid(item.line, "G44, a subtracted length offset", help);
                 }
                 Action::Tool(_) => {
@@ -193,7 +193,7 @@ fn one(
     match which(tool).replace(value) {
         Some(before) if before != value => {
             let message = format!("one tool uses two {name}{before} and {value}");
-            unsaid(line, message, "a tool of a job has one: use one register, or change the tool between them")
+            unsaid(line, message, "in a job a tool has only one: use one register, or change the tool between them")
         }
         _ => Ok(()),
     }

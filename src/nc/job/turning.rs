@@ -140,8 +140,9 @@ impl<'a> Turner<'a> {
             }
             Action::Coolant(cooling) => {
                 if !self.wanted.cool(*cooling) {
-                    let message = "flood and mist at once: the job has only the later one";
-                    self.warnings.push(warning(line, message, "let the form print the other one"));
+                    let message = "flood and mist are on at once, but the job contains only the coolant that was \
+                                   turned on later";
+                    self.warnings.push(warning(line, message, "let the form print the other coolant"));
                 }
                 Ok(())
             }

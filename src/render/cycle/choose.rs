@@ -55,8 +55,8 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
         return fault(
             Code::PC021,
             message,
-            "print it in the form's Tap; remove `ratio`, `decr` and `pecks` from the cycle: no form prints them, set \
-             them at the control",
+            "print it in the form's Tap sequence; remove `ratio`, `decr` and `pecks` from the cycle and set them at \
+             the control, because no form prints them",
         );
     }
     if candidate.is_some() {

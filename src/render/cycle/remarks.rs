@@ -39,19 +39,19 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     let printed =
         sequence.and_then(|id| shape.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
     if spec.kind.is_tap() && spec.mode.is_none() && spec.step.is_some() && !printed {
-        let message = "`step` without effect: this tap does not peck";
+        let message = "`step` has no effect, because this tap does not peck";
         out.note(Code::PC061, message.into(), "give the kind of pecks with `mode`, or remove `step`");
     }
     if spec.ratio.is_some() && (spec.norevr || spec.rapout) {
-        let message = "`ratio` without effect: this tap does not feed out";
+        let message = "`ratio` has no effect, because this tap does not feed out";
         out.note(Code::PC057, message.into(), "remove `ratio`");
     }
     if shape.options.sink_as_printed && spec.kind == CycleKind::Csink && spec.angle.is_some_and(|angle| angle > 90.0) {
-        let message = "the printed formula makes this countersink too deep";
+        let message = "the formula of `--csink-depth printed` makes this countersink too deep";
         out.note(Code::PC059, message.into(), "render without `--csink-depth printed`");
     }
     if spec.min_step.is_some() && spec.decr.is_none() && shape.program.settings.cycle_min_step == 0.0 {
-        let message = "`min_step` without effect: the steps do not shrink";
+        let message = "`min_step` has no effect, because the steps do not shrink";
         out.note(Code::PC055, message.into(), "remove it, or give `decr`");
     }
     let floats = spec.kind.is_tap() && spec.rigid == Some(false) && !spec.norevr && !spec.rapout;

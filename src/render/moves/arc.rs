@@ -80,7 +80,10 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
         && (3..6).all(|axis| !differs_by(&target, axis, cx.said));
     let shrinks = ends_meet(&target, axes, shape, cx.said) && curve.sweep.abs() < PI;
     if let Some(differ) = coarse {
-        let message = format!("the arc is printed as lines: in the form's digits its radii differ by {differ:.4}");
+        let message = format!(
+            "the arc is printed as lines: rounded to the form's decimals, its radii at the start and the end differ \
+             by {differ:.4}"
+        );
         cx.out.note(Code::PR024, message, "give the axes and centre words more decimals");
     }
     match plane {

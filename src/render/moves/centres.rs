@@ -142,8 +142,14 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     };
     if wrong && (0..shape.linear).any(reversed) {
         let message = match mirrored {
-            true => "one axis of the arc's plane is reversed: the arc would turn in the opposite direction",
-            false => "no single axis of the arc's plane is reversed: the arc would turn in the opposite direction",
+            true => {
+                "one axis of the arc's plane is reversed, but the arc codes are not exchanged: the arc would turn in \
+                 the opposite direction"
+            }
+            false => {
+                "the arc codes are exchanged, but not exactly one axis of the arc's plane is reversed: the arc would \
+                 turn in the opposite direction"
+            }
         };
         let help = "if one axis of the plane is reversed, exchange the codes, `CW G3` and `CCW G2`; leave other \
             planes out of `ArcPlane`";

@@ -124,14 +124,14 @@ fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
 /// Checks that the tool is beside the thread, on the side from which it is cut.
 fn check_beside(thread: &Thread, cut: &Cut, shape: &Shape, said: &Said) -> Done {
     let Some(beside) = said.stand.position.get(1) else {
-        let help = "begin with a rapid to a position beside the thread, with its distance from the axis";
+        let help = "begin with a rapid to a position next to the thread that gives the distance from the axis";
         return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
     };
     let from = said.stand.target(&thread.from, shape).values[1];
     let wrong = [from, cut.crest].iter().any(|crest| (beside - crest) * cut.inward > 1e-9);
     if wrong {
         let (kind, place) = if cut.inward > 0.0 { ("inner", "outside") } else { ("outer", "inside") };
-        let message = format!("the tool is {place} the crest of an {kind} thread, at the radius {beside}");
+        let message = format!("the tool is at the radius {beside}, {place} the crest of an {kind} thread");
         return fault(Code::PR031, message, "first make a rapid to the other side of the crest");
     }
     Ok(())

@@ -104,7 +104,7 @@ fn check_call(call: &Call, called: Option<usize>, want: &Want, said: &Said, subs
         );
     }
     if said.stand.angles.is_wound() {
-        let help = "make the call before an axis is unwound, or turn it back first";
+        let help = "make the call before an axis is unwound, or first turn the axis back";
         return fault(
             Code::PR033,
             "a call after a rotary axis was unwound: the angles of the subprogram would be wrong",
@@ -239,7 +239,8 @@ pub fn check_calls(subs: &Subprograms) -> Done {
         let Some(to) = subs.index(call.to) else { return at(call.place, undefined(call.to)) };
         if subs.defined[to].left.conditions.known().meets(call.unknown) {
             let message = format!(
-                "subprogram {} changes a setting that its caller can't restore, because it has not set it",
+                "subprogram {} changes a setting that has no value in its caller, so the value can't be restored \
+                 after the call",
                 call.to
             );
             let help = "set spindle, coolant and work offset in the calling subprogram before the call";
@@ -260,7 +261,7 @@ pub fn check_calls(subs: &Subprograms) -> Done {
         }
         if !ends[to] {
             let message = format!("subprogram {} calls itself, directly or through others", call.to);
-            return at(call.place, fault(Code::PR033, message, "a control would never end it: remove the call"));
+            return at(call.place, fault(Code::PR033, message, "the program would never end: remove the call"));
         }
     }
     Ok(())

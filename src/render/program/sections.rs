@@ -59,7 +59,7 @@ pub fn end_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section
         Some(open) => fault(
             Code::PJ011,
             format!("a {} ends inside a {}", part(section), part(open)),
-            "end first the part that began last",
+            "first end the part that began last",
         ),
         None => fault(
             Code::PJ011,
@@ -95,7 +95,7 @@ fn check_section(id: SequenceId, shape: &Shape) -> Done {
     if id.row().machines.has(machine) {
         return Ok(());
     }
-    let message = format!("a {} does not have this part of a path", machine.name());
+    let message = format!("a {} has no such part of a path", machine.name());
     fault(Code::PR008, message, format!("{} is for {}", id.name(), id.row().machines))
 }
 

@@ -108,7 +108,7 @@ fn of_serde(error: &serde_json::Error) -> Diag {
     let text = text.rsplit_once(" at line ").map_or(text.as_str(), |(message, _)| message);
     match error.classify() {
         serde_json::error::Category::Eof => Diag::new(Code::PJ007, "the job ends in the middle of a value")
-            .help("write the job again: a job cut short must not become a program"),
+            .help("write the job again: postform prints no program from an incomplete job"),
         serde_json::error::Category::Data => {
             let mut diag = Diag::new(Code::PJ003, text.to_owned());
             diag.help = meant(text);

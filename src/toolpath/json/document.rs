@@ -100,7 +100,7 @@ impl<'s> Job<'_, 's> {
     }
 
     fn misplaced<E: serde::de::Error>(&self, list: &str, object: &str, key: &str) -> E {
-        self.context.fail(Diag::new(Code::PJ005, format!("`{key}` is after `{list}`")).help(format!(
+        self.context.fail(Diag::new(Code::PJ005, format!("`{key}` comes after `{list}`")).help(format!(
             "make `{list}` the last key of {object}, or give the job as a file: in a stream the \
                     keys after `{list}` come too late"
         )))

@@ -190,8 +190,8 @@ impl Lines<'_, '_> {
             Diag::new(Code::PJ007, "the job is empty").help("write a job file")
         } else {
             Diag::new(Code::PJ007, "the job has no end").help(
-                "write the job again: its last line must be {\"end\": true}; an incomplete job must not become \
-                    a program",
+                "write the job again: its last line must be {\"end\": true}; postform prints no program from an \
+                 incomplete job",
             )
         };
         Err(self.placed(diag))

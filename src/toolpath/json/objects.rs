@@ -200,7 +200,7 @@ objects! {
     ArcObject "an arc" {
         "to" to Position, "its end";
         "center" center Position, "its centre";
-        "radius" radius Number, "its radius instead; negative for the longer way round";
+        "radius" radius Number, "its radius, instead of the centre; negative for the longer arc";
         "direction" direction Word<Direction>, "its direction, seen from the positive third axis of the plane";
         "plane" plane Word<Plane>, "its plane (xy)";
         "turns" turns Number, "additional full turns before the end (0)";
@@ -212,10 +212,10 @@ objects! {
         "clear" clear Number, "clearance above the point: the height where the feed begins";
         "return" return_height Number, "return plane above the first point";
         "feed" feed Number, "feed into the hole";
-        "plunge" plunge Number, "plunge feed (the feed)";
+        "plunge" plunge Number, "plunge feed (default: the feed)";
         "step" step Number, "peck, measured from the clearance plane";
         "first_step" first_step Number, "first peck";
-        "back" back Number, "secondary clearance: distance above the last depth where the feed begins again";
+        "back" back Number, "secondary clearance: the feed begins again this distance above the last depth";
         "dwell" dwell Number, "dwell at the bottom in seconds";
         "revs" revs Number, "dwell at the bottom in revolutions";
         "rapto" rapto Number, "extra rapid below the clearance plane";
@@ -231,14 +231,14 @@ objects! {
         "angle" angle Number, "angle of a countersink";
         "hole_diameter" hole_diameter Number, "hole under a countersink";
         "webs" webs Few<Number>, "depths of a cycle through webs: end, start, end, ..";
-        "mode" mode Word<PeckMode>, "kind of pecks of a tap";
+        "mode" mode Word<PeckMode>, "how a tap pecks";
         "offset_y" offset_y Number, "jog off the wall along y; `offset` is then along x";
         "step_from" step_from Word<StepFrom>, "the plane from which steps are measured (clear)";
         "emulate" emulate bool, "print single moves, even if the form has the cycle";
         "pecks" pecks Few<PeckObject>, "absolute steps";
         "norevr" norevr bool, "a tap that does not reverse";
         "rapout" rapout bool, "a tap that rapids out";
-        "jog" jog Number, "lift of a boring cycle's jog";
+        "jog" jog Number, "lift of the tool after the jog of a boring cycle";
     }
     /// An absolute step.
     PeckObject "a peck" {

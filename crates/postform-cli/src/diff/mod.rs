@@ -80,7 +80,8 @@ fn difference(
     if args.motion {
         return Ok(match motions(args, old, new, reporter)? {
             Outcome::Refused => {
-                say(&format!("not proven: {} and {} can't be compared as far as their ends\n", old.name, new.name));
+                let (old, new) = (&old.name, &new.name);
+                say(&format!("not proven: the comparison of {old} and {new} stopped before their ends\n"));
                 Err(Ending::Findings)
             }
             Outcome::Compared(found) => {

@@ -42,7 +42,7 @@ pub fn read(input: &mut impl BufRead) -> Result<Frame, String> {
             break;
         }
         let Some((name, value)) = line.split_once(':') else {
-            return Err(format!("`{}` is not a header, as `Content-Length: 123`", shown(line)));
+            return Err(format!("`{}` is not a header such as `Content-Length: 123`", shown(line)));
         };
         if name.eq_ignore_ascii_case("Content-Length") {
             let value = value.trim();

@@ -23,7 +23,7 @@ fn output_failed(path: &Path, error: &io::Error) -> Result<Ending, String> {
         io::ErrorKind::BrokenPipe if path == Path::new("-") => Ok(Ending::Clean),
         io::ErrorKind::BrokenPipe => {
             message(&format!(
-                "error: the reader of {} closed it before everything was written",
+                "error: {} was closed by its reader before the whole program was written",
                 files::output_name(path)
             ));
             Ok(Ending::Findings)

@@ -46,8 +46,8 @@ pub struct Task<'a> {
 pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Reporter) -> Result<Ending, String> {
     let Ready { prepared, machine, .. } = ready;
     if machine.is_some() && args.stream {
-        return Err("error: --stream writes the program before the check that it fits into the machine\n  help: \
-            render without --stream"
+        return Err("error: --stream writes the program before postform can check that it fits into the machine\n  \
+                    help: render without --stream"
             .into());
     }
     let error = |error: Error| format!("error: {error}");

@@ -302,7 +302,7 @@ impl Case {
         let text = fs::read_to_string(&self.expected).map_err(|error| io_message("read", &self.expected, &error))?;
         let code = text.split_whitespace().next().unwrap_or_default();
         if code.is_empty() {
-            return Err(format!("{} contains no code, as PR010", files::name(&self.expected)));
+            return Err(format!("{} contains no code such as PR010", files::name(&self.expected)));
         }
         Ok(code.to_owned())
     }

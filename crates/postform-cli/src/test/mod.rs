@@ -83,9 +83,9 @@ fn nothing(args: &TestArgs) -> String {
         );
     }
     format!(
-        "error: there are no cases in {}\n  help: a case is a job (job.json, or another) and, in the same folder, \
-         expected.NAME.nc: the program that NAME.pf prints; `postform test --new FORM` writes the standard cases, \
-         `postform test --update --form FORM FOLDER` writes the cases of the jobs in a folder",
+        "error: there are no cases in {}\n  help: a case is a job (such as job.json) and its expected program in the \
+         same folder; NAME.pf must print expected.NAME.nc; `postform test --new FORM` writes the standard cases, \
+         `postform test --update --form FORM FOLDER` writes the expected programs of the jobs in a folder",
         names.join(", ")
     )
 }

@@ -258,7 +258,7 @@ impl Words<'_> {
             let mut to = self.polar(at, [None, polar[1]], false)?;
             if let Some((by, true)) = polar[1] {
                 if (by > 0.0) != left {
-                    let message = format!("IPA {by} and DR turn different ways");
+                    let message = format!("IPA {by} and DR have opposite directions");
                     return refuse(Code::PN009, message, "give both the same sign");
                 }
                 let turns = by.abs() / 360.0;

@@ -1,12 +1,13 @@
 //! Keys of `[codes]`: one code, or several at once.
 
+use super::Rows;
 use super::code::Code;
-use super::{Row, Rows};
 
 /// The meaning of a code that the control does not have, although the control named by `like` has it.
 pub(super) const ABSENT: &str = "absent";
 
 /// A key of `[codes]`.
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Key {
     One(Code),
     /// `G110-G129`: all codes with whole numbers from the first to the last.
@@ -34,21 +35,28 @@ impl Key {
             _ => text.parse().ok().map(Key::One),
         }
     }
+
+    /// Whether the key names this code.
+    pub(super) fn names(self, code: Code) -> bool {
+        match self {
+            Key::One(own) => code == own,
+            Key::Range(first, last) => code.letter == first.letter && (first..=last).contains(&code),
+            Key::Number(letter, whole) => code.letter == letter && code.tenths / 10 == whole,
+            Key::Letter(letter) => code.letter == letter,
+        }
+    }
 }
 
 impl Rows {
-    /// Removes the inherited rows of these codes.
+    /// Removes the inherited rows of these codes. A row for all other codes of the letter does not apply to them either.
     pub(super) fn remove(&mut self, key: Key) {
-        let out = |row: &Row, number: bool| match key {
-            Key::One(code) => !number && row.code == code,
-            Key::Range(first, last) => !number && row.code.letter == first.letter && (first..=last).contains(&row.code),
-            Key::Number(letter, whole) => row.code.letter == letter && row.code.tenths / 10 == whole,
-            Key::Letter(letter) => row.code.letter == letter,
-        };
-        self.one.retain(|row| !out(row, false));
-        self.numbers.retain(|row| !out(row, true));
-        if let Key::Letter(letter) = key {
-            self.others.retain(|row| row.code.letter != letter);
+        self.one.retain(|row| !key.names(row.code));
+        if matches!(key, Key::Number(..) | Key::Letter(_)) {
+            self.numbers.retain(|row| !key.names(row.code));
+        }
+        match key {
+            Key::Letter(letter) => self.others.retain(|row| row.code.letter != letter),
+            key => self.absent.push(key),
         }
     }
 }

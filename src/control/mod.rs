@@ -21,6 +21,7 @@ pub use arcs::Tolerance;
 pub use code::Code;
 pub use file::Wrong;
 pub use hole::Hole;
+use key::Key;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
 pub use runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
 pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
@@ -75,6 +76,8 @@ struct Rows {
     numbers: Vec<Row>,
     /// Rows for all other codes of a letter.
     others: Vec<Row>,
+    /// The codes that the control does not have. The rows of `others` do not apply to them.
+    absent: Vec<Key>,
 }
 
 impl Rows {
@@ -345,7 +348,10 @@ impl Control {
                     .iter()
                     .find(|row| row.code.letter == code.letter && row.code.tenths / 10 == code.tenths / 10)
             })
-            .or_else(|| rows.others.iter().find(|row| row.code.letter == code.letter))
+            .or_else(|| {
+                let other = rows.others.iter().find(|row| row.code.letter == code.letter)?;
+                (!rows.absent.iter().any(|key| key.names(code))).then_some(other)
+            })
             .filter(|row| self.is_there(row))
     }
 
@@ -440,6 +446,15 @@ mod tests {
             let text = format!("name = \"a\"\n[codes]\n\"{wrong}\" = {{ is = \"work\" }}\n");
             assert!(Control::read("a.toml", &text).unwrap_err().to_string().contains("is not a code"), "{wrong}");
         }
+    }
+
+    #[test]
+    fn the_row_of_all_other_codes_gives_no_absent_code() {
+        let text = "name = \"vf4\"\nlike = \"haas\"\n[codes]\n\"M8\" = { is = \"absent\" }\n\"M40-M42\" = { is = \"absent\" }\n\"M41\" = { is = \"harmless\" }\n";
+        let own = Control::read("vf4.toml", text).unwrap();
+        let meaning = |code: &str| own.meaning(code.parse().unwrap());
+        assert_eq!(["M8", "M40", "M42"].map(meaning), [None; 3]);
+        assert_eq!(["M41", "M43", "M199"].map(meaning), [Some(Meaning::Harmless); 3]);
     }
 
     #[test]

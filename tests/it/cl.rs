@@ -388,12 +388,18 @@ fn bores_of_nx_come_out_as_they_are_named() {
 #[test]
 fn coordinate_systems_agree_with_the_tool() {
     let turned = "CSYS/1,0,0,0,0,0,-1,-40,0,1,0,-20";
-    assert!(error(&format!("{turned}\nGOTO/1,0,10")).starts_with("PL004 the z axis of the CSYS of line 7"));
+    assert!(
+        error(&format!("{turned}\nGOTO/1,0,10"))
+            .starts_with("PL004 the tool axis is not the z axis of the CSYS of line 7:")
+    );
     // the same with a hole as the first point, and for a small angle
     let hole = format!("{turned}\nCYCLE/DRILL,DEPTH,1,MMPM,9,CLEAR,2\nGOTO/1,0,10\nCYCLE/OFF");
-    assert!(error(&hole).starts_with("PL004 the z axis of the CSYS of line 7"));
+    assert!(error(&hole).starts_with("PL004 the tool axis is not the z axis of the CSYS of line 7:"));
     let little = "CSYS/1,0,.005,0,0,1,0,0,-.005,0,1,0";
-    assert!(error(&format!("{little}\nGOTO/1,0,10")).starts_with("PL004 the z axis of the CSYS of line 7"));
+    assert!(
+        error(&format!("{little}\nGOTO/1,0,10"))
+            .starts_with("PL004 the tool axis is not the z axis of the CSYS of line 7:")
+    );
     let moved = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\nGOTO/1,0,10\nCSYS/1,0,0,5,0,1,0,0,0,0,1,0\nGOTO/2,0,10";
     assert!(body(moved)[2].starts_with("PL008 this CSYS differs from the CSYS of line 7"));
 }
@@ -760,7 +766,7 @@ fn a_setup_ends_where_a_csys_turns_back() {
     let up = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n";
     let text = TWO_SIDES.replace("RAPID\nGOTO/0,0,50,0,0,1", &format!("{up}RAPID\nGOTO/0,0,50"));
     let refused = front_of(&text, 2);
-    assert!(refused[0].starts_with("PL004 the z axis of the CSYS of line 25 "), "{refused:?}");
+    assert!(refused[0].starts_with("PL004 the tool axis is not the z axis of the CSYS of line 25:"), "{refused:?}");
     let said = text.replace(up, &format!("{up}TLAXIS/0,0,1\n"));
     assert_eq!(front_of(&said, 3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
 }

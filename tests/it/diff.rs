@@ -228,7 +228,7 @@ fn motions_of_threads_differ_in_their_words() {
     let cycle = "G76 P010060 Q50 R.02\nG76 X38. Z-10. P1000 Q300 F1.5";
     for words in ["P010000", "P010055", "P012060"] {
         let found = differs(cycle, &cycle.replace("P010060", words)).unwrap();
-        assert!(found.starts_with("a thread begins at 0 degrees, flanks of "), "{words}: {found}");
+        assert!(found.starts_with("a thread begins at 0 degrees, with flanks of "), "{words}: {found}");
     }
     assert_eq!(differs(cycle, cycle), None);
 }

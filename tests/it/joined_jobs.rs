@@ -58,7 +58,11 @@ fn a_job_that_would_change_its_meaning_is_refused() {
     for (first, second, reason) in [
         (&first, job(&HEAD.replace("mm", "inch"), SECOND), "its units are inch, not mm"),
         (&first, job(&HEAD.replace("mill", "lathe"), SECOND), "another type of machine"),
-        (&first, job(&format!(r#"{HEAD}"set":{{"x":1}},"#), SECOND), "sets other values under `set`"),
+        (
+            &first,
+            job(&format!(r#"{HEAD}"set":{{"x":1}},"#), SECOND),
+            "its `set` for the whole program contains other values",
+        ),
         (&first, second(r#""work":55,"#, ""), "does not give its work offset"),
         (&first, second(r#","direction":"cw""#, ""), "does not give its direction of the spindle"),
         (&first, second(r#""speed":2000,"#, ""), "does not give its spindle speed"),

@@ -296,9 +296,11 @@ fn numbers_of_subprograms_are_not_the_programs_own() {
 #[test]
 fn threads_are_approached_from_their_own_side() {
     let inner = THREAD.replace("0.08", "-0.08").replace("[0.2,0.5]", "[0.2,0.4]");
-    assert!(turned("Thread G33", "", &inner)[0].starts_with("PR031 the tool is outside the crest of an inner thread"));
+    let found = turned("Thread G33", "", &inner).concat();
+    assert!(found.starts_with("PR031 the tool is at the radius 0.5, outside the crest of an inner thread"), "{found}");
     let outer = THREAD.replace("[0.2,0.5]", "[0.2,0.6]");
-    assert!(turned("Thread G33", "", &outer)[0].starts_with("PR031 the tool is inside the crest of an outer thread"));
+    let found = turned("Thread G33", "", &outer).concat();
+    assert!(found.starts_with("PR031 the tool is at the radius 0.5, inside the crest of an outer thread"), "{found}");
 }
 
 /// A vertical wire has no words for its upper guide. A tilted one has them, even in the block that turns on

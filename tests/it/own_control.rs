@@ -654,3 +654,22 @@ fn what_nothing_public_says_is_not_run() {
             && dwell("mazak").replace("mazak", "") == dwell("fanuc").replace("fanuc", "")
     );
 }
+
+/// A code that the control file marks as absent is unknown, also if the form names it as its coolant.
+#[test]
+fn coolant_that_the_control_does_not_have_is_not_proven() {
+    let folder = Folder::new("own_control_absent");
+    folder.write("vf5.toml", "name = \"vf5\"\nlike = \"haas\"\n\n[codes]\n\"M8\" = { is = \"absent\" }\n");
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    folder.write("own.pf", form.replacen("Control haas", "Control vf5.toml", 1));
+    folder.write("job.json", fs::read(root().join("samples/bracket/job.json")).unwrap());
+    let render = folder.run(&["render", "job.json", "--form", "own.pf", "-o", "own.nc"]);
+    assert!(folder.read("own.nc").contains(" M8\n"), "{}", err(&render));
+    assert!(err(&render).contains("not proven from N200: M8 is unknown for vf5"), "{}", err(&render));
+    let simulate = folder.run(&["simulate", "own.nc", "--control", "vf5.toml"]);
+    assert!(
+        simulate.status.code() == Some(1) && err(&simulate).contains("M8 is unknown, in `N200 G43 H1 Z1. M8`"),
+        "{}",
+        err(&simulate)
+    );
+}

@@ -162,7 +162,7 @@ fn what_was_never_said_is_not_written() {
         !way.contains("G98") && !way.contains("G99") && !way.contains("G49") && way.contains("G28 U0 / G28 W0"),
         "{way}"
     );
-    assert!(said.contains("along X first"), "{said}");
+    assert!(said.contains("first goes home along X:"), "{said}");
 }
 
 /// If a cut takes its X and Y from before the entry, the new program moves to them. If they are unknown, it is refused.

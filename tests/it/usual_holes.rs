@@ -165,7 +165,7 @@ fn cuts(program: &[u8]) -> Vec<[f64; 4]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
 
     /// Holes are compared in a short way, too. A program that cuts elsewhere, or with another feed, is not the job's.
     #[test]

@@ -126,6 +126,7 @@ impl Reader<'_> {
         take(&mut traits.one_m, file.blocks.one_m);
         take(&mut traits.bare_line, file.text.comments_count.map(|count| !count));
         take(&mut traits.no_mist, file.coolant.mist.map(|mist| !mist));
+        take(&mut traits.junction_deviation, file.corners.junction_deviation);
         take(&mut traits.open_comments, file.text.open_comments);
         take(&mut traits.small_letters, file.text.small_letters);
         take(&mut traits.without_point, file.numbers.length_without_point);
@@ -285,8 +286,8 @@ impl Reader<'_> {
             }
             Some(text) => Some(WorkOffset::parse(text.get_ref()).ok_or_else(|| {
                 let help =
-                    "write \"G54\" to \"G59.3\", \"G54.1 P1\" to \"G54.1 P99\", or the letter of the word with its \
-                     number, \"P\"";
+                    "write \"G54\" to \"G59.3\" or \"G54.1 P1\" to \"G54.1 P99\"; if a word of the code gives the \
+                     number, write the letter of this word, as \"P\"";
                 self.wrong(text.span().start, format!("`{}` is not a work offset", text.get_ref()), help)
             })?),
         };

@@ -45,6 +45,8 @@ pub(super) struct File {
     #[serde(default)]
     pub(super) coolant: CoolantText,
     #[serde(default)]
+    pub(super) corners: CornersText,
+    #[serde(default)]
     pub(super) codes: BTreeMap<Spanned<String>, RowText>,
 }
 
@@ -160,6 +162,13 @@ pub(super) enum WithoutAxes {
 #[serde(deny_unknown_fields)]
 pub(super) struct CoolantText {
     pub(super) mist: Option<bool>,
+}
+
+/// `[corners]`: how the control slows down at the corners between moves.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CornersText {
+    pub(super) junction_deviation: Option<bool>,
 }
 
 /// `[tool]`: the tool length offset, and a second T word in a block.

@@ -170,6 +170,9 @@ pub struct Traits {
     pub bare_line: bool,
     /// Whether the control lacks mist coolant.
     pub no_mist: bool,
+    /// Whether the control calculates the speed at a corner by Grbl's junction deviation, although it follows the rules of
+    /// LinuxCNC otherwise.
+    pub junction_deviation: bool,
     /// The allowed deviations of the numbers of an arc from one circle.
     pub arcs: Arcs,
     /// Whether the spindle turns the tool, the workpiece, or nothing.

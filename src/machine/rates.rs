@@ -48,10 +48,13 @@ impl Machine {
             })
         });
         let rules = self.control.map(Control::rules);
+        let deviates = self.control.is_some_and(|control| control.traits().junction_deviation);
         let ahead = self.corners.ahead.unwrap_or(if rules == Some(Rules::Grbl) { GRBL_AHEAD } else { AHEAD });
         let corner = match (rules, self.corners.deviation) {
             // valid until the program sets an accuracy
-            (Some(Rules::Linuxcnc | Rules::Emc2), tolerance) => Corner::Linuxcnc(PathMode::Blend(tolerance)),
+            (Some(Rules::Linuxcnc | Rules::Emc2), tolerance) if !deviates => {
+                Corner::Linuxcnc(PathMode::Blend(tolerance))
+            }
             (_, deviation) => Corner::Deviation(deviation.unwrap_or(DEVIATION)),
         };
         Ok(Rates { axes, corner, ahead })

@@ -411,3 +411,23 @@ proptest! {
         prop_assert_eq!(is_beyond, over > 0.0, "{:?} {:?}\n{}\n{}", found.findings, reached, file, program);
     }
 }
+
+/// grblHAL reads programs by the rules of LinuxCNC, but plans its moves as Grbl does. So the time on it is that on a Grbl with the
+/// same accelerations and blocks ahead, and not that on a LinuxCNC.
+#[test]
+fn grblhal_slows_down_at_corners_as_grbl_does() {
+    let corners: String = (0..40).map(|i| format!("X{}. Y{}.\n", i, i % 2)).collect();
+    let program = format!("G21 G90 G94 G17\nS1000 M3\nG0 X0. Y0. Z1.\nG1 F6000.\n{corners}M30\n");
+    let time = |control: &str| {
+        let axis = |letter: char| format!("[axes.{letter}]\ntravel = [-100, 100]\nrapid = 9000\nacceleration = 500\n");
+        let text = format!(
+            "name = \"m\"\ncontrol = \"{control}\"\nunits = \"mm\"\n{}{}{}[corners]\nahead = 20\n",
+            axis('X'),
+            axis('Y'),
+            axis('Z')
+        );
+        fitted(&program, &machine(&text)).times.unwrap().cutting
+    };
+    assert_eq!(time("grblhal"), time("grbl"));
+    assert!((time("grblhal") - time("linuxcnc")).abs() > 0.1, "{} {}", time("grblhal"), time("linuxcnc"));
+}

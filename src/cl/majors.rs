@@ -188,7 +188,7 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
             fault(Code::PL004, "THREAD: threads of CL files are not read", help)
         }
         Major::Nurbs => {
-            let help = "let the CAM system write lines and arcs: in NX by Motion Output Type of the operation";
+            let help = "let the CAM system write lines and arcs; in NX, set Motion Output Type of the operation";
             fault(Code::PL004, format!("{name}: a spline, and forms can't print splines"), help)
         }
         Major::Refused => {

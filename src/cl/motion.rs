@@ -62,7 +62,7 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
             return Ok(());
         }
         if begins && !rapid && !state.cycle.is_active() {
-            let help = "a program for one setup can't begin inside a cut: this needs a five-axis machine";
+            let help = "the program of a setup can't begin inside a cut: such a cut needs a five-axis machine";
             return fault(Code::PL004, "the tool axis turns while the tool cuts", help);
         }
     }

@@ -37,7 +37,7 @@ impl fmt::Display for Setup {
         let [axis, x] =
             [self.axis, self.x].map(|v| v.map(|c| (c * 1e6).round() / 1e6 + 0.0).map(|c| c.to_string()).join(" "));
         let Setup { motions, lines: (first, last), .. } = self;
-        write!(f, "tool axis {axis}, its x is {x}, {motions} motions in lines {first} to {last}")
+        write!(f, "tool axis {axis}, x axis {x}, {motions} motions in lines {first} to {last}")
     }
 }
 
@@ -181,7 +181,7 @@ mod tests {
         setups.turn([0.0, -1.0, 0.0]);
         assert!(setups.is_chosen());
         setups.motion(7);
-        assert_eq!(setups.found()[1].to_string(), "tool axis 0 -1 0, its x is 1 0 0, 1 motions in lines 7 to 7");
+        assert_eq!(setups.found()[1].to_string(), "tool axis 0 -1 0, x axis 1 0 0, 1 motions in lines 7 to 7");
     }
 
     #[test]

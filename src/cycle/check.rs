@@ -114,7 +114,7 @@ fn options(spec: &CycleSpec) -> Result<(), Problem> {
 fn webs(spec: &CycleSpec) -> Result<(), Problem> {
     if !spec.webs.is_empty() && spec.webs.len().is_multiple_of(2) {
         let message = format!("{} depths of webs", spec.webs.len());
-        let help = "give an end, then a start and an end for each further web";
+        let help = "give the end of the first web, then the start and the end of each further web";
         return Err(Problem::new(Code::PC022, message, help));
     }
     match spec.webs.windows(2).find(|pair| pair[0] > pair[1]) {

@@ -214,13 +214,13 @@ like = \"{name}\"
 # line = 80                          # longest block, in characters
 # longer = \"stops\"                 # effect of a longer block: stops or cut
 # [numbers]
-# length_without_point = \"units\"   # X10 is 10 mm: units; 0.01 mm: least-increment
+# length_without_point = \"units\"   # units: X10 is 10 mm; least-increment: X10 is 0.01 mm
 # [start]
 # modes = \"kept\"                   # a G91 or G20 of the program before is kept or lost
 # [stops]
 # spindle = \"kept\"                 # spindle and coolant at M0 are kept or lost
 # [arcs]
-# centres = \"incremental\"          # I and J are measured from the start of the arc: incremental; from zero: absolute
+# centres = \"incremental\"          # I and J count from the start of the arc (incremental) or from zero (absolute)
 # [tool]
 # length = \"G43 H\"                 # the words that turn the tool length offset on: G43 H, G43, H or none
 

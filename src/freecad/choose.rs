@@ -53,7 +53,7 @@ pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut 
             }
             _ => {
                 let help = format!("choose one with `--job NAME`: {list}");
-                wrong(Code::PD002, format!("the document has {} jobs of that kind", found.len()), help)
+                wrong(Code::PD002, format!("the document has {} jobs to choose from", found.len()), help)
             }
         };
     };

@@ -133,7 +133,7 @@ fn in_words(format: &LetterFormat) -> String {
         (Point::Implied, 0) => String::new(),
         (Point::Implied, _) => format!(", {} decimals without a point", digits(format.dec)),
         (Point::Always, _) => format!(", always a point, {} decimals", digits(format.dec)),
-        (Point::BeforeFraction, _) => format!(", a point before a fraction only, {} decimals", digits(format.dec)),
+        (Point::BeforeFraction, _) => format!(", a point only before a fraction, {} decimals", digits(format.dec)),
     };
     format!("{sign}; {} digits{point}", digits(format.int))
 }

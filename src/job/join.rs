@@ -200,7 +200,7 @@ impl<'s> Joining<'s> {
         names.into_iter().enumerate().find(|(axis, _)| missing & 1 << axis != 0).map(|(_, axis)| axis)
     }
 
-    /// Do earlier jobs have the same tool under its number?
+    /// Checks that this tool number means the same tool in all jobs so far.
     fn is_same_tool(&mut self, tool: &Tool, place: Place) -> Result<(), Box<Stop>> {
         let data =
             |tool: &Tool| [tool.diameter, tool.corner_radius, tool.length_offset, tool.diameter_offset, tool.turret];

@@ -16,7 +16,8 @@ pub struct KeptJob {
 }
 
 impl KeptJob {
-    /// Reads a job and keeps its events. `None`: it has more than `most` events, can't be read again, or can't be read to its end.
+    /// Reads a job and keeps its events. Returns `None` if the job has more than `most` events, can't be read again, or can't
+    /// be read to its end.
     pub fn of(job: &mut Job<'_>, most: usize) -> Option<KeptJob> {
         if job.is_stream() {
             return None;

@@ -67,7 +67,7 @@ type Maker<'a> = dyn FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a;
 enum Input<'a> {
     Bytes(&'a [u8]),
     File(Box<dyn Again + 'a>),
-    /// `None`: it has been read.
+    /// `None` after the stream was read.
     Stream(Option<Box<dyn Read + 'a>>),
     Events(Box<Maker<'a>>),
     /// Jobs that are read as one, and their names.
@@ -98,7 +98,7 @@ impl<'a> Job<'a> {
         Job::bytes(Format::Json, text)
     }
 
-    /// JSON Lines: an item a line.
+    /// JSON Lines: one item per line.
     pub fn json_lines(text: &'a (impl AsRef<[u8]> + ?Sized)) -> Job<'a> {
         Job::bytes(Format::JsonLines, text)
     }
@@ -171,8 +171,8 @@ impl<'a> Job<'a> {
         Job::new(format, Input::Stream(Some(Box::new(input))))
     }
 
-    /// A job of another format. `make` pushes its events; each call pushes all of them again. Tool changes need no first move,
-    /// because it is filled in from the events that follow.
+    /// A job of another format. `make` pushes its events; each call pushes all of them again. Tool changes may
+    /// lack their first move: postform takes the move from the events after them.
     ///
     /// [`Sink::push`] pushes an event; pass its result on with `?`. The last event is [`Event::Finish`].
     pub fn events(make: impl FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a) -> Job<'a> {
@@ -182,8 +182,8 @@ impl<'a> Job<'a> {
     /// One job made of several: their operations follow each other. Program number, name and other data of the head are those of
     /// the first job. Locations in errors have the names of the jobs ([`Job::named`]).
     ///
-    /// Reading is an error (PJ014) if a job would have another meaning than alone: other units or tools, or a first operation
-    /// that does not set a state which an earlier job has left active.
+    /// Reading fails (PJ014) if a job has other units than the first one, or another tool with the same number. It also fails
+    /// if an earlier job left a state active that the first operation of a later job does not set.
     pub fn join(parts: Vec<Job<'a>>) -> Job<'a> {
         let name =
             |(at, part): (usize, &Job<'_>)| part.name.as_deref().map_or(format!("job {}", at + 1), str::to_owned);

@@ -78,7 +78,7 @@ sequences! {
     EndRow            "EndRow"            plain "M"   ""    Doc "after each pass of a pocket or surface cut" "`end` row" "end-row"
     BeginCut          "BeginCut"          plain "M"   ""    Ours "before a cut with a torch or a laser: on, pierce" "the first cut after a rapid" "plasma"
     EndCut            "EndCut"            plain "M"   ""    Ours "after a cut with a torch or a laser: off" "the rapid after a cut" "plasma"
-    Index             "Index"             plain "M"   ""    Doc "instead of a rapid to another rotary view" "`rapid` to another rotary angle" "index"
+    Index             "Index"             plain "M"   ""    Doc "instead of a rapid that turns a rotary axis" "`rapid` to another rotary angle" "index"
     Unwind            "Unwind"            plain "M"   ""    Doc "when a rotary axis would leave its travel" "a rotary angle beyond `Limits`" "unwind"
     SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram" "`subprograms`" "sub-start"
     SubEnd            "SubEnd"            plain "M"   ""    Doc "the end of a subprogram" "end of a subprogram" "sub-end"

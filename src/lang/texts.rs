@@ -28,7 +28,7 @@ macro_rules! texts {
 
 #[rustfmt::skip]
 texts! {
-    Progname "progname" "the program's name"                     "`name` of the job; PARTNO, the O-comment, the job's label"
+    Progname "progname" "the program's name"                     "`name` of the job; PARTNO of a CL file, the comment after the O number of an NC program, the label of a FreeCAD job"
     Partname "partname" "the part"                               "`part` of the job"
     Material "material" "the material of the part"               "`material` of the job"
     Customer "customer" "the customer of the part"                      "`customer` of the job"

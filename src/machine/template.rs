@@ -16,9 +16,9 @@ units = \"mm\"                        # units of all lengths in this file: mm or
 # machine coordinates, as the control shows them after homing
 [axes.X]
 # travel = [-762.0, 0.0]
-# rapid = 25400                      # a minute
-# feed = 16500                       # the fastest feed, a minute
-# acceleration = 2500                # a second squared; for times
+# rapid = 25400                      # per minute
+# feed = 16500                       # the fastest feed, per minute
+# acceleration = 2500                # per second squared; used for times
 [axes.Y]
 # travel = [-406.0, 0.0]
 [axes.Z]
@@ -28,7 +28,7 @@ units = \"mm\"                        # units of all lengths in this file: mm or
 # turns = \"table\"                    # or \"head\"
 # about = [1, 0, 0]
 
-[corners]                            # for times
+[corners]                            # used for times
 # deviation = 0.01                   # largest distance of the path from a corner; $11 of Grbl
 # ahead = 200                        # blocks that the control plans ahead; Grbl has 15
 
@@ -42,7 +42,7 @@ units = \"mm\"                        # units of all lengths in this file: mm or
 
 [tools]
 # places = 20
-# change = 4.2                       # seconds, from chip to chip
+# change = 4.2                       # seconds from the end of a cut to the next cut
 # file = \"tools.csv\"                 # number,length,diameter,name; or tool.tbl of LinuxCNC, or a list of G10
 # [tools.5]
 # length = 123.4

@@ -39,7 +39,8 @@ impl State {
         if same && reused && kept.written.is_some_and(|written| written != mode) {
             self.warnings.push((
                 Code::PN030,
-                "R or the depth was written in another mode, and the same number is used again in this mode",
+                "R or the depth was written before a change of the units, the plane, or G90 and G91; after the change \
+                 the same number is used again",
             ));
         }
         if !reused {

@@ -107,7 +107,7 @@ impl<'r, 's> Convert<'r, 's> {
             }
             1011 | 1012 => {
                 let what = if record.code == 1011 { "reals" } else { "integers" };
-                self.fact(format!("values for Mastercam's post, ignored: {what} {}", record.text.trim()));
+                self.fact(format!("values for Mastercam's post are ignored: {what} {}", record.text.trim()));
                 Ok(())
             }
             1013 => {

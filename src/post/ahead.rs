@@ -24,8 +24,8 @@ impl Post {
         Ok(self.asks(options)?.all)
     }
 
-    /// Whether a job is read twice, even if the form only needs the next tool. Some jobs list their tools in the head and need not be
-    /// read twice.
+    /// Whether a job may be read twice, because the form needs values from the rest of the job, or only the next tool. In the
+    /// second case, a job that lists its tools in the head is read only once.
     ///
     /// # Errors
     /// The same as for [`Post::reads_ahead`].

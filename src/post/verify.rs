@@ -75,7 +75,7 @@ impl Post {
         tools_of(Some(&self.0.program), job)
     }
 
-    /// Adds to findings about the machine the form lines and job items that printed their blocks.
+    /// Completes findings about the machine: adds the form line and the job item that printed the block of each finding.
     ///
     /// # Errors
     /// The job can't be read again, or an option is invalid.
@@ -141,8 +141,8 @@ impl Post {
         Some(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
     }
 
-    /// Adds to the findings of a verification the form lines that printed their blocks. If there are findings, the job is
-    /// printed again. `options` are the options with which the program was printed.
+    /// Completes the findings of a verification: adds the form line that printed the block of each finding. If there are
+    /// findings, the job is printed again. `options` are the options with which the program was printed.
     ///
     /// # Errors
     /// The job can't be read again, or an option is invalid.

@@ -404,8 +404,8 @@ impl<'m> Check<'m> {
             (0..3).filter(|axis| self.places.unframed & 1 << axis != 0).map(|axis| LETTERS[axis]).collect();
         if !unframed.is_empty() {
             fit.not_checked.push(format!(
-                "{unframed} after a G92 or G10 whose machine position is unknown (after G53, or before the first \
-                 position with a tool length)"
+                "positions of {unframed} after a G92 or G10 at an unknown machine position: the position is unknown \
+                 after G53, and before the first position with a tool length"
             ));
         }
         if self.places.astray {

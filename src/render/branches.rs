@@ -68,8 +68,8 @@ fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, wa
     }
 }
 
-/// Applies the values that `@set` assigns inside a list to what comes after it. The list's own conditions are evaluated for each
-/// item when it prints.
+/// Applies the values that `@set` assigns inside a list, for the conditions after the list. The conditions inside the list are
+/// evaluated for each item when the item is printed.
 fn set_by_list(list: &List, set: &mut Kept, shape: &Shape, want: &Want, said: &Said) {
     let Some(flow) = list.routine.flow.as_ref().filter(|flow| sets(&flow.nodes, shape)) else { return };
     let Some(survey) = &shape.options.survey else { return };

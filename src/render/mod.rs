@@ -144,7 +144,7 @@ impl<'p> Renderer<'p> {
         self.order == Order::End
     }
 
-    /// Dispatches an event. An open cycle ends before every event except its own holes and events that only prepare what follows.
+    /// Dispatches an event. An open cycle ends before every event, except its own holes and events after which the cycle may go on.
     fn take(&mut self, event: Event<'_>) -> Done {
         let goes_on = matches!(event, Event::Hole(_) | Event::Feed(_) | Event::Tilt(_) | Event::SubStart(_));
         let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;

@@ -224,7 +224,7 @@ pub fn knows_after_stop(shape: &Shape, want: &Want, said: &Said) -> Done {
     fault(Code::PR033, "the subprogram continues after a stop, but its spindle and coolant are unknown here", help)
 }
 
-/// Checks that the control would not misread positions: as increments or the reverse, or in other units.
+/// Checks that the control reads positions as positions, increments as increments, and both in the units of the program.
 pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
     if let Some(code) = said.misread_by(shape, want) {
         let message = format!("the control is in {code} here, and would misread every length");
@@ -244,7 +244,8 @@ pub fn check_reading(shape: &Shape, want: &Want, said: &Said) -> Done {
     Ok(())
 }
 
-/// Checks a sequence that prints axis words before its own G90 or G91: they are read in the active mode.
+/// Checks a sequence that prints axis words before its own G90 or G91. The control reads these words by the code that was
+/// active before.
 pub fn check_reading_of(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done {
     for i in routine.steps() {
         let letter = match shape.program.ops[i] {

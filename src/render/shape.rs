@@ -98,7 +98,8 @@ impl<'p> Shape<'p> {
             let message =
                 format!("the program would be in {program}, but the form is for {form} and does not print [unitmode]");
             let help = format!(
-                "render with `--units {form}`, or print `G[unitmode]` in StartCode: the machine would move 25.4 times as far or as little"
+                "render with `--units {form}`, or print `G[unitmode]` in StartCode: without this code the control may \
+                 read all lengths in the wrong unit"
             );
             return fault(diag::Code::PR010, message, help);
         }

@@ -28,8 +28,8 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
         })
 }
 
-/// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? Index retracts the tool and
-/// moves over the new position, so that from an Upon that does the same only the offset's code remains.
+/// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? It does if Index retracts the
+/// tool and moves over the new position, and the Upon does nothing else. Then only the code of the offset is printed.
 pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
@@ -52,7 +52,7 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
 }
 
-/// Marks moving Upons as printed if the tool change prints their variables: they would move with the old tool.
+/// Marks Upons that move the tool as printed if the tool change prints their variables. Otherwise they would move the old tool.
 pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said) {
     for (i, upon) in shape.program.upons.iter().enumerate() {
         if routine.vars.has(upon.var) && prints_axis_words(&upon.routine, false, shape) {

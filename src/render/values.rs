@@ -8,7 +8,7 @@ use super::want::Want;
 use crate::lang::{Coolant, TextId, VarId};
 use crate::sema::{PropertyKind, Target, Values};
 
-/// Sources of values, and the letter that prints them: angles depend on the axis of the letter.
+/// Sources of values, and the letter that prints them. The letter matters for angles, because they differ from axis to axis.
 pub struct Now<'r, 'p> {
     pub shape: &'r Shape<'p>,
     pub want: &'r Want,

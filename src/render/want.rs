@@ -302,7 +302,7 @@ impl Want {
         Ok(())
     }
 
-    /// Handles a tool change without coolant in the job: the job's coolant is off, and the form may turn some on itself.
+    /// Handles a tool change for which the job sets no coolant. The job's coolant is then off, and the form may turn some on itself.
     pub fn coolant_unsaid(&mut self, shape: &Shape) -> Done {
         self.set_coolant(Coolant::OFF, shape)?;
         self.coolant_is_said = false;

@@ -87,8 +87,8 @@ pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: 
             return fault(
                 Code::PR001,
                 format!("an increment of {} from an unknown position", char::from(info.printed)),
-                "print the position with a variable, as in a tool change; after a new work offset or a typed axis \
-                 word it is unknown",
+                "after a new work offset or a typed axis word the position is unknown: print a position with a \
+                 variable first, as in a tool change",
             );
         };
         let scale = shape.scales[axis];

@@ -1,4 +1,5 @@
-//! Words of a work offset: a code with its word, a word alone, or a code; and the words of `MoreWork` for further fixtures.
+//! Words that select a work offset: a code with a word, a word alone, or a code alone. `MoreWork` defines the words of further
+//! fixtures.
 
 use super::cx::Writer;
 use super::fault::Done;
@@ -18,7 +19,7 @@ pub fn more_work_words(work: f64, writer: &mut Writer<'_>) -> Done<bool> {
     }
 }
 
-/// Prints a code with its word, a word alone, or a code.
+/// Prints a code with a word, a word alone, or a code alone.
 pub fn work_words(code: Option<Code>, letter: u8, is_code: bool, value: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     if let Some(code) = code {

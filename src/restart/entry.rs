@@ -349,7 +349,7 @@ impl<'t> Search<'t> {
             };
             return refuse(what, "`postform simulate PROGRAM` shows the blocks that are run, with their lines");
         };
-        let after = self.next.map_or("there is no later line where it can begin".to_owned(), |line| {
+        let after = self.next.map_or("the program can't begin at a later line either".to_owned(), |line| {
             format!("the next possible line is {line}")
         });
         if self.exactly && self.entry.is_none() {

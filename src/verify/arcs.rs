@@ -11,8 +11,8 @@ use crate::toolpath::{Direction, FeedMode};
 /// How far parts may deviate from the circle, in tolerances. The factor is more than 1 because centres are rounded too.
 const OFF: f64 = 5.0;
 
-/// Whether a short straight cut that begins where the arc begins ends on the arc. Its end must not be behind the beginning or beyond the
-/// end.
+/// Whether a short straight cut from the beginning of the arc is a chord of the arc. It is a chord if its end is on the arc, at most
+/// half a turn from the beginning.
 pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bool {
     let [first, second, _] = axes_of(turn.plane);
     let radius = |at: &Place| (at[first] - turn.center[first]).hypot(at[second] - turn.center[second]);

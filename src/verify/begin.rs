@@ -10,9 +10,9 @@ use crate::diag::Code;
 enum Begins {
     /// At the beginning of the job's cut.
     There,
-    /// After the end of the job's cut: the program reaches this end by a rapid.
+    /// After the job's cut. The program reaches the end of the job's cut by a rapid.
     Behind,
-    /// Before the job's cut: the program has a feed move where the job has a rapid.
+    /// Before the job's cut. The program has a feed move where the job has a rapid.
     Before,
 }
 

@@ -100,7 +100,7 @@ impl<'a> Comparer<'a> {
         self.sides.report.findings.len() + self.sides.program.hazards.len()
     }
 
-    /// Adds to new findings the form line that printed their block.
+    /// Completes new findings: adds the form line that printed the block of each finding.
     pub(super) fn locate(&mut self, origin: impl Fn(u64) -> Option<TraceLine>) {
         let hazards = self.sides.program.hazards.iter_mut();
         for finding in self.sides.report.findings.iter_mut().chain(hazards).filter(|finding| finding.form.is_none()) {

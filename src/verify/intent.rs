@@ -9,8 +9,8 @@ use crate::toolpath::{self, StopKind, Units};
 
 /// Receives the job's motions in their order.
 pub(super) trait Intent {
-    /// Sets the units of the job. In these units: how far lines may deviate from an arc, and the smallest step that the
-    /// form can print along a hole.
+    /// Sets the units of the job and two lengths in these units: the largest deviation of lines from an arc, and the
+    /// smallest step that the form can print along a hole.
     fn units(&mut self, units: Units, chord: f64, increment: f64);
     /// A rapid.
     fn rapid(&mut self, rapid: Rapid) -> Done;

@@ -64,7 +64,7 @@ fn stops(s: &mut Sides<'_>) {
     }
 }
 
-/// Checks stops between two pecks of a hole. No job has a stop there. Below its clearance plane, the hole is a cut.
+/// Checks stops between two pecks of a hole. No job has a stop there. A stop below the clearance plane counts as a stop in a cut.
 pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     for stop in s.program.passage.stops.clone() {
         let stands = s.program.passage.standing(&stop);

@@ -395,8 +395,8 @@ fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     Some(format!("the turret turns {}, but {} in the old program", text(now.get(differ)), text(before.get(differ))))
 }
 
-/// Checks that the new program does not move fewer axes home than the old one: Z, or X and Z of a lathe. Programs for
-/// controls with different languages are not compared.
+/// Checks that each axis that the old program moves home also goes home in the new program. Only Z is checked, on a lathe X
+/// and Z. Programs for controls with different languages are not compared.
 fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
     let lost = old.passage.homes & !new.passage.homes & counts;

@@ -79,13 +79,13 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
 
 fn stays_at_wall(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV001, line, "print the cycle's orientation and shift, as G76 Q[sleave]", || {
-        "the tool does not move off the wall of the hole as in the job".to_owned()
+        "in the job the tool moves off the wall of the hole, but the program does not make this move".to_owned()
     });
 }
 
 fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV011, line, "check the spindle codes of the cycle", || {
-        "while the tool retracts, the spindle does not turn or is not at its angle as in the job".to_owned()
+        "while the tool retracts, the spindle (turning, or stopped at an angle) is not in the job's state".to_owned()
     });
 }
 

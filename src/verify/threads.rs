@@ -1,4 +1,5 @@
-//! Compares threads of a lathe. Other passes are accepted if they are not coarser and end at the same depth.
+//! Compares threads of a lathe. The passes may differ from those of the job. They must end at the same depth, and no pass may be
+//! deeper than 1.5 times the deepest pass of the job.
 
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};

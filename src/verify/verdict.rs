@@ -35,22 +35,22 @@ macro_rules! allowed {
 // columns: name, noun, difference, the only file that counts it, description
 allowed! {
     pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts, and holes that the job drills in one stroke and the program in pecks.";
-    ways    "path" "between cuts with another order of axes or a greater height" "rapids.rs" "Paths between cuts that move the axes in another order, or at a greater height.";
-    tails   "path" "after the last cut to another position" "rapids.rs" "Paths after the last cut that go to other positions, but nowhere lower than the job's path.";
-    idle    "path" "without a cut at other positions" "rapids.rs" "Paths of a tool that makes no cut, or in a work offset without a cut, that go to other positions, but nowhere lower than the job's path.";
+    ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order, or at a greater height.";
+    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions, but nowhere lower than the job's path.";
+    idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths to other positions, but nowhere lower than the job's path, if the tool makes no cut or the work offset has no cut.";
     arcs    "arc" "made of parts" "arcs.rs" "Arcs made of several lines or arcs.";
     parts   "straight cut" "made of parts" "lines.rs" "Straight cuts made of several moves.";
-    short   "cut" "left out or added with a length below the tolerance" "align.rs" "Cuts that only one side has: in the job shorter than the tolerance, in the program shorter than twice the tolerance.";
+    short   "cut" "left out or added with a length near or below the tolerance" "align.rs" "Cuts of the job that are missing in the program, if they are shorter than the tolerance; cuts that only the program has, if they are shorter than twice the tolerance.";
     outs    "hole" "with a higher retract at feed" "lines.rs" "Taps and reamed holes whose retract at feed ends only at the return plane.";
     entries "cut" "interrupted and continued" "align.rs" "Cuts that are interrupted and continued at the same position.";
-    slow    "rapid" "at feed to turn compensation on or off" "comparer.rs" "Moves at feed that turn compensation on or off, where the job has a rapid.";
-    dwells  "dwell" "added by the form" "pauses.rs" "Dwells that the job does not have: outside cuts and holes; or up to 30 s in a cut, after the start of a stopped spindle or with a torch or laser on.";
+    slow    "rapid" "made at feed to turn compensation on or off" "comparer.rs" "Moves at feed that turn compensation on or off, where the job has a rapid.";
+    dwells  "dwell" "added by the form" "pauses.rs" "Dwells that the job does not have, if they are outside cuts and holes. In a cut, a dwell of up to 30 s is allowed after the start of a stopped spindle, or with a torch or laser on.";
     stops   "stop" "added by the form" "pauses.rs" "Stops that the job does not have, outside cuts and holes.";
-    pauses  "pause" "elsewhere between the same cuts" "pauses.rs" "Stops and dwells of the job that the program makes at another position between the same cuts; stops never at a lower one.";
-    feeds   "feed" "set by the form" "modal.rs" "Cuts at a feed that the form contains, or computes from the job's feed: 0.2 to 2 times the job's feed.";
-    speeds  "speed" "set by the form" "modal.rs" "Cuts at a speed that the form contains, or computes from the job's speed, as `S[min(speed,800)]`: 0.2 to 2 times the job's speed; never for taps.";
-    threads "thread" "with other passes" "threads.rs" "Threads with other passes: no coarser than the job's, to the same depth.";
-    custom  "hole" "of a custom cycle" "comparer.rs" "Holes of custom cycles: the form's own moves along the axis of the hole, to the job's depth.";
+    pauses  "pause" "at another position between the same cuts" "pauses.rs" "Stops and dwells of the job that the program makes at another position between the same cuts. The position of a stop is not lower than in the job.";
+    feeds   "feed" "set by the form" "modal.rs" "Cuts at a feed that the form contains, or computes from the job's feed. The feed is 0.2 to 2 times the job's feed.";
+    speeds  "speed" "set by the form" "modal.rs" "Cuts at a speed that the form contains, or computes from the job's speed, as `S[min(speed,800)]`. The speed is 0.2 to 2 times the job's speed. This is not allowed for taps.";
+    threads "thread" "with other passes" "threads.rs" "Threads that are cut to the job's depth in other passes. No pass is deeper than 1.5 times the deepest pass of the job.";
+    custom  "hole" "of a custom cycle" "comparer.rs" "Holes of custom cycles, if the form's own moves go along the axis of the hole to the job's depth.";
 }
 
 /// The result of a proof.
@@ -126,7 +126,7 @@ impl Verdict {
         };
         Verdict::NotProven(Box::new(Unproven {
             kind: UnprovenKind::ControlAssumed,
-            why: format!("the form has no `Control`; by the rules of {control} the program would be {would}"),
+            why: format!("the form has no `Control`; if the control is {control}, the program is {would}"),
             help: "write `Control` into the form, or give --control".into(),
             notes,
             ..Unproven::default()
@@ -182,7 +182,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Prints the counts, such as `4 holes with other pecks, 1 path after the last cut to another position`.
+/// Prints the counts, such as `4 holes with other pecks, 1 path to another position after the last cut`.
 impl fmt::Display for Equivalences {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let met = self.counts().filter(|(number, ..)| *number > 0);

@@ -6,7 +6,7 @@ use super::rapid_path::{RapidPath, across};
 /// The result of comparing the program's path with the job's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Compared {
-    /// The program has the job's path. Moves of no length and divided straight rapids do not count.
+    /// The program has the job's path. It may have more moves without a length, and straight rapids in several parts.
     Same,
     /// The path moves the axes in another order, or is higher than the job's path, but is nowhere lower.
     /// `step_by_step`: each move across corresponds to one of the job.

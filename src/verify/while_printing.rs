@@ -127,7 +127,7 @@ struct Queue<I: Iterator> {
     events: VecDeque<Rc<I::Item>>,
     /// Batches whose text is still to be run.
     texts: VecDeque<Rc<I::Item>>,
-    /// Batches with the origins of lines: of the batch that is being run, the one before it, and those after it.
+    /// Batches that contain the origins of lines: the batch that is being run, the batch before it, and those after it.
     traces: VecDeque<Rc<I::Item>>,
     /// Whether the rest of the text is ignored because the control refused a block. The refusal is reported at the job's next cut.
     unread: bool,

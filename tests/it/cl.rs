@@ -673,9 +673,9 @@ fn setups_are_listed_whatever_is_in_them() {
     assert_eq!(
         said,
         [
-            "tool axis 0 0 1, its x is 1 0 0, 3 motions in lines 6 to 10",
-            "tool axis 0 -1 0, its x is 1 0 0, 5 motions in lines 15 to 24",
-            "tool axis 0 0 1, its x is 1 0 0, 2 motions in lines 26 to 27",
+            "tool axis 0 0 1, x axis 1 0 0, 3 motions in lines 6 to 10",
+            "tool axis 0 -1 0, x axis 1 0 0, 5 motions in lines 15 to 24",
+            "tool axis 0 0 1, x axis 1 0 0, 2 motions in lines 26 to 27",
         ]
     );
     let arc = TWO_SIDES.replace("INDIRV/0,0,1", "CIRCLE/0,0,0,.6,0,.8,5\nTRACUT/1\nCYCLE/NONSENSE");

@@ -505,7 +505,7 @@ fn what_a_program_needs_must_be_there() {
     let text =
         document(&[("Job", JOB), ("Job001", JOB), ("Operations", OPERATIONS), ("Op", OPERATION), ("Tool", TOOL)]);
     let two = archive(&[("Document.xml", text.as_bytes()), ("Op.nc", b"")]);
-    assert_eq!(refused(&two, none), "PD002 the document has 2 jobs of that kind at ");
+    assert_eq!(refused(&two, none), "PD002 the document has 2 jobs to choose from at ");
     assert_eq!(refused(&two, &Options { job: Some("Job001".into()) }), "read");
 }
 

@@ -34,7 +34,7 @@ fn ways_to_no_cut_are_compared() {
     assert_eq!(after("haas.pf", &last, &[("G43 H2", "G43 H3")]), "PV014 1");
     assert_eq!(
         after("haas.pf", &last, &[("X10.", "X-10.")]),
-        "equivalent: 1 path after the last cut to another position"
+        "equivalent: 1 path to another position after the last cut"
     );
     let offsets = one(
         r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"work":55},{"rapid":[20,20,25]},{"rapid":[40,40,25]},{"work":56},{"rapid":[10,10,25]},{"line":[10,10,-1]},{"rapid":[10,10,25]}"#,
@@ -43,7 +43,7 @@ fn ways_to_no_cut_are_compared() {
     for (from, to) in [("X40. Y40.\n", "(none)\n"), ("X40. Y40.", "X40. Y-40."), ("G55", "G54")] {
         assert_eq!(
             after("haas.pf", &offsets, &[(from, to)]),
-            "equivalent: 1 path without a cut at other positions",
+            "equivalent: 1 path to other positions by a tool or in a work offset without cuts",
             "{from}"
         );
     }
@@ -53,7 +53,7 @@ fn ways_to_no_cut_are_compared() {
     assert_eq!(after("haas.pf", &nothing, &[("G54", "G57")]), "PV012 1, PV009 1");
     assert_eq!(
         after("haas.pf", &nothing, &[("X10. Y10.\n", "(none)\n")]),
-        "equivalent: 1 path after the last cut to another position"
+        "equivalent: 1 path to another position after the last cut"
     );
 }
 
@@ -70,7 +70,7 @@ fn pauses_keep_their_places() {
         r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"stop":"optional"},{"dwell":2},{"rapid":[10,10,25]},{"line":[10,10,-1]},{"rapid":[10,10,25]}"#,
     );
     assert_eq!(after("grbl.pf", &way, &[]), "identical");
-    let behind = "equivalent: 1 pause elsewhere between the same cuts";
+    let behind = "equivalent: 1 pause at another position between the same cuts";
     assert_eq!(after("grbl.pf", &way, &[("G4 P2.\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nG4 P2.\n")]), behind);
     assert_eq!(after("grbl.pf", &way, &[("M1\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nM1\n")]), behind);
 }
@@ -168,8 +168,8 @@ fn holes_are_left_at_feed_up_to_the_return_plane() {
     let job = one(&format!(r#"{{"rapid":[0,0,25]}},{two},{{"rapid":[8,4,25]}}"#));
     assert_eq!(after("haas.pf", &job, &[]), "identical");
     let left = |up: &str| after("haas.pf", &job, &[("N100 Z2.\n", &format!("N100 {up}\n"))]);
-    let farther = "equivalent: 1 path between cuts with another order of axes or a greater height, 1 hole with a higher \
-                   retract at feed";
+    let farther = "equivalent: 1 path between cuts with the axes in another order or at a greater height, 1 hole with \
+                   a higher retract at feed";
     assert_eq!(left("Z2.003"), farther);
     assert_eq!(left("Z10."), farther);
     assert_eq!(left("Z10.003"), "PV004 1");
@@ -316,7 +316,7 @@ fn the_tool_comes_down_over_the_first_place() {
         r#"{"rapid":[0,-80,50]},{"line":[0,-80,-2]},{"rapid":[null,null,50]},{"home":true},{"rapid":[0,80,-10]},{"cycle":{"kind":"drill","clear":2,"depth":5,"feed":100,"points":[[0,80,-12]]}},{"rapid":[null,null,50]}"#,
     );
     assert!(
-        ["identical", "equivalent: 1 path between cuts with another order of axes or a greater height"]
+        ["identical", "equivalent: 1 path between cuts with the axes in another order or at a greater height"]
             .contains(&after("fanuc.pf", &home, &[]).as_str())
     );
     assert_eq!(after("fanuc.pf", &home, &[("X0 Y80. Z-10.", "X0 Z-10.")]), "PV009 1");

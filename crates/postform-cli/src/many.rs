@@ -39,7 +39,7 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
         }
         let (found, others) = jobs_in(path)?;
         for other in others.iter().take(MOST_NAMED) {
-            message(&format!("left out: {} does not begin with \"postform\", as a job does", files::name(other)));
+            message(&format!("left out: {} is not a job: a job begins with \"postform\"", files::name(other)));
         }
         if others.len() > MOST_NAMED {
             message(&format!("left out: {} more", others.len() - MOST_NAMED));

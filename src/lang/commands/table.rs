@@ -54,7 +54,7 @@ macro_rules! command_rows {
             CDCCode "CDCCode" (Letters(1, 1))
                 once (of("D")) Ours {cdc_code: u8} if (Unless(&[S::InFeed], "InFeed prints the compensation"))
                 "offset letter of generated compensation moves";
-            Dwell "Dwell" (Words(2, 3, "code letter unit, as `G4 P s` or `G4 P ms`"))
+            Dwell "Dwell" (Words(2, 3, "a code, a letter and a unit, as `G4 P s` or `G4 P ms`"))
                 once (of("G4 P s")) Ours {dwell: DwellWord}
                 "generated dwell block, and the unit of [dwell]: seconds or milliseconds";
             Orient "Orient" (Words(2, 2, "code and letter, as `M19 R`")) once (of("M19 R")) Ours {orient: (Code, u8)}
@@ -146,7 +146,7 @@ macro_rules! command_rows {
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";
             // blocks and their text
-            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`, `- 0 1` without a letter, or `None`; without start or step these are 10"))
+            SequenceNumbers "Sequence#s" (Words(1, 3, "letter, first number and step, as `N 10 10`; `-` instead of a letter prints none; `None` prints no block numbers; a missing first number or step is 10"))
                 once (of("None")) Ours {numbers: SequenceNumbers}
                 "block numbers";
             First "First#?" (Switch) once (of("Y")) Ours {number_first: bool} if (Numbered)
@@ -225,7 +225,7 @@ macro_rules! command_rows {
                 if (Unless(&[S::AutoThread, S::CanThread], "a sequence serves all threads")) eg "G33"
                 "print each threading pass with this code";
             ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
-                "later passes print only X, or approach, cut, clear and return";
+                "with `x`, later passes print only X; with `full`, they print approach, cut, clear and return";
             CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
                 "clearance of cycles for which the job gives none";
             CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"

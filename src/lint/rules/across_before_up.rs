@@ -56,8 +56,8 @@ const NOTHING: &str = "an increment of 0";
 fn no_lift(block: &Block, word: &Word) -> Option<&'static str> {
     let value = word.letter().and_then(|letter| word.typed(letter))?;
     match (block.incremental && !block.machine, block.reference) {
-        (true, true) if value < 0.0 => Some("goes down by this before the move to the reference point"),
-        (true, false) if value < 0.0 => Some("goes down by this"),
+        (true, true) if value < 0.0 => Some("this increment goes down before the move to the reference point"),
+        (true, false) if value < 0.0 => Some("this increment goes down"),
         (true, false) if value == 0.0 => Some(NOTHING),
         _ => None,
     }

@@ -28,7 +28,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                             body.name()
                         ),
                     )
-                    .at(word.span, "the same for holes at other heights, so it is not printed again")
+                    .at(word.span, "this depth is equal for holes at other heights, so it is not printed again")
                     .help("print the bottom of the hole, as `Z[d]`"),
                 );
             }

@@ -19,12 +19,12 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             }
             (false, Some(_)) => continue, // Cancel ends it
             (false, None) => (
-                "the cycle stays active: the next position would also be drilled".to_owned(),
+                "the cycle stays active: the control also drills at the next position".to_owned(),
                 "write `End Cancel`, or print G80 in the last line".to_owned(),
             ),
         };
         diags.push(
-            Diag::new(Code::PF404, format!("{} starts a cycle of the control without a count", body.name()))
+            Diag::new(Code::PF404, format!("{} starts a cycle of the control, but has no count", body.name()))
                 .at(word.span, what)
                 .at(sequence.span, "all lines are printed at every hole")
                 .help(help),

@@ -14,7 +14,10 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                     thread.line.span,
                     "the tool would plunge at the end of the thread, unless this code returns by itself",
                 )
-                .help("write `ThreadPasses full`: approach, cut, clear, return; or `ThreadPasses x`, if it returns"),
+                .help(
+                    "write `ThreadPasses full`, which prints approach, cut, clear and return; or `ThreadPasses x`, if \
+                     the code returns by itself",
+                ),
         );
     }
 }

@@ -21,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             };
             diags.push(
                 Diag::new(Code::PF315, format!("G{code} in a form for {units}"))
-                    .at(word.span, "the machine would move 25.4 times as far, or as little")
+                    .at(word.span, "lengths are read in the wrong unit: moves are 25.4 times too long or too short")
                     .help("write `G[unitmode]`, or give the units of the form with `Units`"),
             );
         }

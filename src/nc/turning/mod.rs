@@ -122,7 +122,7 @@ impl State {
                 self.is_size(block, b'D')?;
                 let Some(depth) = block.get(b'D').or(depth).filter(|depth| *depth > 0.0) else {
                     let message =
-                        format!("{code} without the depth of a pass: it would come from a parameter of the control");
+                        format!("{code} without the depth of a pass: the control takes it from its own parameter");
                     let help = format!("write {code} {letter}2. R1. before it; on a Haas write D in its block");
                     return refuse(Code::PN007, message, help);
                 };
@@ -130,7 +130,7 @@ impl State {
                 let one_block = row.words.has(b'D');
                 let Some(back) = back.or_else(|| one_block.then(|| self.usual_back())) else {
                     let message =
-                        format!("{code} without the retract of a pass: it would come from a parameter of the control");
+                        format!("{code} without the retract of a pass: the control takes it from its own parameter");
                     return refuse(Code::PN007, message, format!("write {code} {letter}2. R1. before it"));
                 };
                 How::Passes { across, depth, back, left }

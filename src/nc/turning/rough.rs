@@ -114,7 +114,7 @@ fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, a
     let beyond = |piece: &&Piece| (piece.to[0] - start[0]) * inwards < -SAME;
     if profile.pieces.iter().any(|piece| beyond(&piece)) {
         let message = format!(
-            "{code}: the profile goes farther out than the start of the cycle: that part would be cut in one \
+            "{code}: the profile goes farther out than the start of the cycle: the control cuts that part in one \
                 pass"
         );
         return refuse(Code::PN018, message, format!("begin at the {deep} of the stock, outside the whole profile"));

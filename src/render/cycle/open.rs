@@ -89,7 +89,7 @@ pub struct Drilling {
 }
 
 impl Drilling {
-    /// Records that something between two holes may change what the next one prints.
+    /// Records that something after the last hole may change the words that the next hole prints.
     #[inline]
     pub fn holes_change(&mut self) {
         if let Some(cycle) = &mut self.open {

@@ -74,7 +74,7 @@ pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &m
     words.print(at, &mut cx.writer())
 }
 
-/// Does this sequence print nothing for a hole but the words of its lines, whatever its position is?
+/// Does this sequence print only the words of its lines for a hole, at any position of the hole?
 #[cold]
 fn prints_no_more(routine: &Routine, cycle: &ActiveCycle, cx: &Cx<'_>) -> bool {
     let Shape { program, .. } = *cx.shape;

@@ -57,7 +57,7 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     let floats = spec.kind.is_tap() && spec.rigid == Some(false) && !spec.norevr && !spec.rapout;
     let asks = |id| shape.program.routine(id).is_some_and(|routine| routine.asks(VarId::Rigid, shape.program));
     if floats && shape.program.settings.rigid_tap && sequence.is_some_and(|id| !asks(id)) {
-        let help = "if this tap may be rigid, do nothing; if not, print the difference in `@if [rigid]`";
+        let help = "if this tap may be rigid, do nothing; if not, print other words for rigid taps, in `@if [rigid]`";
         out.note(Code::PR021, "a floating tap, but the form's tap is rigid".into(), help);
     }
     if let (Some(mode), true) = (spec.mode, sequence.is_some()) {

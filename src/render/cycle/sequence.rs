@@ -241,7 +241,7 @@ fn starts_cycle(
     !first.is_empty() && routine.style != CycleStyle::WholeLine && cycle.setup.differs(first, want, said)
 }
 
-/// Does a position word change at this hole? Controls do not drill at a block without one, or only some of them do.
+/// Does a position word change at this hole? If a block has no position word, most controls do not drill a hole.
 fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done<bool> {
     for i in routine.steps() {
         let crate::compile::Op::Var { letter, var, .. } = shape.program.ops[i] else { continue };

@@ -135,7 +135,7 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Do both ends print as the same position? As an arc, a short one would become a full circle.
+/// Do both ends print as the same position? If so, the control would read a short arc as a full circle.
 pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) -> bool {
     axes.iter().all(|&axis| {
         let printed = |value: f64| as_printed_back(axis, value, shape).ok();
@@ -143,7 +143,8 @@ pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) ->
     })
 }
 
-/// Checks that an arc sequence prints its own arc code: a code in a block before it would be an arc without an end.
+/// Checks that an arc sequence prints its own arc code. If the code were printed in a block before it, that block would be an
+/// arc without an end.
 fn check_arc_code(routine: &Routine, code: &sema::Code, shape: &Shape, said: &Said) -> Done {
     if !shape.program.speaks_g || said.motion_in_force(code) || prints_own_motion(routine, shape) {
         return Ok(());

@@ -141,7 +141,8 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
     }
 }
 
-/// The start of each further run, if a call is printed once for each run: the end position of the previous run.
+/// Returns the start position of each run after the first, if every run of a call is printed as a separate call. This
+/// position is the end position of the run before.
 fn next_begins(
     place: &Axes,
     routine: &Routine,

@@ -95,7 +95,8 @@ pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer)
     Ok(())
 }
 
-/// The first operation of StartCode that waits if subprograms come first: after its leading `%` line.
+/// If subprograms come first, only the leading `%` line of StartCode is printed before them. Returns the first operation of the
+/// rest of StartCode.
 fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
     let ops = &shape.program.ops;
     let mut lines = routine.steps().filter(|&i| matches!(ops[i], Op::Line { .. }));

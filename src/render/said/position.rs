@@ -19,12 +19,12 @@ pub struct Stand {
     pub(super) astray: u8,
     /// Height at the end of the subprogram that was called last, while no other height is known.
     pub left_at: Option<f64>,
-    /// Height at which the control left a cycle, and the height of the job if it differs: the next cut begins at the job's.
+    /// Height at which the control left a cycle, and the height of the job if it differs. The next cut begins at the job's height.
     pub left_hole: Option<(Axes, f64)>,
     /// The sequence that moved the tool to typed positions. A rapid brings the tool back.
     pub moved_by: Option<Span>,
-    /// Set from a tool change to the first cut by a line or arc: the axes along which the previous tool had a known position. The
-    /// first cut needs a known start along these axes too.
+    /// The axes along which the previous tool had a known position. They are kept from a tool change to the first cut by a line or
+    /// an arc, because this cut needs a known start along these axes too.
     pub fresh_tool: Option<u8>,
 }
 

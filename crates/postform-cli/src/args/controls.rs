@@ -23,7 +23,7 @@ pub struct ControlArgs {
     /// Skip blocks with a slash (block delete)
     #[arg(long)]
     pub block_delete: bool,
-    /// Retract distance of G73; in G83, distance from the last depth at which the rapid ends [default: that of the control]
+    /// Retract distance of G73; in G83, the rapid back into the hole ends at this distance above the last depth [default: that of the control]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub back_off: Option<f64>,
     /// Meaning of a length without a decimal point on a Fanuc [default: it is an error]

@@ -49,7 +49,7 @@ pub struct ReadArgs {
     /// Units for a CL file, NCI file or program that contains none
     #[arg(long, value_name = "UNITS")]
     pub assume_units: Option<UnitsArg>,
-    /// Tool number for a CL file or program without a tool change; for a CL file with several tool names: NAME=1,OTHER=2
+    /// Tool number for a CL file or program without a tool change; if a CL file names several tools, write NAME=1,OTHER=2
     #[arg(long, value_name = "NUMBER", value_parser = Assumed::parse)]
     pub assume_tool: Option<Assumed>,
     /// Spindle speed, in revolutions per minute, of tools for which a CL file gives none; add ,CCLW for left-hand tools

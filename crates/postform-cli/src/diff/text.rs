@@ -272,7 +272,7 @@ pub fn kind(summary: &Summary) -> String {
 /// Differences of motions that were found but not judged; empty if there are none.
 fn left_out(found: &Motions) -> String {
     let list = [
-        (found.ways, "path", "between cuts with other rapids, nowhere lower"),
+        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old ones"),
         (found.codes, "cut", "after different codes that are not simulated"),
     ];
     let seen = list.iter().filter(|(n, ..)| *n > 0);
@@ -289,7 +289,7 @@ pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
     let counted = [
         (found.pecks, "hole", "with other pecks"),
         (found.feeds, "feed", "rounded"),
-        (found.ways, "path", "between cuts with other rapids, nowhere lower"),
+        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old ones"),
     ];
     let counted = counted.iter().filter(|(n, ..)| *n > 0);
     let list: Vec<String> = counted.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();

@@ -26,8 +26,8 @@ pub fn hints(server: &Server, view: &View, within: lsp::Range) -> Vec<lsp::Inlay
         let repeats = hint.text.is_empty();
         let label = if repeats { "→ ·".to_owned() } else { format!("→ {}", hint.text) };
         let tooltip = match repeats {
-            true => format!("not printed again in {}: modal in the control", current.name),
-            false => format!("the first block of this line in {}", current.name),
+            true => format!("{}: not printed again, because the word is modal and unchanged", current.name),
+            false => format!("{}: the first block that this line prints", current.name),
         };
         lsp::InlayHint {
             position: range(source, hint.span).end,

@@ -231,8 +231,8 @@ fn apart(planned: &[Planned]) -> Result<(), String> {
                 (false, _) => format!("{other} and {job}"),
             };
             return Err(format!(
-                "error: {to} would be the output file of {whose}: nothing was printed\n  help: give the programs \
-                 different names, as --name '{{job}}-{{number}}'; a job file named `job` takes the name of its folder"
+                "error: {to} is the output file of {whose}: nothing was printed\n  help: give the programs different \
+                 names, as --name '{{job}}-{{number}}'; for a job file named `job`, {{job}} is the name of its folder"
             ));
         }
     }

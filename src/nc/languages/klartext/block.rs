@@ -12,7 +12,7 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 use crate::toolpath::Side;
 
-const FEED_WANTED: &str = "write F or FMAX in the block; after a cycle too, because the feed is unknown";
+const FEED_WANTED: &str = "write F or FMAX in the block; the feed after a cycle is unknown";
 
 /// The words of a polar position: the name, whether it is the angle, and whether it is an increment.
 const POLAR: [(&[u8], bool, bool); 4] =

@@ -310,7 +310,7 @@ impl Words<'_> {
             arguments.pop();
         }
         if let Some(value) = arguments.get(most..).and_then(|more| more.iter().flatten().find(|value| **value != 0.0)) {
-            let message = format!("{name} has {most} supported arguments, and {value} is one more");
+            let message = format!("postform supports {most} arguments of {name}, and {value} is an additional one");
             return Err(Fault::at(Code::PN016, begin, message, "leave it out"));
         }
         Ok(Some(Arc::new(Cycle { number, arguments })))

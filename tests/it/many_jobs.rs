@@ -202,6 +202,38 @@ fn verify_and_check_take_several_jobs() {
     assert!(err(&output).contains("standard input can't be one of several jobs"), "{}", err(&output));
 }
 
+/// With several jobs, an option for reading is used for the jobs to whose format it applies. If it applies to none, it is an error.
+#[test]
+fn options_of_a_format_leave_the_other_jobs_alone() {
+    let folder = shop("mixed");
+    let cl = fs::read_to_string(root().join("samples/cl-drill/job.cl")).unwrap();
+    let bare = cl.lines().filter(|line| !line.starts_with("UNITS")).collect::<Vec<_>>().join("\n");
+    folder.write("jobs/bare.cl", bare);
+    let run = |command: &str, more: &[&str]| {
+        let own = match command {
+            "render" => vec!["render", "jobs", "--form", "haas.pf", "--out-dir", "programs", "--program", "5"],
+            "verify" => vec!["verify", "jobs", "--form", "haas.pf", "--program", "5"],
+            _ => vec!["check", "jobs"],
+        };
+        folder.run(&[&own[..], more].concat())
+    };
+    for command in ["render", "verify", "check"] {
+        let output = run(command, &[]);
+        assert!(err(&output).contains("PL005 at jobs/bare.cl"), "{command}: {}", err(&output));
+        let output = run(command, &["--assume-units", "mm"]);
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", err(&output));
+        assert!(last(&output).ends_with("none failed"), "{command}: {}", err(&output));
+        let output = run(command, &["--job-control", "haas"]);
+        let message = "--job-control and --job-no-point are for NC programs only: jobs/bare.cl is not an NC program";
+        assert!(output.status.code() == Some(2) && err(&output).contains(message), "{command}: {}", err(&output));
+    }
+    let output = folder.run(&["check", "jobs/bracket/job.json", "--assume-units", "mm"]);
+    assert!(output.status.code() == Some(2) && err(&output).contains("not for the format of"), "{}", err(&output));
+    // with --quiet, only the verdicts of jobs that fail are printed
+    let output = run("verify", &["--assume-units", "mm", "--quiet"]);
+    assert_eq!((out(&output), output.status.code()), (String::new(), Some(0)), "{}", err(&output));
+}
+
 #[test]
 fn a_change_of_a_form_is_shown_by_its_kinds() {
     let folder = shop("archive");

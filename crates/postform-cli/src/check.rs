@@ -23,11 +23,13 @@ pub fn run(args: &CheckArgs, colour: bool) -> Result<Ending, String> {
     }
     let reporter = &Reporter::new(colour);
     if let Some(job) = many::single(&args.jobs) {
+        files::check_format(job, &args.read)?;
         let (text, ending) = checked(job, args, reporter)?;
         output::standard_output(|out| out.write_all(text.as_bytes()))?;
         return Ok(ending);
     }
     let jobs = many::jobs(&args.jobs)?;
+    files::check_formats(&jobs, &args.read)?;
     many::run(None, jobs, |job| files::name(job), "job", |job| checked(job, args, reporter))
 }
 

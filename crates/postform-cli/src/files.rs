@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
@@ -210,44 +210,67 @@ fn job_format(
         ));
     }
     let from = format_of(path, args.from, first)?;
-    fits(from, path, args)?;
-    Ok(from)
-}
-
-/// Are the options allowed for a job of this format?
-fn fits(from: Format, path: &Path, args: &ReadArgs) -> Result<(), String> {
-    if from != Format::Cl && args.dialect.is_some() {
-        return Err(format!("error: --dialect is for CL files only: {} is not a CL file", name(path)));
-    }
-    if from != Format::Freecad && args.job_name.is_some() {
-        return Err(format!("error: --job is for FreeCAD documents only: {} is not a FreeCAD document", name(path)));
-    }
-    let of_both = args.assume_tool.is_some() || args.assume_start.is_some();
-    let has_units = !matches!(from, Format::Cl | Format::Nc | Format::Nci) && args.assume_units.is_some();
-    if has_units || !matches!(from, Format::Cl | Format::Nc) && of_both {
-        return Err(format!(
-            "error: this --assume- option is not for the format of {}: it is for CL files, NCI files and NC \
-             programs",
-            name(path)
-        ));
-    }
-    if from != Format::Cl && args.assumes_of_cl() {
-        let options = "--assume-speed, -feed and -end and --setup are";
-        return Err(format!("error: {options} for CL files only: {} is not a CL file", name(path)));
-    }
-    if from != Format::Nc && (args.job_control.is_some() || args.job_no_point.is_some()) {
-        return Err(format!(
-            "error: --job-control and --job-no-point are for NC programs only: {} is not an NC program",
-            name(path)
-        ));
-    }
     if from == Format::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
         return Err(format!(
             "error: for an NC program --assume-tool takes one number: {} is an NC program",
             name(path)
         ));
     }
-    Ok(())
+    Ok(from)
+}
+
+/// Options that apply only to some formats.
+struct Only {
+    is_given: bool,
+    applies_to: &'static [Format],
+    /// The end of the message, before the name of a file in another format.
+    message: &'static str,
+    /// The end of the message, after the name. Empty: the name is the end.
+    other: &'static str,
+}
+
+impl Only {
+    fn wrong(&self, path: &Path) -> String {
+        format!("error: {} {}{}", self.message, name(path), self.other)
+    }
+}
+
+/// The options for reading that apply only to some formats.
+fn only(args: &ReadArgs) -> [Only; 6] {
+    let assumed = "this --assume- option is for CL files, NCI files and NC programs, not for the format of";
+    [
+        Only {
+            is_given: args.dialect.is_some(),
+            applies_to: &[Format::Cl],
+            message: "--dialect is for CL files only:",
+            other: " is not a CL file",
+        },
+        Only {
+            is_given: args.job_name.is_some(),
+            applies_to: &[Format::Freecad],
+            message: "--job is for FreeCAD documents only:",
+            other: " is not a FreeCAD document",
+        },
+        Only { is_given: args.assume_units.is_some(), applies_to: ReadArgs::UNITS, message: assumed, other: "" },
+        Only {
+            is_given: args.assume_tool.is_some() || args.assume_start.is_some(),
+            applies_to: ReadArgs::TOOL,
+            message: assumed,
+            other: "",
+        },
+        Only {
+            is_given: args.assumes_of_cl(),
+            applies_to: &[Format::Cl],
+            message: "--assume-speed, -feed and -end and --setup are for CL files only:",
+            other: " is not a CL file",
+        },
+        Only {
+            is_given: args.job_control.is_some() || args.job_no_point.is_some(),
+            applies_to: &[Format::Nc],
+            message: "--job-control and --job-no-point are for NC programs only:",
+            other: " is not an NC program",
+        },
+    ]
 }
 
 fn format_of(
@@ -286,9 +309,22 @@ fn by_content(path: &Path) -> Result<Option<Format>, String> {
 /// Number of bytes that are examined to recognise a job.
 const LOOKED_AT: u64 = 4096;
 
-/// Checks that the format of a job is known and that the options are allowed for it.
+/// Checks that the format of a job is known and that the options apply to it.
 pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
-    job_format(path, args, || by_content(path)).map(|_| ())
+    let format = job_format(path, args, || by_content(path))?;
+    let other = only(args).into_iter().find(|only| only.is_given && !only.applies_to.contains(&format));
+    other.map_or(Ok(()), |only| Err(only.wrong(path)))
+}
+
+/// Checks that each option applies to at least one of several jobs. It is not used for the others.
+pub fn check_formats(paths: &[PathBuf], args: &ReadArgs) -> Result<(), String> {
+    let given: Vec<Only> = only(args).into_iter().filter(|only| only.is_given).collect();
+    let Some(first) = paths.first().filter(|_| !given.is_empty()) else { return Ok(()) };
+    // a job whose format is unknown fails when it is read
+    let formats: Vec<Format> =
+        paths.iter().filter_map(|path| job_format(path, args, || by_content(path)).ok()).collect();
+    let unused = |only: &&Only| !formats.is_empty() && !formats.iter().any(|format| only.applies_to.contains(format));
+    given.iter().find(unused).map_or(Ok(()), |only| Err(only.wrong(first)))
 }
 
 /// Opens a job. `again`: the job is read more than once, so an input that is not seekable is copied into a file.
@@ -308,7 +344,7 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
 /// Opens a job whose content is in memory; `path` is the name of its file.
 ///
 /// # Errors
-/// A message: the format is unknown, or the options are not allowed for it.
+/// A message: the format is unknown.
 pub fn job_in_memory(path: &Path, bytes: &Arc<[u8]>, args: &ReadArgs) -> Result<Job<'static>, String> {
     let first = || Ok(Format::of_content(&bytes[..bytes.len().min(LOOKED_AT as usize)]));
     let format = job_format(path, args, first)?;
@@ -339,7 +375,7 @@ pub fn unpacked_bytes(path: &Path, bytes: Vec<u8>) -> Result<Arc<[u8]>, String> 
 
 /// Applies the options for reading. The file name of an NC program may determine its control.
 fn settle(job: &mut Job<'_>, format: Format, path: &Path, args: &ReadArgs) {
-    job.reading = args.reading();
+    job.reading = args.reading(format);
     if format == Format::Nc {
         let name = unpacked_name(path);
         job.reading.control = job.reading.control.or_else(|| control_of_name(name.as_deref().unwrap_or(path)));

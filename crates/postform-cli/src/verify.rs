@@ -51,7 +51,9 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     }
     let mut forms: HashMap<PathBuf, Prepared> = HashMap::new();
     let mut items = Vec::new();
-    for job in many::jobs(&args.jobs)? {
+    let jobs = many::jobs(&args.jobs)?;
+    files::check_formats(&jobs, &args.read)?;
+    for job in jobs {
         let config = Config::near(&job)?;
         let form = form_of(args, &config).ok_or_else(no_form)?;
         if let Entry::Vacant(entry) = forms.entry(form.clone()) {

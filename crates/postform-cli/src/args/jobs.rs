@@ -104,20 +104,36 @@ impl From {
 }
 
 impl ReadArgs {
-    /// Converts the options to the library's type.
-    pub fn reading(&self) -> Reading {
+    /// The formats for which `--assume-units` is used.
+    pub const UNITS: &[Format] = &[Format::Cl, Format::Nc, Format::Nci];
+    /// The formats for which `--assume-tool` and `--assume-start` are used.
+    pub const TOOL: &[Format] = &[Format::Cl, Format::Nc];
+
+    /// Converts the options to the library's type. Options for other formats than that of the job are left out.
+    pub fn reading(&self, format: Format) -> Reading {
         let mut reading = Reading::default();
-        reading.dialect = self.dialect;
-        reading.units = self.assume_units.map(UnitsArg::units);
-        reading.tool = self.assume_tool.clone();
-        reading.control = self.job_control;
-        reading.job = self.job_name.clone();
-        reading.unpointed = self.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
-        reading.speed = self.assume_speed;
-        reading.feed = self.assume_feed;
-        reading.start = self.assume_start;
-        reading.end = self.assume_end;
-        reading.setup = self.setup;
+        if ReadArgs::UNITS.contains(&format) {
+            reading.units = self.assume_units.map(UnitsArg::units);
+        }
+        if ReadArgs::TOOL.contains(&format) {
+            reading.tool = self.assume_tool.clone();
+            reading.start = self.assume_start;
+        }
+        match format {
+            Format::Cl => {
+                reading.dialect = self.dialect;
+                reading.speed = self.assume_speed;
+                reading.feed = self.assume_feed;
+                reading.end = self.assume_end;
+                reading.setup = self.setup;
+            }
+            Format::Nc => {
+                reading.control = self.job_control;
+                reading.unpointed = self.job_no_point.map_or(Unpointed::Refused, NoPoint::unpointed);
+            }
+            Format::Freecad => reading.job = self.job_name.clone(),
+            _ => {}
+        }
         reading.select = self.select.selection();
         reading
     }
@@ -146,7 +162,8 @@ pub struct SelectArgs {
 }
 
 impl SelectArgs {
-    fn selection(&self) -> Selection {
+    /// Converts the options to the library's type.
+    pub fn selection(&self) -> Selection {
         let SelectArgs { from_tool: from, until, only, skip } = self.clone();
         Selection { from, until, only, skip, ..Selection::default() }
     }

@@ -42,6 +42,7 @@ pub fn run(
         return Err("error: --format html shows one job\n  help: use --format text or json for several jobs".into());
     }
     let jobs = many::jobs(jobs)?;
+    files::check_formats(&jobs, &args.read)?;
     let [old, new] = forms.map(|form| prepare(form, &args.options, &jobs[0], reporter));
     let (Some(old), Some(new)) = (old?, new?) else { return Ok(Ending::Findings) };
     let forms = [(forms[0], old), (forms[1], new)];

@@ -94,7 +94,7 @@ fn table(old: &Side, new: &Side, hunks: &[Hunk], context: usize, options: &Optio
     out.push_str("</table>\n");
 }
 
-/// Equal lines, up to the length of the shorter side.
+/// Prints rows of equal lines. If one side has more lines, its first ones are left out.
 fn unchanged(old: &Side, new: &Side, before: Range<usize>, after: Range<usize>, out: &mut String) {
     // ignored lines may make one side longer: both sides are aligned at their last lines
     let both = before.len().min(after.len());

@@ -96,6 +96,7 @@ fn printed<const N: usize, P: AsRef<Path>>(
     args: &DiffArgs,
     reporter: &Reporter,
 ) -> Result<Option<[Side; N]>, String> {
+    files::check_format(job, &args.read)?;
     let mut made = Vec::with_capacity(N);
     for form in &forms {
         let form = form.as_ref();

@@ -54,6 +54,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
         return Err(format!("error: {} is not a folder", files::output_name(folder)));
     }
     let jobs = many::jobs(&args.jobs)?;
+    files::check_formats(&jobs, &args.read)?;
     let mut forms = Forms::default();
     let mut rows = Vec::with_capacity(jobs.len());
     for job in &jobs {

@@ -87,7 +87,7 @@ pub fn print(task: &Task<'_>, ready: &Ready, args: &RenderArgs, reporter: &Repor
         None => (prepared.post.render_parts(job.again(), &options, &mut take), None),
     };
     drop(progress);
-    if task.part.is_none() && !args.read.reading().select.is_all() && !args.options.quiet {
+    if task.part.is_none() && !args.read.select.selection().is_all() && !args.options.quiet {
         message("only a part of the job is printed: its other operations are not in the program");
     }
     let mut notes = match &printed {
@@ -151,7 +151,7 @@ fn job_of(jobs: &[&Path], args: &RenderArgs, again: bool) -> Result<Job<'static>
     }
     let open = |job: &&Path| Ok(files::job(job, &args.read, again)?.named(&files::name(job)));
     let mut joined = Job::join(jobs.iter().map(open).collect::<Result<_, String>>()?);
-    joined.reading = args.read.reading();
+    joined.reading.select = args.read.select.selection();
     Ok(joined)
 }
 

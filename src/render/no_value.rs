@@ -14,7 +14,7 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
             "list the tools under `tool_order` at the beginning of the job, or render without `--stream`".to_owned()
         }
         VarId::Cuttime => {
-            "the time of a cut is unknown, as at a constant surface speed; test it first: `@if [cuttime]`".to_owned()
+            "the time of a cut is unknown, for example because of a constant surface speed; print it only inside `@if [cuttime]`".to_owned()
         }
         _ if AHEAD.has(var) => "the job has no cut for this value; test it first, as `@if [hmin]`".to_owned(),
         VarId::Dcomp => {

@@ -312,7 +312,7 @@ impl<'t> Search<'t> {
         (is_high && goes_on).then(|| entry(Some(height)))
     }
 
-    /// The entry at the requested block itself. The tool moves down from the height of its rapids, and at feed into the cut.
+    /// The entry at the requested block itself. The tool goes to the height of its last rapid, and then at feed into the cut.
     fn exact_entry(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         if changes {
             return self.entry_before(before, line, changes, run);

@@ -29,9 +29,9 @@ macro_rules! command_rows {
             Feed "Feed" (Motion(1, 1)) once (of("G1")) Doc {feed: Code}
                 "motion word of generated feed moves";
             CW "CW" (Motion(1, 2)) once (of("G2")) Ours {=> clockwise}
-                "motion word of generated clockwise arcs; an M code after it is the clockwise value of [direct]";
+                "motion word of generated clockwise arcs; an M code after it is the [direct] of a spindle that turns clockwise";
             CCW "CCW" (Motion(1, 2)) once (of("G3")) Ours {=> counter_clockwise}
-                "motion word of generated counter-clockwise arcs; an M code after it is the counter-clockwise value of [direct]";
+                "motion word of generated counter-clockwise arcs; an M code after it is the [direct] of a spindle that turns counter-clockwise";
             FeedCode "FeedCode" (Letters(1, 1)) once (of("F")) Doc {feed_code: u8}
                 "letter of generated feed words";
             SpeedCode "SpeedCode" (Letters(1, 1)) once (of("S")) Doc {speed_code: u8}
@@ -54,7 +54,7 @@ macro_rules! command_rows {
             CDCCode "CDCCode" (Letters(1, 1))
                 once (of("D")) Ours {cdc_code: u8} if (Unless(&[S::InFeed], "InFeed prints the compensation"))
                 "offset letter of generated compensation moves";
-            Dwell "Dwell" (Words(2, 3, "a code, a letter and a unit, as `G4 P s` or `G4 P ms`"))
+            Dwell "Dwell" (Words(2, 3, "code letter unit, as `G4 P s` or `G4 P ms`"))
                 once (of("G4 P s")) Ours {dwell: DwellWord}
                 "generated dwell block, and the unit of [dwell]: seconds or milliseconds";
             Orient "Orient" (Words(2, 2, "code and letter, as `M19 R`")) once (of("M19 R")) Ours {orient: (Code, u8)}
@@ -146,7 +146,7 @@ macro_rules! command_rows {
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";
             // blocks and their text
-            SequenceNumbers "Sequence#s" (Words(1, 3, "letter, first number and step, as `N 10 10`; `-` instead of a letter prints none; `None` prints no block numbers; a missing first number or step is 10"))
+            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`; `-` instead of a letter prints none; `None` prints no block numbers; a missing start or step is 10"))
                 once (of("None")) Ours {numbers: SequenceNumbers}
                 "block numbers";
             First "First#?" (Switch) once (of("Y")) Ours {number_first: bool} if (Numbered)

@@ -1,4 +1,4 @@
-//! PF408: the lines that a cycle's count selects print only at the first hole. If only they print the position, all holes have that
+//! PF408: a cycle prints the lines of its count only at the first hole. If only these lines print the position, all holes have that
 //! position.
 
 use crate::diag::{Code, Diag};

@@ -26,7 +26,7 @@ pub struct ActiveCycle {
     pub sequence: Option<SequenceId>,
     /// Number of holes so far.
     pub holes: u64,
-    /// The control is in the cycle, so that Cancel must be printed.
+    /// Whether the cycle is active on the control. Cancel must then be printed after the last hole.
     pub in_force: bool,
     /// Branches of the sequence with which the control entered the cycle.
     pub branches: u128,

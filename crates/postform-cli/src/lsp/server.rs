@@ -177,7 +177,7 @@ impl Server {
         Control::named(&name.to_ascii_lowercase()).ok_or_else(|| {
             let known: Vec<&str> = control::names().collect();
             format!(
-                "there is no control `{}`: it is one of {}",
+                "there is no control `{}`; the controls are {}",
                 postform::internals::terminal::escaped(name),
                 known.join(", ")
             )

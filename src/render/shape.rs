@@ -98,8 +98,8 @@ impl<'p> Shape<'p> {
             let message =
                 format!("the program would be in {program}, but the form is for {form} and does not print [unitmode]");
             let help = format!(
-                "render with `--units {form}`, or print `G[unitmode]` in StartCode: without this code the control may \
-                 read all lengths in the wrong unit"
+                "render with `--units {form}`, or print `G[unitmode]` in StartCode: without this code all lengths \
+                 may be 25.4 times too long or too short"
             );
             return fault(diag::Code::PR010, message, help);
         }

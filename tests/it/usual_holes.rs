@@ -197,6 +197,22 @@ proptest! {
     }
 }
 
+/// A sequence may move the tool away before a hole. The hole brings it back, so a cut can follow the cycle.
+#[test]
+fn a_cut_follows_holes_after_an_upon_that_moves() {
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    let form = form.replace(
+        "\nCancel\nG80\n",
+        "\nUpon Every [cool]\nG0 G53 Z0\nM[cool]\nEnd\n\nCancel\n@if [h] < 3\n  G80 M9\n@else\n  G80\n@end\n",
+    );
+    let point = |x: &str, top: i8| Point { at: [x.to_owned(), "1".to_owned()], top };
+    let points = vec![point("1", 0), point("2", 5), point("3", 5), point("4", 5)];
+    let job = job(&[(0, points)], false).replace("\"feed\":700", "\"feed\":700,\"coolant\":\"flood\"");
+    let cut = "{\"cycle_end\":true}\n{\"line\":[4,1,6]}\n";
+    let program = printed(&form, &job.replace("{\"cycle_end\":true}\n", cut)).unwrap();
+    assert!(program.contains("X3.\n") && program.contains("X4.\n"), "{program}");
+}
+
 /// What a block between two holes of a cycle changes is found at the next hole, also if its position is right.
 #[test]
 fn a_change_between_two_holes_is_found() {

@@ -57,6 +57,7 @@ pub fn plain_words(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Option
 #[inline]
 pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
+    cx.said.stand.moved_by = None; // rapids approach every hole
     let position = &mut cx.said.stand.position;
     for axis in 0..2 {
         if hole.at.given & 1 << axis != 0 {

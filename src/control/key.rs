@@ -36,6 +36,17 @@ impl Key {
         }
     }
 
+    /// Whether the key names only codes with this whole number.
+    pub(super) fn is_within(self, letter: u8, whole: u16) -> bool {
+        let is = |code: Code| code.letter == letter && code.tenths / 10 == whole;
+        match self {
+            Key::One(code) => is(code),
+            Key::Range(first, last) => is(first) && is(last),
+            Key::Number(own, number) => (own, number) == (letter, whole),
+            Key::Letter(_) => false,
+        }
+    }
+
     /// Whether the key names this code.
     pub(super) fn names(self, code: Code) -> bool {
         match self {

@@ -107,6 +107,8 @@ impl Rows {
     }
 
     fn put_number(&mut self, row: Row) {
+        let (letter, whole) = (row.code.letter, row.code.tenths / 10);
+        self.absent.retain(|key| !key.is_within(letter, whole));
         replace(&mut self.numbers, row, |row| (row.code.letter, row.code.tenths));
     }
 
@@ -342,17 +344,15 @@ impl Control {
     #[doc(hidden)]
     pub fn row(&self, code: Code) -> Option<&Row> {
         let rows = &self.rows;
-        rows.own(code)
-            .or_else(|| {
-                rows.numbers
-                    .iter()
-                    .find(|row| row.code.letter == code.letter && row.code.tenths / 10 == code.tenths / 10)
-            })
-            .or_else(|| {
-                let other = rows.others.iter().find(|row| row.code.letter == code.letter)?;
-                (!rows.absent.iter().any(|key| key.names(code))).then_some(other)
-            })
-            .filter(|row| self.is_there(row))
+        let other = || {
+            if rows.absent.iter().any(|key| key.names(code)) {
+                return None;
+            }
+            let is_of_number = |row: &&Row| row.code.letter == code.letter && row.code.tenths / 10 == code.tenths / 10;
+            let number = rows.numbers.iter().find(is_of_number);
+            number.or_else(|| rows.others.iter().find(|row| row.code.letter == code.letter))
+        };
+        rows.own(code).or_else(other).filter(|row| self.is_there(row))
     }
 
     /// The meaning of a code on this control. `None`: the code is unknown.
@@ -455,6 +455,10 @@ mod tests {
         let meaning = |code: &str| own.meaning(code.parse().unwrap());
         assert_eq!(["M8", "M40", "M42"].map(meaning), [None; 3]);
         assert_eq!(["M41", "M43", "M199"].map(meaning), [Some(Meaning::Harmless); 3]);
+        let text = "name = \"vf5\"\nlike = \"haas\"\n[codes]\n\"G231.*\" = { is = \"harmless\" }\n\"G231.2\" = { is = \"absent\" }\n";
+        let own = Control::read("vf5.toml", text).unwrap();
+        let meaning = |code: &str| own.meaning(code.parse().unwrap());
+        assert_eq!(["G231.1", "G231.2"].map(meaning), [Some(Meaning::Harmless), None]);
     }
 
     #[test]

@@ -151,9 +151,6 @@ impl<'p> Renderer<'p> {
         if drill.open.is_some() && !goes_on {
             cycle::close_cycle(&mut Cx { shape, want, said, out }, drill)?;
         }
-        if !matches!(event, Event::Hole(_)) {
-            drill.holes_change();
-        }
         want.cutting = matches!(
             event,
             Event::Line { .. } | Event::Arc { .. } | Event::Infeed { .. } | Event::Outfeed { rapid: false, .. }

@@ -8,7 +8,7 @@ use super::folded::{begin_alike, hole, rounded_alike};
 use super::passage::{Mark, TOO_LONG};
 use super::program::{Doubt, Program};
 use super::rapid_path::RapidPath;
-use super::ways::{Compared, Low, compare, leaves_low};
+use super::ways::{Compared, compare, leaves_low};
 use crate::control::{Control, ToolLength};
 use crate::lang::additional_work;
 use crate::nc::{Cooling, RunError, RunSettings, Threading, axes_of};
@@ -156,7 +156,7 @@ pub fn compare_motions(
 /// Converts the result of comparing the old path with the new one. If the old path is lower, the paths are different.
 fn higher(other: Compared) -> Compared {
     match other {
-        Compared::Lower(Low { to, .. }) => Compared::Elsewhere(to),
+        Compared::Lower(low) => Compared::Elsewhere(low.to.to),
         other => other,
     }
 }
@@ -189,7 +189,8 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     }
     match way {
         Compared::Same | Compared::AsGood { .. } | Compared::Turning => {}
-        Compared::Lower(Low { to, .. }) => {
+        Compared::Lower(low) => {
+            let to = low.to.to;
             return Some(format!("a rapid goes to {}, which is lower than in the old program", shown(&to, 0b111)));
         }
         Compared::Elsewhere(to) => return Some(format!("the rapids near {} follow another path", shown(&to, 0b111))),

@@ -261,7 +261,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
             job.set(None, own, tolerance);
             program.set(None, rapids, tolerance);
             match compare_way(job, program, false, tolerance) {
-                Compared::Lower(Low { to, .. }) | Compared::Elsewhere(to) => {
+                Compared::Lower(Low { to: Rapid { to, .. }, .. }) | Compared::Elsewhere(to) => {
                     lower = lower.or(Some(to));
                     false
                 }

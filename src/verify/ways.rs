@@ -23,7 +23,7 @@ pub(super) enum Compared {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Low {
     /// The end of the rapid.
-    pub to: Place,
+    pub to: Rapid,
     /// The lowest height of the rapid.
     pub height: f64,
     /// The lowest height that is allowed.
@@ -33,13 +33,18 @@ pub(super) struct Low {
 impl Low {
     /// The message about a rapid before a cut.
     pub fn message(&self) -> String {
-        let (to, limit) = (shown(&self.to, 0b111), number(self.limit));
-        let begin = number(self.height);
+        let Rapid { to, unknown, .. } = self.to;
+        let (begin, limit) = (number(self.height), number(self.limit));
+        let end = match 0b111 & !unknown {
+            0 => "a machine position".to_owned(),
+            known => shown(&to, known),
+        };
         if begin >= limit {
-            return format!("a rapid goes to {to}, which is not above the job's first position here, Z{limit}");
+            return format!("a rapid goes down to {end}, but the job goes down at another X or Y here");
         }
-        let from = if begin < number(self.to[DEPTH]) { format!("from Z{begin} ") } else { String::new() };
-        format!("a rapid goes {from}to {to}, which is below the job's rapids here, Z{limit}")
+        let is_lower = unknown & 1 << DEPTH != 0 || begin < number(to[DEPTH]);
+        let from = if is_lower { format!("from Z{begin} ") } else { String::new() };
+        format!("a rapid goes {from}to {end}, which is below the job's rapids here, Z{limit}")
     }
 }
 
@@ -110,8 +115,8 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
             && !same(&corner.to, &first.to, 0b11 & !first.unknown, tolerance)
     };
     let astray = program.corners[..arrived].iter().skip(usize::from(program.begun)).find(astray);
-    let at_end = |corner: &Rapid| (corner.to, height(corner));
-    let crosses = crosses.map(|(a, b)| (b.to, height(a).min(height(b))));
+    let at_end = |corner: &Rapid| (*corner, height(corner));
+    let crosses = crosses.map(|(a, b)| (*b, height(a).min(height(b))));
     if let Some((to, height)) = low.map(at_end).or(crosses).or(astray.map(at_end)) {
         return Compared::Lower(Low { to, height, limit: first.to[DEPTH] });
     }
@@ -212,7 +217,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
                 .is_some_and(|(_, _, lowest)| height(corner) >= lowest - tolerance)
         };
         if at_corners.is_none() || !across(job, tolerance).any(is_on) {
-            return Compared::Lower(Low { to: corner.to, height: height(corner), limit: floor });
+            return Compared::Lower(Low { to: *corner, height: height(corner), limit: floor });
         }
     }
     // while the tool leaves, the spindle must be stopped, or stopped at its angle, if the job requires it
@@ -238,7 +243,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         if low < highest - tolerance || (stays && known_start && low.is_finite()) {
             let to = b.to;
             let goes_there = job.iter().any(|corner| same(&corner.to, &to, ACROSS, tolerance));
-            let lower = Low { to, height: low, limit: highest };
+            let lower = Low { to: *b, height: low, limit: highest };
             return if goes_there && !stays { Compared::Lower(lower) } else { Compared::Elsewhere(to) };
         }
     }

@@ -213,6 +213,32 @@ fn a_cut_follows_holes_after_an_upon_that_moves() {
     assert!(program.contains("X3.\n") && program.contains("X4.\n"), "{program}");
 }
 
+/// A cycle that begins over the last hole of a cycle with a higher return. A form that can't return there is printed and proven: no
+/// rapid comes between the holes.
+#[test]
+fn a_cycle_goes_on_over_the_last_hole_of_another_one() {
+    let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
+    let form = with_drill(&form, "G81 X[h] Y[v] Z[d] R[vclear] F[frate]");
+    let point = |x: &str| format!("{{\"point\":[{x},1,0]}}\n");
+    let cycle = |more: &str, points: [&str; 3]| {
+        let points: String = points.map(point).concat();
+        format!(
+            "{{\"cycle\":{{\"kind\":\"drill\",\"clear\":2,\"feed\":200,{more}}}}}\n{points}{{\"cycle_end\":true}}\n"
+        )
+    };
+    let begin = job(&[], false).replace("{\"end\":true}\n", "");
+    let [first, second] = [("\"depth\":5,\"return\":12", ["1", "2", "3"]), ("\"depth\":7", ["3", "4", "5"])]
+        .map(|(more, points)| cycle(more, points));
+    let job = format!("{begin}{first}{second}{{\"rapid\":[0,0,30]}}\n{{\"end\":true}}\n");
+    let program = printed(&form, &job).unwrap();
+    let blocks: Vec<&str> = program.lines().filter_map(|line| Some(line.split_once(' ')?.1)).collect();
+    let second = blocks.iter().position(|block| block.contains("Z-7.")).unwrap();
+    assert_eq!(blocks[second + 1..second + 4], ["X4.", "X5.", "G80"], "{program}");
+    let post = Post::compile(Source::from_text("form.pf", &form), &NoFiles).unwrap();
+    let verdict = post.verify(Job::json_lines(&job), &program).unwrap();
+    assert!(matches!(verdict, Verdict::Identical | Verdict::Equivalent(_)), "{verdict:?}\n{program}");
+}
+
 /// What a block between two holes of a cycle changes is found at the next hole, also if its position is right.
 #[test]
 fn a_change_between_two_holes_is_found() {

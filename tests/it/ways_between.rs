@@ -94,3 +94,18 @@ fn a_rapid_that_begins_too_low_is_shown_with_that_height() {
         "{found:?}\n{right}"
     );
 }
+
+/// A height in machine coordinates is not compared with a height of the job.
+#[test]
+fn a_rapid_to_a_machine_height_is_shown_from_where_it_begins() {
+    let job = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":900,"direction":"cw"},"feed":300,"path":[
+{"rapid":[0,0,50]},{"rapid":[0,0,5]},{"line":[0,0,-5]},{"rapid":[0,0,50]},{"rapid":[40,0,50]},{"line":[40,0,-5]},{"rapid":[40,0,50]}]}]}"#;
+    let post = haas();
+    let right = printed(&post, job);
+    let wrong = right.replacen("G0 Z50.\nX40.\n", "G0 Z40.\nG53 G0 Z0 X40.\nG0 Z50.\nX40.\n", 1);
+    assert_ne!(wrong, right);
+    let Verdict::Different(findings) = post.verify(Job::json(job), &wrong).unwrap() else { panic!("{wrong}") };
+    let found: Vec<&str> = findings.iter().map(|finding| &finding.message[..]).collect();
+    assert!(found.iter().any(|message| message.contains("goes from Z40 to ") && !message.contains("Z0")), "{found:?}");
+}

@@ -119,7 +119,12 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
         }
     }
     if cx.said.stand.left_hole.is_some() {
-        stand_as_left(&target, true, cx)?;
+        // only the first hole of a cycle comes from the hole of another cycle
+        if drill.open.as_ref().is_some_and(|cycle| cycle.holes == 0) {
+            stand_as_left(&target, true, cx)?;
+        } else {
+            cx.said.stand.left_hole = None;
+        }
     }
     cx.said.stand.moved_by = None; // rapids approach every hole
     match routine {

@@ -88,16 +88,6 @@ pub struct Drilling {
     pub steps: Steps,
 }
 
-impl Drilling {
-    /// Records that something after the last hole may change the words that the next hole prints.
-    #[inline]
-    pub fn holes_change(&mut self) {
-        if let Some(cycle) = &mut self.open {
-            cycle.next = NextHole::Unknown;
-        }
-    }
-}
-
 /// Leaves the cycle: prints Cancel and updates the known axis positions after the last hole.
 pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;

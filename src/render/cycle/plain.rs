@@ -22,7 +22,7 @@ pub enum NextHole {
     Unknown,
     /// Only these words.
     Position(PositionWords),
-    /// It needs the general path, as all holes after it until another event.
+    /// It needs the general path, as all holes after it. No event between two holes can change what they print.
     Other,
 }
 

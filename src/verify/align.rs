@@ -67,7 +67,7 @@ fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     let shows = to_end + tolerance / 2.0 < to_begin;
     let joins = found.unknown == 0
         && (shows || joins_alike(s))
-        && has_feed(cut, &found)
+        && has_feed(cut, &found, false)
         && same(&found.from, &cut.from, ALL, tolerance)
         && same(&found.end(), &cut.end(), ALL, tolerance);
     let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());

@@ -1,10 +1,10 @@
-//! A fast path for the most frequent case: a straight cut after a straight cut, equal in job and program. Most cuts of long
-//! jobs are of this kind, so they are compared without copies. All other cuts take the general comparison, which has the
-//! same result for the cuts handled here.
+//! Fast paths for the most frequent cases: a straight cut after a straight cut, and the cut of a hole after the same rapids,
+//! each equal in job and program. Most cuts of long jobs are of these kinds, so they are compared without copies. All other
+//! cuts take the general comparison, which has the same result for the cuts handled here.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
 use super::intent::{Done, Expected};
-use super::modal::is_feed;
+use super::modal::{has_feed, is_feed};
 use super::rapids::{moves_as_before, same_rapids};
 use super::sides::Sides;
 use crate::lang::Machine;
@@ -64,7 +64,7 @@ pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool
         && same(&cut.from, &found.from, ALL, tolerance)
         && same(to, is, ALL, tolerance)
         && turn_as_far([&cut.from, to], [&found.from, is])
-        && has_feed_of_hole(cut, found, hole)
+        && has_feed(cut, found, hole.is_tap)
         && moves_as_before(s)
         && same_rapids(s);
     if is_usual {
@@ -74,11 +74,4 @@ pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool
         s.leave(cut, Some(hole));
     }
     Ok(is_usual)
-}
-
-fn has_feed_of_hole(cut: &Cut, found: &Cut, hole: &Expected) -> bool {
-    match (cut.feed, found.feed) {
-        (Some(wanted), Some(is)) => is_feed(wanted, is, hole.is_tap),
-        _ => true,
-    }
 }

@@ -176,9 +176,9 @@ pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
 }
 
 /// Whether a cut of the program has the job's feed. Feeds in different feed modes are not compared.
-pub(super) fn has_feed(cut: &Cut, found: &Cut) -> bool {
+pub(super) fn has_feed(cut: &Cut, found: &Cut, tap: bool) -> bool {
     match (cut.feed, found.feed) {
-        (Some(wanted), Some(is)) => cut.mode != found.mode || is_feed(wanted, is, false),
+        (Some(wanted), Some(is)) => cut.mode != found.mode || is_feed(wanted, is, tap),
         _ => true,
     }
 }

@@ -237,7 +237,6 @@ impl Only {
 
 /// The options for reading that apply only to some formats.
 fn only(args: &ReadArgs) -> [Only; 6] {
-    let assumed = "this --assume- option is for CL files, NCI files and NC programs, not for the format of";
     [
         Only {
             is_given: args.dialect.is_some(),
@@ -251,11 +250,16 @@ fn only(args: &ReadArgs) -> [Only; 6] {
             message: "--job is for FreeCAD documents only:",
             other: " is not a FreeCAD document",
         },
-        Only { is_given: args.assume_units.is_some(), applies_to: ReadArgs::UNITS, message: assumed, other: "" },
+        Only {
+            is_given: args.assume_units.is_some(),
+            applies_to: ReadArgs::UNITS,
+            message: "--assume-units is for CL files, NCI files and NC programs, not for the format of",
+            other: "",
+        },
         Only {
             is_given: args.assume_tool.is_some() || args.assume_start.is_some(),
             applies_to: ReadArgs::TOOL,
-            message: assumed,
+            message: "--assume-tool and --assume-start are for CL files and NC programs, not for the format of",
             other: "",
         },
         Only {

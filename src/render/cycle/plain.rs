@@ -8,17 +8,16 @@ use crate::lang::{VarId, VarSet};
 use crate::render::body::next_hole::PositionWords;
 use crate::render::cx::Cx;
 use crate::render::fault::Done;
-use crate::render::shape::{ROTARY_BITS, Shape};
+use crate::render::shape::ROTARY_BITS;
 use crate::toolpath::Hole;
 
 /// The variables that differ between two usual holes.
 const CHANGES: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::Block]);
 
 /// What the next hole prints if it is as deep as the one before it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub enum NextHole {
     /// Not determined since the last hole of the general path.
-    #[default]
     Unknown,
     /// Only these words.
     Position(PositionWords),
@@ -78,8 +77,8 @@ pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &m
 /// Does this sequence print only the words of its lines for a hole, at any position of the hole?
 #[cold]
 fn prints_no_more(routine: &Routine, cycle: &ActiveCycle, cx: &Cx<'_>) -> bool {
-    let Shape { program, .. } = *cx.shape;
-    let (shape, settings) = (cx.shape, &program.settings);
+    let (shape, program) = (cx.shape, cx.shape.program);
+    let settings = &program.settings;
     routine.style == CycleStyle::Machine
         && routine.branches == cycle.branches
         && !cycle.sequence.and_then(|id| program.routine(id)).is_some_and(|whole| whole.tests(CHANGES, program))

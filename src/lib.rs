@@ -98,7 +98,7 @@ pub mod internals {
         pub use crate::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, Setup, parse_position, read_cl, setups};
     }
     pub mod compile {
-        pub use crate::compile::compile;
+        pub use crate::compile::{Program, compile};
     }
     pub mod control {
         pub use crate::control::{Code, Control, Meaning, is_file, names};

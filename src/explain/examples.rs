@@ -1,8 +1,10 @@
 //! Examples for `explain`. They are lines of forms that are known to work: shipped forms and samples.
 
+use std::sync::OnceLock;
+
 use crate::lang::{SequenceId, VarId};
 use crate::source::Source;
-use crate::syntax::parse;
+use crate::syntax::{Form, parse};
 
 /// The shipped forms, the most common first.
 const POSTS: &[(&str, &str)] = &[
@@ -45,10 +47,16 @@ fn forms() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
     POSTS.iter().chain(SAMPLES)
 }
 
+/// The forms with their syntax trees. A form is parsed once, when it is reached for the first time.
+fn trees() -> impl Iterator<Item = (&'static str, &'static str, &'static Form)> {
+    static TREES: [OnceLock<Form>; POSTS.len() + SAMPLES.len()] = [const { OnceLock::new() }; _];
+    let tree = |form, text| parse(&Source::from_text(form, text), 0);
+    forms().zip(&TREES).map(move |(&(form, text), kept)| (form, text, kept.get_or_init(|| tree(form, text))))
+}
+
 /// An example of a sequence, from its name to its End.
 pub fn sequence(id: SequenceId) -> Option<Example> {
-    forms().find_map(|(form, text)| {
-        let tree = parse(&Source::from_text(*form, *text), 0);
+    trees().find_map(|(form, text, tree)| {
         let node = tree.sequences().find(|node| SequenceId::parse(&node.name.name.text) == Some(id))?;
         let end = node.end.as_ref()?.line.span.end as usize;
         Some(Example { text: text.get(node.name.line.span.start as usize..end)?.to_owned(), form })
@@ -66,8 +74,7 @@ pub fn variable(var: VarId) -> Option<Example> {
 
 /// An example of a command.
 pub fn command(name: &str) -> Option<Example> {
-    forms().find_map(|(form, text)| {
-        let tree = parse(&Source::from_text(*form, *text), 0);
+    trees().find_map(|(form, text, tree)| {
         let statement = tree.statements().find(|statement| statement.name.text.eq_ignore_ascii_case(name))?;
         Some(Example { text: text.get(statement.line.span.range())?.to_owned(), form })
     })

@@ -547,7 +547,9 @@ fn forms_have_a_size() {
 #[test]
 fn a_program_far_longer_than_its_job_is_asked_about() {
     let folder = Folder::new("huge");
-    let form = folder.write("form.pf", mill("", ""));
+    // blocks with a comment of 200 characters are printed faster than the same number of characters in short blocks
+    let comment = "A".repeat(200);
+    let form = folder.write("form.pf", mill("", &format!("LineCode\nG1 X[h] Y[v] Z[d] F[frate] ({comment})\nEnd")));
     let points = vec!["[0,0,0]"; 1_000].join(",");
     let cycle = format!(
         "{{\"cycle\":{{\"kind\":\"deep\",\"depth\":99,\"clear\":1,\"feed\":100,\"step\":0.01,\"emulate\":true,\"points\":[{points}]}}}}"

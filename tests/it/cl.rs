@@ -2,10 +2,11 @@
 
 use crate::support;
 use std::fs;
+use std::sync::LazyLock;
 
 use crate::support::mill;
 use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, read_cl};
-use postform::internals::compile::compile;
+use postform::internals::compile::Program;
 use postform::internals::render::Renderer;
 use postform::toolpath::{ReadError, Summary, Units};
 
@@ -13,11 +14,11 @@ const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nE
 
 /// The blocks of a file between tool change and end, followed by its warnings; or its error.
 fn read(text: &str, options: Options) -> Vec<String> {
-    let form = mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd");
-    let checked = support::check(&form.replace("%0\n", "%0\nG[unitmode]\n"));
-    assert!(!checked.has_errors(), "{:?}", checked.diags);
-    let program = compile(&checked.form);
-    let mut renderer = Renderer::new(&program, postform::internals::render::Options::default());
+    static PROGRAM: LazyLock<Program> = LazyLock::new(|| {
+        let form = mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd");
+        support::ready(&support::check(&form.replace("%0\n", "%0\nG[unitmode]\n"))).unwrap()
+    });
+    let mut renderer = Renderer::new(&PROGRAM, postform::internals::render::Options::default());
     let mut report = Report::default();
     let read = read_cl(text.as_bytes(), &options, &mut report, &mut renderer);
     let mut lines: Vec<String> =

@@ -3,7 +3,10 @@
 
 use std::fs;
 
-use crate::support::{Kind, Rendered, assert_same, check, render_kind, root, sample_job, samples, without_header};
+use crate::support::{
+    Kind, Rendered, assert_same, check, ready, render_ready, root, sample_job, samples, without_header,
+};
+use postform::internals::compile::Program;
 use postform::internals::render::Options;
 use postform::internals::sema::PropertyValue;
 use postform::{Job, NoFiles, Post, Source};
@@ -15,17 +18,21 @@ fn posts() -> Vec<(String, String)> {
     files.map(|path| (name(&path), fs::read_to_string(&path).unwrap())).collect()
 }
 
-fn print(form: &str, job: &[u8], kind: Kind, header: Option<bool>) -> Result<Rendered, String> {
+fn compiled(form: &str) -> Program {
+    ready(&check(form)).unwrap()
+}
+
+fn print(form: &Program, job: &[u8], kind: Kind, header: Option<bool>) -> Result<Rendered, String> {
     let properties = header.map(|on| (0, PropertyValue::YesNo(on))).into_iter().collect();
     let options = Options { program: Some(1), properties, ..Options::default() };
-    render_kind(&check(form), job, kind, options).map_err(|diag| diag.message)
+    render_ready(form, job, kind, options).map_err(|diag| diag.message)
 }
 
 #[test]
 fn without_its_header_a_program_is_byte_for_byte_what_it_was() {
     let mut programs = 0;
     for (name, form) in posts() {
-        let plain = without_header(&form);
+        let (plain, form) = (compiled(&without_header(&form)), compiled(&form));
         for folder in samples() {
             let (path, kind) = sample_job(&folder);
             let job = fs::read(path).unwrap();
@@ -58,6 +65,7 @@ fn a_header_is_comments_alone() {
     let mut longer = 0;
     for (name, form) in posts() {
         let mark = if form.contains("\nComment ;") { ';' } else { '(' };
+        let form = compiled(&form);
         for folder in samples() {
             let (path, kind) = sample_job(&folder);
             let job = fs::read(path).unwrap();
@@ -84,7 +92,7 @@ const JOB: &str = r#"{"postform": 1, "program": 7, "name": "HINGE (REV B)", "par
 #[test]
 fn a_machinist_reads_what_comes() {
     let (_, form) = posts().into_iter().find(|(name, _)| name == "haas").unwrap();
-    let printed = print(&form, JOB.as_bytes(), Kind::Document, None).unwrap().text;
+    let printed = print(&compiled(&form), JOB.as_bytes(), Kind::Document, None).unwrap().text;
     let comments = printed.lines().filter_map(|line| Some(&line[line.find('(')?..])).collect::<Vec<_>>();
     let header = [
         "(HINGE [REV B])",

@@ -7,7 +7,8 @@ use std::fs;
 
 use crate::support::pages::{Fence, Page, after_fixes, checked, codes, found};
 use crate::support::{mill, root, sample_form, samples};
-use postform::diag::{CODES, Code, CodeRow, Severity};
+use postform::diag::{CODES, Code, CodeRow, Diag, Severity};
+use postform::internals::compile::Program;
 use postform::internals::lint::{Level, Levels, RULES, lint};
 use postform::internals::render::Options;
 use proptest::prelude::*;
@@ -100,9 +101,9 @@ fn fixes_do_what_their_pages_say() {
 }
 
 /// The program of a sample by a form, or the error.
-fn program(folder: &std::path::Path, form: &postform::internals::sema::Checked) -> Result<String, String> {
+fn program(folder: &std::path::Path, form: &Result<Program, Box<Diag>>) -> Result<String, String> {
     let options = Options { program: Some(1), ..Options::default() };
-    match support::render_checked_sample(folder, form, options) {
+    match support::render_ready_sample(folder, form, options) {
         Ok(rendered) => Ok(rendered.text),
         Err(diag) => Err(format!("{} {}", diag.code.name(), diag.message)),
     }
@@ -130,6 +131,7 @@ fn safe_fixes_remove_their_findings_and_change_no_byte_of_any_sample() {
         let Some(after) = after_fixes(&form, false) else { continue };
         fixed += 1;
         assert!(found(&after).diags.iter().all(|diag| diag.fix.as_ref().is_none_or(|fix| !fix.safe)), "{name}");
+        let (form, after) = (support::ready(&form), support::ready(&after));
         for folder in samples() {
             let (before, now) = (program(&folder, &form), program(&folder, &after));
             // locations in messages change with the text, codes and programs do not

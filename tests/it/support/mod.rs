@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use postform::diag::Diag;
 use postform::internals::cl::read_cl;
-use postform::internals::compile::compile;
+use postform::internals::compile::{Program, compile};
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
 use postform::internals::post::taken;
@@ -99,10 +99,18 @@ pub fn render_checked(checked: &Checked, job: &[u8], lines: bool, options: Optio
 }
 
 pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) -> Result<Rendered, Box<Diag>> {
-    if let Some(error) = checked.diags.iter().find(|d| d.is_error()) {
-        return Err(Box::new(error.clone()));
+    render_ready(&ready(checked)?, job, kind, options)
+}
+
+/// Compiles a form without errors, so that it can print many jobs.
+pub fn ready(checked: &Checked) -> Result<Program, Box<Diag>> {
+    match checked.diags.iter().find(|diag| diag.is_error()) {
+        Some(error) => Err(Box::new(error.clone())),
+        None => Ok(compile(&checked.form).identified(&checked.files)),
     }
-    let program = compile(&checked.form).identified(&checked.files);
+}
+
+pub fn render_ready(program: &Program, job: &[u8], kind: Kind, options: Options) -> Result<Rendered, Box<Diag>> {
     let from = |sink: &mut dyn Sink| match kind {
         Kind::Lines => read_lines(job, sink),
         Kind::Document => read_document(job, sink),
@@ -117,13 +125,13 @@ pub fn render_kind(checked: &Checked, job: &[u8], kind: Kind, options: Options) 
     let mut survey = None;
     let asks = program.asks_ahead(&options.properties);
     if asks.all || asks.tools {
-        let mut surveyor = Surveyor::new(survey_terms(&program, false, !asks.all, None));
+        let mut surveyor = Surveyor::new(survey_terms(program, false, !asks.all, None));
         if let Err(ReadError::Job(diag)) = read(&mut surveyor) {
             return Err(diag);
         }
         survey = Some(surveyor.finish().into());
     }
-    let mut renderer = Renderer::new(&program, Options { trace: true, survey, ..options });
+    let mut renderer = Renderer::new(program, Options { trace: true, survey, ..options });
     match read(&mut renderer) {
         Ok(()) => Ok(Rendered {
             text: String::from_utf8(std::mem::take(renderer.text())).unwrap(),
@@ -219,13 +227,17 @@ pub fn render_sample(folder: &Path, form: &Path) -> Result<Rendered, Box<Diag>> 
 }
 
 pub fn render_sample_with(folder: &Path, form: &Path, options: Options) -> Result<Rendered, Box<Diag>> {
-    render_checked_sample(folder, &check_file(form), options)
+    render_ready_sample(folder, &ready(&check_file(form)), options)
 }
 
-/// Renders a sample with a checked form.
-pub fn render_checked_sample(folder: &Path, form: &Checked, options: Options) -> Result<Rendered, Box<Diag>> {
+/// Renders a sample with a compiled form, or returns the form's error.
+pub fn render_ready_sample(
+    folder: &Path,
+    form: &Result<Program, Box<Diag>>,
+    options: Options,
+) -> Result<Rendered, Box<Diag>> {
     let (job, kind) = sample_job(folder);
-    render_kind(form, &fs::read(job).unwrap(), kind, options)
+    render_ready(form.as_ref().map_err(Clone::clone)?, &fs::read(job).unwrap(), kind, options)
 }
 
 /// Panics with the lines that differ.

@@ -170,7 +170,8 @@ pub mod internals {
     }
     pub mod scene {
         pub use crate::scene::{
-            At, PLOT_PAGE, Printed, Request, Scene, WATCH_PAGE, behind, help, no_machine, of_program, program_of, scene,
+            At, PLOT_PAGE, Printed, Ready, Request, Scene, WATCH_PAGE, behind, drawn, help, no_machine, of_program,
+            prepare, program_of, scene,
         };
     }
     pub mod sema {

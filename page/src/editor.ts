@@ -93,6 +93,8 @@ export class Editor {
   private names: string[] = [];
   private file = 0;
   private quiet = false;
+  /** What is shown besides the text, as JSON, with the text to which it belongs. */
+  private readonly shown: Record<string, { text: Text; what: string }> = {};
   onEdit: (name: string, text: string) => void = () => {};
   onLine: (file: number, line: number) => void = () => {};
   onSave: () => void = () => {};
@@ -264,6 +266,7 @@ export class Editor {
   /** Marks findings under their words, with their fixes. */
   setFindings(findings: Finding[]): void {
     const here = findings.filter((finding) => finding.labels[0]?.at[0] === this.file);
+    if (this.shows("findings", here)) return;
     const diagnostics: Diagnostic[] = here.map((finding) => {
       const [from, to] = this.range(finding.labels[0].at);
       const severity = { error: "error", warning: "warning", note: "info" }[finding.severity] as Diagnostic["severity"];
@@ -290,7 +293,10 @@ export class Editor {
     const first = lit[0];
     if (scrolls && first && first.file !== this.file) this.open(first.file);
     const here = (places: { file: number; line: number }[]) => places.filter((place) => place.file === this.file).map((place) => place.line);
-    const effects: StateEffect<unknown>[] = [light.of({ lines: here(lit), bad: here(bad) })];
+    const lights = { lines: here(lit), bad: here(bad) };
+    this.head.textContent = first ? `printed by line ${first.line + 1}` : "";
+    if (this.shows("light", lights) && !scrolls) return;
+    const effects: StateEffect<unknown>[] = [light.of(lights)];
     if (scrolls && first && first.line < this.view.state.doc.lines) {
       const at = this.view.state.doc.line(first.line + 1).from;
       effects.push(EditorView.scrollIntoView(at, { y: "nearest", yMargin: 60 }));
@@ -298,7 +304,14 @@ export class Editor {
     this.quiet = true;
     this.view.dispatch({ effects });
     this.quiet = false;
-    this.head.textContent = first ? `printed by line ${first.line + 1}` : "";
+  }
+
+  /** Whether this is shown already, for the same text. Showing it again would cost a layout of the page. */
+  private shows(kind: "findings" | "light", shown: unknown): boolean {
+    const now = { text: this.view.state.doc, what: JSON.stringify(shown) };
+    const before = this.shown[kind];
+    this.shown[kind] = now;
+    return now.text === before?.text && now.what === before.what;
   }
 
   /** Moves the cursor to a finding. */

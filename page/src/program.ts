@@ -212,13 +212,14 @@ export function itemPath(item: Item): string {
   return path;
 }
 
+/** The offset of each line, and of the end. A loop over the bytes is faster than a call of `indexOf` for each line. */
 function lineStarts(bytes: Uint8Array): Uint32Array {
-  let count = 1;
-  for (let at = bytes.indexOf(10); at >= 0; at = bytes.indexOf(10, at + 1)) count++;
+  let ends = 0;
+  for (let at = 0; at < bytes.length; at++) if (bytes[at] === 10) ends++;
   const open = bytes.length > 0 && bytes[bytes.length - 1] !== 10;
-  const starts = new Uint32Array(count + (open ? 1 : 0));
+  const starts = new Uint32Array(1 + ends + (open ? 1 : 0));
   let line = 1;
-  for (let at = bytes.indexOf(10); at >= 0; at = bytes.indexOf(10, at + 1)) starts[line++] = at + 1;
+  for (let at = 0; at < bytes.length; at++) if (bytes[at] === 10) starts[line++] = at + 1;
   if (open) starts[line] = bytes.length;
   return starts;
 }

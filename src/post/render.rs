@@ -41,21 +41,31 @@ impl Post {
     /// The same as for [`Post::render`], except [`ErrorKind::Proof`].
     #[doc(hidden)]
     pub fn tried(&self, mut job: Job<'_>, options: &Options) -> Result<Program, Error> {
-        let (mut text, mut trace) = (Vec::new(), Vec::new());
         if options.proof.is_some() {
             job.hold()?;
         }
-        let rendered = self.render_parts(job.again(), options, &mut |part| {
+        let mut program = self.printed(job.again(), options, &mut |_| {})?;
+        if let Some(proof) = &options.proof {
+            program.verdict = self.proven(job, &program.text, options, proof)?;
+        }
+        Ok(program)
+    }
+
+    /// Prints a job without verifying the program. `take` receives the text in parts while it is printed.
+    ///
+    /// # Errors
+    /// The same as for [`Post::render`], except [`ErrorKind::Proof`].
+    #[doc(hidden)]
+    pub fn printed(&self, job: Job<'_>, options: &Options, take: &mut dyn FnMut(&[u8])) -> Result<Program, Error> {
+        let (mut text, mut trace) = (Vec::new(), Vec::new());
+        let rendered = self.render_parts(job, options, &mut |part| {
             text.extend_from_slice(part.text);
             trace.extend_from_slice(part.trace);
+            take(part.text);
             Ok(())
         })?;
         let text = String::from_utf8(text).map_err(|error| Error::from(fault(&error.to_string())))?;
-        let verdict = match &options.proof {
-            Some(proof) => self.proven(job, &text, options, proof)?,
-            None => Verdict::not_asked_for(),
-        };
-        Ok(Program { text, rendered, trace, verdict })
+        Ok(Program { text, rendered, trace, verdict: Verdict::not_asked_for() })
     }
 
     /// Prints a job while the job is read. Memory use does not grow with the job. The program is not verified.

@@ -16,7 +16,7 @@ const MOST: usize = 10_000;
 
 /// Adds the text and the motions of an old program to the scene.
 pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
-    program::text(scene, "old/", old);
+    program::text(scene, "old/", &String::from_utf8_lossy(old));
     if let Ok(picture) = draw(Cursor::new(old), settings) {
         program::picture(scene, "old/", &picture);
     }

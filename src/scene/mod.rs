@@ -16,7 +16,7 @@ pub use fit::no_machine;
 pub use help::{At, help};
 pub use pack::Scene;
 
-use std::io::Cursor;
+use std::io::{Cursor, Read, Seek};
 
 use serde_json::{Value, json};
 
@@ -62,11 +62,27 @@ pub struct Request<'a> {
     pub proof: Proof,
 }
 
+/// A form without errors and a job, ready to be printed.
+pub struct Ready<'a> {
+    post: Post,
+    job: Job<'a>,
+    options: Options,
+    proof: Proof,
+    settings: RunSettings,
+}
+
 /// Checks a form and prints a job with it. The caller uses the returned [`Printed`] to draw, verify and compare the
 /// program; these steps may run in parallel.
 ///
 /// Errors are part of the scene: if the form has errors, the scene contains the findings and no program.
 pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
+    let (mut scene, ready) = prepare(request);
+    let printed = ready.and_then(|ready| ready.print(&mut scene, &mut |_| {}));
+    (scene, printed)
+}
+
+/// Checks a form and opens a job, without printing it yet. Errors are part of the scene.
+pub fn prepare(request: Request<'_>) -> (Scene, Option<Ready<'_>>) {
     let mut scene = Scene::new();
     scene.say("job", json!({ "name": escaped(request.job_name) }));
     let checked = analyse(request.form, request.limits, &mut |name| request.files.read(name));
@@ -80,35 +96,61 @@ pub fn scene(request: Request<'_>) -> (Scene, Option<Printed>) {
             return (scene, None);
         }
     };
-    let job = match request.job {
+    let mut job = match request.job {
         Ok(job) => job,
         Err(why) => {
             scene.say("stopped", json!({ "by": "job", "message": why, "findings": [] }));
             return (scene, None);
         }
     };
-    let options = with_properties(&post, request.options, request.properties);
-    match Printed::new(&post, job, &options, request.proof) {
-        Ok(printed) => {
-            let text = printed.text();
-            program::text(&mut scene, "", text.as_bytes());
-            program::origins(&mut scene, printed.program.trace(), post.files(), text);
-            let notes = printed.program.notes().iter().map(|diag| form::finding(diag, post.files()));
-            scene.say("notes", json!(notes.collect::<Vec<Value>>()));
-            (scene, Some(printed))
-        }
-        Err(error) => {
-            stopped(&mut scene, error, post.files());
-            (scene, None)
+    let options = answered(&post, &with_properties(&post, request.options, request.properties));
+    // printing reports the error of a job that can't be read
+    let units = options.units.or_else(|| job.units().ok().flatten()).unwrap_or(Units::Mm);
+    let settings = post.run_settings(&request.proof, units);
+    (scene, Some(Ready { post, job, options, proof: request.proof, settings }))
+}
+
+impl Ready<'_> {
+    /// The settings with which the program is run.
+    pub fn settings(&self) -> RunSettings {
+        self.settings
+    }
+
+    /// Prints the job and adds the program to the scene. `take` receives the text in parts while it is printed. `None`: the job
+    /// can't be printed; the scene contains the errors.
+    pub fn print(self, scene: &mut Scene, take: &mut dyn FnMut(&[u8])) -> Option<Printed> {
+        let Ready { post, mut job, options, proof, settings } = self;
+        match post.printed(job.again(), &options, take) {
+            Ok(program) => {
+                program::text(scene, "", program.text());
+                program::origins(scene, program.trace(), post.files(), program.text());
+                let notes = program.notes().iter().map(|diag| form::finding(diag, post.files()));
+                scene.say("notes", json!(notes.collect::<Vec<Value>>()));
+                Some(Printed { post, program, options, proof, settings })
+            }
+            Err(error) => {
+                stopped(scene, error, post.files());
+                None
+            }
         }
     }
+}
+
+/// The motions of a program, to be added to its scene. The program may still be printed while it is read.
+pub fn drawn(program: impl Read + Seek, settings: RunSettings) -> Scene {
+    let mut scene = Scene::new();
+    match draw(program, settings) {
+        Ok(picture) => program::picture(&mut scene, "", &picture),
+        Err(error) => stopped(&mut scene, Error::from(error), &[]),
+    }
+    scene
 }
 
 /// A scene for an existing program and its picture.
 pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     let mut scene = Scene::new();
     scene.say("job", json!({ "name": escaped(name) }));
-    program::text(&mut scene, "", text);
+    program::text(&mut scene, "", &String::from_utf8_lossy(text));
     program::picture(&mut scene, "", picture);
     scene
 }
@@ -130,17 +172,6 @@ pub struct Printed {
 }
 
 impl Printed {
-    fn new(post: &Post, mut job: Job<'_>, options: &Options, proof: Proof) -> Result<Printed, Error> {
-        let options = answered(post, options);
-        let program = post.render(job.again(), &options)?;
-        let units = match options.units {
-            Some(units) => units,
-            None => job.units()?.unwrap_or(Units::Mm),
-        };
-        let settings = post.run_settings(&proof, units);
-        Ok(Printed { post: post.clone(), program, options, proof, settings })
-    }
-
     /// The text of the program.
     pub fn text(&self) -> &str {
         self.program.text()
@@ -154,10 +185,7 @@ impl Printed {
 
     /// Adds the motions of the program to the scene.
     pub fn draw(&self, scene: &mut Scene) {
-        match draw(Cursor::new(self.text()), self.settings) {
-            Ok(picture) => program::picture(scene, "", &picture),
-            Err(error) => stopped(scene, Error::from(error), self.post.files()),
-        }
+        scene.absorb(drawn(Cursor::new(self.text()), self.settings));
     }
 
     /// The result of verifying the program against the job, for display in the page.

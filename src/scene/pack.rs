@@ -2,8 +2,9 @@
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{BuildHasher, Hash, Hasher};
 
+use foldhash::quality::FixedState;
 use serde_json::{Map, Value, json};
 
 /// The first bytes of a scene.
@@ -28,11 +29,7 @@ struct Section {
 impl Section {
     /// A hash of the bytes. Sections with different bytes almost never have the same hash.
     fn hash(&self) -> u64 {
-        *self.hash.get_or_init(|| {
-            let mut hasher = DefaultHasher::new();
-            self.bytes.hash(&mut hasher);
-            hasher.finish()
-        })
+        *self.hash.get_or_init(|| FixedState::with_seed(0).hash_one(&self.bytes))
     }
 }
 
@@ -73,7 +70,7 @@ impl Scene {
 
     /// A hash of the sections and of the two arguments. Different inputs almost never have the same hash.
     pub(super) fn fingerprint(&self, run: &str, old: &[u8]) -> String {
-        let mut hasher = DefaultHasher::new();
+        let mut hasher = FixedState::with_seed(0).build_hasher();
         self.sections.iter().for_each(|section| section.hash().hash(&mut hasher));
         (run, old).hash(&mut hasher);
         format!("{:016x}", hasher.finish())

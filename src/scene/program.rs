@@ -15,8 +15,8 @@ const GENERATED: i32 = -1;
 const LINE_BITS: u32 = 20;
 
 /// Adds the text of the program.
-pub fn text(scene: &mut Scene, of: &str, text: &[u8]) {
-    scene.bytes(format!("{of}text"), String::from_utf8_lossy(text).into_owned().into_bytes());
+pub fn text(scene: &mut Scene, of: &str, text: &str) {
+    scene.bytes(format!("{of}text"), text.as_bytes().to_vec());
 }
 
 /// Adds the origin of each line: its form line and its job item. A job item consists of operation, item, point and line

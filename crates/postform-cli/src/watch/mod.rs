@@ -1,6 +1,7 @@
 //! `postform watch`: serves the page, to this machine only.
 
 mod ask;
+mod growing;
 mod guard;
 mod http;
 mod jobs;

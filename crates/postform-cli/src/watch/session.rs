@@ -2,17 +2,20 @@
 
 use std::collections::HashMap;
 use std::fs;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::channel;
+use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread;
+use std::thread::{self, Scope};
 
 use postform::internals::diff;
 use postform::internals::lint::Levels;
 use postform::internals::machine::Machine;
 use postform::internals::post::sample_job;
-use postform::internals::scene::{Printed, Request, Scene, behind, help, no_machine, program_of, scene};
+use postform::internals::scene::{
+    Printed, Request, Scene, behind, drawn, help, no_machine, prepare, program_of, scene,
+};
 use postform::{Files, Limits, Options, Proof, Source};
 use serde_json::{Value, json};
 
@@ -25,6 +28,7 @@ use super::super::machine;
 use super::super::output::{write_new, write_whole};
 use super::super::prompt;
 use super::ask::{Ask, AskHelp, Close, Save};
+use super::growing::Growing;
 use super::jobs::{Jobs, Opened};
 
 /// A program with fewer bytes is proven so fast that its picture can wait for the verdict.
@@ -57,6 +61,17 @@ pub struct Session {
     saving: Mutex<()>,
     /// The files of the form that was shown last, including unsaved texts.
     shown: Mutex<Vec<PathBuf>>,
+}
+
+/// The program that a page shows, with everything that judges it.
+struct Shown<'a> {
+    ask: &'a Ask,
+    job: &'a Opened,
+    form: &'a FormFile,
+    generation: u64,
+    printed: Printed,
+    /// The program to compare with: its name and its text.
+    against: Option<(String, Vec<u8>)>,
 }
 
 /// The program that the saved form printed for a job.
@@ -151,8 +166,8 @@ impl Session {
         lock(&self.shown).iter().all(|path| paths.contains(path))
     }
 
-    /// Sends a scene for the page. The verdict and the changes follow in separate scenes if the program is long, because they
-    /// take longer than the picture.
+    /// Sends a scene for the page. The program is drawn while it is printed. The verdict and the changes follow in separate
+    /// scenes if the program is long, because they take longer than the picture.
     ///
     /// # Errors
     /// A message: a file can't be read. Nothing was sent then.
@@ -161,7 +176,8 @@ impl Session {
         let form = self.read_form()?;
         let job = &self.jobs.at(ask.job)?;
         self.jobs.keep(job);
-        let (mut scene, printed) = self.print(&form, ask, job)?;
+        let typed = Typed { form: &form, texts: &ask.texts };
+        let (mut scene, ready) = prepare(self.request(&typed, job, &ask.properties));
         *lock(&self.shown) = form.paths();
         let against = match &self.against {
             Some(path) => Some((files::name(path), read(path)?)),
@@ -171,81 +187,87 @@ impl Session {
         let texts: Vec<String> = names.iter().map(|name| self.text(&form, name.as_str().unwrap_or_default())).collect();
         scene.say("texts", json!(texts));
         scene.say("jobs", json!(self.jobs.names()));
-        let Some(printed) = printed else {
+        let Some(ready) = ready else {
             send(scene);
             return Ok(());
         };
-        let sample = self.sample(job, &form, &ask.texts);
-        let machine = self.machine(&form, &ask.texts);
-        let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
-        // most edits do not change the program, so the page need not draw it again
-        let same = ask.shown.as_ref() == Some(&program);
-        scene.say("program", json!(program));
-        if same {
-            scene.say("same", json!(true));
-            scene.without_sections();
-        }
-        let is_small = printed.text().len() < SMALL;
-        if ask.texts.is_empty() {
-            self.keep_saved(ask, job, generation, printed.text());
-        }
+        let text = Growing::default();
         thread::scope(|scope| {
-            let (sender, behind_it) = channel();
-            let (proves, fits, compares) = (sender.clone(), sender.clone(), sender);
-            let (printed, against) = (&printed, &against);
-            if let Some(machine) = &machine {
-                scope.spawn(move || {
-                    let fit = match (machine, self.jobs.open(job, sample)) {
-                        (Err(why), _) => no_machine(why),
-                        (Ok(machine), Ok(job)) => printed.fit(job, machine),
-                        (Ok(_), Err(_)) => return,
-                    };
-                    _ = fits.send(fit);
-                });
+            let (settings, writer, reader) = (ready.settings(), text.writer(), text.reader());
+            let drawing = scope.spawn(move || drawn(reader, settings));
+            let Some(printed) = ready.print(&mut scene, &mut |part| writer.push(part)) else {
+                send(scene);
+                return;
+            };
+            let program = printed.fingerprint(&scene, against.as_ref().map_or(&[][..], |(_, old)| old));
+            // most edits do not change the program, so the page need not draw it again
+            let same = ask.shown.as_ref() == Some(&program);
+            scene.say("program", json!(program));
+            if same {
+                drop(writer);
+                scene.say("same", json!(true));
+                scene.without_sections();
             } else {
-                drop(fits);
+                writer.finish();
             }
-            scope.spawn(move || {
-                // if the job can't be read any more, the next scene reports it
-                if let Ok(job) = self.jobs.open(job, sample) {
-                    _ = proves.send(behind("verdict", printed.verdict(job)));
-                }
-                if let Ok(job) = self.jobs.open(job, sample) {
-                    _ = proves.send(behind("toolSizes", printed.tools(job)));
-                }
-            });
-            let (old, typed) = (against.as_ref(), !ask.texts.is_empty());
-            if old.is_some() || typed {
-                scope.spawn(move || {
-                    if typed {
-                        let before = self.saved_program(ask, job, generation);
-                        let found = printed.since_saved(before.as_deref(), &diff::Options::default());
-                        _ = found.map(|found| compares.send(behind("saved", found)));
+            if ask.texts.is_empty() {
+                self.keep_saved(ask, job, generation, printed.text());
+            }
+            let shown = Shown { ask, job, form: &form, generation, printed, against };
+            thread::scope(|scope| {
+                let later = self.judge(scope, &shown);
+                if !same {
+                    scene.absorb(drawing.join().unwrap_or_else(|fault| resume_unwind(fault)));
+                    if let Some((_, old)) = &shown.against {
+                        shown.printed.draw_old(&mut scene, old);
                     }
-                    let found = old.and_then(|(name, old)| printed.against(name, old, &diff::Options::default()));
-                    _ = found.map(|found| compares.send(behind("against", found)));
-                });
-            } else {
-                drop(compares);
-            }
-            if !same {
-                printed.draw(&mut scene);
-            }
-            if let Some((_, old)) = old.filter(|_| !same) {
-                printed.draw_old(&mut scene, old);
-            }
-            if is_small {
-                behind_it.into_iter().for_each(|more| scene.absorb(more));
+                }
+                let is_small = shown.printed.text().len() < SMALL;
+                let now: Vec<Scene> = if is_small { later.iter().collect() } else { later.try_iter().collect() };
+                now.into_iter().for_each(|more| scene.absorb(more));
                 scene.without_known(&ask.has);
                 send(scene);
-            } else {
-                behind_it.try_iter().for_each(|more| scene.absorb(more));
-                scene.without_known(&ask.has);
-                send(scene);
-                behind_it.into_iter().for_each(send);
-            }
+                later.into_iter().for_each(send);
+            });
         });
         Ok(())
+    }
+
+    /// Verifies the program and then compares it, on another thread, because the page waits for the verdict most of all. The
+    /// results are scenes, in the order in which they are ready.
+    fn judge<'s>(&'s self, scope: &'s Scope<'s, '_>, shown: &'s Shown<'_>) -> Receiver<Scene> {
+        let Shown { ask, job, form, generation, printed, against } = shown;
+        let (sender, results) = channel();
+        let sample = self.sample(job, form, &ask.texts);
+        if let Some(machine) = self.machine(form, &ask.texts) {
+            let fits = sender.clone();
+            scope.spawn(move || {
+                let fit = match (machine, self.jobs.open(job, sample)) {
+                    (Err(why), _) => no_machine(&why),
+                    (Ok(machine), Ok(job)) => printed.fit(job, &machine),
+                    (Ok(_), Err(_)) => return,
+                };
+                _ = fits.send(fit);
+            });
+        }
+        scope.spawn(move || {
+            // if the job can't be read any more, the next scene reports it
+            if let Ok(job) = self.jobs.open(job, sample) {
+                _ = sender.send(behind("verdict", printed.verdict(job)));
+            }
+            if let Ok(job) = self.jobs.open(job, sample) {
+                _ = sender.send(behind("toolSizes", printed.tools(job)));
+            }
+            let options = diff::Options::default();
+            if !ask.texts.is_empty() {
+                let before = self.saved_program(ask, job, *generation);
+                let found = printed.since_saved(before.as_deref(), &options);
+                _ = found.map(|found| sender.send(behind("saved", found)));
+            }
+            let found = against.as_ref().and_then(|(name, old)| printed.against(name, old, &options));
+            _ = found.map(|found| sender.send(behind("against", found)));
+        });
+        results
     }
 
     /// The verdict on the program of the saved form.
@@ -255,7 +277,8 @@ impl Session {
     pub fn verdict(&self, ask: &Ask) -> Result<Value, String> {
         let form = self.read_form()?;
         let job = &self.jobs.at(ask.job)?;
-        let (scene, printed) = self.print(&form, ask, job)?;
+        let typed = Typed { form: &form, texts: &ask.texts };
+        let (scene, printed) = scene(self.request(&typed, job, &ask.properties));
         Ok(match printed {
             Some(printed) => printed.verdict(self.jobs.open(job, self.sample(job, &form, &ask.texts))?),
             None => json!({ "kind": "none", "text": scene.said("stopped").map(|stopped| stopped["message"].clone()) }),
@@ -270,11 +293,6 @@ impl Session {
         let form = self.read_form()?;
         let job = self.jobs.at(ask.job)?;
         Ok(help(self.request(&Typed { form: &form, texts: &ask.texts }, &job, &[]), &ask.at))
-    }
-
-    /// Prints the program of a form.
-    fn print(&self, form: &FormFile, ask: &Ask, job: &Opened) -> Result<(Scene, Option<Printed>), String> {
-        Ok(scene(self.request(&Typed { form, texts: &ask.texts }, job, &ask.properties)))
     }
 
     fn request<'a>(&'a self, typed: &'a Typed<'a>, job: &'a Opened, properties: &[(String, String)]) -> Request<'a> {

@@ -7,15 +7,29 @@ pub fn steers(c: char) -> bool {
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// Whether a character is invisible or looks like a space.
+pub fn is_invisible(c: char) -> bool {
+    steers(c) || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
+}
+
 /// Text from a file made safe for a terminal: control characters become escapes.
 pub fn escaped(text: &str) -> String {
+    with_escapes(text, steers)
+}
+
+/// Text from a file in which all characters can be seen: control characters and other invisible characters become escapes.
+pub fn visible(text: &str) -> String {
+    with_escapes(text, is_invisible)
+}
+
+fn with_escapes(text: &str, escapes: impl Fn(char) -> bool) -> String {
     // most text is plain ASCII
     if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
         return text.to_owned();
     }
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
-        if steers(c) { out.extend(c.escape_default()) } else { out.push(c) }
+        if escapes(c) { out.extend(c.escape_default()) } else { out.push(c) }
     }
     out
 }

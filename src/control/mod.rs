@@ -355,6 +355,11 @@ impl Control {
         rows.own(code).or_else(other).filter(|row| self.is_there(row))
     }
 
+    /// Whether the control's file marks a code as absent.
+    pub(crate) fn lacks(&self, code: Code) -> bool {
+        self.rows.absent.iter().any(|key| key.names(code)) && self.row(code).is_none()
+    }
+
     /// The meaning of a code on this control. `None`: the code is unknown.
     #[inline]
     #[doc(hidden)]

@@ -11,7 +11,7 @@ pub use location::Location;
 pub(crate) use suggestion::suggestion;
 
 use crate::span::Span;
-use crate::terminal::{escaped, steers};
+use crate::terminal::{is_invisible, visible};
 
 /// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -126,7 +126,7 @@ const LONGEST: usize = 400;
 const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {
-    let text = if text.chars().any(steers) { escaped(&text) } else { text };
+    let text = if text.chars().any(is_invisible) { visible(&text) } else { text };
     if text.len() <= LONGEST_WORD {
         return text;
     }

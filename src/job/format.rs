@@ -61,11 +61,17 @@ impl Format {
         if first == b"1050" {
             return Some(Format::Nci); // the first record of every NCI file
         }
-        lines.find_map(|line| match (line, is_statement(line)) {
-            (_, true) => Some(Format::Cl),
-            ([b'%', ..], _) => Some(Format::Nc),
-            ([letter, digit, ..], _) if letter.is_ascii_alphabetic() && digit.is_ascii_digit() => Some(Format::Nc),
-            _ => None,
+        // a block in the middle of other text, such as a manual, does not make the text a program
+        let is_comment = |line: &[u8]| line.starts_with(b"(") || line.starts_with(b";");
+        let mut begins = true;
+        lines.find_map(|line| match line {
+            _ if is_statement(line) => Some(Format::Cl),
+            [b'%', ..] if begins => Some(Format::Nc),
+            [letter, digit, ..] if begins && letter.is_ascii_alphabetic() && digit.is_ascii_digit() => Some(Format::Nc),
+            _ => {
+                begins &= is_comment(line);
+                None
+            }
         })
     }
 }
@@ -105,6 +111,7 @@ mod tests {
         assert_eq!(of("%\n"), Some(Format::Nc));
         assert_eq!(of("PK\u{3}\u{4}.."), Some(Format::Freecad));
         assert_eq!(of("1050\r\n9 34 0 0 0 0 0 0 T\r\n"), Some(Format::Nci));
-        assert_eq!([of(""), of("\n\n"), of("hello, world"), of("[1, 2]")], [None; 4]);
+        let texts = ["", "\n\n", "hello, world", "[1, 2]", "# A manual\n\nG54 is a work offset.\n%\n"];
+        assert_eq!(texts.map(of), [None; 5]);
     }
 }

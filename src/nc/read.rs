@@ -349,6 +349,10 @@ fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
 
 #[cold]
 fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
-    let text = String::from_utf8_lossy(&line[start..end.max(start + 1).min(line.len())]).into_owned();
+    let text = match line.get(start) {
+        Some(first) if first.is_ascii() => String::from_utf8_lossy(&line[start..end.max(start + 1)]).into_owned(),
+        // a token is one byte of a character that is not ASCII
+        _ => String::from_utf8_lossy(&line[start.min(line.len())..]).chars().take(1).collect(),
+    };
     Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "remove it, or put it into a comment"))
 }

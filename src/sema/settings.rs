@@ -244,6 +244,24 @@ impl Settings {
         if self.machine == Machine::Mill { self.control() } else { Control::of_no_name() }
     }
 
+    /// The codes that a variable may print by the commands of the form; empty for a variable without codes.
+    pub fn codes_of(&self, var: VarId) -> Vec<f64> {
+        match var {
+            VarId::Work => vec![self.work, self.work_default],
+            VarId::Direct => self.spindle.to_vec(),
+            VarId::Cool => self.coolant.to_vec(),
+            VarId::Coolantoff => vec![self.coolant[1]],
+            VarId::Side => self.cdc.to_vec(),
+            VarId::Feedtype => self.feed_type.to_vec(),
+            VarId::Speedtype => self.speed_type.to_vec(),
+            VarId::Retplane => self.return_plane.to_vec(),
+            VarId::Unitmode => self.inch_mm.to_vec(),
+            VarId::Incmode => self.inc_abs.to_vec(),
+            VarId::Stop => self.stop_code.to_vec(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Whether a command of the form has this G code. The effect of the code is then known.
     pub fn names_code(&self, asked: control::Code) -> bool {
         let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];

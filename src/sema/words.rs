@@ -10,7 +10,7 @@ use crate::diag::{Code, Diag};
 use crate::lang::{TextVar, WIDEST};
 use crate::span::Span;
 use crate::syntax::{self, Body, Piece, PieceKind, Spanned};
-use crate::terminal::steers;
+use crate::terminal::is_invisible;
 
 /// Analyses the words of one line of a sequence.
 pub fn resolve(body: &Body, context: &Context, diags: &mut Vec<Diag>) -> Line {
@@ -333,11 +333,6 @@ fn check_quote(text: &str, span: Span, diags: &mut Vec<Diag>) {
     if let Some(c) = text.chars().find(|&c| is_invisible(c)) {
         diags.push(invisible(c, span));
     }
-}
-
-/// Whether a character is invisible or looks like a space.
-fn is_invisible(c: char) -> bool {
-    steers(c) || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
 }
 
 /// The finding for an invisible character.

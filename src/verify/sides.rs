@@ -129,8 +129,7 @@ impl Sides<'_> {
                 None => Ok(()),
             },
             Err(RunError::Refused(diag, line)) if is_unknown(diag.code, self.program.control()) => {
-                let why = unknown_code(&diag, self.program.control());
-                let help = "describe the code in a control file, or check its effect at the machine";
+                let (why, help) = unknown_code(&diag, self.program.control());
                 self.unproven(why, help, line)
             }
             Err(RunError::Refused(diag, line)) => {

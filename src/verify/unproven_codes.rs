@@ -15,13 +15,18 @@ pub(super) fn is_unknown(code: Code, control: &Control) -> bool {
     }
 }
 
-/// The reason as text: `G201 is unknown for fanuc`, or why postform does not run the code.
-pub(super) fn unknown_code(diag: &Diag, control: &Control) -> String {
+/// The reason as text, such as `G201 is unknown for fanuc`, or why postform does not run the code; and the help.
+pub(super) fn unknown_code(diag: &Diag, control: &Control) -> (String, &'static str) {
     let name = control.name();
-    let code = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');
+    let words = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');
     let is_code = |word: &&str| word.len() > 1 && word[1..].starts_with(|c: char| c.is_ascii_digit());
-    match code.into_iter().find(is_code).filter(|_| diag.code == Code::PN003) {
-        Some(code) => format!("{code} is unknown for {name}"),
-        None => diag.message.clone(),
-    }
+    let code = words.into_iter().find(is_code).filter(|_| diag.code == Code::PN003);
+    let why = code.map_or_else(|| diag.message.clone(), |code| format!("{code} is unknown for {name}"));
+    let help = match code.and_then(|code| code.parse().ok()) {
+        Some(code) if control.lacks(code) => {
+            return (format!("{why}: its control file marks the code as absent"), "let the form print another code");
+        }
+        _ => "describe the code in a control file, or check its effect at the machine",
+    };
+    (why, help)
 }

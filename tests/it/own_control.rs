@@ -663,9 +663,12 @@ fn coolant_that_the_control_does_not_have_is_not_proven() {
     let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
     folder.write("own.pf", form.replacen("Control haas", "Control vf5.toml", 1));
     folder.write("job.json", fs::read(root().join("samples/bracket/job.json")).unwrap());
+    let lint = out(&folder.run(&["lint", "own.pf", "--format", "github"]));
+    assert!(lint.contains("title=PF608::[cool] may print M8, which vf5 does not have"), "{lint}");
     let render = folder.run(&["render", "job.json", "--form", "own.pf", "-o", "own.nc"]);
     assert!(folder.read("own.nc").contains(" M8\n"), "{}", err(&render));
-    assert!(err(&render).contains("not proven from N200: M8 is unknown for vf5"), "{}", err(&render));
+    let why = "not proven from N200: M8 is unknown for vf5: its control file marks the code as absent";
+    assert!(err(&render).contains(why), "{}", err(&render));
     let simulate = folder.run(&["simulate", "own.nc", "--control", "vf5.toml"]);
     assert!(
         simulate.status.code() == Some(1) && err(&simulate).contains("M8 is unknown, in `N200 G43 H1 Z1. M8`"),

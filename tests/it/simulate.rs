@@ -328,6 +328,16 @@ fn the_same_program_however_it_is_written() {
     assert_eq!(calls.len(), 1, "the deleted block is left out");
 }
 
+/// A message shows a character that looks like a space by its number.
+#[test]
+fn a_no_break_space_is_shown_by_its_number() {
+    let program = Cursor::new("G21\nG0\u{a0}X1.\nM30\n");
+    let mut simulator = Simulator::new(program, RunSettings::new(control("fanuc")));
+    let refused = std::iter::repeat_with(|| simulator.step(&mut Vec::new())).find_map(Result::err);
+    let Some(RunError::Refused(diag, 2)) = refused else { panic!("{refused:?}") };
+    assert_eq!(diag.message, r"`\u{a0}` can't be read, in `G0\u{a0}X1.`");
+}
+
 /// A program that is truncated or has any changed byte is run or refused. The simulator never panics or hangs.
 #[test]
 fn mutilated_programs_get_an_answer() {

@@ -1,9 +1,7 @@
 //! Compares two programs: finds the removed, added, changed and moved lines.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
-use foldhash::quality::FixedState;
 use similar::{Algorithm, DiffTag, capture_diff_slices};
 
 use super::gaps::gaps;
@@ -176,8 +174,7 @@ fn pair(
 
 /// Marks a line as moved if it is removed once and added once elsewhere.
 fn find_moves(comparison: &mut Comparison, old: &Program, new: &Program, ignore: &Ignore) {
-    let mut gone: HashMap<u64, (usize, usize), FixedState> = HashMap::default();
-    let mut come: HashMap<u64, (usize, usize), FixedState> = HashMap::default();
+    let (mut gone, mut come) = (Vec::new(), Vec::new());
     for edit in comparison.edits() {
         let (list, line, text) = match *edit {
             Edit::Removed(line) => (&mut gone, line, old.line(line)),
@@ -185,19 +182,34 @@ fn find_moves(comparison: &mut Comparison, old: &Program, new: &Program, ignore:
             _ => continue,
         };
         if let Some(key) = key(text, ignore) {
-            let seen = list.entry(key).or_insert((0, line));
-            seen.0 += 1;
+            list.push((key, line as u32));
         }
     }
+    let mut come = once(&mut come).peekable();
+    let mut moves = Vec::new();
+    for (key, from) in once(&mut gone) {
+        while come.next_if(|(other, _)| *other < key).is_some() {}
+        moves.extend(come.next_if(|(other, _)| *other == key).map(|(_, to)| (from as usize, to as usize)));
+    }
+    // removed lines are in the order of the old program, added lines in the order of the new one
+    let mut by_old = moves.clone();
+    by_old.sort_unstable();
+    moves.sort_unstable_by_key(|&(_, to)| to);
+    let (mut by_old, mut by_new) = (by_old.into_iter().peekable(), moves.into_iter().peekable());
     for edit in comparison.hunks.iter_mut().flat_map(|hunk| &mut hunk.edits) {
-        let text = match *edit {
-            Edit::Removed(line) => old.line(line),
-            Edit::Added(line) => new.line(line),
-            _ => continue,
+        let moved = match *edit {
+            Edit::Removed(line) => by_old.next_if(|&(from, _)| from == line),
+            Edit::Added(line) => by_new.next_if(|&(_, to)| to == line),
+            _ => None,
         };
-        let Some(key) = key(text, ignore) else { continue };
-        if let (Some((1, from)), Some((1, to))) = (gone.get(&key), come.get(&key)) {
-            *edit = Edit::Moved(*from, *to);
+        if let Some((from, to)) = moved {
+            *edit = Edit::Moved(from, to);
         }
     }
+}
+
+/// The entries whose key occurs once, in the order of their keys.
+fn once(list: &mut [(u64, u32)]) -> impl Iterator<Item = (u64, u32)> {
+    list.sort_unstable();
+    list.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1).map(|same| same[0])
 }

@@ -27,14 +27,20 @@ impl Block {
                 }
                 Some(letter @ (b'X'..=b'Z' | b'A'..=b'C' | b'F' | b'N')) => *letter,
                 Some(b'\n') => break,
+                Some(b'\r') if line.get(at + 1) == Some(&b'\n') => break,
                 Some(b'G') if code.is_none() => {
-                    let Some([digit @ (b'0' | b'1'), b' ']) = line.get(at + 1..at + 3) else { return false };
+                    // `G1`, `G01`
+                    let leading = matches!(line.get(at + 1..at + 3), Some([b'0', b'0' | b'1']));
+                    at += 1 + usize::from(leading);
+                    let (Some(digit @ (b'0' | b'1')), Some(after)) = (line.get(at), line.get(at + 1)) else {
+                        return false;
+                    };
                     let row = g_code(control, u16::from(digit - b'0') * 10);
                     code = row.filter(|row| matches!(row.meaning, Meaning::Rapid | Meaning::Line));
-                    if code.is_none() || line.get(at + 3).is_some_and(u8::is_ascii_digit) {
+                    if code.is_none() || after.is_ascii_digit() || *after == b'.' {
                         return false;
                     }
-                    at += 3;
+                    at += 1;
                     continue;
                 }
                 _ => return false,

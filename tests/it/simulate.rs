@@ -328,6 +328,50 @@ fn the_same_program_however_it_is_written() {
     assert_eq!(calls.len(), 1, "the deleted block is left out");
 }
 
+/// Simple blocks are read by a faster function, but not if they have a remark. Line ends, spaces and leading zeros of codes
+/// change no action.
+#[test]
+fn simple_blocks_are_read_the_same_in_each_layout() {
+    let mut state = 3u64;
+    let mut random = |limit: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % limit
+    };
+    for control in ["fanuc", "haas", "linuxcnc", "grbl", "mach3", "brother"].map(control) {
+        let mut blocks = vec!["G21 G17 G90 G94".to_owned(), "G0 X0. Y0. Z5.".into(), "G1 Z-1. F100.".into()];
+        for _ in 0..300 {
+            let mut words = vec![["", "", "", "G1", "G0"][random(5)].to_owned()];
+            for letter in ["X", "Y", "Z", "F"] {
+                if random(2) == 0 {
+                    let sign = if letter != "F" && random(2) == 0 { "-" } else { "" };
+                    words.push(format!("{letter}{sign}{}.{:03}", random(200) + 1, random(1000)));
+                }
+            }
+            words.retain(|word| !word.is_empty());
+            blocks.push(words.join(" "));
+        }
+        let program = |change: &dyn Fn(&str) -> String| {
+            let text: String = blocks.iter().map(|block| change(block)).chain(["M30\n".into()]).collect();
+            let (calls, ended, _) = simulated(text.as_bytes(), RunSettings::new(control));
+            assert_eq!(ended, Ok(()), "{}\n{text}", control.name());
+            format!("{calls:?}")
+        };
+        let usual = program(&|block| format!("{block}\n"));
+        let long = |block: &str| block.replace("G0 ", "G00 ").replace("G1 ", "G01 ");
+        let layouts: [&dyn Fn(&str) -> String; 6] = [
+            &|block| format!("{block} (A)\n"),
+            &|block| format!("{block}\r\n"),
+            &|block| format!("{}\n", block.replace(' ', "")),
+            &|block| format!("{}\r\n", long(block)),
+            &|block| format!("{}\r\n", long(block).replace(' ', "")),
+            &|block| format!("  {}  \n", block.replace(' ', "  ")),
+        ];
+        for (at, layout) in layouts.iter().enumerate() {
+            assert_eq!(program(layout), usual, "{} in layout {at}", control.name());
+        }
+    }
+}
+
 /// A message shows a character that looks like a space by its number.
 #[test]
 fn a_no_break_space_is_shown_by_its_number() {

@@ -16,11 +16,11 @@ use crate::terminal::escaped;
 pub struct Config {
     /// The form of `render` and `verify`.
     pub form: Option<String>,
-    /// The control whose rules programs follow when they are run.
+    /// The control by whose rules programs are simulated.
     pub control: Option<ControlName>,
     /// Limits of forms.
     pub limits: Option<Limits>,
-    /// The machine's file. [`render`](crate::Post::render) does not use it; the command line does.
+    /// The machine's file. [`render`](crate::Post::render) does not use this file; the command line does.
     pub machine: Option<String>,
     /// Jobs that editors print with the forms of the folder.
     pub jobs: Vec<String>,
@@ -45,7 +45,7 @@ pub struct Tests {
     pub post: Option<String>,
     /// Differences to ignore: names of [`crate::internals::diff::Ignore`], such as `numbers`.
     pub ignore: Vec<String>,
-    /// Largest difference at which two numbers still count as equal, in the unit in which they are written.
+    /// Largest difference at which two numbers still count as equal, in the unit in which the numbers are written.
     pub tolerance: f64,
     /// The date with which programs are printed, such as `2026-03-31`.
     pub date: Option<String>,

@@ -28,8 +28,8 @@ pub enum ErrorKind {
 
 /// The reason why an operation failed, with all findings up to that point: first the warnings, then the error.
 ///
-/// The error is displayed as one line; `{:#}` adds the line of the form. [`Error::findings`] has the locations, the
-/// help and the fixes.
+/// The error is displayed as one line; with `{:#}`, the line of the form is added. [`Error::findings`] has the
+/// locations, the help and the fixes.
 pub struct Error(Box<Inner>);
 
 struct Inner {
@@ -49,12 +49,13 @@ impl Error {
         Error::new(ErrorKind::Form, findings, String::new(), None)
     }
 
-    /// An error for a program that must not run. `findings` are its differences, or its parts that are not proven.
+    /// An error for a program that must not run. `findings` are the differences of the program, or its parts that are
+    /// not proven.
     pub(crate) fn proof(findings: Findings) -> Error {
         Error::new(ErrorKind::Proof, findings, String::new(), None)
     }
 
-    /// An error for an invalid request. The message names a valid one.
+    /// An error for an invalid request. The message names a valid request.
     pub(crate) fn usage(message: impl Into<String>) -> Error {
         Error::new(ErrorKind::Usage, Findings::default(), message.into(), None)
     }
@@ -83,7 +84,7 @@ impl Error {
         self.0.kind
     }
 
-    /// The warnings, and the errors that stopped the work. Empty if reading or writing failed.
+    /// The warnings, and the errors that stopped the work. The list is empty if reading or writing failed.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }

@@ -1,4 +1,5 @@
-//! One canonical layout for forms. It changes spaces, case and older spellings, but never the rendered program.
+//! One canonical layout for forms. The formatter changes spaces, case and older spellings, but never the rendered
+//! program.
 
 use crate::lang::{CommandId, SequenceName, TextVar, VarId};
 use crate::source::Source;
@@ -10,7 +11,7 @@ use crate::syntax::{
 /// Indentation of the lines of a branch.
 const INDENT: &str = "  ";
 
-/// Formats a form in the canonical layout. Lines that make no sense stay as they are.
+/// Formats a form in the canonical layout. Lines that the formatter does not understand stay as they are.
 pub fn format(source: &Source) -> String {
     let tree = syntax::parse(source, 0);
     let mut page = Page { source, lines: Vec::new() };
@@ -34,14 +35,14 @@ pub fn format(source: &Source) -> String {
     page.text()
 }
 
-/// The lines so far; an empty one is a gap.
+/// The formatted lines so far; an empty line is a gap.
 struct Page<'a> {
     source: &'a Source,
     lines: Vec<String>,
 }
 
 impl Page<'_> {
-    /// Adds one empty line, unless the last line is empty or the page is.
+    /// Adds one empty line, unless the last line or the whole page is empty.
     fn gap(&mut self) {
         if self.lines.last().is_some_and(|line| !line.is_empty()) {
             self.lines.push(String::new());
@@ -57,7 +58,7 @@ impl Page<'_> {
         }
     }
 
-    /// A line with words and the comment after them.
+    /// A line with words and the comment after the words.
     fn push(&mut self, words: String, line: &Line) {
         self.lines.push(words + &self.tail(&line.tail, true));
     }
@@ -166,7 +167,7 @@ impl Page<'_> {
         }
     }
 
-    /// `@if [cool] = through`: only the name changes, the rest stays as the author wrote it.
+    /// `@if [cool] = through`: only the name `@if` changes, the rest stays as the author wrote it.
     fn directive(&self, directive: &Directive) -> String {
         let name = match directive.kind {
             DirectiveKind::Unknown => directive.name.text.clone(),

@@ -90,8 +90,8 @@ pub use source::Source;
 pub use span::Span;
 pub use verify::{Counts, Equivalences, Finding, Unproven, UnprovenKind, Verdict};
 
-/// Items for the command line, the tests and the benchmarks of this repository. They are not part of the public library and
-/// change without notice.
+/// Items for the command line, the tests and the benchmarks of this repository. These items are not part of the public
+/// library and change without notice.
 #[doc(hidden)]
 pub mod internals {
     pub mod cl {

@@ -1,4 +1,4 @@
-//! Contents of a file besides its toolpath.
+//! Contents of a file besides the toolpath.
 
 use crate::diag::Diag;
 
@@ -7,6 +7,6 @@ use crate::diag::Diag;
 pub struct Remarks {
     /// Information for people who look at the job: the system's version, the job's name, values for another post.
     pub facts: Vec<String>,
-    /// Parts that are left out, or read in a way that the file does not specify.
+    /// Parts of the file that are left out, or read in a way that the file does not specify.
     pub warnings: Vec<Diag>,
 }

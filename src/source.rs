@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use crate::span::Span;
 
-/// Interval in bytes at which the number of preceding characters is stored. With it, columns of long lines are as fast to find
-/// as those of short lines.
+/// Interval in bytes at which the number of preceding characters is stored. With these numbers, a column of a long line
+/// is found as fast as one of a short line.
 const STEP: usize = 1024;
 
 /// One form file, decoded.
@@ -15,7 +15,7 @@ pub struct Source {
     pub name: String,
     /// The text after decoding; spans count its bytes.
     pub text: String,
-    /// The bytes were not UTF-8 and were read as Windows-1252.
+    /// Whether the bytes of the file were read as Windows-1252, because they were not UTF-8.
     pub was_windows_1252: bool,
     line_starts: Vec<u32>,
     /// Number of characters before each interval of bytes.
@@ -23,7 +23,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Decodes a file: UTF-8 with or without byte order mark, else Windows-1252 (these files are old).
+    /// Decodes a file: UTF-8 with or without byte order mark, else Windows-1252, as in old forms.
     pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> Self {
         let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         // the end-of-file mark of DOS
@@ -64,7 +64,7 @@ impl Source {
         Source { name, text, was_windows_1252, line_starts, characters }
     }
 
-    /// The lines with the byte at which each starts, without their line ends.
+    /// The lines without their line ends, each with the byte at which it starts.
     pub fn lines(&self) -> impl Iterator<Item = (usize, &str)> {
         self.line_starts.iter().enumerate().filter_map(|(i, &start)| {
             let start = start as usize;
@@ -114,7 +114,8 @@ fn beginnings(bytes: &[u8]) -> u32 {
     bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() as u32
 }
 
-/// The character of one Windows-1252 byte. The five bytes without a character keep their number, so that nothing is lost.
+/// The character of one Windows-1252 byte. The five bytes that Windows-1252 leaves undefined become the characters with
+/// the same numbers, so that nothing is lost.
 fn windows_1252(byte: u8) -> char {
     const HIGH: [char; 32] = [
         '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘',

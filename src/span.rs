@@ -7,7 +7,7 @@ pub struct Span {
     pub file: u32,
     /// First byte.
     pub start: u32,
-    /// One past the last byte.
+    /// The index after the last byte.
     pub end: u32,
 }
 

@@ -1,7 +1,7 @@
 //! Text from files, made safe for a terminal.
 
-/// Does a character control the terminal or the text direction instead of being visible? These are C0 and C1, the marks of
-/// bidirectional text, and the separators of lines and paragraphs.
+/// Does a character control the terminal or the text direction instead of being visible? These characters are C0 and
+/// C1, the marks of bidirectional text, and the separators of lines and paragraphs.
 pub fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

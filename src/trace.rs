@@ -22,7 +22,7 @@ impl Trace {
         Some(&self.lines[at])
     }
 
-    /// The program lines that a location in the form printed: each line whose form line overlaps the span.
+    /// The program lines that come from a location in the form: each program line whose form line overlaps the span.
     pub fn printed_by_form(&self, place: Span) -> impl Iterator<Item = u64> {
         let overlaps = move |span: Span| span.file == place.file && span.start < place.end && place.start < span.end;
         self.lines.iter().filter(move |line| line.form.is_some_and(overlaps)).map(|line| line.line)

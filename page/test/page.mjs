@@ -369,7 +369,7 @@ test("a job that can't be printed says what, where and what helps", async ({ ope
   writeFileSync(join(path, "bracket.json"), job.replace('"tool": 1', '"tool": 77'));
   await page.waitForFunction(() => document.querySelector(".verdict").textContent.startsWith("no program"), null, { timeout: 20_000 });
   const note = await page.locator(".note").innerText();
-  ok(note.includes("PJ006") && note.includes("operations[0]") && note.includes("add it to"), note);
+  ok(note.includes("PJ006") && note.includes("operations[0]") && note.includes("add the tool to"), note);
 });
 
 test("jobs are tabs with their verdicts", async ({ open }) => {

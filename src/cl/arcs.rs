@@ -39,7 +39,7 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
     let axis = motion.shift.turned(axis);
     let along = (0..3).find(|&i| axis[i].abs() > 0.999_999);
     let Some(along) = along else {
-        return fault(Code::PL004, "an arc in a tilted plane", "let the CAM system write lines for it");
+        return fault(Code::PL004, "an arc in a tilted plane", "let the CAM system write lines for the arc");
     };
     let centre = motion.shift.of(centre);
     arcs.pending = Some(PendingArc { centre, axis: along, up: axis[along] > 0.0, radius, sense, times, angle });
@@ -76,13 +76,13 @@ pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut St
         return fault(Code::PL004, "a rapid along an arc", "remove RAPID or CIRCLE");
     }
     let Some(from) = state.motion.position else {
-        return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
+        return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before the arc");
     };
     let away = (0..3).filter(|&i| i != arc.axis).map(|i| (from[i] - arc.centre[i]).powi(2)).sum::<f64>().sqrt();
     let allowed = if state.job.units()? == Units::Inch { 0.001 } else { 0.02 };
     if let Some(radius) = arc.radius.filter(|radius| (radius.abs() - away).abs() > allowed) {
         let message = format!("the CIRCLE has the radius {radius}, the tool is {away:.4} from its centre");
-        return fault(Code::PR005, message, "check the motion before it");
+        return fault(Code::PR005, message, "check the motion before the arc");
     }
     let notes = &state.job.notes;
     let sense = match arc.sense.or(notes.said_sense()) {
@@ -134,9 +134,9 @@ pub(super) fn arc_event(arc: &PendingArc, to: [f64; 3], ccw: bool, state: &mut S
     job.push(Event::Arc { arc: &event, feed })
 }
 
-/// Number of full turns before the arc last reaches its end. In NX, TIMES counts each time the arc reaches its end, including
-/// the last time. With any other meaning, ramps of NX would have a wrong angle. ANGLE must agree with the angle between the
-/// points.
+/// Number of full turns before the arc reaches its end for the last time. In NX, TIMES counts each time the arc reaches
+/// its end, including the last time. With any other meaning, ramps of NX would have a wrong angle. ANGLE must agree
+/// with the angle between the points.
 fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> Done<u32> {
     let (Some(angle), Some(from)) = (arc.angle, from) else { return Ok(arc.times.unwrap_or(1) - 1) };
     let (first, second) = ((arc.axis + 1) % 3, (arc.axis + 2) % 3);
@@ -154,8 +154,9 @@ fn turns(arc: &PendingArc, from: Option<[f64; 3]>, to: [f64; 3], ccw: bool) -> D
     Ok(((angle - least) / 360.0).round().max(0.0) as u32)
 }
 
-/// Finds the direction of circles if the caller did not name the CAM system. An arc begins tangent to the motion before it, which
-/// shows its direction. All arcs must agree with each other and with the known direction of the system.
+/// Finds the direction of circles if the caller did not name the CAM system. An arc begins tangent to the motion before
+/// it. This tangent shows the direction of the arc. All arcs must agree with each other and with the known direction of
+/// the system.
 fn sense_by_tangent(arc: &PendingArc, from: [f64; 3], dialect: Dialect, arcs: &mut Arcs) -> Done<Sense> {
     let mut unit = [0.0; 3];
     unit[arc.axis] = if arc.up { 1.0 } else { -1.0 };

@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::lang::did_you_mean;
 use crate::toolpath::CycleKind;
 
-/// Depths and steps that have one feed.
+/// The depths and steps that share one feed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Group {
     pub depths: Vec<f64>,
@@ -18,7 +18,7 @@ pub(super) struct Group {
     pub feed: Option<(String, f64)>,
 }
 
-/// The content of a CYCLE statement before it is converted to a cycle. CYCLE/ON uses it again.
+/// The content of a CYCLE statement before it is converted to a cycle. CYCLE/ON uses the content again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Coded {
     pub kind: Option<CycleKind>,
@@ -89,7 +89,7 @@ pub(super) fn read_options(
             }
             Word::Number(value) if at == 0 && whole => return positional(notes, coded, words, *value, feed),
             Word::Number(value) => {
-                let help = "put its word before it, as DEPTH, STEP or MMPM";
+                let help = "put a word before the number, as DEPTH, STEP or MMPM";
                 return fault(Code::PC037, format!("{value} has no word before it"), help);
             }
         };
@@ -146,7 +146,8 @@ pub(super) fn read_options(
     Ok(coded)
 }
 
-/// Reads the format of 1978: numbers without words. Their order differs between systems, so only files of CATIA are accepted.
+/// Reads the format of 1978: numbers without words. The order of the numbers differs between systems, so only files of
+/// CATIA are accepted.
 fn positional(notes: &Notes<'_>, mut coded: Coded, words: &[Word], depth: f64, in_force: Option<Feed>) -> Done<Coded> {
     if notes.dialect() != Dialect::Catia {
         let help = "write CYCLE/DRILL,DEPTH,10,MMPM,100,CLEAR,2, or name CATIA with `--dialect catia`";
@@ -211,7 +212,8 @@ pub(super) fn over(mut last: Coded, said: Coded) -> Coded {
     last
 }
 
-/// The group to which the next word belongs. A group with a feed is complete, so the word then begins another group.
+/// The group to which the next word belongs. A group with a feed is complete, so a word after the feed begins another
+/// group.
 fn group_for(groups: &mut Vec<Group>, taken: impl Fn(&Group) -> bool) -> &mut Group {
     let new = groups.last().is_none_or(|group| taken(group) || (group.feed.is_some() && !group.depths.is_empty()));
     if new {

@@ -90,7 +90,7 @@ fn return_mode(words: &[Word], cycle: &mut Cycle) -> Done {
     Ok(())
 }
 
-/// Begins a cycle from the words of this statement and those of an earlier one.
+/// Begins a cycle from the words of this statement and of an earlier CYCLE statement.
 fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
     job.close_holes()?;
@@ -131,7 +131,7 @@ pub(super) fn follow_spindle(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// Ends the cycle. The following points are motions.
+/// Ends the cycle. The points after the end of the cycle are motions.
 pub(super) fn end(cycle: &mut Cycle, job: &mut Job<'_>) -> Done {
     cycle.active = None;
     cycle.heights = None;

@@ -96,7 +96,8 @@ pub(super) fn returns_to_start(words: &[Word], dialect: Dialect) -> bool {
     dialect == Dialect::Nx && words.windows(2).any(|pair| pair[0].is("RTRCTO") && pair[1].is("AUTO"))
 }
 
-/// The heights in a cycle of Autodesk, in the file's coordinates. The points of such a cycle are the bottoms of the holes.
+/// The heights in a cycle of Autodesk, in the file's coordinates. The points of a cycle of Autodesk are the bottoms of
+/// the holes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heights {
     /// Distance from the top of a hole to its bottom.

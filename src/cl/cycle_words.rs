@@ -2,7 +2,7 @@
 
 use crate::toolpath::CycleKind;
 
-/// The types of cycles. Some of them may be modified by a second word.
+/// The types of cycles. Some types may be modified by a second word.
 pub(super) const TYPES: &[(&str, CycleKind)] = &[
     ("DRILL", CycleKind::Drill),
     ("FACE", CycleKind::Face),

@@ -34,7 +34,7 @@ struct Row {
     /// Texts that occur only in files of this system, in capitals and without spaces.
     marks: &'static [&'static str],
     sense: Option<Sense>,
-    /// The last statement of its files.
+    /// The last statement of the system's files.
     last: Option<&'static str>,
 }
 
@@ -94,8 +94,9 @@ impl Dialect {
         self.row().last
     }
 
-    /// Recognises the system from the first lines of a file. Returns it with the line number and the mark. Text statements after
-    /// the first motion are ignored, because their text comes from the programmer.
+    /// Recognises the system from the first lines of a file. Returns the system with the line number and the mark by
+    /// which it was recognised. Text statements after the first motion are ignored, because their text comes from the
+    /// programmer.
     pub(super) fn of_head<'l>(lines: impl Iterator<Item = &'l [u8]>) -> Option<(Dialect, usize, &'static str)> {
         let (mut moves, mut has_mode) = (false, false);
         for (line, number) in lines.zip(1..) {
@@ -115,7 +116,7 @@ impl Dialect {
         None
     }
 
-    /// Recognises the system from one line. Returns it with the mark.
+    /// Recognises the system from one line. Returns the system with the mark by which it was recognised.
     fn of_line(line: &[u8]) -> Option<(Dialect, &'static str)> {
         let plain: Vec<u8> =
             line.iter().filter(|b| !b.is_ascii_whitespace()).take(200).map(u8::to_ascii_uppercase).collect();

@@ -103,7 +103,7 @@ pub(super) fn feed_to_say(feeds: &Feeds, job: &mut Job<'_>) -> Done<Option<f64>>
         return fault(Code::PC043, message, help);
     }
     let Some(feed) = feeds.feed else {
-        let help = "put FEDRAT before it, or give the feed with `--assume-feed 200`, in units of the file per minute";
+        let help = "put FEDRAT first, or give the feed with `--assume-feed 200`, in units of the file per minute";
         return fault(Code::PR011, "a feed motion before any feed", help);
     };
     job.turns()?;

@@ -47,7 +47,7 @@ fn hole(
     Ok(())
 }
 
-/// The top of a hole whose bottom is given. Calculates the clearance above it from the heights of the cycle.
+/// The top of a hole whose bottom is given. Calculates the clearance above the top from the heights of the cycle.
 fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'_>) -> Done<[f64; 3]> {
     let top = bottom[2] + heights.depth;
     let clear = heights.retract - top;
@@ -63,7 +63,8 @@ fn top(bottom: [f64; 3], heights: Heights, spec: &mut CycleSpec, job: &mut Job<'
     Ok([bottom[0], bottom[1], top])
 }
 
-/// The height to which the tool returns after each hole. It is determined at the first point and applies to the whole cycle.
+/// The height to which the tool returns after each hole. The height is determined at the first point and applies to the
+/// whole cycle.
 fn return_plane(at: [f64; 3], spec: &CycleSpec, motion: &Motion, cycle: &mut Cycle) -> Done<Option<f64>> {
     if let Some(plane) = cycle.plane {
         return Ok(plane);

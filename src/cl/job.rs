@@ -50,7 +50,7 @@ pub(super) struct Job<'s> {
     feed: Option<f64>,
     /// Whether a cycle is open in the sink.
     in_cycle: bool,
-    /// Whether the following items belong to a setup that is not selected. No events are pushed for them.
+    /// Whether the following items belong to a setup that is not selected. No events are pushed for these items.
     pub aside: bool,
     /// The tool that was loaded last.
     in_use: Option<Tool>,
@@ -80,7 +80,7 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Whether the job has begun. Plain motions then need no further checks.
+    /// Whether the job has begun. After the beginning, plain motions need no further checks.
     #[inline]
     pub fn has_started(&self) -> bool {
         self.started
@@ -95,7 +95,8 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// The file's units. Fails if they are unknown, because values with an explicit unit can't be converted then.
+    /// The file's units. The function fails if the units are unknown, because values with an explicit unit can't be
+    /// converted then.
     pub fn units(&self) -> Done<Units> {
         match self.units.or(self.assumed_units) {
             Some(units) => Ok(units),
@@ -114,7 +115,7 @@ impl<'s> Job<'s> {
         if is_loaded { None } else { self.tools.number(self.operations == 0).err() }
     }
 
-    /// Sets that the file is for a lathe, because it has turning tools.
+    /// Sets that the file is for a lathe, because the file has turning tools.
     pub fn turning(&mut self) -> Done {
         if self.machine == Machine::Lathe {
             return Ok(());
@@ -128,7 +129,7 @@ impl<'s> Job<'s> {
         Ok(())
     }
 
-    /// Whether the machine is a lathe. Its spindle turns the part.
+    /// Whether the machine is a lathe. The spindle of a lathe turns the part.
     #[inline]
     pub fn turns_part(&self) -> bool {
         self.machine == Machine::Lathe
@@ -147,7 +148,7 @@ impl<'s> Job<'s> {
         Ok(Axes::new(&[to[2], to[0]]))
     }
 
-    /// Keeps an item until the tool change before it is complete. Without a waiting tool change, pushes it.
+    /// Keeps an item until the tool change before it is complete. If no tool change waits, pushes the item.
     pub fn wait(&mut self, waiting: Waiting) -> Done {
         if self.aside {
             return Ok(());
@@ -204,12 +205,12 @@ impl<'s> Job<'s> {
         self.in_cycle
     }
 
-    /// Closes the cycle in the sink. It may be opened again after a motion that is not a point of the cycle.
+    /// Closes the cycle in the sink. The cycle may be opened again after a motion that is not a point of the cycle.
     pub fn close_holes(&mut self) -> Done {
         if std::mem::take(&mut self.in_cycle) { self.push(Event::CycleEnd) } else { Ok(()) }
     }
 
-    /// Begins the job and the operation, now that all their data must be known.
+    /// Begins the job and the operation. All their data must be known by now.
     #[cold]
     fn release(&mut self) -> Done {
         if !self.started {
@@ -278,8 +279,9 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Completes the previous tool change and begins the change to another tool. If the previous tool was only named and not
-    /// loaded, its change is replaced. If a change to the same tool is waiting, this change continues.
+    /// Completes the previous tool change and begins the change to another tool. If the previous tool was only named
+    /// and not loaded, the new change replaces the previous change. If a change to the same tool is waiting, the
+    /// waiting change continues.
     pub fn begin_change(&mut self, tool: Option<Tool>) -> Done {
         if let (Some((change, _)), Some(tool)) = (&mut self.change, &tool)
             && let Some(before) = change.tool.as_mut().filter(|before| before.number == tool.number)
@@ -308,7 +310,8 @@ impl<'s> Job<'s> {
         }
     }
 
-    /// Removes rapids before the first tool. They lead to the tool change position, which only the machine defines.
+    /// Removes rapids before the first tool. These rapids lead to the tool change position, which only the machine
+    /// defines.
     fn leave_out_rapids(&mut self) {
         let is_rapid = |waiting: &(Waiting, Place)| matches!(waiting.0, Waiting::Rapid(_));
         let count = self.waiting.iter().filter(|waiting| is_rapid(waiting)).count();
@@ -340,7 +343,8 @@ impl<'s> Job<'s> {
         self.operations > 0 || self.change.is_some()
     }
 
-    /// Handles COOLNT. If a tool change is waiting, the coolant becomes part of it; otherwise it is an event.
+    /// Handles COOLNT. If a tool change is waiting, the coolant becomes part of the tool change; otherwise the coolant
+    /// becomes an event.
     pub fn coolant(&mut self, coolant: Coolant) -> Done {
         self.tools.coolant = Some(coolant);
         match &mut self.change {

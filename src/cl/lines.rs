@@ -2,7 +2,7 @@
 
 use std::io::{ErrorKind, Read, Result};
 
-/// Maximum length of a line or statement in bytes. A file with a longer one is not a CL file.
+/// Maximum length of a line or statement in bytes. A file with a longer line or statement is not a CL file.
 pub(super) const LONGEST: usize = 1 << 20;
 
 /// The lines of an input. Only the buffered part of the input is in memory.
@@ -64,7 +64,7 @@ impl<R: Read> Lines<R> {
     }
 }
 
-/// Words that begin a text statement, with or without a slash. Their text extends to the end of the line.
+/// Words that begin a text statement, with or without a slash. The text of these words extends to the end of the line.
 const TEXT: [&str; 7] = ["PARTNO", "PPRINT", "TPRINT", "DISPLY", "INSERT", "REMARK", "LETTER"];
 
 /// The text word at the beginning of a line, and the text after it.

@@ -8,7 +8,8 @@ use super::words::Word;
 use crate::diag::Code;
 use crate::toolpath::{Spindle, Tool};
 
-/// Handles LOADTL/n, LOAD/TOOL,n and TOOLNO/n: a tool change. It is complete at the next feed motion or spindle statement.
+/// Handles LOADTL/n, LOAD/TOOL,n and TOOLNO/n: a tool change. The tool change is complete at the next feed motion or
+/// spindle statement.
 pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let dialect = state.job.notes.dialect();
     if name == "TOOLNO" && dialect == Dialect::Catia {
@@ -40,7 +41,8 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
 }
 
-/// Handles TOOL PATH/name,TOOL,tool. If it names another tool than the current one, this tool must be loaded or have an assumed number.
+/// Handles TOOL PATH/name,TOOL,tool. If the statement names another tool than the current one, the other tool must be
+/// loaded or have an assumed number.
 pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     let (operation, tool) = match words {
         [operation, word, tool, ..] if word.is("TOOL") => (operation.to_string(), tool.to_string()),

@@ -61,12 +61,13 @@ pub(super) enum Major {
     Ignored,
     Nurbs,
     Thread,
-    /// Known words that move or shift the part. They are not supported, so they are errors.
+    /// Known words that move or shift the part. These words are not supported, so they are errors.
     Refused,
     Unknown,
 }
 
-/// The table of major words. TLRGT and similar words are refused, because the tool then cuts beside a line and not on it.
+/// The table of major words. TLRGT and similar words are refused, because with these words the tool cuts beside a line
+/// and not on the line.
 #[rustfmt::skip]
 const MAJORS: &[(&str, Major)] = &[
     ("GOTO", Major::Goto), ("GODLTA", Major::Godlta), ("FROM", Major::From), ("RAPID", Major::Rapid),
@@ -198,7 +199,8 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
     }
 }
 
-/// Whether the word affects only its own setup. Such a word is skipped if its setup is not selected.
+/// Whether the word affects only the setup in which it is. A word for one setup is skipped if the setup is not
+/// selected.
 fn is_aside(major: Major, state: &State<'_>) -> bool {
     match major {
         Major::Circle | Major::Movarc | Major::Indirv | Major::Tlon | Major::Cutcom | Major::Nurbs | Major::Thread => {
@@ -213,11 +215,12 @@ fn is_aside(major: Major, state: &State<'_>) -> bool {
     }
 }
 
-/// Handles an unknown major word. It is reported and ignored, unless a motion follows in the same statement.
+/// Handles an unknown major word. The word is reported and ignored, but it is an error if a motion follows in the same
+/// statement.
 fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     if let Some(hidden) = words.iter().filter_map(Word::name).find(|name| MOTIONS.contains(name)) {
         let message = format!("the unknown word `{name}` is in front of {hidden}");
-        return fault(Code::PL001, message, "remove it, or put it on a separate line");
+        return fault(Code::PL001, message, "remove the word, or put it on a separate line");
     }
     job.notes.unknown(name);
     Ok(())
@@ -253,7 +256,7 @@ fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     Ok(())
 }
 
-/// Handles CUTTER and TLDATA. The first number is the tool's diameter. Turning tools have none.
+/// Handles CUTTER and TLDATA. The first number is the tool's diameter. Turning tools have no diameter.
 fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
     if words.first().and_then(Word::name).is_some_and(|name| matches!(name, "TURN" | "GROOVE" | "THREAD")) {
         job.tools.diameter = None;

@@ -14,10 +14,10 @@ pub(super) enum Missing {
     Start,
 }
 
-/// The error for missing units. `at` describes where they are needed.
+/// The error for missing units. `at` describes where the units are needed.
 #[cold]
 pub(super) fn no_units<T>(job: &Job<'_>, at: &str) -> Done<T> {
-    let help = "put UNITS/MM or UNITS/INCHES before it, or give the units with `--assume-units mm` (or inch)";
+    let help = "put UNITS/MM or UNITS/INCHES before this line, or give the units with `--assume-units mm` (or inch)";
     fault(Code::PL005, at, help.to_owned() + &others(job, Missing::Units))
 }
 
@@ -40,7 +40,7 @@ pub(super) fn no_tool<T>(job: &Job<'_>, option: &str) -> Done<T> {
 /// The error for a cut without a spindle speed.
 #[cold]
 pub(super) fn no_speed<T>(job: &Job<'_>) -> Done<T> {
-    let help = "put SPINDL/3000,RPM,CLW before it, or give the speed with `--assume-speed 3000` (or 3000,CCLW)";
+    let help = "put SPINDL/3000,RPM,CLW before the cut, or give the speed with `--assume-speed 3000` (or 3000,CCLW)";
     let message = "a cut without a spindle speed";
     fault(Code::PL009, message, help.to_owned() + &others(job, Missing::Speed))
 }
@@ -48,7 +48,7 @@ pub(super) fn no_speed<T>(job: &Job<'_>) -> Done<T> {
 /// The error if the first motion is a cut and the tool's position before it is unknown.
 #[cold]
 pub(super) fn no_start<T>(job: &Job<'_>) -> Done<T> {
-    let help = "put RAPID and GOTO before it, or FROM, or give the position with `--assume-start X,Y,Z`";
+    let help = "put RAPID and GOTO, or FROM, before the cut, or give the position with `--assume-start X,Y,Z`";
     let message = "the file begins with a cut, and the position of the tool before it is unknown";
     fault(Code::PL009, message, help.to_owned() + &others(job, Missing::Start))
 }

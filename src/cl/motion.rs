@@ -177,7 +177,7 @@ pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Handles RAPID. It applies to one motion, which may be part of the same statement.
+/// Handles RAPID. RAPID applies to one motion, which may be part of the same statement.
 pub(super) fn rapid(words: &[Word], state: &mut State<'_>) -> Done {
     state.motion.rapid = true;
     match words {
@@ -210,7 +210,8 @@ fn set_axis(to: [f64; 3], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Handles a new tool axis in a file with several setups. The following motions are read in the frame of their setup, or skipped.
+/// Handles a new tool axis in a file with several setups. The motions after the new axis are read in the frame of their
+/// setup, or skipped.
 fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) -> Done {
     job.close_holes()?;
     if !setups.turn(motion.axis.0) {
@@ -230,7 +231,7 @@ fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) ->
     Ok(())
 }
 
-/// Handles TLAXIS, which sets the tool axis. In files for three axes it has no effect.
+/// Handles TLAXIS, which sets the tool axis. In files for three axes TLAXIS has no effect.
 pub(super) fn tlaxis(words: &[Word], state: &mut State<'_>) -> Done {
     match numbers(words).as_deref() {
         Some([i, j, k]) => set_axis([*i, *j, *k], state),

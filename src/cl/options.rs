@@ -12,7 +12,7 @@ pub struct Options {
     pub units: Option<Units>,
     /// The tool number for a file that loads no tool, or a number for each tool that the file names.
     pub tool: Option<Assumed>,
-    /// The spindle for tools that have none in the file.
+    /// The spindle for tools whose spindle the file does not define.
     pub speed: Option<AssumedSpeed>,
     /// The feed until the first feed in the file, per minute in the file's units.
     pub feed: Option<f64>,
@@ -20,14 +20,15 @@ pub struct Options {
     pub start: Option<[f64; 3]>,
     /// Whether the file counts as complete without the last statement that its system normally writes.
     pub end: bool,
-    /// Number of the setup to read, from 1. Positions are then in the frame of this setup. Default: the file is read as one setup.
+    /// Number of the setup to read, from 1. Positions are in the frame of the selected setup. Default: the file is read
+    /// as one setup.
     pub setup: Option<usize>,
 }
 
 /// Largest allowed spindle speed.
 const FASTEST: f64 = 1e6;
 
-/// Spindle for a file that defines none.
+/// Spindle for a file that defines no spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssumedSpeed {
     /// Revolutions a minute.
@@ -100,7 +101,7 @@ impl Assumed {
         read.ok_or_else(|| format!("write a number up to {LARGEST}, or NAME=1,OTHER=2"))
     }
 
-    /// The number if it is for the only tool; `None` if tools have their own numbers.
+    /// The number if all numbers are for the only tool; `None` if tools have their own numbers.
     pub fn one(&self) -> Option<f64> {
         if let Assumed::One(number) = self { Some(*number) } else { None }
     }

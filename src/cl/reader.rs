@@ -28,7 +28,7 @@ struct Reader<'s> {
     joined: Vec<u8>,
     /// Whether the statement continues on the next line.
     continues: bool,
-    /// The last major word. Lines that contain only numbers continue its statement.
+    /// The last major word. Lines that contain only numbers continue the statement of the last major word.
     major: Major,
     /// Whether FINI or END was read.
     ended: bool,
@@ -40,7 +40,8 @@ struct Reader<'s> {
 /// Reads a CL file and pushes its events. Memory use does not grow with the file.
 ///
 /// # Errors
-/// The file has an error, or the sink refused an event. The error has its location. Warnings before it are in the report.
+/// The file has an error, or the sink refused an event. The error has its location. Warnings before the error are in
+/// the report.
 pub fn read_cl(input: impl Read, options: &Options, report: &mut Report, sink: &mut dyn Sink) -> Result<(), ReadError> {
     read(input, options, options.setup.map(|setup| Setups::new(Some(setup))), report, sink).map(drop)
 }

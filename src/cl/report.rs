@@ -12,7 +12,7 @@ pub struct Report {
     pub dialect: Option<Dialect>,
     /// Why this system was chosen.
     pub why: String,
-    /// The warnings. Each appears only once.
+    /// The warnings. Each warning appears only once.
     pub warnings: Vec<Diag>,
     /// Facts that the file contains, such as coordinate systems and names of tool paths.
     pub facts: Vec<String>,
@@ -63,8 +63,8 @@ impl<'r> Notes<'r> {
         self.report.dialect.unwrap_or(Dialect::Gener)
     }
 
-    /// The direction of circles if the caller named the CAM system, otherwise `None`. Circles of GENER are left-handed. This
-    /// applies only if the caller named GENER, and not to a file whose system is unknown.
+    /// The direction of circles if the caller named the CAM system, otherwise `None`. Circles of GENER are left-handed.
+    /// This applies only if the caller named GENER, and not to a file of an unknown system.
     #[inline]
     pub fn said_sense(&self) -> Option<Sense> {
         match self.report.dialect.filter(|_| self.said)? {

@@ -1,5 +1,5 @@
-//! Setups of a file with several tool axes. The operator turns the part between setups, so each setup is a separate job. The
-//! z axis of its frame is its tool axis.
+//! Setups of a file with several tool axes. The operator turns the part between setups, so each setup is a separate
+//! job. The z axis of a setup's frame is the tool axis of the setup.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use crate::diag::Code;
 const SAME: f64 = 1e-6;
 /// Tolerance between the components of a tool axis and those of the z axis of its coordinate system.
 const LIKE: f64 = 1e-3;
-/// Maximum number of setups. A file for five-axis motion would have one for each motion.
+/// Maximum number of setups. A file for five-axis motion would have one setup for each motion.
 const MOST: usize = 1000;
 /// Maximum number of setups that a message lists.
 const MOST_SAID: usize = 8;
@@ -21,10 +21,10 @@ const MOST_SAID: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Setup {
-    /// The tool axis in the file's coordinates, as a unit vector. It is the z axis of the setup.
+    /// The tool axis in the file's coordinates, as a unit vector: the z axis of the setup.
     pub axis: [f64; 3],
-    /// The x axis of the setup. If the file has a CSYS with the same z axis, it is the x axis of that CSYS. Otherwise it is
-    /// horizontal and points to the right for a view along the tool.
+    /// The x axis of the setup. If the file has a CSYS with the same z axis, the x axis of that CSYS is used. Otherwise
+    /// the x axis is horizontal and points to the right for a view along the tool.
     pub x: [f64; 3],
     /// The lines of the first and the last motion.
     pub lines: (u64, u64),
@@ -65,7 +65,7 @@ pub(super) struct Setups {
     found: Vec<Setup>,
     /// The x and z axes of the current CSYS.
     csys: Option<[[f64; 3]; 2]>,
-    /// Whether the current setup follows another one and has no motion so far.
+    /// Whether the current setup follows another setup and has no motion so far.
     pub is_fresh: bool,
 }
 
@@ -101,8 +101,8 @@ impl Setups {
         }
     }
 
-    /// The x axis of a setup. If the CSYS has the tool axis as its z, it is the x of the CSYS. Otherwise it is horizontal, as Fanuc defines
-    /// it for G68.3.
+    /// The x axis of a setup. If the z axis of the CSYS is the tool axis, the result is the x axis of the CSYS.
+    /// Otherwise the x axis is horizontal, as Fanuc defines it for G68.3.
     fn x_of(&self, axis: [f64; 3]) -> [f64; 3] {
         if let Some([x, z]) = self.csys
             && lies_along(z, axis)

@@ -23,7 +23,7 @@ pub(super) fn mcs(words: &[Word], job: &mut Job<'_>) -> Done {
     one_origin("MCS", words, job)
 }
 
-/// Checks that the file has only one origin. One work offset can't represent two.
+/// Checks that the file has only one origin of positions. One work offset can't represent two origins.
 fn one_origin(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
     match &job.setup {
         None => job.setup = Some((words.to_vec(), job.notes.place.line)),
@@ -63,7 +63,8 @@ pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setu
     }
 }
 
-/// Checks the first motion in a coordinate system. Its tool axis must be the z axis of the coordinate system.
+/// Checks the first motion in a coordinate system. The tool axis of the motion must be the z axis of the coordinate
+/// system.
 #[cold]
 pub(super) fn must_agree((z, line): ([f64; 3], u64), axis: [f64; 3]) -> Done {
     if lies_along(z, axis) {

@@ -14,7 +14,7 @@ use crate::toolpath::{CycleKind, CycleSpec, Orient, Peck, SpindleTurn};
 pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<CycleSpec> {
     let kind = coded.kind.unwrap_or(CycleKind::Drill);
     if coded.has(Opt::Float) && coded.has(Opt::Rigid) {
-        return fault(Code::PC016, "FLOAT and RIGID in one cycle", "keep one of them");
+        return fault(Code::PC016, "FLOAT and RIGID in one cycle", "keep FLOAT or RIGID");
     }
     let left = coded.has(Opt::Invers);
     let mut spec = CycleSpec::new(if left { CycleKind::LTap } else { kind });
@@ -61,7 +61,8 @@ pub(super) fn spec(cycle: &mut Cycle, job: &mut Job<'_>, coded: &Coded) -> Done<
     Ok(spec)
 }
 
-/// Reads CLEAR. Its first number also applies to later cycles. The result is its second number, which applies to this cycle only.
+/// Reads CLEAR. The first number of CLEAR also applies to later cycles. The result is the second number, which applies
+/// to this cycle only.
 fn clearances(cycle: &mut Cycle, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done<Option<f64>> {
     let clear = coded.numbers(Opt::Clear);
     cycle.clear = clear.map(|numbers| numbers[0]).or(cycle.clear);
@@ -84,7 +85,7 @@ fn depths(job: &Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -
     let pecks = matches!(kind, CycleKind::Deep | CycleKind::Chipbreak) || coded.mode.is_some();
     let feeds = coded.groups.iter().filter(|group| group.feed.is_some()).count();
     if feeds > 1 && (!pecks || coded.mode.is_some()) {
-        return fault(Code::PC007, "two feeds, but the cycle takes one", "keep one");
+        return fault(Code::PC007, "two feeds, but the cycle takes one", "keep one feed");
     }
     let mut last = None;
     let mut of_groups = Vec::new();
@@ -103,7 +104,7 @@ fn depths(job: &Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -
         return Ok(());
     }
     if depths.len() > 1 && !pecks {
-        return fault(Code::PC034, "more than one depth", "keep one, or drill with DEEP or BRKCHP");
+        return fault(Code::PC034, "more than one depth", "keep one depth, or drill with DEEP or BRKCHP");
     }
     spec.depth = depths.last().copied();
     if depths.len() > 1 {

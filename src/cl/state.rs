@@ -1,4 +1,4 @@
-//! The state of reading a file. It is divided into parts, so each statement uses only the parts that it needs.
+//! The state of reading a file. The state is divided into parts, so each statement uses only the parts that it needs.
 
 use super::coded::Coded;
 use super::cycle_dialects::Heights;
@@ -8,7 +8,8 @@ use super::job::Job;
 use super::setup::{Frame, Setups};
 use crate::toolpath::{CycleSpec, LastDwell, Side};
 
-/// The whole state. Most functions use only some of its parts. Functions that may make a motion use all of it.
+/// The whole state. Most functions use only some parts of the state. Functions that may make a motion use the whole
+/// state.
 pub(super) struct State<'s> {
     pub job: Job<'s>,
     pub motion: Motion,
@@ -31,14 +32,15 @@ pub(super) struct Motion {
     pub axis: Axis,
     /// Whether the next motion is a rapid.
     pub rapid: bool,
-    /// Whether the first motion after the end of a cycle is a rapid. A feed before this motion makes it a cut.
+    /// Whether the first motion after the end of a cycle is a rapid. A feed statement before this motion makes the
+    /// motion a cut.
     pub rapid_after_cycle: bool,
     pub cutcom: Cutcom,
-    /// The last coordinate system of the file if no motion followed so far: its z axis and its line.
+    /// The last coordinate system of the file, if no motion has followed it: its z axis and its line.
     pub frame: Option<([f64; 3], u64)>,
 }
 
-/// The tool axis as a unit vector. At the start of a file it is vertical.
+/// The tool axis as a unit vector. At the start of a file the tool axis is vertical.
 pub(super) struct Axis(pub [f64; 3]);
 
 impl Default for Axis {
@@ -123,7 +125,7 @@ pub(super) struct PendingArc {
     pub radius: Option<f64>,
     /// The direction, if the statement defines it.
     pub sense: Option<Sense>,
-    /// TIMES,n: the arc ends when it reaches the end point for the n-th time.
+    /// TIMES,n: the arc ends when the tool reaches the end point for the n-th time.
     pub times: Option<u32>,
     /// ANGLE,a: the angle from start to end, in degrees.
     pub angle: Option<f64>,
@@ -133,7 +135,7 @@ pub(super) struct PendingArc {
 #[derive(Default)]
 pub(super) struct Feeds {
     pub feed: Option<Feed>,
-    /// Line of a tool change that ended a cycle. Cleared when a feed or a cycle follows.
+    /// Line of a tool change that ended a cycle. The line is cleared when a feed or a cycle follows.
     pub cut_off: Option<u64>,
 }
 
@@ -186,12 +188,12 @@ pub(super) struct Cycle {
     pub returns: Option<CodedReturn>,
     /// The heights of the cycle, for a CAM system that gives heights instead of a clearance.
     pub heights: Option<Heights>,
-    /// Return plane as a height in the file's coordinates. It is known after the first point.
+    /// Return plane as a height in the file's coordinates. The height is known after the first point.
     pub plane: Option<Option<f64>>,
 }
 
 impl Cycle {
-    /// Whether a cycle is active. Points are then holes.
+    /// Whether a cycle is active, so that points are holes.
     #[inline]
     pub fn is_active(&self) -> bool {
         self.active.is_some()

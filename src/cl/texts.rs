@@ -82,7 +82,7 @@ fn say(said: Said<'_>, job: &mut Job<'_>) -> Done {
     }
 }
 
-/// Warns of an INSERT after which no tool follows. It may be meant for the machine.
+/// Warns of an INSERT after which no tool follows. The INSERT may be meant for the machine.
 pub(super) fn lone_insert(insert: &mut Insert, notes: &mut Notes<'_>) {
     let Some((text, place)) = insert.take().filter(|_| notes.dialect() == Dialect::SolidWorksCam) else { return };
     let help = "if the machine must do something here, write INSERT/STOP, AUXFUN/code or PREFUN/code";

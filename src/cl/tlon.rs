@@ -30,7 +30,7 @@ pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
         return fault(Code::PL004, "a TLON that can't be read", help);
     };
     let Some(from) = state.motion.position else {
-        return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before it");
+        return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before the arc");
     };
     if state.cycle.is_active() {
         return fault(Code::PC042, "an arc inside a cycle", "end the cycle first, with CYCLE/OFF");

@@ -1,4 +1,4 @@
-//! The tools and the spindle as the file has defined them so far, for the next tool change.
+//! The tools and the spindle, as far as the file has defined them, for the next tool change.
 
 use super::options::{Assumed, AssumedSpeed};
 use crate::toolpath::{Coolant, Spindle, SpindleTurn};
@@ -22,7 +22,7 @@ pub(super) struct Tools {
     pub loaded: Option<f64>,
     /// Greatest number of all loaded tools.
     pub greatest: f64,
-    /// The current coolant. It stays active after a tool change.
+    /// The current coolant. The coolant stays active after a tool change.
     pub coolant: Option<Coolant>,
 }
 
@@ -32,10 +32,10 @@ impl Tools {
         Tools { assumed, ..Tools::default() }
     }
 
-    /// The number of a tool that the file does not load. `first`: whether it is the first tool.
+    /// The number of a tool that the file does not load. `first`: whether the tool is the first one.
     ///
     /// # Errors
-    /// The number is unknown. The error is the option that gives it.
+    /// The number is unknown. The error is the option that gives the number.
     pub fn number(&self, first: bool) -> Result<f64, String> {
         let assumed = self.assumed.as_ref();
         let one = assumed.and_then(Assumed::one).filter(|_| first);
@@ -72,7 +72,7 @@ pub(super) struct Turning {
     pub now: Spindle,
     /// The direction in which the spindle turned last.
     last: Option<SpindleTurn>,
-    /// Whether the spindle was set after the last motion. The setting may be for the next tool.
+    /// Whether the spindle was set after the last motion. A new setting may be for the next tool.
     pub is_new: bool,
     /// The values for a tool whose spindle the file does not define.
     assumed: Option<Spindle>,
@@ -84,7 +84,7 @@ impl Turning {
         Turning { assumed: assumed.map(AssumedSpeed::spindle), ..Turning::default() }
     }
 
-    /// The active values: those from the file, otherwise the assumed ones.
+    /// The active values: the values from the file, otherwise the assumed values.
     pub fn in_force(&self) -> Spindle {
         match self.assumed {
             Some(assumed) if self.says_no_speed() => {
@@ -106,7 +106,7 @@ impl Turning {
         !self.says_no_speed() || self.assumed.is_some()
     }
 
-    /// The direction for SPINDL/ON: the last one, or clockwise.
+    /// The direction for SPINDL/ON: the last direction, or clockwise.
     pub fn direction(&self) -> SpindleTurn {
         self.last.unwrap_or(SpindleTurn::Cw)
     }

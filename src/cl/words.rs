@@ -7,7 +7,7 @@ use crate::number::short_decimal;
 /// One word.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Word {
-    /// A number. It is always finite.
+    /// A number, which is always finite.
     Number(f64),
     /// A name in capitals, or quoted text.
     Name(String),

@@ -1,4 +1,5 @@
-//! Finds the values that a form uses and that are known only at the end of a job. Properties with known values may exclude some of them.
+//! Finds the values that a form uses and that are known only at the end of a job. Properties with known values may
+//! exclude some of these values.
 
 use std::ops::Range;
 
@@ -7,7 +8,7 @@ use super::routine::{Branch, Node, Routine};
 use crate::lang::{AHEAD, Coolant, TOOLS_AHEAD, TextId, VarId, VarSet};
 use crate::sema::{PropertyKind, PropertyValue, Target, Values};
 
-/// Properties whose values do not change any more, by row.
+/// Properties whose values do not change any more: each with its row and its value.
 pub type Fixed = [(u16, PropertyValue)];
 
 /// Which values of a form are known only at the end of the job.
@@ -15,7 +16,7 @@ pub type Fixed = [(u16, PropertyValue)];
 pub struct Asks {
     /// Whether the form uses lists, extents or sums.
     pub all: bool,
-    /// Whether the form uses tools that come later.
+    /// Whether the form uses tools that come later in the job.
     pub tools: bool,
 }
 
@@ -91,7 +92,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Collects from a part of a sequence: from its nodes, and from the operations outside of their branches.
+    /// Collects the values that a part of a sequence uses: in its nodes, and in the operations outside of the nodes'
+    /// branches.
     fn part(&mut self, ops: &Range<usize>, nodes: &[Node]) {
         let mut at = ops.start;
         for node in nodes {

@@ -12,8 +12,8 @@ use crate::nc::{Kind, tokens};
 struct Found {
     op: usize,
     word: WorkWord,
-    /// 0: a code, or a parameter of a code that selects offsets. 1: a word without a code. 2: a value after a text. Only the
-    /// words with the lowest rank in the form are used.
+    /// Rank of the word. 0: a code, or a parameter of a code that selects offsets. 1: a word without a code. 2: a value
+    /// after a text. Only the words with the lowest rank in the form are used.
     rank: u8,
 }
 
@@ -74,7 +74,7 @@ const BY_CODE: u8 = 0;
 const OF_ITS_OWN: u8 = 1;
 const BEHIND_TEXT: u8 = 2;
 
-/// Finds such words in one block. Words that are arguments of another code are ignored.
+/// Finds the words in one block that may select the work offset. Words that are arguments of another code are ignored.
 fn in_block(block: Range<usize>, program: &Program, found: &mut Vec<Found>) {
     let control = program.settings.codes();
     let own = VarSet::of(&[VarId::Work]);

@@ -3,14 +3,14 @@
 use crate::number::{LetterFormat, Printing};
 use crate::sema::{Form, Settings};
 
-/// The kind of a letter. It determines when the letter's word may be left out.
+/// The kind of a letter. The kind determines when a word with this letter may be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LetterKind {
     /// The position of an axis.
     Axis,
-    /// G codes. Each modal group is remembered separately.
+    /// G codes. The last code is remembered for each modal group separately.
     GCode,
-    /// M codes. Each modal group is remembered separately.
+    /// M codes. The last code is remembered for each modal group separately.
     MCode,
     /// Any other value.
     Other,
@@ -21,9 +21,9 @@ pub enum LetterKind {
 pub struct Letter {
     /// The format of numbers after this letter.
     pub format: LetterFormat,
-    /// The same format, prepared for printing.
+    /// The format of numbers after this letter, prepared for printing.
     pub printing: Printing,
-    /// Whether the form defines the format. Otherwise it is a built-in format.
+    /// Whether the form defines the format. `false`: the format is a built-in one.
     pub has_format: bool,
     /// The letter in the program, after `Rename`.
     pub printed: u8,
@@ -70,8 +70,8 @@ const BUILT_IN: &[(&[u8], &str, &str)] = &[
 /// The format of all other letters, and of values without a letter.
 const ANY: (&str, &str) = ("->6~>4", "->6~>4");
 
-/// The format of values after a text, for languages in whose cycles values have no letters. In such cycles, heights and pitches
-/// are added and multiplied, so more decimals are needed.
+/// The format of values after a text, for languages in whose cycles values have no letters. Cycles of these languages
+/// add and multiply heights and pitches, so more decimals are needed.
 const FINE: &str = "->6~>6";
 
 impl LetterTable {

@@ -146,7 +146,7 @@ fn lower(program: &mut Program, lines: &[Line], steps: Option<&[Step]>, count: O
     routine
 }
 
-/// A routine before its operations are analysed.
+/// A routine whose operations are not analysed yet.
 fn routine(ops: Range<usize>, flow: Option<Arc<Flow>>, count: Option<usize>, span: Span) -> Routine {
     Routine {
         repeat: ops.start,

@@ -14,12 +14,13 @@ use crate::span::Span;
 /// Number of bytes of a form's hash that are printed.
 const HASH_BYTES: usize = 6;
 
-/// One operation. It is small, because hundreds of millions of operations may run for a long job.
+/// One operation, which is kept small in memory, because a long job may run hundreds of millions of operations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Op {
-    /// Start of a line. `droppable`: the only codes in the line are G0 to G3, so a cycle may leave out its unchanged words.
+    /// Start of a line. `droppable`: the only codes in the line are G0 to G3, so a cycle may leave out unchanged words
+    /// of the line.
     Line {
-        /// Explained at the variant.
+        /// The meaning of `droppable` is explained at `Line`.
         droppable: bool,
     },
     /// A letter and the value of a variable.
@@ -28,42 +29,42 @@ pub enum Op {
         letter: u8,
         /// The variable.
         var: VarId,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// The value of a variable without a letter.
     Value {
         /// The variable.
         var: VarId,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
-    /// The value of a variable inside a comment of the program. The control ignores it.
+    /// The value of a variable inside a comment of the program. The control ignores comments.
     Remark {
         /// The variable.
         var: VarId,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// A letter and a number, printed as written in the form.
     Literal {
         /// Row in [`Program::literals`].
         index: u32,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// Text, printed as written in the form.
     Text {
         /// Row in [`Program::texts`].
         index: u32,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// Text in backquotes, which is never changed.
     Quote {
         /// Row in [`Program::texts`].
         index: u32,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// A letter and a calculated value.
@@ -72,21 +73,21 @@ pub enum Op {
         letter: u8,
         /// Row in [`Program::formulas`].
         index: u32,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// A calculated value without a letter.
     ValueFormula {
         /// Row in [`Program::formulas`].
         index: u32,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// A calculated value inside a comment of the program.
     RemarkFormula {
         /// Row in [`Program::formulas`].
         index: u32,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// Sets a variable or a property (`@set`).
@@ -98,9 +99,9 @@ pub enum Op {
     PropertyText {
         /// Row of the property in the settings.
         row: u16,
-        /// Whether it is in a comment, where more characters are allowed than in words.
+        /// Whether the text is in a comment, where more characters are allowed than in words.
         in_comment: bool,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// Start of a list, which is a row of [`Program::lists`].
@@ -110,11 +111,11 @@ pub enum Op {
     },
     /// A text of the job.
     TextVar {
-        /// Which text, and its width.
+        /// The text to print, and its width.
         var: TextVar,
-        /// Whether it is in a comment, where more characters are allowed than in words.
+        /// Whether the text is in a comment, where more characters are allowed than in words.
         in_comment: bool,
-        /// Whether there is no space before it.
+        /// Whether there is no space before the printed text.
         glued: bool,
     },
     /// Start of a comment with texts of the job. If all these texts are empty, the comment is not printed.
@@ -149,7 +150,7 @@ pub struct List {
 /// How a canned cycle prints its holes (docs/rendering.md, "Canned cycles").
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CycleStyle {
-    /// One line, and `End Cancel`: the first hole prints the line, later holes only what changes.
+    /// One line, and `End Cancel`: the first hole prints the line, later holes print only changed words.
     Machine,
     /// One line, and `End` alone: every hole prints the whole line.
     WholeLine,
@@ -161,7 +162,7 @@ pub enum CycleStyle {
     Generated,
 }
 
-/// A sequence that is printed when a variable changes, or whenever it is used.
+/// A sequence that is printed when a variable changes, or whenever the variable is used.
 #[derive(Clone, Debug)]
 pub struct Upon {
     /// The variable that triggers the sequence.
@@ -172,14 +173,14 @@ pub struct Upon {
     pub routine: Routine,
 }
 
-/// A compiled form. It is immutable, so many renderers may share it.
+/// A compiled form, which is immutable, so many renderers may share it.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// Settings from the commands.
     pub settings: Settings,
     /// All operations.
     pub ops: Vec<Op>,
-    /// Location of each operation in the form. Only errors and the source map use it.
+    /// Location of each operation in the form. Only errors and the source map use the locations.
     pub spans: Vec<Span>,
     /// The words with a letter and a number.
     pub literals: Vec<Literal>,
@@ -215,7 +216,7 @@ pub struct Program {
     pub work: WorkWords,
     /// The letters of the form, for programs in inches and for programs in millimetres.
     pub letters: [LetterTable; 2],
-    /// The comments of the Custom cycles. Each names the kind of cycle.
+    /// The comments of the Custom cycles. Each comment names the kind of cycle.
     pub custom: [Option<String>; 3],
 }
 
@@ -231,7 +232,7 @@ impl Program {
         self.printed.with(self.asked).with(self.upon_vars)
     }
 
-    /// Sets the name and the hash of the form from its files: the main file first, then those that it calls.
+    /// Sets the name and the hash of the form from its files: the main file first, then the files that it calls.
     #[must_use]
     pub fn identified(mut self, files: &[Source]) -> Program {
         self.name.clone_from(&self.settings.name);

@@ -17,19 +17,21 @@ pub struct Routine {
     pub ops: Range<usize>,
     /// The parts of `ops` that belong to branches that were not taken, in their order.
     pub left_out: Option<Arc<[Range<usize>]>>,
-    /// The branches that were taken, one bit for each. It is 0 if no branches were selected; then `ops` contains all branches.
+    /// The branches that were taken, one bit for each. The value is 0 if no branches were selected; `ops` then contains
+    /// all branches.
     pub branches: u128,
     /// The branches of the sequence; `None` if it has no directives.
     pub flow: Option<Arc<Flow>>,
     /// Number of lines that are printed at the first hole only, if the sequence is a cycle with a count.
     pub count: Option<usize>,
-    /// Start of the lines that a cycle with a count repeats. Otherwise the start of the sequence.
+    /// Start of the lines that a cycle with a count repeats. For all other sequences, the start of the sequence.
     pub repeat: usize,
     /// The variables that the routine prints outside comments.
     pub vars: VarSet,
     /// The texts of the job that the routine prints.
     pub texts: TextSet,
-    /// For the words that a cycle prints at its first hole only: the variables and properties on which these words depend.
+    /// Sources of the words that a cycle prints at its first hole only: the variables and properties on which the words
+    /// depend.
     pub first_only: Sources,
     /// Whether the sequence ends with `End Cancel`.
     pub cancel: bool,
@@ -37,9 +39,9 @@ pub struct Routine {
     pub stays: bool,
     /// How the sequence prints holes, if it is a canned cycle.
     pub style: CycleStyle,
-    /// Whether the routine prints `[retplane]`, `[rplane]` or G98. The tool then returns to the return plane.
+    /// Whether the routine prints `[retplane]`, `[rplane]` or G98, so that the tool returns to the return plane.
     pub returns: bool,
-    /// Location of the name line.
+    /// Location of the line with the name of the sequence.
     pub span: Span,
 }
 
@@ -53,9 +55,9 @@ pub struct Flow {
 /// A part of a sequence that contains a directive.
 #[derive(Clone, Debug)]
 pub enum Node {
-    /// Sets a variable or property. Later conditions may use its value.
+    /// Sets a variable or property. Later conditions may use the value that was set.
     Set(Target, u32),
-    /// Branches. The first one whose condition is true is taken.
+    /// Branches. The first branch whose condition is true is taken.
     If(Vec<Branch>),
     /// A list: its row in [`Program::lists`], and the range of its operations, which have a routine of their own.
     List(u32, Range<usize>),
@@ -66,7 +68,7 @@ pub enum Node {
 pub struct Branch {
     /// Number of the bit of this branch.
     pub number: u32,
-    /// Row of its condition in [`Program::formulas`]. `None` for `@else`.
+    /// Row of the branch's condition in [`Program::formulas`]. `None` for `@else`.
     pub condition: Option<u32>,
     /// Range of the branch's operations.
     pub ops: Range<usize>,
@@ -82,7 +84,7 @@ impl Routine {
         self.vars.has(var) || self.tests(VarSet::of(&[var]), program)
     }
 
-    /// Does it use any of these variables in a condition?
+    /// Does the routine use any of these variables in a condition?
     pub fn tests(&self, vars: VarSet, program: &Program) -> bool {
         fn of(nodes: &[Node], vars: VarSet, program: &Program) -> bool {
             nodes.iter().any(|node| match node {

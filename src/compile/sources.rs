@@ -8,12 +8,12 @@ use crate::sema::{Formula, Target};
 pub struct Sources {
     /// The variables.
     pub vars: VarSet,
-    /// The properties of the form, with one bit for each row. A form has at most 64 properties.
+    /// The properties of the form: one bit for each row. A form has at most 64 properties.
     properties: u64,
 }
 
 impl Sources {
-    /// The sources of both.
+    /// The sources of both values.
     #[must_use]
     fn with(self, other: Sources) -> Sources {
         Sources { vars: self.vars.with(other.vars), properties: self.properties | other.properties }
@@ -40,12 +40,12 @@ impl Sources {
     }
 }
 
-/// What the sequence has set by `@set` so far, with the sources of the values.
+/// The variables and properties that the sequence has set by `@set` so far, with the sources of their values.
 #[derive(Default)]
 struct Carried(Vec<(Target, Sources)>);
 
 impl Carried {
-    /// The sources of a variable or property. If it was set before, these are the sources of the value.
+    /// The sources of a variable or property. After `@set`, these are the sources of the value that was set.
     fn of(&self, target: Target) -> Sources {
         let set = self.0.iter().rfind(|(own, _)| *own == target);
         set.map_or_else(|| Sources::of(target), |(_, sources)| *sources)
@@ -80,10 +80,10 @@ pub(super) enum Step<'p> {
 /// The letter of a step for values without a letter.
 pub(super) const BARE: u8 = b' ';
 
-/// The sources of the words that a cycle prints at its first hole only. In a cycle with a count, these are the words of the
-/// counted lines. In a cycle of one line, they are the values without a letter. Words that other lines print too are not
-/// included. `steps`: the steps of the cycle, each with whether its line is printed at every hole. `counted`: whether the cycle
-/// has a count.
+/// The sources of the words that a cycle prints at its first hole only. In a cycle with a count, the first hole alone
+/// prints the words of the counted lines. In a cycle of one line, the first hole alone prints the values without a
+/// letter. Words that other lines print too are not included. `steps`: the steps of the cycle, each with a flag: every
+/// hole prints the line of the step. `counted`: whether the cycle has a count.
 pub(super) fn of_first_hole<'p>(steps: impl Iterator<Item = (Step<'p>, bool)>, counted: bool) -> Sources {
     let mut carried = Carried::default();
     let (mut first, mut again) = (Vec::new(), Vec::new());

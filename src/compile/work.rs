@@ -21,14 +21,16 @@ pub struct WorkWord {
 /// not included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorkWords {
-    /// The ways. Those in tool changes come first. If empty, the form prints offsets by G codes only, or no offsets.
+    /// The ways to print a work offset. Ways in tool changes come first. Empty: the form prints offsets by G codes
+    /// only, or prints no offsets.
     pub ways: Vec<WorkWord>,
     /// The indices of the operations that print the work offset, in ascending order.
     pub(super) says: Vec<usize>,
-    /// The words from `MoreWork`. Each has the first `[work]` to which it applies, the word, and the number in the word for this offset.
+    /// The words from `MoreWork`. Each entry has the first value of `[work]` to which it applies, the word, and the
+    /// number in the word for this offset.
     pub(super) more: Vec<(f64, WorkWord, f64)>,
-    /// Whether G54 to G59 also select offsets if the form has other words. False if such a word follows a code: on an Okuma
-    /// with G15, G56 is a length.
+    /// Whether G54 to G59 also select offsets if the form has other words. False if one of these other words follows a
+    /// code: on an Okuma, where offsets follow G15, G56 is a length.
     pub shares_its_codes: bool,
 }
 
@@ -38,12 +40,12 @@ impl WorkWords {
         self.says.binary_search(&op).is_ok()
     }
 
-    /// Whether the work offset is printed by G codes only. Each of these codes then selects an offset.
+    /// Whether the form prints the work offset by G codes only, each of which selects an offset.
     pub fn by_code(&self) -> bool {
         self.ways.is_empty() || self.ways.iter().any(|way| way.is_code)
     }
 
-    /// The first way that the control supports for this offset, and the value of its word.
+    /// The form's first way to print this offset that the control supports, and the value of the word.
     pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
         if let Some((word, value)) = values.number(VarId::Work).and_then(|work| self.more(work)) {
             return word.has(value, control).then_some((word, value));
@@ -89,13 +91,13 @@ impl WorkWord {
         !self.is_code && self.code.is_some_and(|code| control.group(code) == Some(Group::Work))
     }
 
-    /// Whether the word is a parameter of a code that selects only those offsets that have no code of their own.
+    /// Whether the word is a parameter of a code for additional offsets: offsets that have no code of their own.
     fn is_additional(&self, control: &Control) -> bool {
         let row = self.code.and_then(|code| control.row(code));
         self.is_parameter(control) && !matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))
     }
 
-    /// Whether the control has this offset, as far as this is known.
+    /// Whether the control has this offset, as far as postform knows the offsets of the control.
     fn has(&self, value: f64, control: &Control) -> bool {
         match self.is_code {
             true => Code::of(b'G', value).is_some_and(|code| control.group(code) == Some(Group::Work)),

@@ -12,7 +12,7 @@ pub struct Tolerance {
     pub part: f64,
     /// If the end is farther from the circle than this distance, the arc is refused. A length.
     pub most: f64,
-    /// Half the distance between start and end may exceed R by this amount, a length.
+    /// Half the distance between start and end may exceed the radius R by this length.
     pub chord: f64,
 }
 
@@ -23,7 +23,7 @@ impl Tolerance {
         [least, part, most, chord].iter().all(|length| length.is_finite() && *length >= 0.0) && least <= most
     }
 
-    /// Whether an arc is refused that has these radii at its start and at its end.
+    /// Whether an arc with these radii at its start and at its end is refused.
     pub fn refuses(&self, start: f64, end: f64) -> bool {
         let off = (start - end).abs();
         off > self.most || (off > self.least && off > self.part * start)
@@ -33,9 +33,9 @@ impl Tolerance {
 /// The tolerances of a control for programs in millimetres and in inches.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Arcs {
-    /// In millimetres.
+    /// The tolerance for programs in millimetres.
     pub mm: Tolerance,
-    /// In inches; `None`: the same lengths as in millimetres.
+    /// The tolerance for programs in inches; `None`: the same lengths as in millimetres.
     pub inch: Option<Tolerance>,
 }
 

@@ -106,7 +106,7 @@ pub(super) fn read(name: &str, text: &str, find: &Find, depth: usize) -> Result<
     Ok(control)
 }
 
-/// The text that is being read. Its name and text are needed for the locations of errors.
+/// The text that is being read. The name and the text of the file are needed for the locations of errors.
 struct Reader<'t> {
     name: &'t str,
     text: &'t str,
@@ -215,7 +215,7 @@ impl Reader<'_> {
                 return Err(self.wrong(
                     key.span().start,
                     message,
-                    "write G154, G59.1 or G110-G129; `G31.*` is all codes of that number, `M*` is all other M codes",
+                    "write G154, G59.1 or G110-G129; `G31.*` is all codes from G31 to G31.9, `M*` is all other M codes",
                 ));
             };
             if row.is.get_ref() == ABSENT {
@@ -323,7 +323,8 @@ impl Reader<'_> {
         };
         let values = text.get_ref().split_ascii_whitespace().map(|word| {
             let message = || format!("`{}` is not a word with a value", word.escape_default());
-            parse(word).ok_or_else(|| self.wrong(text.span().start, message(), "write them as \"P0 P10000\""))
+            parse(word)
+                .ok_or_else(|| self.wrong(text.span().start, message(), "write words with values, as \"P0 P10000\""))
         });
         values.collect()
     }

@@ -102,7 +102,7 @@ pub(super) struct Stops {
 #[serde(deny_unknown_fields)]
 pub(super) struct ArcsText {
     pub(super) centres: Option<Centres>,
-    /// Tolerance in millimetres, and tolerance in inches if it is not the same length.
+    /// Tolerance in millimetres. The tolerance in inches is given only if it is a different length.
     pub(super) mm: Option<Spanned<Tolerance>>,
     pub(super) inch: Option<Spanned<Tolerance>>,
 }
@@ -185,7 +185,7 @@ pub(super) struct Tool {
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SecondTool {
-    /// The second T word names the next tool, after the one that is changed to.
+    /// The second T word names the tool after the tool that this block loads.
     Next,
 }
 

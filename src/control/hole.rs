@@ -2,7 +2,7 @@
 
 macro_rules! holes {
     ($($name:ident $text:literal $about:literal;)*) => {
-        /// A kind of hole that a canned cycle makes. Control files select it with the key `makes`.
+        /// A kind of hole that a canned cycle makes. Control files select the kind of hole with the key `makes`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Hole { $(#[doc = $about] $name),* }
 

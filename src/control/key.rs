@@ -59,7 +59,8 @@ impl Key {
 }
 
 impl Rows {
-    /// Removes the inherited rows of these codes. A row for all other codes of the letter does not apply to them either.
+    /// Removes the inherited rows of these codes. A row for all other codes of the letter does not apply to these codes
+    /// either.
     pub(super) fn remove(&mut self, key: Key) {
         self.one.retain(|row| !key.names(row.code));
         if matches!(key, Key::Number(..) | Key::Letter(_)) {

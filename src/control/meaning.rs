@@ -9,15 +9,15 @@ pub enum AxisWords {
     Waypoint,
     /// Data of the code itself.
     Data,
-    /// Axis words are not used by the code: they belong to the motion in force.
+    /// The code does not use the axis words in its block: these words belong to the motion in force.
     Free,
 }
 
 /// The effect of a code on the frame of axis words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
-    /// Axis words in the block of the code are in another frame, and the axes move to them: reference points, machine
-    /// coordinates. Without axis words, all axes move.
+    /// Axis words in the code's block are positions in another frame, to which the axes move: reference points, machine
+    /// coordinates. If the block has no axis words, all axes move.
     Block,
     /// Axis words after the code are increments, until a code for absolute positions.
     Increments,
@@ -65,11 +65,12 @@ pub enum Group {
     Coolant,
     /// M0 M1 M2 M30.
     Stop,
-    /// Canned cycles and G80, on controls that read blocks as Fanuc does. Such a block may also contain a motion code.
+    /// Canned cycles and G80, on controls that read blocks as Fanuc does. A block with a canned cycle may also contain
+    /// a motion code.
     Cycle,
-    /// Codes that take effect in their block only. This is not a modal group.
+    /// Codes that take effect in their block only. These codes are not a modal group.
     Once,
-    /// Codes without an effect on anything that is compared. This is not a modal group.
+    /// Codes whose effects postform never compares. These codes are not a modal group.
     Other,
 }
 
@@ -78,7 +79,7 @@ pub const GROUPS: usize = Group::Other as usize + 1;
 
 macro_rules! meanings {
     ($($name:ident $text:literal $group:expr, $axes:ident, $about:literal;)*) => {
-        /// The meaning of a code. Control files select it with the key `is`.
+        /// The meaning of a code. Control files select the meaning with the key `is`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Meaning { $(#[doc = $about] $name),* }
 

@@ -1,7 +1,8 @@
-//! Descriptions of controls. They come from the files in `controls/` or from a shop's own file.
+//! Descriptions of controls. The descriptions come from the files in `controls/` or from a shop's own file.
 //!
 //! A file lists the codes of the control and their meanings, by the names of [`Meaning`]. The effect of each meaning is
-//! defined in postform's source code. Values that a file leaves out are inherited from the control that it names with `like`.
+//! defined in postform's source code. A value that is missing in a file is inherited from the control that the file
+//! names with `like`.
 
 mod arcs;
 mod code;
@@ -57,9 +58,10 @@ pub struct Row {
     pub text: String,
     /// If postform does not run the code although its meaning is known: the reason.
     pub not_run: Option<String>,
-    /// The words and values with which the code has this meaning; empty: the code has it with any values.
+    /// The words and values with which the code has this meaning; empty: the code has this meaning with any values.
     pub only: Vec<(u8, f64)>,
-    /// Whether the control stops the spindle before it runs the code. A Haas does so for through-spindle coolant.
+    /// Whether the control stops the spindle before it runs the code. A Haas, for example, stops the spindle before it
+    /// turns on through-spindle coolant.
     pub stops_spindle: bool,
     /// Values that only the simulator uses.
     pub runs: Runs,
@@ -76,7 +78,7 @@ struct Rows {
     numbers: Vec<Row>,
     /// Rows for all other codes of a letter.
     others: Vec<Row>,
-    /// The codes that the control does not have. The rows of `others` do not apply to them.
+    /// The codes that the control does not have. The rows of `others` do not apply to these codes.
     absent: Vec<Key>,
 }
 
@@ -88,7 +90,7 @@ impl Rows {
         }
     }
 
-    /// Builds `index`. To be called after the last row is added.
+    /// Builds `index`. Call this function after the last row is added.
     fn finish(&mut self) {
         let highest =
             self.one.iter().rfind(|row| row.code.letter == b'G').map_or(0, |row| usize::from(row.code.tenths) + 1);
@@ -130,7 +132,8 @@ macro_rules! shipped {
         const FILES: [(&str, &str); [$($name),*].len()] =
             [$(($name, include_str!(concat!("../../controls/", $name, ".toml")))),*];
 
-        /// The controls of these files. Each file is read at the first use of its control. A test reads all of them.
+        /// The controls that come with postform. Each file is read at the first use of its control. A test reads all
+        /// files.
         static CONTROLS: [LazyLock<Control>; FILES.len()] = [$(LazyLock::new(|| {
             let text = include_str!(concat!("../../controls/", $name, ".toml"));
             Control::read($name, text).unwrap_or_else(|_| Control::empty())
@@ -172,7 +175,7 @@ impl Control {
     }
 
     /// The control for forms without a `Control` command: a Fanuc mill with additional common codes of other controls.
-    /// It is not used for running programs.
+    /// This control is not used for running programs.
     pub fn of_no_name() -> &'static Control {
         static UNION: LazyLock<Control> = LazyLock::new(|| {
             let text = include_str!("../../controls/of-no-name.toml");
@@ -189,8 +192,8 @@ impl Control {
         file::read(name, text, &like, 0)
     }
 
-    /// Reads a shop's own control and keeps it until the process ends. Forms and programs use its name like those of
-    /// the controls that come with postform. The same text is read only once.
+    /// Reads a shop's own control and keeps it until the process ends. Forms and programs use the name of this control
+    /// like the names of the controls that come with postform. The same text is read only once.
     ///
     /// # Errors
     /// The file has an error, with its line and column.
@@ -215,7 +218,8 @@ impl Control {
         }
     }
 
-    /// The lathe control of the same maker, if there is a file for it. Forms for lathes name the mill control.
+    /// The lathe control by the maker of this control, if it has a control file. Forms for lathes name the mill
+    /// control.
     pub fn of_lathe(&'static self) -> &'static Control {
         let lathe = |name: &String| Control::named(&format!("{name}-lathe"));
         if self.is_lathe() { self } else { self.chain.iter().find_map(lathe).unwrap_or(self) }
@@ -227,8 +231,8 @@ impl Control {
         self.traits.turns == Turns::Part
     }
 
-    /// The wire EDM control of the same maker, if there is a file for it. Forms for wire EDM machines name the mill
-    /// control.
+    /// The wire EDM control by the maker of this control, if it has a control file. Forms for wire EDM machines name
+    /// the mill control.
     pub fn of_wire(&'static self) -> &'static Control {
         let wire = |name: &String| Control::named(&format!("{name}-wire"));
         if self.is_wire() { self } else { self.chain.iter().find_map(wire).unwrap_or(self) }
@@ -266,7 +270,8 @@ impl Control {
         &self.title
     }
 
-    /// Facts about the control that are not public, one sentence each. A program that depends on them is refused.
+    /// Facts about the control that are not public, one sentence each. A program that depends on such a fact is
+    /// refused.
     pub fn unknown(&self) -> &[String] {
         &self.unknown
     }
@@ -322,7 +327,7 @@ impl Control {
         self.traits.rules.is_nist()
     }
 
-    /// Whether postform runs programs of the control. It does not if the control's file has `rules = "none"`.
+    /// Whether postform runs programs of the control. Programs are not run if the control's file has `rules = "none"`.
     pub fn is_run(&self) -> bool {
         self.traits.rules != Rules::None
     }
@@ -333,14 +338,15 @@ impl Control {
         !matches!(self.traits.rules, Rules::None | Rules::Klartext | Rules::Siemens)
     }
 
-    /// The code of the work offset that is active before a program selects one; `None`: the control has none, or it is unknown.
+    /// The code of the work offset that is active before a program selects a work offset; `None`: the control has no
+    /// such work offset, or it is unknown.
     pub fn first_work(&self) -> Option<f64> {
         let codes = matches!(self.traits.rules, Rules::Fanuc | Rules::Linuxcnc | Rules::Emc2 | Rules::Grbl);
         (codes && self.traits.work_letter.is_none()).then_some(54.0)
     }
 
-    /// The control's row for a code. The row of this code comes first, then the row of its whole number, then the row
-    /// of its letter. `None`: the code is unknown.
+    /// The control's row for a code. The row of the code itself has priority, then the row of the code's whole number,
+    /// then the row of the code's letter. `None`: the code is unknown.
     #[doc(hidden)]
     pub fn row(&self, code: Code) -> Option<&Row> {
         let rows = &self.rows;
@@ -404,8 +410,8 @@ impl Control {
     }
 }
 
-/// Reads the control that a file names with `like`. Its file is read each time: control files are short, and each chain
-/// is read only once.
+/// Reads the control that a file names with `like`. The file of that control is read each time: control files are
+/// short, and each chain is read only once.
 fn like(name: &str, depth: usize) -> Option<Result<Control, Wrong>> {
     let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
     Some(file::read(name, text, &like, depth))

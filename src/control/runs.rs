@@ -2,8 +2,8 @@
 
 macro_rules! motions {
     ($($name:ident $text:literal $about:literal;)*) => {
-        /// The motions of a canned cycle. Control files select them with the key `motions`. The key may be left out if
-        /// `makes` contains a kind of hole that is made by only one kind of motions.
+        /// The motions of a canned cycle. Control files select the motions with the key `motions`. The key `motions`
+        /// may be left out if `makes` contains a kind of hole that only one kind of motions can make.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Motions { $(#[doc = $about] $name),* }
 
@@ -43,7 +43,8 @@ impl Motions {
         Motions::ALL.iter().copied().find(|motions| motions.name() == name)
     }
 
-    /// Whether the tool moves sideways at the bottom. The distance is in Q, or in I and J; K is then not a number of repeats.
+    /// Whether the tool moves sideways at the bottom. The distance of the sideways move is in Q, or in I and J; K is
+    /// then not a number of repeats.
     pub const fn shifts(self) -> bool {
         matches!(self, Motions::ShiftOut | Motions::Back)
     }
@@ -62,13 +63,14 @@ impl Motions {
 /// The work offset that a code selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkOffset {
-    /// One of the offsets G54 to G59.3. The number is that of its usual code in tenths: 540, 593.
+    /// One of the offsets G54 to G59.3. The offset is stored as its usual code in tenths: 540 for G54, 593 for G59.3.
     Usual(u16),
     /// One of the additional offsets, numbered from 1: G54.1 P1.
     Additional(u16),
-    /// One of the additional offsets. The number is in the word with this letter.
+    /// One of the additional offsets. The word with this letter contains the number of the offset.
     Word(u8),
-    /// One of the offsets of a control that has only numbered offsets, from 1. The number is in the word with this letter.
+    /// One of the offsets of a control that has only numbered offsets, from 1. The word with this letter contains the
+    /// number of the offset.
     Counted(u8),
 }
 
@@ -96,7 +98,7 @@ impl WorkOffset {
         (code.letter == b'G' && USUAL.contains(&code.tenths)).then_some(WorkOffset::Usual(code.tenths))
     }
 
-    /// The work offset that is `count` offsets after this one; `None`: there is no such offset.
+    /// The work offset that is `count` offsets after this offset; `None`: this work offset does not exist.
     pub fn after(self, count: u16) -> Option<WorkOffset> {
         match self {
             WorkOffset::Usual(code) => {
@@ -139,7 +141,7 @@ pub struct Pitch {
     pub unit: PitchUnit,
 }
 
-/// Those values of a row that only the simulator uses.
+/// The values in a code's row that only the simulator uses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
     /// The motions of a canned cycle.
@@ -162,7 +164,8 @@ impl super::Row {
         self.words.has(b'P')
     }
 
-    /// The value that the file must contain before the code can be run, but does not; `None`: nothing is missing.
+    /// The value that is missing in the control file and without which the code can't be run; `None`: nothing is
+    /// missing.
     pub fn lacks(&self) -> Option<&'static str> {
         use super::Meaning as M;
         let runs = &self.runs;

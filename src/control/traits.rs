@@ -24,8 +24,8 @@ pub enum Rules {
     Klartext,
     /// Okuma OSP mills.
     Osp,
-    /// Programs are not run, because postform does not read the language. Forms can print it, but programs are not
-    /// proven.
+    /// Programs are not run, because postform does not read the language. Forms can print Klartext, but programs in
+    /// Klartext are not proven.
     None,
 }
 
@@ -124,7 +124,8 @@ pub enum Turns {
     /// The workpiece, as on a lathe: X is a diameter, U and W are increments, and T changes the tool at once.
     #[serde(rename = "lathe")]
     Part,
-    /// Nothing, as on a wire EDM machine: X Y is the position of the lower guide of the wire, U V that of the upper guide.
+    /// Nothing, as on a wire EDM machine: X Y is the position of the wire's lower guide, U V is the position of its
+    /// upper guide.
     #[serde(rename = "wire")]
     Nothing,
 }
@@ -138,7 +139,8 @@ pub struct Traits {
     pub one_m: bool,
     /// The longest block that the control reads, in characters; `None`: not public.
     pub longest_line: Option<usize>,
-    /// Whether the control stops at a block that is too long. On other controls, the program that sends the blocks cuts it.
+    /// Whether the control stops at a block that is too long. On other controls, the program that sends the blocks cuts
+    /// off a block that is too long.
     pub stops_at_longer: bool,
     /// Whether a comment may end at the end of its line, without a closing bracket.
     pub open_comments: bool,

@@ -1,11 +1,12 @@
-//! Boring: retract with the spindle stopped, or moved off the wall at a known angle; and boring from below.
+//! Boring with a retract while the spindle is stopped, boring with a move off the wall at a known spindle angle, and
+//! boring from below.
 
 use super::plan::{Defaults, Plan, Step};
 use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::CycleSpec;
 
-/// Down, then retract with the spindle stopped, or oriented and moved off the wall.
+/// Feeds down, then retracts: with the spindle stopped, or with the spindle oriented and the tool moved off the wall.
 pub(super) fn bore(
     spec: &CycleSpec,
     plan: &Plan,
@@ -31,7 +32,8 @@ pub(super) fn bore(
     Ok(())
 }
 
-/// Down beside the hole, across, up to cut the bottom from below, and out on the same path.
+/// The tool goes down beside the axis of the hole, moves to the axis, cuts upward from below, and goes out on the same
+/// path.
 pub(super) fn back_bore(
     spec: &CycleSpec,
     plan: &Plan,
@@ -67,7 +69,7 @@ pub(super) fn back_bore(
     Ok(())
 }
 
-/// The move off the wall: the offset in the cycle, or its jog at the spindle's angle.
+/// The move off the wall: the offset that the cycle gives, or the cycle's jog in the direction of the spindle angle.
 fn aside(spec: &CycleSpec, angle: f64, defaults: &Defaults) -> (f64, f64) {
     if let (Some(x), Some(y)) = (spec.offset, spec.offset_y) {
         return (x, y);

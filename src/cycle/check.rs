@@ -5,7 +5,7 @@ use crate::diag::Code;
 use crate::toolpath::CycleKind::{self, *};
 use crate::toolpath::CycleSpec;
 
-/// Checks a cycle as a whole: options that belong to another kind, exclude each other, or are impossible.
+/// Checks a cycle for options that belong to another kind of cycle, exclude each other, or are impossible.
 ///
 /// # Errors
 /// The first problem, with its code.
@@ -27,7 +27,7 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
         );
     }
     if spec.norevr && spec.rapout {
-        return problem(Code::PC016, "the tap has both `norevr` and `rapout`", "keep one of them");
+        return problem(Code::PC016, "the tap has both `norevr` and `rapout`", "keep one of the two keys");
     }
     if spec.mode.is_some() && (spec.norevr || spec.rapout) {
         let help = "take `mode` (DEEP or BRKCHP) out, or `norevr` and `rapout`";
@@ -106,7 +106,11 @@ fn options(spec: &CycleSpec) -> Result<(), Problem> {
         Some((_, name, kinds)) => {
             let message = format!("`{}` has no `{name}`", spec.kind.name());
             let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
-            Err(Problem::new(Code::PC017, message, format!("`{name}` is for {}: remove it", names.join(", "))))
+            Err(Problem::new(
+                Code::PC017,
+                message,
+                format!("`{name}` is only for {}: remove the key", names.join(", ")),
+            ))
         }
     }
 }
@@ -120,7 +124,7 @@ fn webs(spec: &CycleSpec) -> Result<(), Problem> {
     match spec.webs.windows(2).find(|pair| pair[0] > pair[1]) {
         Some(pair) => {
             let message = format!("the web depth {} is followed by the smaller depth {}", pair[0], pair[1]);
-            Err(Problem::new(Code::PC023, message, "give each web deeper than the one before"))
+            Err(Problem::new(Code::PC023, message, "give each web a greater depth than the web before"))
         }
         None => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! Canned cycles as motions: one planner, a pure function from parameters to steps.
+//! Converts canned cycles to motions: a planner that calculates the steps from the parameters only.
 
 mod bore;
 mod check;

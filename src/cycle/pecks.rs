@@ -5,19 +5,20 @@ use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::{self, CycleKind, CycleSpec, MOST_PECKS};
 
-/// Depths with a smaller difference count as equal (in units of any length).
+/// If two depths differ by less than this value, they are equal (in inches or millimetres).
 const SAME: f64 = 1e-9;
 
-/// One peck: its depth, and its feed if it has its own.
+/// One peck: its depth, and its feed if the peck has a feed of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peck {
-    /// Height above the point; negative below it.
+    /// Height above the point; negative if below the point.
     pub height: f64,
-    /// Feed of the peck, if not the cycle's, in units per minute or per revolution, as for the cycle.
+    /// Feed of the peck if it differs from the cycle's feed, in the feed mode of the cycle (units per minute or per
+    /// revolution).
     pub feed: Option<f64>,
 }
 
-/// Pecks with full retracts, or chip breaks with a full retract every `times`.
+/// Pecks with full retracts, or chip breaks with a full retract after every `times` pecks.
 pub(super) fn peck(
     spec: &CycleSpec,
     plan: &Plan,
@@ -55,7 +56,8 @@ pub(super) fn peck(
     Ok(())
 }
 
-/// The pecks down to the bottom of a plan. `list` is cleared first; the caller owns it, so that a hole allocates nothing.
+/// The pecks down to the bottom of a plan. `list` is cleared first; the caller owns `list`, so that no memory is
+/// allocated for a hole.
 pub(super) fn pecks(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, list: &mut Vec<Peck>) -> Result<(), Problem> {
     list.clear();
     let bottom = plan.bottom;
@@ -76,8 +78,12 @@ fn absolute(spec: &CycleSpec, plan: &Plan, list: &mut Vec<Peck>) -> Result<(), P
     let mut reached = plan.clear;
     for peck in &spec.pecks {
         if -peck.to >= reached - SAME && !(list.is_empty() && -peck.to <= reached) {
-            let message = format!("the peck to {} does not go deeper than the one before", peck.to);
-            return Err(Problem::new(Code::PC004, message, "give each absolute peck deeper than the one before"));
+            let message = format!("the peck to {} does not go deeper than the peck before", peck.to);
+            return Err(Problem::new(
+                Code::PC004,
+                message,
+                "give each absolute peck a greater depth than the peck before",
+            ));
         }
         reached = (-peck.to).max(plan.bottom);
         list.push(Peck { height: reached, feed: peck.feed });
@@ -88,7 +94,7 @@ fn absolute(spec: &CycleSpec, plan: &Plan, list: &mut Vec<Peck>) -> Result<(), P
     Ok(())
 }
 
-/// Steps are measured from the clearance plane like a control's Q, or from the point as in APT.
+/// Plans pecks from steps, which are measured from the clearance plane like a control's Q, or from the point as in APT.
 fn stepped(
     spec: &CycleSpec,
     plan: &Plan,
@@ -128,11 +134,12 @@ fn stepped(
     Ok(())
 }
 
-/// Converts a list of steps, each with its feed, to absolute pecks. The last step repeats until `depth` is reached. It shrinks
-/// by `decr` each time, but not below `least`. Steps that are not needed are left out. Lengths are in any unit.
+/// Converts a list of steps, each with its feed, to absolute pecks. The last step repeats until `depth` is reached.
+/// Each repeated step is smaller than the step before it by `decr`, but not smaller than `least`. Steps that are not
+/// needed are left out. Lengths are in any unit.
 ///
 /// # Errors
-/// A step is not above zero, or the steps shrink to nothing.
+/// A step is zero or negative, or the steps shrink to zero.
 ///
 /// ```
 /// use postform::internals::cycle::stepped_pecks;

@@ -4,7 +4,7 @@ use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// Values of a form for cycles that lack them, in the units of the cycle.
+/// Values that the form supplies if the cycle does not give them, in the units of the cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
 pub struct Defaults {
@@ -20,13 +20,13 @@ pub struct Defaults {
     pub orient: f64,
     pub jog: f64,
     pub sink_clear: Option<f64>,
-    /// The depth of countersinks follows the formula printed in GENER's manual, tan(l / 2) k / 2.
+    /// Whether the depth of countersinks follows the formula printed in GENER's manual, tan(l / 2) k / 2.
     pub sink_as_printed: bool,
-    /// Taps that only a control can make are planned too. These plans are for comparison, not for printing.
+    /// Whether taps that only a control can make are planned too. Their plans are for comparison, not for printing.
     pub rigid: bool,
 }
 
-/// One step; heights are above the point along the tool axis.
+/// One step of a plan; heights are distances above the point, along the tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// Rapid to a height over the point.
@@ -39,9 +39,9 @@ pub enum Step {
     Dwell(f64),
     /// Stop the spindle.
     SpindleStop,
-    /// Start the spindle in its direction, and with its speed, from before the cycle.
+    /// Start the spindle with the direction and speed that it had before the cycle.
     SpindleStart,
-    /// Reverse the spindle, at this multiple of its speed.
+    /// Reverse the spindle, with its speed multiplied by this factor.
     SpindleReverse(f64),
     /// Orient the spindle to an angle.
     Orient(f64),
@@ -65,7 +65,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The planes of a cycle at a point with its own depth or the cycle's.
+    /// The planes of a cycle at a point; the depth is that of the point, or of the cycle if the point has none.
     ///
     /// # Errors
     /// The depth or the feed is missing, or the depth is above the clearance.
@@ -83,10 +83,11 @@ impl Plan {
             (None, _) => return Err(Problem::new(Code::PC002, "the cycle has no depth", "give `depth`")),
         };
         if clear + depth < 0.0 {
-            let message =
-                format!("the bottom, {depth} below the point, is above the clearance plane, {clear} above it");
+            let message = format!(
+                "the bottom of the hole ({depth} below the point) is above the clearance plane ({clear} above the point)"
+            );
             let help = if depth < 0.0 {
-                "`depth` counts down from the point: write it without the minus"
+                "`depth` counts down from the point: write the number without the minus"
             } else {
                 "give a deeper `depth` or a higher `clear`"
             };
@@ -117,7 +118,7 @@ impl Plan {
     }
 }
 
-/// Depth of a countersink: by its geometry (k / 2) / tan(l / 2), or as GENER's manual prints it.
+/// Depth of a countersink: by its geometry (k / 2) / tan(l / 2), or by the formula printed in GENER's manual.
 fn sink_depth(spec: &CycleSpec, defaults: &Defaults) -> Option<f64> {
     let (diameter, angle) = (spec.diameter?, spec.angle?);
     let tangent = (angle.to_radians() / 2.0).tan();

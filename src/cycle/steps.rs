@@ -8,7 +8,8 @@ use super::tap::tap;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// The steps at one point, and buffers for planning; they are reused from hole to hole, so that a hole allocates nothing.
+/// The steps at one point, and buffers for planning. Steps and buffers are reused for the next hole, so that no memory
+/// is allocated for a hole.
 #[derive(Debug, Default)]
 pub struct Steps {
     /// Steps of the plan, in their order.
@@ -16,10 +17,10 @@ pub struct Steps {
     pecks: Vec<Peck>,
 }
 
-/// Plans the steps at one point. The tool begins above the point at the height `top` and returns to it.
+/// Plans the steps at one point. The tool begins above the point at the height `top` and returns to this height.
 ///
 /// # Errors
-/// The motion is impossible with single moves, or makes no sense.
+/// Single moves can't make the motion, or the motion makes no sense.
 pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &mut Steps) -> Result<(), Problem> {
     use CycleKind as K;
     let Steps { list: steps, pecks } = out;
@@ -72,7 +73,7 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
             return Ok(());
         }
         K::Custom1 | K::Custom2 | K::Custom3 => {
-            let message = "a custom cycle needs its sequence in the form, and the form has none";
+            let message = "the form has no sequence for the custom cycle";
             return Err(Problem::new(Code::PC001, message, "add the sequence to the form, or use another `kind`"));
         }
     }
@@ -80,18 +81,19 @@ pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &
     Ok(())
 }
 
-/// The height at which the cone of a countersink meets the existing hole, if the job contains its diameter.
+/// The height at which the cone of a countersink meets the existing hole, if the job gives the diameter of this hole.
 fn contact(spec: &CycleSpec) -> Option<f64> {
     let (hole, angle) = (spec.hole_diameter?, spec.angle?);
     Some(-(hole / 2.0) / (angle.to_radians() / 2.0).tan())
 }
 
-/// End of the first web, then start and end of each further web, as positive depths; one web to `whole` if the job lists none.
+/// The end of the first web, then the start and end of each further web, as positive depths. If the job lists no webs,
+/// there is one web to the depth `whole`.
 fn webs<'s>(spec: &'s CycleSpec, whole: &'s [f64; 1]) -> &'s [f64] {
     if spec.webs.is_empty() { whole } else { &spec.webs }
 }
 
-/// Drilling through webs: end of the first, then start and end of each further web.
+/// Drills through webs, given by the end of the first web, then the start and end of each further web.
 fn thru(spec: &CycleSpec, plan: &Plan, defaults: &Defaults, steps: &mut Vec<Step>) {
     let whole = [-plan.bottom];
     let webs = webs(spec, &whole);
@@ -182,7 +184,8 @@ mod tests {
         assert_eq!(steps(|_| (), CycleKind::Custom1), Err(Code::PC001));
     }
 
-    /// Reference motions of threads that only a control can tap: two starts, the second offset by half a lead.
+    /// Reference motions of threads that only a control can tap: a thread with two starts, the second start offset by
+    /// half a lead.
     #[test]
     fn rigid_taps_are_planned_for_comparison() {
         let mut spec = CycleSpec::new(CycleKind::Tap);

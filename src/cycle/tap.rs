@@ -1,4 +1,5 @@
-//! Tapping: feed and spindle are synchronised. Single moves are enough with a floating holder; a rigid tap needs the control.
+//! Tapping: feed and spindle are synchronised. With a floating holder, single moves can make the tap; a rigid tap needs
+//! a tapping cycle of the control.
 
 use super::pecks::{Peck, pecks};
 use super::plan::{Defaults, Plan, Step};
@@ -6,7 +7,7 @@ use super::problem::Problem;
 use crate::diag::Code;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// Feed down, reverse, feed out. A rigid tap is planned only for comparison.
+/// Feeds down, reverses the spindle, and feeds out. A rigid tap is planned only for the comparison with a program.
 pub(super) fn tap(
     spec: &CycleSpec,
     plan: &Plan,

@@ -3,18 +3,22 @@
 use super::problem::Problem;
 use crate::diag::Code;
 
-/// Maximum number of passes of one thread. More passes are the result of a misplaced decimal point.
+/// Maximum number of passes of one thread. If a thread needs more passes, a decimal point in the job is probably
+/// misplaced.
 const MOST_PASSES: usize = 1000;
 
-/// A remainder smaller than this share of the first pass gets no pass of its own.
+/// A last pass that would cut less than this fraction of the first pass is left out; the pass before it cuts the
+/// remainder.
 const REST: f64 = 1e-3;
 
 /// The depth of each pass of a thread below its crest, in the units of `depth`.
 ///
-/// If the remainder for a last pass is not more than a rounding error of the job, the pass before it goes to the whole depth.
+/// If the last pass would cut only a rounding error of the job, it is left out, and the pass before it cuts to the
+/// whole depth.
 ///
-/// Equal chip area: pass k cuts to `first * sqrt(k)`, the last to the whole depth. `passes` sets the first cut to
-/// `depth / sqrt(passes)`; without `passes`, `first` is required. No pass cuts less than `least`, except the last.
+/// All passes have an equal chip area: pass k cuts to the depth `first * sqrt(k)`, and the last pass to the whole
+/// depth. `passes` sets the first cut to `depth / sqrt(passes)`; without `passes`, `first` is required. Each pass
+/// except the last cuts at least `least`.
 ///
 /// # Errors
 /// Neither `passes` nor `first` is given, or there are too many passes.
@@ -28,7 +32,13 @@ pub fn thread_passes(depth: f64, first: Option<f64>, passes: Option<usize>, leas
     let first = match (passes, first) {
         (Some(passes), _) if passes > 0 => depth / (passes as f64).sqrt(),
         (_, Some(first)) if first > 0.0 => first,
-        _ => return Err(Problem::new(Code::PC033, "a thread without its passes", "give `passes` or `first_depth`")),
+        _ => {
+            return Err(Problem::new(
+                Code::PC033,
+                "the passes of the thread are missing",
+                "give `passes` or `first_depth`",
+            ));
+        }
     };
     let mut list: Vec<f64> = Vec::new();
     loop {
@@ -53,7 +63,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
-        /// Passes against the closed formula: never too deep, never rising, the last pass at full depth.
+        /// Compares passes with the formula: no pass is too deep, no pass is less deep than the pass before it, and the
+        /// last pass has the full depth.
         #[test]
         fn passes_follow_the_formula(depth in 0.01..5.0f64, first in 0.001..5.0f64, count in 1usize..60, by_count: bool, least in 0.0..0.02f64) {
             let passes = by_count.then_some(count);

@@ -1,4 +1,4 @@
-//! The table of all codes. A code never changes its meaning, and the code of a removed row is never used again.
+//! The table of all codes. The meaning of a code never changes. The code of a removed row is never used again.
 
 use super::Severity::{self, Error, Note, Warning};
 
@@ -223,17 +223,17 @@ codes! {
     PC009 Error "cycle.feed.no_spindle: a value per revolution, but the spindle does not turn"
     PC010 Error "cycle.clear2.not_allowed: a second clearance that the cycle does not have"
     PC011 Error "cycle.clear2.twice: the second clearance is given twice"
-    PC012 Error "cycle.rapto.required: a back bore without the plane below"
+    PC012 Error "cycle.rapto.required: a back bore without the start of its upward cut"
     PC013 Error "cycle.rapto.beyond_depth: a rapid past the depth"
     PC014 Error "cycle.back.depth_below_rapto: a back bore that ends below its beginning"
     PC015 Error "cycle.bore.jog_without_orient: a jog at an unknown spindle angle"
     PC016 Error "cycle.option.exclusive: two options that exclude each other"
-    PC017 Error "cycle.option.not_allowed: an option of another cycle"
+    PC017 Error "cycle.option.not_allowed: an option that this cycle does not have"
     PC018 Error "cycle.option.unknown: no such option"
     PC019 Error "cycle.option.duplicate: an option that is given twice"
     PC020 Error "cycle.multrd.rigid_only: several starts with a floating tap"
     PC021 Error "cycle.rigid.unavailable: a tap that only a cycle of the control can make"
-    PC022 Error "cycle.thru.pairs: web depths that are not one end followed by pairs of start and end"
+    PC022 Error "cycle.thru.pairs: an even number of web depths, with a missing start or end"
     PC023 Error "cycle.thru.order: a web that is not deeper than the one before"
     PC024 Error "cycle.csink.diamet_missing: a countersink without diameter"
     PC025 Error "cycle.csink.tlangl_missing: a countersink without angle"
@@ -254,7 +254,7 @@ codes! {
     PC040 Error "cycle.return.syntax: a return plane that can't be read"
     PC041 Error "cycle.compensation: a cycle under cutter compensation"
     PC042 Error "cycle.arc: an arc inside a cycle"
-    PC043 Error "cycle.tool_change: points after a tool change that ended their cycle"
+    PC043 Error "cycle.tool_change: points of a cycle that a tool change ended"
     PC051 Warning "cycle.off_inactive: the end of a cycle that has not begun"
     PC052 Warning "cycle.fedrat_ignored: a feed inside a cycle"
     PC053 Warning "cycle.return.below_clear: a return plane below the clearance"

@@ -6,7 +6,7 @@ use super::{Diag, Severity};
 use crate::source::Source;
 use crate::terminal::escaped;
 
-/// Findings with the form's text: all data for displaying them or writing a report.
+/// Findings with the form's text: all data that is needed to display the findings or to write a report.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// Findings in the order of the files and of the locations in them.
@@ -52,8 +52,8 @@ impl Diag {
         format!("{place}{} {}: {}{help}", self.severity.name(), self.code.name(), self.message)
     }
 
-    /// The form line of the finding, and a line with a mark under the words of the finding, without a final line end.
-    /// `None`: the finding is not in a form. `files` are the files of the form.
+    /// Two lines without a final line end: the form line of the finding, and a line with a mark under the words of the
+    /// finding. `None`: the finding is not in a form. `files` are the files of the form.
     pub(crate) fn marked(&self, files: &[Source]) -> Option<String> {
         let span = self.labels.first()?.span;
         let source = files.get(span.file as usize)?;

@@ -1,8 +1,8 @@
-//! Locations in jobs and programs. They are stored as data and converted to text only for display.
+//! Locations in jobs and programs. Locations are stored as data and converted to text only for display.
 
 use std::fmt;
 
-/// A location in a job or in a program. Unknown parts are `None`.
+/// A location in a job or in a program. Unknown parts of the location are `None`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Location {
@@ -37,7 +37,7 @@ impl Location {
         self
     }
 
-    /// Whether all parts are unknown.
+    /// Whether all parts of the location are unknown.
     pub fn is_empty(&self) -> bool {
         *self == Location::default()
     }

@@ -1,4 +1,4 @@
-//! Findings as data. Any part of postform may create them; the command line displays them.
+//! Findings as data. Any part of postform may create findings; the command line displays them.
 
 mod codes;
 mod findings;
@@ -16,7 +16,7 @@ use crate::terminal::{is_invisible, visible};
 /// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Useful information. It does not change the exit status.
+    /// Useful information. A note does not change the exit status.
     Note,
     /// The program is printed, but must be checked.
     Warning,
@@ -51,7 +51,7 @@ pub struct Fix {
     pub title: String,
     /// Whether the change is safe: the NC output of every job stays the same, byte for byte.
     pub safe: bool,
-    /// Pieces of text and their replacements; they do not overlap.
+    /// Pieces of the form's text, with their replacements. The pieces do not overlap.
     pub edits: Vec<(Span, String)>,
 }
 
@@ -60,7 +60,7 @@ pub struct Fix {
 pub struct Diag {
     /// The code of the finding: a row in the table of codes.
     pub code: Code,
-    /// The severity from the table, or another one because of relaxed limits or a shop's levels.
+    /// The severity from the table of codes, or another severity set by relaxed limits or by a shop's levels.
     pub severity: Severity,
     /// The problem in one sentence.
     pub message: String,
@@ -122,7 +122,7 @@ impl Diag {
 
 /// Maximum number of characters of a message or a help text.
 const LONGEST: usize = 400;
-/// Maximum number of characters of a word in a message. A number, for example, may have 309 digits.
+/// Maximum number of characters of a word in a message. A word that is a number, for example, may have 309 digits.
 const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {

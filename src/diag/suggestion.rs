@@ -1,10 +1,10 @@
-//! Corrections of misspelt names. They are taken from the help text of a finding.
+//! Corrections of misspelt names. The corrections are taken from the help text of a finding.
 
 use super::{Diag, Fix};
 use crate::source::Source;
 use crate::span::Span;
 
-/// The change that the help text `did you mean` proposes. An editor shows this change before the user accepts it.
+/// The change that the help text `did you mean` proposes. An editor shows the change before the user accepts it.
 /// `None`: the help text proposes no name, or the misspelt name is not found exactly once at the first label.
 pub fn suggestion(diag: &Diag, files: &[Source]) -> Option<Fix> {
     let new = diag.help.as_deref()?.strip_prefix("did you mean `")?.split_once("`?")?.0;

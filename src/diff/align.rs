@@ -32,7 +32,7 @@ pub enum Edit {
     Removed(usize),
     /// A line of the new program is missing in the old one.
     Added(usize),
-    /// A line of the old program became a line of the new one.
+    /// A line of the old program was changed into a line of the new program.
     Changed(usize, usize),
     /// A line moved: its number in the old program, and its number in the new one.
     Moved(usize, usize),
@@ -45,7 +45,8 @@ pub struct Hunk {
     pub old: Range<usize>,
     /// Lines of the new program.
     pub new: Range<usize>,
-    /// Removed and changed lines in the order of the old program. Each added line is at its position between them.
+    /// Removed and changed lines in the order of the old program. Each added line is at its position between the
+    /// removed and changed lines.
     pub edits: Vec<Edit>,
 }
 
@@ -72,7 +73,7 @@ impl Comparison {
 struct Lines {
     keys: Vec<u64>,
     numbers: Vec<u32>,
-    /// Number of the line after the part.
+    /// Number of the first line after the part.
     end: usize,
 }
 
@@ -93,8 +94,8 @@ impl Lines {
         self.numbers[at] as usize
     }
 
-    /// The lines of the program from the first to the last compared line of a range. An empty range gives an empty
-    /// result before the next compared line, or at the end of the part.
+    /// The lines of the program from the first to the last compared line of a range. For an empty range, the result is
+    /// an empty range before the next compared line, or at the end of the part.
     fn covered(&self, range: &Range<usize>) -> Range<usize> {
         if range.is_empty() {
             let at = self.numbers.get(range.start).map_or(self.end, |&number| number as usize);
@@ -125,8 +126,8 @@ pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     comparison
 }
 
-/// In a hunk with a different number of removed and added lines: maximum number of added lines that are compared with a
-/// removed line.
+/// Maximum number of added lines that are compared with a removed line, in a hunk whose numbers of removed and added
+/// lines differ.
 const MOST: usize = 64;
 
 /// Pairs each removed line with the added line that replaced it.

@@ -1,5 +1,5 @@
 //! Finds the parts in which two programs differ, by comparing lines byte for byte. Most compared programs differ in few
-//! blocks, and only these parts need a key for each line and a search.
+//! blocks, and only the parts with differences need a key for each line and a search.
 
 use std::ops::Range;
 
@@ -12,16 +12,16 @@ pub(super) type Gap = [Range<usize>; 2];
 /// Equal lines are searched within this number of lines after a difference, in both programs.
 const WINDOW: usize = 64;
 
-/// Number of consecutive lines that must be equal. Programs with repeated blocks may have fewer equal lines by chance;
-/// the list of differences would then be longer than necessary.
+/// Number of consecutive lines that must be equal. If this number were smaller, repeated blocks could be equal by
+/// chance, and the list of differences would be longer than necessary.
 const RUN: usize = 32;
 
-/// Programs with fewer lines are searched as a whole: in programs with repeated blocks, the first equal lines may not
-/// belong to the shortest list of differences.
+/// Programs with fewer lines than this number are searched as a whole: in programs with repeated blocks, the first
+/// equal lines may not belong to the shortest list of differences.
 const SMALL: usize = 20_000;
 
-/// Finds the parts that differ. If the programs are small, or no equal lines follow within `WINDOW`, the last part is
-/// the whole rest without the equal lines at the end.
+/// Finds the parts that differ. In small programs, the last part is the whole rest without the equal lines at the end.
+/// The last part is also the whole rest if no equal lines follow within `WINDOW`.
 pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     let same = |a: usize, b: usize| old.line(a) == new.line(b);
     let most = old.len().min(new.len());
@@ -46,7 +46,7 @@ pub(super) fn gaps(old: &Program, new: &Program) -> Vec<Gap> {
     }
 }
 
-/// The nearest position in each of the two parts from which the lines are equal again.
+/// The nearest positions in the old and the new part at which equal lines begin again.
 fn meet([a, b]: Gap, same: impl Fn(usize, usize) -> bool) -> Option<(usize, usize)> {
     let is_run = |x: usize, y: usize| x + RUN <= a.end && y + RUN <= b.end && (0..RUN).all(|at| same(x + at, y + at));
     (1..=WINDOW).find_map(|far| {

@@ -14,7 +14,7 @@ pub(super) fn hasher() -> FoldHasher<'static> {
 
 /// The key of a line; `None` if all of the line is ignored.
 ///
-/// Two different lines have the same key with a chance of 1 in 2^64. A program has far fewer lines.
+/// Two different lines have the same key with a chance of 1 in 2^64. A program has far fewer than 2^64 lines.
 pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
     let mut whole = hasher();
     let mut sum = 0u64;

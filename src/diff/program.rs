@@ -8,7 +8,7 @@ pub struct Program {
     starts: Vec<u32>,
 }
 
-/// The error for a program whose positions don't fit into 32 bits. The number is its size in bytes.
+/// The error for a program whose positions don't fit into 32 bits. The number is the size of the program in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooLarge(pub usize);
 

@@ -92,7 +92,7 @@ impl Summary {
     }
 }
 
-/// The position of the first word of each letter, from 1; 0 if no word has this letter.
+/// For each letter, the position of the first word with this letter, counted from 1; 0: no word has the letter.
 fn firsts(list: &[Word]) -> [usize; 256] {
     let mut firsts = [0; 256];
     list.iter().enumerate().rev().for_each(|(at, word)| firsts[usize::from(word.letter)] = at + 1);

@@ -1,4 +1,4 @@
-//! Examples for `explain`. They are lines of forms that are known to work: shipped forms and samples.
+//! Examples for `explain`. The examples are lines of forms that are known to work: shipped forms and samples.
 
 use std::sync::OnceLock;
 

@@ -66,8 +66,10 @@ pub fn variables() -> String {
 
 /// The text of docs/sequences.md.
 pub fn sequences() -> String {
-    let mut text =
-        head("Sequences", "Every sequence with its machines, the item of the job that prints it, and a sample.");
+    let mut text = head(
+        "Sequences",
+        "The table lists every sequence with its machines, the item of the job that prints it, and a sample.",
+    );
     text += "| sequence | machines | event | sample | printed | needed on |\n| --- | --- | --- | --- | --- | --- |\n";
     for row in SEQUENCES {
         let needed = if row.required == Machines::of("") { "-".into() } else { row.required.to_string() };
@@ -102,8 +104,8 @@ const FAMILIES: [(&str, &str); 8] = [
 
 /// The text of docs/rules/README.md.
 pub fn rules() -> String {
-    let lead = "The findings of `postform lint`. A form with an *error* prints nothing. A finding marked *rule* can \
-        be turned off ([lint](../lint.md)).";
+    let lead = "The findings of `postform lint`. postform prints no program for a form with an *error*. A finding \
+        marked *rule* can be turned off ([lint](../lint.md)).";
     let mut text = head("Findings in forms", lead);
     for (family, title) in FAMILIES {
         text += &format!("## {title}\n\n| code | finds | severity | |\n| --- | --- | --- | --- |\n");

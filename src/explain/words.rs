@@ -238,7 +238,7 @@ pub fn none() -> String {
     page("None (body of a sequence)", &lines, Some(Example { text, form: "in a form" }))
 }
 
-/// The explanation of a kind of cycle. The sequence that prints the cycle has its own explanation.
+/// The explanation of a kind of cycle. The sequence that prints the cycle has a separate explanation.
 pub fn cycle(name: &str) -> Option<String> {
     let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
     let kind = CycleKind::parse(name)?;

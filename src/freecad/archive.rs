@@ -10,7 +10,7 @@ use crate::toolpath::ReadError;
 
 /// Maximum size of `Document.xml` in bytes. In a document with a thousand objects, this file has three million bytes.
 pub(super) const LARGEST_DOCUMENT: u64 = 64 << 20;
-/// Maximum size of one operation's path in bytes. This is enough for about twenty million moves.
+/// Maximum size of one operation's path in bytes. The size is enough for about twenty million moves.
 const LARGEST_PATH: u64 = 1 << 30;
 
 /// Maximum ratio of unpacked to packed size. The deflate format allows at most 1,032, and paths have much smaller ratios.
@@ -96,12 +96,12 @@ pub(super) fn unpacked(name: &str, error: std::io::Error) -> ReadError {
     ReadError::Job(no_document(format!("`{name}` can't be unpacked: {error}")))
 }
 
-/// Whether the operating system reported the error. If not, the archive is damaged.
+/// Whether the operating system reported the error. Any other error means that the archive is damaged.
 fn is_of_system(error: &std::io::Error) -> bool {
     error.raw_os_error().is_some()
 }
 
 fn no_document(message: String) -> Box<Diag> {
-    let help = "give a document that FreeCAD has saved (.FCStd); open it there and save it again";
+    let help = "give a document that FreeCAD has saved (.FCStd); open the document in FreeCAD and save it again";
     Box::new(Diag::new(Code::PD001, message).help(help))
 }

@@ -8,12 +8,12 @@ use crate::diag::{Code, Diag};
 pub(super) struct Job<'d> {
     /// Label of the job in FreeCAD.
     pub label: String,
-    /// The object of the job. It has the job's properties.
+    /// The object of the job. This object has the job's properties.
     pub object: &'d Object,
 }
 
-/// Whether an object is a job. Its class shows this. FreeCAD 1.1 may have removed the classes from a document of 0.20; then its
-/// properties show it.
+/// Whether an object is a job. The class of a job shows that it is a job. FreeCAD 1.1 may have removed the classes from
+/// a document of 0.20; then the properties of the object are checked.
 fn is_job(object: &Object) -> bool {
     let properties = ["Operations", "Fixtures", "PostProcessor"];
     object
@@ -49,10 +49,10 @@ pub(super) fn job<'d>(document: &'d Document, asked: Option<&str>, report: &mut 
                 wrong(Code::PD002, "the document has no CAM job", help)
             }
             (Some(asked), 0) => {
-                wrong(Code::PD002, format!("the document has no job `{asked}`"), format!("it has {list}"))
+                wrong(Code::PD002, format!("the document has no job `{asked}`"), format!("the document has {list}"))
             }
             _ => {
-                let help = format!("choose one with `--job NAME`: {list}");
+                let help = format!("choose a job with `--job NAME`: {list}");
                 wrong(Code::PD002, format!("the document has {} jobs to choose from", found.len()), help)
             }
         };

@@ -43,7 +43,7 @@ impl Words {
         self.values.iter().find(|(own, _)| *own == letter).map(|(_, value)| *value)
     }
 
-    /// The command as a block of a program. `feed` converts its feed.
+    /// The command as a block of a program. `feed` converts the feed of the command.
     pub fn block(&self, code: control::Code, feed: impl Fn(f64) -> f64) -> String {
         let words = self.values.iter().map(|&(letter, value)| {
             let value = if letter == b'F' { feed(value) } else { value };
@@ -93,7 +93,8 @@ fn unread(line: &[u8]) -> Box<Diag> {
     Box::new(Diag::new(Code::PD003, message).help(help))
 }
 
-/// Parses a line; `words` gets its words. `Some(None)`: the line is empty. `None`: the line can't be read.
+/// Parses a line and stores the words of the line in `words`. `Some(None)`: the line is empty. `None`: the line can't
+/// be read.
 fn parse<'a>(line: &[u8], words: &'a mut Words) -> Option<Option<Command<'a>>> {
     let line = line.trim_ascii();
     if line.is_empty() {
@@ -134,7 +135,8 @@ fn word(token: &[u8]) -> Option<(u8, f64)> {
     (letter.is_ascii_uppercase() && value.is_finite()).then_some((letter, value))
 }
 
-/// Reads the notes of FreeCAD 1.2, such as `RetractMode:'G98' operation:'tapping' depth:1.5`. `None`: one of them is unknown.
+/// Reads the notes of FreeCAD 1.2, such as `RetractMode:'G98' operation:'tapping' depth:1.5`. `None`: one of the notes
+/// is unknown.
 fn returns(notes: &str) -> Option<Option<Return>> {
     let mut returns = None;
     for note in notes.split_ascii_whitespace() {

@@ -29,7 +29,7 @@ fn words_of(letter: u8, tenths: u16) -> Option<&'static [u8]> {
     })
 }
 
-/// Converts one step of a job. At its start, the position of the tool is unknown.
+/// Converts one step of a job. At the start of a step, the position of the tool is unknown.
 pub(super) struct Convert<'a, 'h, 's> {
     label: &'a str,
     /// The operation; `None` if the step is a comment or a stop.
@@ -42,10 +42,11 @@ pub(super) struct Convert<'a, 'h, 's> {
     plane: Plane,
     cycle: Option<Cycle>,
     side: Option<Side>,
-    /// The change of compensation at the next move: on at this side, or off.
+    /// The change of cutter compensation at the next move: on at this side, or off.
     turning: Option<Option<Side>>,
     spindle: (Option<f64>, SpindleTurn),
-    /// Whether a G code was printed as text. The meaning of later moves is then unknown, so they are printed as text too.
+    /// Whether a G code was printed as text. After such a G code, the meaning of later moves is unknown, so these moves
+    /// are printed as text too.
     as_text: bool,
 }
 
@@ -125,7 +126,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.end_cycle()?;
         if self.side.is_some() || self.turning.is_some() {
             let message = format!("the operation {} ends under cutter compensation", self.label);
-            return wrong(Code::PD003, message, "end it with G40 and a move");
+            return wrong(Code::PD003, message, "end the compensation with G40 and a move");
         }
         Ok(())
     }
@@ -165,7 +166,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
             (b'G', 30) => self.arc(words, Direction::Ccw),
             (b'G', 40) => match words.get(b'P').filter(|seconds| *seconds >= 0.0) {
                 Some(seconds) => self.between(Event::Dwell(seconds)),
-                None => wrong(Code::PD003, "a dwell without its seconds P", "write it as `G4 P0.5`"),
+                None => wrong(Code::PD003, "a dwell without its seconds P", "write the dwell as `G4 P0.5`"),
             },
             (b'G', 170 | 180 | 190) => {
                 self.plane = [Plane::Xy, Plane::Xz, Plane::Yz][usize::from(tenths / 10 - 17)];
@@ -233,7 +234,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
                 Some(operation) => {
                     format!("give {} a spindle speed in FreeCAD, or write `M3 S1000`", operation.controller.label)
                 }
-                None => "write it as `M3 S1000`".to_owned(),
+                None => "write the speed as `M3 S1000`".to_owned(),
             };
             return wrong(Code::PD004, "the spindle turns without a speed", help);
         }
@@ -269,7 +270,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         }
     }
 
-    /// The feed of a cut in millimetres per minute. If the command has none, the last feed applies.
+    /// The feed of a cut in millimetres per minute. If the command has no feed, the last feed applies.
     fn feed(&mut self, words: &Words) -> Done<Option<f64>> {
         let Some(operation) = self.operation else { return Ok(None) };
         if let Some(feed) = words.get(b'F') {
@@ -301,7 +302,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
     fn arc(&mut self, words: &Words, direction: Direction) -> Done {
         self.end_cycle()?;
         if self.turning.is_some() {
-            let help = "turn it on and off by straight moves";
+            let help = "turn the compensation on and off by straight moves";
             return wrong(Code::PD003, "cutter compensation is switched on an arc", help);
         }
         let (first, second, third) = match self.plane {
@@ -336,10 +337,10 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         self.push(Event::Arc { arc: &arc, feed })
     }
 
-    /// Converts an arc that is given by its radius. Users write such arcs; FreeCAD itself writes centres.
+    /// Converts an arc that is given by its radius. Users write arcs with a radius; FreeCAD itself writes centres.
     fn arc_by_radius(&mut self, words: &Words, radius: f64, direction: Direction) -> Done {
         if words.beyond(b"XYZRF").is_some() {
-            return wrong(Code::PD003, "an arc with a radius and a centre", "give one of them: I and J, or R");
+            return wrong(Code::PD003, "an arc with a radius and a centre", "give I and J, or R, but not both");
         }
         let to = self.target(words);
         let feed = self.feed(words)?;
@@ -382,7 +383,7 @@ impl<'a, 'h, 's> Convert<'a, 'h, 's> {
         Ok(())
     }
 
-    /// Ends an open cycle, and then pushes the rapids that followed its last hole.
+    /// Ends an open cycle, and then pushes the rapids that followed the cycle's last hole.
     fn end_cycle(&mut self) -> Done {
         let Some(cycle) = self.cycle.take() else { return Ok(()) };
         self.place.point = 0;

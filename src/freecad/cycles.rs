@@ -1,4 +1,5 @@
-//! Canned cycles of a path. A path has a command for every hole, with rapids before it. Such commands are combined to one cycle.
+//! Canned cycles of a path. A path has a command for every hole, with rapids before it. The commands of similar holes
+//! are combined into one cycle.
 
 use super::command::{Return, Words};
 use super::order::Operation;
@@ -43,7 +44,7 @@ pub(super) struct Drilling {
 }
 
 impl Drilling {
-    /// Reads the command of a hole. `position`: the position of the tool before it.
+    /// Reads the command of a hole. `position`: the position of the tool before the hole.
     pub fn read(
         kind: CycleKind,
         words: &Words,
@@ -124,7 +125,8 @@ pub(super) struct Cycle {
     first: Drilling,
     last: [f64; 2],
     top: f64,
-    /// Rapids since the last hole, with the positions after them. They belong to the cycle if they lead to its next hole.
+    /// Rapids since the last hole, with the positions after them. These rapids belong to the cycle if they lead to the
+    /// cycle's next hole.
     pub pending: Vec<(Axes, [Option<f64>; 6], Place)>,
 }
 
@@ -136,8 +138,9 @@ impl Cycle {
         (cycle, first.spec(top), first.hole(top, &first))
     }
 
-    /// Adds a hole if it belongs to this cycle. This is so if its words are equal and the rapids before it only lead to it. A
-    /// rapid above the return height avoids an obstacle, so the hole after it does not belong to the cycle.
+    /// Adds a hole if it belongs to this cycle. A hole belongs to the cycle if it has equal words and the rapids before
+    /// it only lead to this hole. A rapid above the return height avoids an obstacle, so the hole after it does not
+    /// belong to the cycle.
     pub fn add(&mut self, next: &Drilling) -> Option<Hole> {
         let key = |d: &Drilling| (d.kind, [d.r, d.level, d.feed], [d.peck, d.dwell, d.speed]);
         let leads = |position: &[Option<f64>; 6]| {

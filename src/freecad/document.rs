@@ -1,4 +1,4 @@
-//! Reads `Document.xml`: the objects of a document, and those of their properties that a toolpath needs.
+//! Reads `Document.xml`: the objects of a document, and the properties of these objects that a toolpath needs.
 
 use indexmap::IndexMap;
 use quick_xml::Reader;
@@ -155,8 +155,8 @@ impl Document {
         }
     }
 
-    /// The value of a property of an operation. If the operation is a dressup without this property, the value of its base (as in
-    /// FreeCAD's `opProperty`).
+    /// The value of a property of an operation. If the operation is a dressup without this property: the value of the
+    /// dressup's base operation (as in FreeCAD's `opProperty`).
     pub fn inherited<'a>(&'a self, name: &str, property: &str) -> Option<&'a Value> {
         let mut object = self.objects.get(name)?;
         // the number of steps is limited, in case the bases form a circle
@@ -173,7 +173,7 @@ impl Document {
 /// The state while `Document.xml` is read.
 #[derive(Default)]
 struct Cursor {
-    /// Whether the section with the values has begun. It comes after the list of objects.
+    /// Whether the section with the values has begun. This section comes after the list of objects.
     data: bool,
     object: Option<(String, Object)>,
     property: Option<String>,

@@ -1,9 +1,9 @@
 //! Reads FreeCAD documents as toolpaths: the job of a saved `.FCStd` file. FreeCAD itself is not needed.
 //!
-//! A document is a zip archive. `Document.xml` lists all objects. The path of each operation is a separate text file in the
-//! archive. Lengths are in millimetres, feeds in millimetres per second and angles in degrees, whatever units FreeCAD displays.
-//! Documents of 0.20 ("Path") and 1.1 ("CAM") have different class names and repeat tool changes at different times. Comments
-//! mention these differences where they matter.
+//! A document is a zip archive. `Document.xml` lists all objects. The path of each operation is a separate text file in
+//! the archive. Lengths are in millimetres, feeds in millimetres per second and angles in degrees, whatever units
+//! FreeCAD displays. Documents of 0.20 ("Path") and 1.1 ("CAM") have different class names and repeat tool changes at
+//! different times. Comments in the code mention the differences between 0.20 and 1.1.
 
 mod archive;
 mod choose;
@@ -26,7 +26,7 @@ use document::Document;
 /// Which job of a document is read.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Name or label of the job. It is needed if the document has several jobs.
+    /// Name or label of the job. The name is needed if the document has several jobs.
     pub job: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Finds the operations that FreeCAD would post, in the same order.
+//! Finds the operations that FreeCAD would post, in the order in which FreeCAD would post them.
 
 use super::choose::Job;
 use super::document::{Document, Object, Value};
@@ -34,11 +34,12 @@ pub(super) enum Kind {
 pub(super) struct Operation {
     /// The tool controller of the operation: its tool, speed and feeds.
     pub controller: Controller,
-    /// Coolant of the operation. It is turned on before the operation and off after it.
+    /// Coolant of the operation. Coolant is turned on before the operation and turned off after the operation.
     pub coolant: Coolant,
     /// The top of the operation's holes, where it begins to cut.
     pub top: Option<f64>,
-    /// Whether the user wrote the commands of the operation. Commands that jobs do not support are then printed as written.
+    /// Whether the user wrote the commands of the operation. A user's command that jobs do not support is printed as
+    /// written.
     pub typed: bool,
     /// The comment that the user gave the operation.
     pub comment: Option<String>,
@@ -148,13 +149,17 @@ fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result
         return wrong(
             Code::PD001,
             format!("the job {} has no list of operations", job.label),
-            "save it again in FreeCAD",
+            "save the document again in FreeCAD",
         );
     };
     let (mut steps, mut inactive) = (Vec::new(), Vec::new());
     for name in group.links("Group") {
         let Some(object) = document.objects.get(name) else {
-            return wrong(Code::PD001, format!("the document has no object `{name}`"), "save it again in FreeCAD");
+            return wrong(
+                Code::PD001,
+                format!("the document has no object `{name}`"),
+                "save the document again in FreeCAD",
+            );
         };
         let label = object.text("Label").unwrap_or(name).to_owned();
         if document.inherited(name, "Active") == Some(&Value::Yes(false)) {
@@ -181,8 +186,8 @@ fn operations(document: &Document, job: &Job<'_>, report: &mut Report) -> Result
     Ok(steps)
 }
 
-/// Returns the kind of an object that is a comment or a stop. Its class shows this. Without a class, the object must have the property of
-/// a comment or a stop, and none of the properties of an operation with a tool.
+/// Returns the kind of an object that is a comment or a stop. The class of an object shows its kind. Without a class,
+/// the object must have the property of a comment or a stop, and none of the properties of an operation with a tool.
 fn bare(object: &Object) -> Option<Kind> {
     let plain = object.class().is_none() && object.get("CoolantMode").is_none() && object.get("Base").is_none();
     if object.class() == Some("Stop") || plain && object.get("Stop").is_some() {

@@ -5,7 +5,8 @@ use super::wrong;
 use crate::diag::{Code, Diag};
 use crate::toolpath::{Given, SpindleTurn, Tool};
 
-/// How much saving can change a feed, because paths have six decimals and controllers sixteen.
+/// The largest change of a feed when a document is saved: feeds have six decimals in paths and sixteen in tool
+/// controllers.
 const SAVED: f64 = 1e-6;
 
 /// A tool controller: a tool with its speed and feeds.
@@ -27,14 +28,18 @@ impl Controller {
     /// Finds the controller by its name.
     pub fn of(document: &Document, name: &str) -> Result<Controller, Box<Diag>> {
         let Some(object) = document.objects.get(name) else {
-            return wrong(Code::PD001, format!("the document has no object `{name}`"), "save it again in FreeCAD");
+            return wrong(
+                Code::PD001,
+                format!("the document has no object `{name}`"),
+                "save the document again in FreeCAD",
+            );
         };
         let label = object.text("Label").unwrap_or(name).to_owned();
         let Some(number) = object.number("ToolNumber").filter(|number| *number >= 0.0) else {
             return wrong(
                 Code::PD004,
                 format!("the tool controller {label} has no tool number"),
-                "give it a tool number in FreeCAD",
+                "give the tool controller a tool number in FreeCAD",
             );
         };
         let turn = match object.text("SpindleDir") {
@@ -44,15 +49,17 @@ impl Controller {
         };
         let speed = object.number("SpindleSpeed").unwrap_or(0.0);
         if turn != SpindleTurn::Off && speed <= 0.0 {
-            let help = "give it a spindle speed in FreeCAD; for a tool that does not turn set the direction None";
+            let help = "give the tool controller a spindle speed in FreeCAD; for a tool that does not turn set the \
+                direction None";
             return wrong(Code::PD004, format!("the tool controller {label} has no spindle speed"), help);
         }
         let feeds = ["HorizFeed", "VertFeed"].map(|name| object.number(name).unwrap_or(0.0));
         Ok(Controller { tool: tool(document, object, number), label, speed, turn, feeds })
     }
 
-    /// Converts a feed of a path to millimetres per minute. If it is a rounded feed of the controller, the exact feed of the
-    /// controller is used. Otherwise it is rounded to four decimals, because saving has made further decimals inaccurate.
+    /// Converts a feed of a path to millimetres per minute. If the path's feed is a rounded feed of the tool
+    /// controller, the controller's exact feed is used. Any other feed is rounded to four decimals, because further
+    /// decimals became inaccurate when the document was saved.
     pub fn feed(&self, saved: f64) -> f64 {
         match self.feeds.iter().find(|own| (**own - saved).abs() <= SAVED) {
             Some(own) => rounded(own * 60.0, 1e8),
@@ -84,7 +91,8 @@ fn data(bit: &Object, name: &str) -> Option<Given> {
     }
 }
 
-/// The tool of a controller. It is a tool bit; in documents before 0.19, it is a value in the controller itself.
+/// The tool of a controller. The tool is an object (a tool bit); in documents before FreeCAD 0.19, the tool is a value
+/// in the controller itself.
 fn tool(document: &Document, controller: &Object, number: f64) -> Tool {
     let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
     let mut tool = Tool { number, ..Tool::default() };

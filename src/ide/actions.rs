@@ -26,9 +26,9 @@ pub struct Action {
 /// Kinds of actions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Fixes a finding. Programs do not change.
+    /// Fixes a finding. The fix changes no program.
     Safe,
-    /// Fixes a finding. Programs may change.
+    /// Fixes a finding. The fix may change programs.
     Unsafe,
     /// Allows a finding at its location.
     Allow,
@@ -216,7 +216,7 @@ mod tests {
     use crate::sema::{Limits, analyse};
     use crate::source::Source;
 
-    /// The actions at the mark, each with the form after it.
+    /// The actions at the mark, each with the form after the action.
     fn done(document: &Document, offset: u32) -> Vec<(Action, String)> {
         let at = Span { file: 0, start: offset, end: offset };
         let read = |changed: &Changed| {

@@ -12,7 +12,7 @@ use crate::syntax::{Body, DirectiveKind, End, Expr, Head, Piece, PieceKind, Sequ
 pub struct At {
     /// The span of the whole element.
     pub span: Span,
-    /// What the element is.
+    /// Kind of the element.
     pub what: What,
 }
 
@@ -34,7 +34,7 @@ pub enum What {
     End,
     /// `Cancel` after `End`.
     Cancel,
-    /// `None` as the body of a sequence.
+    /// The word `None` as the body of a sequence.
     Nothing,
     /// A variable, and the letter that prints it.
     Variable(VarId, Option<u8>),
@@ -51,7 +51,8 @@ pub enum What {
 }
 
 impl Document {
-    /// The element at a byte of a file. If one element ends there and another begins there, the one that begins.
+    /// The element at a byte of a file. If one element ends and another begins at this byte, the result is the element
+    /// that begins.
     pub fn at(&self, file: u32, offset: u32) -> Option<At> {
         let mut ends = None;
         let mut hit = None;
@@ -87,7 +88,7 @@ impl Document {
 struct Names<'a>(&'a [Property]);
 
 impl Names<'_> {
-    /// The variable or property with this name. `letter`: the letter that prints it.
+    /// The variable or property with this name. `letter`: the letter that prints the variable or property.
     fn what(self, name: &str, letter: Option<u8>) -> Option<What> {
         let property = || self.0.iter().position(|property| property.name.eq_ignore_ascii_case(name));
         match VarId::parse(name) {

@@ -16,7 +16,7 @@ use crate::span::Span;
 pub struct Completion {
     /// Text of the completion in the list.
     pub label: String,
-    /// What the completion is.
+    /// Kind of the completion.
     pub kind: Kind,
     /// Short description.
     pub detail: String,
@@ -47,8 +47,8 @@ pub enum Kind {
     Finding,
 }
 
-/// The documentation of a completion, as Markdown. It is created for the selected completion only, because each needs a search
-/// for an example. Values have no documentation.
+/// The documentation of a completion, as Markdown. The documentation is created only for the selected completion,
+/// because it needs a search for an example. Values have no documentation.
 pub fn about(kind: Kind, label: &str, control: &Control) -> Option<String> {
     let page = match kind {
         Kind::Command => explain::command(CommandId::parse(label)?),
@@ -76,7 +76,7 @@ impl Kind {
 }
 
 impl Document {
-    /// The completions at a byte of a file. They depend on the text before it.
+    /// The completions at a byte of a file. The completions depend on the text before this byte.
     pub fn complete(&self, file: u32, offset: u32, current: Option<&Current>) -> Vec<Completion> {
         let Some((start, before)) = self.line_before(file, offset) else { return Vec::new() };
         let span = |length: usize| Span::new(file, offset as usize - length, offset as usize);
@@ -106,7 +106,7 @@ impl Document {
         }
     }
 
-    /// Completes `# postform: allow PF` by the codes of findings that the form has.
+    /// Completes `# postform: allow PF` with the codes of the form's findings.
     fn allowances(&self, before: &str, span: &dyn Fn(usize) -> Span) -> Option<Vec<Completion>> {
         let comment = before.rsplit_once('#')?.1.trim_start();
         let rest = comment.strip_prefix("postform:")?.trim_start();
@@ -121,7 +121,7 @@ impl Document {
         };
         if !rest.contains(' ') {
             let verbs =
-                [("allow", "in this line, the next one, or the sequence below"), ("allow-file", "in the whole file")];
+                [("allow", "in this line, the next line, or the sequence below"), ("allow-file", "in the whole file")];
             return Some(verbs.map(|(verb, detail)| new(verb, detail, Kind::Keyword)).into());
         }
         let found = |name: &str| self.findings().iter().any(|diag| diag.code.name() == name);
@@ -186,7 +186,7 @@ impl Document {
                 Some((for_, rest)) if for_.eq_ignore_ascii_case("@for") && rest.trim_start().len() == word.len() => {
                     Each::ALL
                         .iter()
-                        .map(|(name, _)| keyword(name, "repeats its lines for each item of the job"))
+                        .map(|(name, _)| keyword(name, "repeats the lines up to @end for each item of the job"))
                         .collect()
                 }
                 Some(_) => Vec::new(),
@@ -201,9 +201,9 @@ impl Document {
         if first.len() == word.len() {
             list.push(keyword("End", "ends the sequence"));
             if is_cycle {
-                list.push(keyword("End Cancel", "ends the cycle and cancels it"));
+                list.push(keyword("End Cancel", "ends the sequence and cancels the cycle"));
             }
-            list.push(keyword("None", "the whole body: prints nothing"));
+            list.push(keyword("None", "as the whole body of a sequence: prints nothing"));
         }
         let letter = word.bytes().next().map(|byte| byte.to_ascii_uppercase());
         match letter {
@@ -260,7 +260,7 @@ impl Document {
         list.push(Completion {
             label: "Upon".to_owned(),
             kind: Kind::Sequence,
-            detail: "when a variable changes, before its next use".to_owned(),
+            detail: "a sequence that runs when a variable changed, before its next use".to_owned(),
             replaces,
             text: "Upon".to_owned(),
             snippet: Some("Upon [${1:work}]\n$0\nEnd".to_owned()),
@@ -279,7 +279,7 @@ impl Document {
             snippet: None,
         };
         if name.eq_ignore_ascii_case("Upon") && index == 0 {
-            return vec![new("Every", "at every use, not only when it changes")];
+            return vec![new("Every", "at every use of the variable, not only when it changes")];
         }
         let Some(id) = CommandId::parse(name) else { return Vec::new() };
         match id.row().args {
@@ -302,7 +302,8 @@ impl Document {
     }
 }
 
-/// The variables that a word with this letter probably prints, most likely first. They are taken from the shipped forms.
+/// The variables that a word with this letter probably prints, most likely first. These variables are taken from the
+/// shipped forms.
 fn likely(letter: u8, machine: Machine) -> &'static [VarId] {
     use VarId as V;
     match (letter, machine) {

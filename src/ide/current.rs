@@ -33,7 +33,7 @@ pub struct Current {
 pub struct Printed<'a> {
     /// Number of blocks.
     pub times: usize,
-    /// The first blocks. Each has its line in the program, from 1, and its text.
+    /// The first blocks. Each block has its line in the program, from 1, and its text.
     pub first: Vec<(u64, &'a str)>,
 }
 
@@ -66,7 +66,7 @@ impl Document {
         Some(Current { name: name.to_owned(), text, starts, trace, seen, notes, stopped, proven })
     }
 
-    /// Prints the built-in job with the form. The editor shows it if no job is named.
+    /// Prints the built-in job with the form. The editor shows this job if the user names no other job.
     pub fn print_sample(&self) -> Option<Current> {
         let text = sample_job(&self.checked.form.settings);
         self.print("the sample job", Job::json(text))

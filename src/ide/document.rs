@@ -10,7 +10,8 @@ use crate::source::Source;
 use crate::span::Span;
 use crate::syntax::{Head, SequenceNode};
 
-/// A form that is open in an editor, and the forms that it calls. It is parsed and checked. If it has no errors, it is also compiled.
+/// A form that is open in an editor, and the forms that it calls. The form is parsed and checked. A form without errors
+/// is also compiled.
 #[derive(Debug)]
 pub struct Document {
     pub(super) checked: Checked,
@@ -34,13 +35,14 @@ impl Document {
         Document { checked, found, post, properties: Vec::new() }
     }
 
-    /// Sets the shop's values for the form's properties, by name. They are used when programs are printed.
+    /// Sets the shop's values for the form's properties, by name. These values are used when programs are printed.
     #[must_use]
     pub fn with_properties(self, properties: &[(String, String)]) -> Document {
         Document { properties: properties.to_vec(), ..self }
     }
 
-    /// The files of the form: the main file first, then those that it calls. The file numbers in spans are indices of this list.
+    /// The files of the form: the main file first, then the files that it calls. The file numbers in spans are indices
+    /// of this list.
     pub fn files(&self) -> &[Source] {
         &self.checked.files
     }
@@ -75,8 +77,8 @@ impl Document {
         self.checked.trees.get(file as usize).map_or(&[], |tree| &tree.items)
     }
 
-    /// The sequence that contains a location. Its name line and its end are part of it. If a sequence has no end, the lines after
-    /// it are part of it.
+    /// The sequence that contains a location. The line with its name and the line with its end are part of the
+    /// sequence. If a sequence has no end, the lines that follow are part of the sequence.
     pub(super) fn sequence_at(&self, file: u32, offset: u32) -> Option<&SequenceNode> {
         let nodes = self.checked.trees.get(file as usize)?.sequences();
         let above = nodes.take_while(|node| node.span().start <= offset).last();

@@ -3,7 +3,7 @@
 use super::Document;
 use crate::syntax::{Head, Tail};
 
-/// A range of lines that an editor can fold. Lines are counted from 0; `last` is part of it.
+/// A range of lines that an editor can fold. Lines are counted from 0; the line `last` is part of the range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fold {
     /// The first line. It stays visible.

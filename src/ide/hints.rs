@@ -14,7 +14,7 @@ pub struct Hint {
 }
 
 impl Document {
-    /// Hints for the words with variables in a span. They show the first block of each line.
+    /// Hints for the words with variables in a span. The hints show the first block of each line.
     pub fn hints(&self, within: Span, current: &Current) -> Vec<Hint> {
         let mut hints = Vec::new();
         let form = &self.checked.form;

@@ -92,7 +92,7 @@ impl Document {
         Some(Span::new(file, start as usize, start as usize + text[..length].trim_end().len()))
     }
 
-    /// The value of a variable in the current job when its line, or otherwise its sequence, printed first.
+    /// The value of a variable in the current job at the first output of its line, or otherwise of its sequence.
     pub(super) fn value(&self, line: Span, var: VarId, current: &Current) -> Option<String> {
         let sequence = self.sequence_at(line.file, line.start).map(|node| node.span());
         let value = current.value(line, var).or_else(|| current.value(sequence?, var))?;

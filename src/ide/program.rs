@@ -17,19 +17,20 @@ pub struct Checked {
     pub diags: Vec<Diag>,
     /// Number of blocks that were simulated.
     pub blocks: u64,
-    /// Number of blocks with errors. The other blocks are simulated.
+    /// Number of blocks with errors. Blocks without errors are simulated.
     pub refused: u64,
     /// Whether the simulation stopped before the end of the program, because it would take too long while the user writes.
     pub cut: bool,
 }
 
-/// Maximum number of machine actions. The program is not simulated further.
+/// Maximum number of machine actions. The simulation ends after this number of actions.
 const MOST_ACTIONS: usize = 3_000_000;
 /// Maximum number of findings. If a fault occurs in each block, more findings would not help.
 const MOST_FINDINGS: usize = 200;
 
-/// Simulates a program by the rules of a control. On some controls, a setting decides what a length without a decimal point
-/// means. Such a length is reported once, and the program is then simulated with lengths in whole units.
+/// Simulates a program by the rules of a control. On some controls, a setting decides what a length without a decimal
+/// point means. A length without a decimal point is reported once, and the program is then simulated with lengths in
+/// whole units.
 pub fn check(text: &str, control: &'static Control) -> Checked {
     let mut checked = run(text, RunSettings::new(control));
     let unpointed = |diag: &Diag| diag.code == FindingCode::PN017;

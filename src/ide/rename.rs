@@ -81,19 +81,19 @@ impl Document {
 }
 
 impl Document {
-    /// The name of a property that the form declares; `None` if it is a field of the job's tools.
+    /// The name of a property that the form declares; `None` if the property is a field of the job's tools.
     fn renamed_property(&self, row: u16) -> Option<&str> {
         let property = self.checked.form.settings.properties.get(usize::from(row))?;
         property.of_tool().is_none().then_some(property.name.as_str())
     }
 }
 
-/// The span of the name alone, for the span of a word such as `X[val1]`.
+/// The span of only the variable's name, inside the span of a word such as `X[val1]`.
 fn name_in(document: &Document, span: Span, var: VarId) -> Span {
     text_in(document, span, var.name())
 }
 
-/// The span of the name alone, for the span of its word. `name` is in lower case.
+/// The span of only the name, inside the span of its word. `name` is in lower case.
 fn text_in(document: &Document, span: Span, name: &str) -> Span {
     match document.slice(span).to_ascii_lowercase().find(name) {
         Some(at) => {

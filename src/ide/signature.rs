@@ -49,7 +49,8 @@ impl Document {
     }
 }
 
-/// The names of a command's arguments. They come from the command's description, or otherwise from the text about its arguments.
+/// The names of a command's arguments. The names come from the command's description, or otherwise from the text about
+/// its arguments.
 fn names(args: Args, meaning: &str, takes: &str) -> Vec<String> {
     let most = args.count().map_or(1, |(_, most)| most);
     let list = |text: &str, by: &str| text.split(by).map(|name| name.trim().to_owned()).collect::<Vec<_>>();

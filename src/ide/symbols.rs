@@ -12,9 +12,9 @@ use crate::syntax::{Head, SequenceNode, Tail, parse};
 pub struct Symbol {
     /// Name of the part, such as `Drill`, `Upon [work]` or `Coolant`.
     pub name: String,
-    /// Description of the part. For a command, its arguments.
+    /// Description of the part. The description of a command is its arguments.
     pub detail: String,
-    /// What the part is.
+    /// Kind of the part.
     pub kind: Kind,
     /// Span of the whole part.
     pub span: Span,

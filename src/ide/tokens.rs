@@ -7,9 +7,9 @@ use crate::syntax::{Head, Line, Piece, PieceKind, Tail};
 /// A coloured word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// Span of the word. It is within one line.
+    /// Span of the word. The span is within one line.
     pub span: Span,
-    /// What the word is.
+    /// Kind of the word.
     pub kind: Kind,
 }
 
@@ -82,8 +82,8 @@ fn tail(line: &Line) -> Option<Token> {
     }
 }
 
-/// Adds the parts of a program's comment that are before, between and after the words in it. `tokens`: the words of the file in their
-/// order.
+/// Adds the parts of a program's comment that are before, between and after the words in the comment. `tokens`: the
+/// words of the file in their order.
 fn notes(piece: &Piece, tokens: &[Token], notes: &mut Vec<Token>) {
     if !matches!(piece.kind, PieceKind::Note { .. }) {
         return;

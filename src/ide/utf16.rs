@@ -1,5 +1,5 @@
-//! Positions as editors count them: the line, and the number of UTF-16 code units before the position in its line. Both are counted from
-//! 0.
+//! Positions as editors count them: the line, and the number of UTF-16 code units before the position in its line.
+//! Lines and code units are counted from 0.
 
 use crate::source::Source;
 use crate::span::Span;
@@ -13,7 +13,7 @@ pub struct Place {
     pub character: u32,
 }
 
-/// The position of a byte. If the byte is inside a character, the position of this character.
+/// The position of a byte. For a byte inside a character, the result is the position of this character.
 pub fn place(source: &Source, at: u32) -> Place {
     let mut at = (at as usize).min(source.text.len());
     while !source.text.is_char_boundary(at) {
@@ -25,8 +25,8 @@ pub fn place(source: &Source, at: u32) -> Place {
     Place { line: line as u32, character: units as u32 }
 }
 
-/// The byte at a position. If the position is after the end of its line, the end of the line. If it is after the end of the
-/// text, the end of the text.
+/// The byte at a position. A position after the end of its line counts as the end of the line. A position after the end
+/// of the text counts as the end of the text.
 pub fn offset(source: &Source, place: Place) -> u32 {
     let starts = source.line_starts();
     let Some(&start) = starts.get(place.line as usize) else { return source.text.len() as u32 };

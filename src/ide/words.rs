@@ -1,6 +1,7 @@
 //! Converts explanations of `explain` to Markdown for editors.
 
-/// Converts an explanation: its heading becomes bold, its first line a paragraph, labels of other lines italic, and its example code.
+/// Converts an explanation: its heading becomes bold, its first line becomes a paragraph, labels of other lines become
+/// italic, and its example becomes code.
 pub fn markdown(page: &str) -> String {
     let mut lines = page.lines();
     let mut out = lines.next().map(|head| format!("**{}**", head.trim())).unwrap_or_default();

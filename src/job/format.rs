@@ -43,8 +43,8 @@ impl Format {
         EXTENSIONS.iter().find(|(_, known)| known.iter().any(|known| is(known))).map(|(format, _)| *format)
     }
 
-    /// The format by the first bytes of a job: a zip archive, a brace, record 1050, a word with a slash, or a block of an NC
-    /// program. `None`: none of these.
+    /// The format by the first bytes of a job: a zip archive, a brace, record 1050, a word with a slash, or a block of
+    /// an NC program. `None`: the bytes begin with none of these.
     pub fn of_content(bytes: &[u8]) -> Option<Format> {
         let start = bytes.get(..LOOKED_AT).unwrap_or(bytes);
         if start.starts_with(b"PK\x03\x04") {

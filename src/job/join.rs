@@ -1,7 +1,8 @@
-//! Joins jobs to one: their operations follow each other, and the head is that of the first job.
+//! Joins several jobs to one job: the operations follow each other, and the head is the head of the first job.
 //!
-//! A state that one job leaves active must not change the meaning of the next job. Therefore the first operation of a job must
-//! set every value again that an earlier job has set. Alone, the job would not have these values.
+//! A state that one job leaves active must not change the meaning of the next job. Therefore the first operation of a
+//! job must set every value again that an earlier job has set. Printed alone, the job would not have the values of
+//! earlier jobs.
 
 use std::collections::HashMap;
 
@@ -18,7 +19,7 @@ pub(super) struct Joining<'s> {
     /// The number of the current job, from 1.
     part: u16,
     start: Option<Start>,
-    /// No operation of this job has begun yet.
+    /// Whether no operation of this job has begun yet.
     is_new: bool,
     held: Held,
     /// The tools by their numbers, with the jobs that used them first.
@@ -40,9 +41,9 @@ struct Held {
     is_compensated: bool,
     /// The tool of the last operation.
     tool: Option<f64>,
-    /// The tool went home after its last move.
+    /// Whether the tool went home after its last move.
     is_home: bool,
-    /// A job contains text that is printed as it is.
+    /// Whether a job contains text that is printed unchanged.
     has_text: bool,
     set: Vec<String>,
 }
@@ -71,13 +72,13 @@ impl<'s> Joining<'s> {
         self.names.get(usize::from(part).saturating_sub(1)).map_or("the job", String::as_str)
     }
 
-    /// The error that the job can't follow an earlier one.
+    /// The error that the job can't follow an earlier job.
     fn wrong(&self, earlier: u16, why: &str, help: &'static str, place: Place) -> Stop {
         let message = format!("{} can't follow {}: {why}", self.name(self.part), self.name(earlier));
         Diag::new(Code::PJ014, message).help(help).place(place).into()
     }
 
-    /// The head of a job: only the first one is passed on.
+    /// Handles the head of a job: only the first head is passed on.
     fn start(&mut self, own: &Start, place: Place) -> Flow {
         let Some(first) = &self.start else {
             // the list contains only the tools of this job
@@ -183,7 +184,7 @@ impl<'s> Joining<'s> {
         self.start.as_ref().is_some_and(|start| start.machine == machine)
     }
 
-    /// An axis that the first move must contain but does not.
+    /// An axis that the first move must contain but does not contain.
     fn missing_axis(&self, change: &ToolChange) -> Option<char> {
         // a lathe's axes are Z and X, in this order
         let (usual, names) = match self.is_of(Machine::Mill) {

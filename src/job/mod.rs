@@ -26,24 +26,24 @@ use crate::nc::Unpointed;
 use crate::toolpath::json::read_document_again;
 use crate::toolpath::{Event, Flow, Hold, Place, ReadError, Sink, Stop, Units, flow};
 
-/// Information that a CL file, NCI file or NC program may lack. JSON needs none of it.
+/// Information that a CL file, NCI file or NC program may lack. Jobs in JSON need none of this information.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Reading {
-    /// The system that wrote a CL file; without it the system is recognised from the first lines.
+    /// The CAM system that wrote a CL file; by default the system is recognised from the first lines.
     pub dialect: Option<Dialect>,
     /// Units of a CL file, NCI file or program without units.
     pub units: Option<Units>,
     /// The tool number of a CL file or program without a tool change, or of each tool that a CL file names.
     pub tool: Option<Assumed>,
-    /// The spindle speed of tools that have none in a CL file.
+    /// The spindle speed of tools for which a CL file gives no speed.
     pub speed: Option<AssumedSpeed>,
-    /// The feed of a CL file that contains none, in units of the file per minute.
+    /// The feed of a CL file without any feed, in units of the file per minute.
     pub feed: Option<f64>,
-    /// The position before a CL file or program that begins with a cut, in the units of the file. A program that cuts from a
-    /// machine position also begins there.
+    /// The position before a CL file or program that begins with a cut, in the units of the file. A program that cuts
+    /// from an unknown machine position also needs this position.
     pub start: Option<[f64; 3]>,
-    /// The CL file is complete even without the usual end statement of its system.
+    /// Whether the CL file is complete even without the usual end statement of its system.
     pub end: bool,
     /// The setup of a CL file to read, counted from 1: the motions with one tool axis, in a frame of their own.
     pub setup: Option<usize>,
@@ -51,7 +51,7 @@ pub struct Reading {
     pub control: Option<&'static Control>,
     /// The name or label of the job to read from a FreeCAD document with several jobs.
     pub job: Option<String>,
-    /// The meaning of a length without a decimal point in an NC program of a Fanuc; without it such a length is an error.
+    /// The meaning of a length without a decimal point in an NC program of a Fanuc; by default the length is an error.
     pub unpointed: Unpointed,
     /// The operations to read.
     pub select: Selection,
@@ -70,12 +70,12 @@ enum Input<'a> {
     /// `None` after the stream was read.
     Stream(Option<Box<dyn Read + 'a>>),
     Events(Box<Maker<'a>>),
-    /// Jobs that are read as one, and their names.
+    /// Jobs that are read as one job, and their names.
     Joined(Vec<Job<'a>>, Rc<[String]>),
     Kept(Box<KeptJob>),
 }
 
-/// A job that can be read: its input and its format. It is not read until it is rendered or verified.
+/// A job that can be read: its input and its format. The job is not read until it is rendered or verified.
 pub struct Job<'a> {
     input: Input<'a>,
     format: Format,
@@ -160,7 +160,8 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// A job in a file or another input that can be rewound. Every read starts from its beginning, and its size is not limited.
+    /// A job in a file or another input that can be rewound. Every read starts from the beginning of the input, and the
+    /// size of the input is not limited.
     pub fn file(format: Format, file: impl Read + Seek + 'a) -> Job<'a> {
         Job::new(format, Input::File(Box::new(file)))
     }
@@ -171,19 +172,20 @@ impl<'a> Job<'a> {
         Job::new(format, Input::Stream(Some(Box::new(input))))
     }
 
-    /// A job of another format. `make` pushes its events; each call pushes all of them again. Tool changes may
-    /// lack their first move: postform takes the move from the events after them.
+    /// A job of another format. `make` pushes the events of the job; each call pushes all events again. Tool changes
+    /// may lack their first move: postform takes the move from the events after the tool change.
     ///
     /// [`Sink::push`] pushes an event; pass its result on with `?`. The last event is [`Event::Finish`].
     pub fn events(make: impl FnMut(&mut dyn Sink) -> Result<(), ReadError> + 'a) -> Job<'a> {
         Job::new(Format::Json, Input::Events(Box::new(make)))
     }
 
-    /// One job made of several: their operations follow each other. Program number, name and other data of the head are those of
-    /// the first job. Locations in errors have the names of the jobs ([`Job::named`]).
+    /// One job made of several: their operations follow each other. Program number, name and other data of the head are
+    /// taken from the first job. Locations in errors have the names of the jobs ([`Job::named`]).
     ///
-    /// Reading fails (PJ014) if a job has other units than the first one, or another tool with the same number. It also fails
-    /// if an earlier job left a state active that the first operation of a later job does not set.
+    /// Reading fails (PJ014) if a job has other units than the first job, or another tool with a number that an earlier
+    /// job uses. Reading also fails if an earlier job left a state active that the first operation of a later job does
+    /// not set.
     pub fn join(parts: Vec<Job<'a>>) -> Job<'a> {
         let name =
             |(at, part): (usize, &Job<'_>)| part.name.as_deref().map_or(format!("job {}", at + 1), str::to_owned);
@@ -243,7 +245,8 @@ impl<'a> Job<'a> {
         std::mem::take(&mut self.report)
     }
 
-    /// The number of bytes read so far, counted during the read. `None`: this number does not show the progress.
+    /// The number of bytes read so far, counted during the read. `None`: the number of bytes read does not show the
+    /// progress.
     pub(crate) fn bytes_read(&self) -> Option<Rc<Cell<u64>>> {
         (!matches!(self.input, Input::Events(_) | Input::Joined(..) | Input::Kept(_))).then(|| Rc::clone(&self.read))
     }
@@ -377,7 +380,7 @@ impl fmt::Debug for Job<'_> {
     }
 }
 
-/// An error with the part of the joined job that it is about.
+/// Adds to an error the number of the joined job in which the error is.
 fn of_part(error: ReadError, part: u16) -> ReadError {
     match error {
         ReadError::Job(mut diag) => {

@@ -1,4 +1,4 @@
-//! Readers of the formats, with the information that their text may lack.
+//! Readers of the job formats, with options for the information that the text of a job may lack.
 
 use std::cell::Cell;
 use std::io::{self, Read, Seek};
@@ -48,7 +48,7 @@ pub(super) fn cl_options(reading: &Reading) -> cl::Options {
     }
 }
 
-/// Reads an NC program; this needs two runs.
+/// Reads an NC program, which is run twice.
 pub(super) fn read_nc(
     input: impl io::Read + Seek,
     reading: &Reading,

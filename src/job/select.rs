@@ -1,7 +1,9 @@
-//! Selection of operations of a job: from one tool on, up to one tool, only those with some tools, or all except those.
+//! Selects operations of a job: from one tool on, up to one tool, only those with some tools, or all except those with
+//! some tools.
 //!
-//! Some values of a left-out operation stay in force: work offset, spindle, coolant and set values. They are added to the next
-//! operation that is selected. That operation starts at the position that the tool would have reached.
+//! Some values of a left-out operation stay in force: work offset, spindle, coolant and set values. These values are
+//! added to the next operation that is selected. That operation starts at the position that the tool would have
+//! reached.
 
 use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
@@ -20,7 +22,7 @@ pub struct Selection {
     pub skip: Vec<u32>,
     /// Only the operation with this number, counted from 1.
     pub operation: Option<u64>,
-    /// Only operations that begin in this work offset; `Some(None)`: those before the job's first work offset.
+    /// Only operations that begin in this work offset; `Some(None)`: operations before the job's first work offset.
     pub work: Option<Option<f64>>,
 }
 
@@ -37,7 +39,7 @@ struct Progress {
     /// Number of operations so far.
     count: u64,
     begun: bool,
-    /// An operation with the last tool has begun.
+    /// Whether an operation with the last tool has begun.
     reached: bool,
     over: bool,
 }
@@ -67,13 +69,13 @@ pub(super) struct Selecting<'s> {
     sink: &'s mut dyn Sink,
     selection: &'s Selection,
     progress: Progress,
-    /// The current operation is selected. Items before the first operation are always selected.
+    /// Whether the current operation is selected. Items before the first operation are always selected.
     takes: bool,
-    /// An operation was left out after the last selected one.
+    /// Whether an operation was left out after the last selected operation.
     left_out: bool,
-    /// The next move is the first after a left-out operation, so its missing axes are filled in.
+    /// Whether the next move is the first after a left-out operation, so that its missing axes are filled in.
     fills: bool,
-    /// A subprogram is open: it is always kept, because any operation may call it.
+    /// Whether a subprogram is open. A subprogram is always kept, because any operation may call it.
     in_subprogram: bool,
     held: Held,
     /// The position, with only the axes that are known.
@@ -163,7 +165,7 @@ impl<'s> Selecting<'s> {
         self.held.set.push((name.to_owned(), value.clone()));
     }
 
-    /// A position with its missing axes filled in, if they are known.
+    /// A position whose missing axes are filled in with the known position.
     fn filled(&self, to: Axes) -> Axes {
         let mut full = to;
         for axis in 0..6 {
@@ -250,7 +252,7 @@ impl Sink for Selecting<'_> {
     }
 }
 
-/// A spindle; values that are missing are taken from the spindle before.
+/// A spindle state; values that are missing are taken from the spindle state before.
 fn turned(own: Spindle, before: Option<Spindle>) -> Spindle {
     let Some(before) = before else { return own };
     Spindle {

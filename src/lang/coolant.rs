@@ -5,7 +5,7 @@
 pub struct Coolant {
     /// The kinds that are on, as bits.
     kinds: u8,
-    /// The bit of the first kind. `[cool]` prints the code of this kind.
+    /// The bit of the first kind of coolant. `[cool]` prints the code of this first kind.
     first: u8,
 }
 
@@ -64,7 +64,7 @@ impl Coolant {
         self.each().filter(move |kind| kind.first != self.first)
     }
 
-    /// This coolant and the kinds of `other`.
+    /// The kinds of this coolant together with the kinds of `other`.
     #[must_use]
     pub fn and(self, other: Coolant) -> Coolant {
         let first = if self.first == 0 { other.first } else { self.first };
@@ -79,7 +79,7 @@ impl Coolant {
         Coolant { kinds, first: if self.first & kinds == 0 { lowest } else { self.first } }
     }
 
-    /// Whether this kind is on. For `OFF`, whether no kind is on.
+    /// Whether this kind is on. If the kind is `OFF`: whether no kind of coolant is on.
     pub fn holds(self, kind: Coolant) -> bool {
         if kind == Coolant::OFF { self == Coolant::OFF } else { self.kinds & kind.kinds == kind.kinds }
     }

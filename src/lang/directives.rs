@@ -23,9 +23,13 @@ pub const DIRECTIVES: &[DirectiveRow] = &[
     DirectiveRow {
         name: "@elif",
         takes: "a condition",
-        meaning: "otherwise the lines after it print if this condition is true",
+        meaning: "the lines after it print if this condition is true and the conditions before are false",
     },
-    DirectiveRow { name: "@else", takes: "nothing", meaning: "otherwise the lines after it print" },
+    DirectiveRow {
+        name: "@else",
+        takes: "nothing",
+        meaning: "the lines after it print if all conditions before are false",
+    },
     DirectiveRow { name: "@end", takes: "nothing", meaning: "ends @if or @for" },
     DirectiveRow {
         name: "@for",
@@ -52,19 +56,20 @@ const OTHERS: &[(&str, &str)] = &[
     ("@let", "@set"),
 ];
 
-/// The directive that was probably intended, for an unknown name.
+/// For an unknown name: the directive that the user probably intended.
 pub fn directive_meant(name: &str) -> Option<&'static str> {
     let other = OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, own)| *own);
     let joined: String = name.split([' ', '\t']).collect(); // as in `@ if`
     other.or_else(|| nearest(&joined, DIRECTIVES.iter().map(|row| row.name)))
 }
 
-/// What an `@for` repeats its lines for.
+/// The kind of item for which an `@for` repeats its lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Each {
     /// Each tool of the job, in the order of use.
     Tool,
-    /// Each operation of the job. Inside `@for tool` or `@for work`: the operations of that tool or work offset.
+    /// Each operation of the job. Inside `@for tool` or `@for work`: only the operations of the current tool or work
+    /// offset.
     Operation,
     /// Each work offset of the job, in the order of use.
     Work,

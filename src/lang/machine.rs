@@ -22,7 +22,8 @@ impl Machine {
         }
     }
 
-    /// Finds a machine by its name; upper and lower case are equal. For a torch or a laser, the type of machine is a mill.
+    /// Finds a machine by its name; upper and lower case are equal. A machine with a torch or a laser has the machine
+    /// type mill.
     pub fn parse(name: &str) -> Option<Machine> {
         let own =
             [Machine::Mill, Machine::Lathe, Machine::Edm].into_iter().find(|m| m.name().eq_ignore_ascii_case(name));
@@ -30,7 +31,7 @@ impl Machine {
     }
 }
 
-/// Tools that are switched on and off, instead of being moved up and down.
+/// Tools that the program switches on and off, instead of moving them up and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beam {
     /// A torch for plasma or flame cutting.
@@ -62,7 +63,7 @@ pub enum UnitChoice {
     Inch,
     /// Millimetres.
     Mm,
-    /// The form accepts jobs in both units. Its own lengths are in inches.
+    /// The form accepts jobs in both units. Lengths in the form itself are in inches.
     Both,
 }
 
@@ -74,7 +75,7 @@ impl UnitChoice {
     }
 }
 
-/// A set of machine types. The manual gives such a set for each sequence.
+/// A set of machine types. The manual gives a set of machine types for each sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Machines {
     /// Whether mills are in the set.

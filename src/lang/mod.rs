@@ -1,4 +1,4 @@
-//! The vocabulary of POSTFORM as tables. Checks, messages, `explain` and the reference pages are based on it.
+//! The vocabulary of POSTFORM as tables. Checks, messages, `explain` and the reference pages use these tables.
 // descriptions contain variables of forms as [var], which are not links to items
 #![allow(rustdoc::broken_intra_doc_links)]
 
@@ -23,13 +23,13 @@ pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::{additional_work, work_code};
 
-/// The source of a rule. The reference pages show it.
+/// The source of a rule. The reference pages show the source of each rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The manual states the rule.
     Doc,
     /// The manual does not state the rule, but its examples print correctly only with this rule.
     Ex,
-    /// We decided the rule, because no public source determines it.
+    /// We decided the rule, because no public source states it.
     Ours,
 }

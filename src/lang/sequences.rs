@@ -12,23 +12,23 @@ pub struct Sequence {
     pub name: &'static str,
     /// Whether the sequence is a canned cycle. A canned cycle may have a line count and `End Cancel`.
     pub is_cycle: bool,
-    /// The machines that have the sequence. They are from the manual unless marked.
+    /// The machines that have the sequence. The sets of machines are from the manual if no other source is marked.
     pub machines: Machines,
     /// Machines whose forms must contain the sequence.
     pub required: Machines,
     /// When the sequence is printed.
     pub meaning: &'static str,
-    /// The source of the description.
+    /// The source of the sequence's description, such as the manual.
     pub standing: Standing,
     /// The item of a job for which the sequence is printed.
     pub event: &'static str,
-    /// The name of the folder in samples/ with an example.
+    /// The name of the folder in samples/ that contains an example of the sequence.
     pub sample: &'static str,
 }
 
 macro_rules! sequences {
     ($($id:ident $name:literal $kind:ident $machines:literal $required:literal $standing:ident $meaning:literal $event:literal $sample:literal)*) => {
-        /// A sequence. Upon sequences are not listed here, because they exist for each variable.
+        /// A sequence. The table does not list Upon sequences, because an Upon sequence exists for each variable.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum SequenceId { $(#[doc = $meaning] $id),* }
@@ -93,7 +93,7 @@ sequences! {
     DwellBlock        "DwellBlock"        plain "MLE" ""    Ours "a dwell outside cycles, instead of the generated block" "`dwell`" "operations"
     Operation         "Operation"         plain "ML"  ""    Ours "the beginning of an operation: after its tool change, before its first move" "operation" "operations"
     EndOperation      "EndOperation"      plain "ML"  ""    Ours "the end of an operation: after its last move" "end of an operation" "operations"
-    CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job ([text]), instead of the generated one" "`comment`" "operations"
+    CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job ([text]), instead of the generated comment" "`comment`" "operations"
     MoveHome          "MoveHome"          plain "MLE" ""    Ours "the move to the machine's home position, which has no coordinates in the job" "`home`" "operations"
     WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, if no other sequence prints it" "`work`" "operations"
     SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, if no other sequence prints it" "`spindle`" "operations"
@@ -127,7 +127,7 @@ impl SequenceId {
         self.row().name
     }
 
-    /// Whether the sequence is a canned cycle for holes, and not Cancel or a thread.
+    /// Whether the sequence is a canned cycle for holes. `false` for Cancel and for threads.
     pub fn makes_holes(self) -> bool {
         self.row().is_cycle && !matches!(self, SequenceId::Cancel | SequenceId::AutoThread | SequenceId::CanThread)
     }
@@ -144,7 +144,7 @@ impl SequenceId {
 /// The name of a sequence on its name line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SequenceName<'a> {
-    /// A named sequence, and the text after its name, such as a count.
+    /// A named sequence, and the text after its name, such as a line count.
     Plain(SequenceId, Option<&'a str>),
     /// `Upon [var]`, with the name of the variable as written.
     Upon(&'a str),
@@ -153,7 +153,7 @@ pub enum SequenceName<'a> {
 }
 
 impl<'a> SequenceName<'a> {
-    /// Reads the words of a line. `None`: they are not the name of a sequence.
+    /// Reads the words of a line. `None`: the words are not the name of a sequence.
     pub fn parse(words: &[&'a str]) -> Option<SequenceName<'a>> {
         let first = *words.first()?;
         if first.eq_ignore_ascii_case("Upon") {

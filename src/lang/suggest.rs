@@ -1,6 +1,6 @@
-//! Finds the known name that is most similar to a wrong one, for suggestions such as "did you mean".
+//! Finds the known name that is most similar to a wrong name, for suggestions such as "did you mean".
 
-/// For names of this length or longer there is no suggestion, because no known name is so long.
+/// A name of this length or longer gets no suggestion, because all known names are shorter.
 pub const LONGEST_NAME: usize = 64;
 
 /// The candidate most similar to `name`, if it is similar enough for a typing error. Upper and lower case are equal.
@@ -30,8 +30,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// The number of letters of a name, and its set of letters as bits. Several letters may share a bit. Upper and lower
-/// case are equal.
+/// The number of letters in a name, and the set of its letters as bits. Several letters may have the same bit. Upper
+/// and lower case are equal.
 fn shape(name: &str) -> (usize, u64) {
     let bit = |c: char| 1_u64 << (u32::from(c.to_ascii_lowercase()) % 64);
     name.chars().fold((0, 0), |(length, letters), c| (length + 1, letters | bit(c)))

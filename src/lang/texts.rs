@@ -89,8 +89,8 @@ impl TextId {
 pub struct TextVar {
     /// Identifier of the text.
     pub id: TextId,
-    /// Number of characters to which the text is padded or cut. If negative, the text is aligned to the right. If 0, the text keeps its
-    /// length.
+    /// Number of characters to which the text is padded or cut. If this number is negative, the text is aligned to the
+    /// right. If it is 0, the text keeps its length.
     pub width: i8,
 }
 

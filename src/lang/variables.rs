@@ -13,7 +13,7 @@ pub enum Unit {
     Feed,
     /// Revolutions per minute, or a surface speed.
     Speed,
-    /// Seconds. For a dwell, the unit that the Dwell command sets.
+    /// Seconds. The value of a dwell has the unit that the Dwell command sets.
     Time,
     /// The number of a G or M code that a command of the form defines.
     Code,
@@ -26,11 +26,12 @@ pub enum Unit {
 /// Where the value of a variable comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The renderer calculates it from the toolpath. A job can't set it.
+    /// The renderer calculates the value from the toolpath. A job can't set the value.
     Computed,
-    /// The job sets it with `set`, or it is the answer to a prompt.
+    /// The job sets the value with `set`, or the value is the answer to a prompt.
     Job,
-    /// The renderer takes it from the job. If the job has no value, it comes from a prompt or from `--set`.
+    /// The renderer takes the value from the job. If the job has no value, the value comes from a prompt or from
+    /// `--set`.
     Asked,
 }
 
@@ -43,11 +44,11 @@ pub struct Variable {
     pub name: &'static str,
     /// The group of the variable in the reference.
     pub group: &'static str,
-    /// The unit of its value.
+    /// The unit of the variable's value.
     pub unit: Unit,
-    /// The source of its value.
+    /// The source of the variable's value.
     pub origin: Origin,
-    /// The machines that have it.
+    /// The machines that have the variable.
     pub machines: Machines,
     /// A description in one line.
     pub meaning: &'static str,
@@ -55,7 +56,7 @@ pub struct Variable {
 
 macro_rules! variables {
     ($($id:ident $name:literal $group:literal $unit:ident $origin:ident $machines:literal $meaning:literal)*) => {
-        /// A variable. Its number is the index of its value during rendering.
+        /// A variable. The number of a variable is the index of its value during rendering.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum VarId { $(#[doc = $meaning] $id),* }
@@ -119,7 +120,7 @@ variables! {
     Pitch         "pitch"          "Threads"            Length  Computed  "ML"   "thread pitch"
     Rplane        "rplane"         "Cycles"             Length  Computed  "ML"   "return plane: the height of the tool before and after a hole; the R plane is [vclear]"
     Vclear        "vclear"         "Cycles"             Length  Computed  "ML"   "clearance plane (R plane): the height where the feed begins"
-    Depth         "depth"          "Cycles"             Length  Computed  "MLE"  "depth of the hole below its point, positive; in a thread its height"
+    Depth         "depth"          "Cycles"             Length  Computed  "MLE"  "depth of a hole below its point, positive; in a thread the height of the thread"
     Inidep        "inidep"         "Cycles"             Length  Computed  "ML"   "depth after the first peck"
     Vbite         "vbite"          "Cycles"             Length  Computed  "ML"   "peck; in a thread the smallest cut"
     Vleave        "vleave"         "Cycles"             Length  Computed  "ML"   "finish allowance of a thread; secondary clearance of a hole"
@@ -137,8 +138,8 @@ variables! {
     Tool1         "tool1"          "Tools"              Count   Computed  "ML"   "the program's first tool"
     Isfirsttool   "isfirsttool"    "Tools"              Count   Computed  "ML"   "1 while the program's first tool is in the spindle, else 0"
     Islasttool    "islasttool"     "Tools"              Count   Computed  "ML"   "1 while the program's last tool is in the spindle, else 0"
-    Lasttool      "lasttool"       "Tools"              Count   Computed  "ML"   "the tool before this one"
-    Nexttool      "nexttool"       "Tools"              Count   Computed  "ML"   "the next tool; at the last tool, the first one"
+    Lasttool      "lasttool"       "Tools"              Count   Computed  "ML"   "the tool before the current tool"
+    Nexttool      "nexttool"       "Tools"              Count   Computed  "ML"   "the next tool; at the last tool, the first tool"
     Toold         "toold"          "Tools"              Length  Computed  "MLE"  "diameter of the tool or of the wire"
     Toolh         "toolh"          "Tools"              Length  Job       "ML"   "tool gauge length along the first axis"
     Toolv         "toolv"          "Tools"              Length  Job       "ML"   "tool gauge length along the second axis"
@@ -254,7 +255,7 @@ pub const AHEAD: VarSet = VarSet::of(&[
     VarId::Cutlength,
 ]);
 
-/// Variables whose values depend on later tools. The head of a job may already contain them.
+/// Variables whose values depend on later tools. The head of a job may already contain these values.
 pub const TOOLS_AHEAD: VarSet = VarSet::of(&[VarId::Nexttool, VarId::Islasttool]);
 
 /// The largest number of variables.

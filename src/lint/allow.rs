@@ -64,8 +64,8 @@ fn by_code(allows: &[Allow]) -> BTreeMap<Code, Vec<&Allow>> {
 fn unused(allow: &Allow) -> Diag {
     // a code that is an error by default can't be allowed, because it always prevents printing
     let help = match allow.code.row().severity {
-        Severity::Error => "an error can't be allowed: fix it",
-        _ => "remove it, so that it does not hide a later finding",
+        Severity::Error => "an error can't be allowed: fix the error",
+        _ => "remove the comment, so that it does not hide a later finding",
     };
     Diag::new(Code::PF108, format!("`{}` allows nothing here", allow.code.name()))
         .at(allow.word, "no such finding")
@@ -81,7 +81,7 @@ struct Ranges {
     whole: Option<Span>,
 }
 
-/// The form's first line that is neither blank nor a comment. The comments above it are the head of the form.
+/// The form's first line that is neither blank nor a comment. The comments above this line are the head of the form.
 fn head(items: &[Head]) -> Option<Span> {
     items.iter().find_map(|item| match item {
         Head::Blank(_) => None,
@@ -91,8 +91,8 @@ fn head(items: &[Head]) -> Option<Span> {
     })
 }
 
-/// All comments that begin with `#`. Each has the range to which it applies (its own line, or the item after it), and for a head comment
-/// the file.
+/// All comments that begin with `#`. Each comment has the range to which it applies: its own line, the item after it,
+/// or for a head comment the file.
 fn comments(items: &[Head]) -> Vec<(Span, Span)> {
     let mut found = Vec::new();
     let mut waiting: Vec<Span> = Vec::new();

@@ -7,7 +7,7 @@ use crate::sema::{Line, Settings, Word, WordKind};
 /// Motion mode of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// No block of this sequence has set the motion mode before.
+    /// No earlier block of this sequence has set the motion mode.
     Unknown,
     /// G0.
     Rapid,
@@ -23,16 +23,16 @@ pub enum Motion {
 pub struct Block<'a> {
     /// The line that prints the block.
     pub line: &'a Line,
-    /// The words that move an axis, each with its axis: 0 and 1 are the axes across, 2 is the depth. Empty if the block calls a
-    /// macro or only sets data, as with G4, G10, G52, G68 and G92.
+    /// The words that move an axis, each with its axis: 0 and 1 are the axes of the plane, 2 is the depth axis. Empty
+    /// if the block calls a macro or only sets data, as with G4, G10, G52, G68 and G92.
     pub axis_words: Vec<(&'a Word, usize)>,
     /// Motion of the block.
     pub motion: Motion,
     /// G91 is active in the block.
     pub incremental: bool,
-    /// The block has G28 or G30. Its axis words are then an intermediate point.
+    /// Whether the block has G28 or G30, so that its axis words are an intermediate point.
     pub reference: bool,
-    /// The block has G53. Its axis words are then machine coordinates.
+    /// Whether the block has G53, so that its axis words are machine coordinates.
     pub machine: bool,
 }
 
@@ -65,8 +65,8 @@ pub fn calls(control: &Control, word: &Word) -> bool {
     word.code().is_some_and(|code| control.calls(code))
 }
 
-/// Whether the axis words of a block with this code are a time or data, and not positions. This applies to dwell, data
-/// input, scaling, mirroring, local zero and rotation.
+/// Whether the axis words of a block with this code are a time or data, and not positions. The codes are those for
+/// dwell, data input, scaling, mirroring, local zero and rotation.
 fn sets(meaning: Meaning) -> bool {
     meaning == Meaning::Dwell || meaning.axes() == AxisWords::Data
 }

@@ -26,8 +26,8 @@ pub struct Fixed {
 /// Maximum number of rounds. A fix may make another fix possible; this limit ends an endless sequence of fixes.
 const MOST_ROUNDS: usize = 50;
 
-/// Applies fixes until none is left. `unsafe_too`: also applies fixes that change the output. `read` analyses the form with the
-/// changed texts.
+/// Applies fixes in rounds until no fix is left. `unsafe_too`: also applies fixes that change the output. `read`
+/// analyses the form with the changed texts.
 pub fn fix(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> Checked) -> Fixed {
     let mut changed = Changed::new();
     let mut made: Vec<Diag> = Vec::new();
@@ -55,8 +55,8 @@ pub fn fix(levels: &Levels, unsafe_too: bool, read: &mut dyn FnMut(&Changed) -> 
 /// Text replacements that do not overlap, in order.
 pub(crate) type Edits<'a> = Vec<(Span, &'a str)>;
 
-/// Selects fixes that do not overlap. `unsafe_too`: also fixes that change the output. If two fixes change the same text,
-/// only the earlier one is selected. The next round finds the other one again.
+/// Selects fixes that do not overlap. `unsafe_too`: also fixes that change the output. If two fixes change the same
+/// text, only the earlier fix is selected. The next round finds the later fix again.
 fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
     // by file, from start to end; the selected edits never overlap, so only the last one that begins before a span can touch it
     let mut taken: BTreeMap<(u32, u32), u32> = BTreeMap::new();

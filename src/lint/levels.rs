@@ -5,9 +5,9 @@ use crate::diag::{CODES, Code, Diag, Severity};
 /// The level that a shop sets for a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// Findings are not shown.
+    /// Findings of the code are not shown.
     Off,
-    /// Findings have this severity.
+    /// Findings of the code have this severity.
     As(Severity),
 }
 
@@ -24,7 +24,7 @@ impl Level {
     }
 }
 
-/// The levels that a shop sets differently from the table of codes. If a code has several, the last one applies.
+/// The levels that a shop sets differently from the table of codes. If a code has several levels, the last one applies.
 #[derive(Clone, Debug, Default)]
 pub struct Levels(Vec<(Code, Level)>);
 
@@ -32,8 +32,8 @@ impl Levels {
     /// Sets the level of a code such as `PF303`, or of all codes of a family such as `PF3`.
     ///
     /// # Errors
-    /// The code is unknown, or it is an error of the form and therefore always prevents printing. The error is the rest of a
-    /// sentence that begins with the name.
+    /// The code is unknown, or it is an error of the form and therefore always prevents printing. The error text is the
+    /// rest of a sentence that begins with the name of the code.
     pub fn set(&mut self, name: &str, level: Level) -> Result<(), &'static str> {
         let upper = name.to_ascii_uppercase();
         let is_code = |row: &&crate::diag::CodeRow| row.name.starts_with("PF") && upper.len() > 2;

@@ -1,4 +1,5 @@
-//! The lint rules for forms. Each rule finds one fault that can cost a part or a spindle. It has its own file and a row in `rules`.
+//! The lint rules for forms. Each rule finds one fault that can cost a part or a spindle. Each rule has its own file
+//! and a row in `rules`.
 
 mod allow;
 mod blocks;
@@ -61,7 +62,8 @@ pub struct Ready {
 /// Compiles an analysed form. The levels and the form's suppression comments are applied first.
 ///
 /// # Errors
-/// If there is at least one error, all errors and warnings. An error comes from the form itself or from the levels.
+/// If there is at least one error, all errors and warnings. An error comes from the form itself, or the levels make a
+/// finding an error.
 pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
     ready_of(checked, lint(checked, levels).diags)
 }
@@ -78,8 +80,8 @@ pub fn ready_of(checked: &Checked, mut diags: Vec<Diag>) -> Result<Ready, Vec<Di
     Ok(Ready { program: compile(&checked.form), findings: diags })
 }
 
-/// Removes findings that only follow from another one. If some words of a sequence were not understood, a finding that the
-/// sequence lacks a word may be wrong.
+/// Removes findings that only follow from another finding. If some words of a sequence were not understood, a finding
+/// that the sequence lacks a word may be wrong.
 fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
     let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
@@ -92,7 +94,8 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     diags.retain(|diag| !(may_follow(diag) && place(diag).is_some_and(|at| unclear.holds(at))));
 }
 
-/// Whether the finding is an error of the form itself, independent of the levels. Nothing is printed until it is fixed.
+/// Whether the finding is an error of the form itself, independent of the levels. A form with such an error prints
+/// nothing until the error is fixed.
 fn stops_printing(diag: &Diag) -> bool {
     diag.is_error() && diag.code.row().severity == Severity::Error
 }

@@ -166,7 +166,7 @@ impl<'a> View<'a> {
         self.meaning(word).is_some_and(Meaning::is_cycle)
     }
 
-    /// Whether the form never prints the depth axis. This always applies to torches and lasers.
+    /// Whether the form never prints the depth axis. Forms for torches and lasers never print the depth axis.
     pub fn is_flat(&self) -> bool {
         if self.settings.beam.is_some() {
             return true;
@@ -273,7 +273,7 @@ impl<'a> View<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Maximum number of lines that the body prints. Only one branch of each condition is counted.
+    /// Maximum number of lines that the body prints. Of each condition, only one branch is counted.
     pub fn most_lines(&self) -> usize {
         self.steps.map_or(self.lines.len(), |steps| line_counts(steps).1)
     }
@@ -323,7 +323,7 @@ impl<'a> Body<'a> {
         self.words().find(|word| word.code().and_then(|code| self.codes.meaning(code)).is_some_and(&is))
     }
 
-    /// Whether some code of the body makes the control move by itself, as a cycle does.
+    /// Whether some code of the body makes the control move the axes without axis words, as a cycle does.
     pub fn moves_by_itself(&self) -> bool {
         self.words().any(|word| word.code().is_some_and(|code| self.codes.moves_by_itself(code)))
     }
@@ -338,7 +338,8 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The sequence whose kind of hole a canned cycle makes: the cycle itself, or for a Custom cycle the one that its comment names.
+/// The sequence for the kind of hole that a canned cycle makes: the cycle itself, or for a Custom cycle the sequence
+/// that its comment names.
 pub fn serves(sequence: &Sequence) -> SequenceId {
     let kind = sequence.custom_kind().and_then(CycleKind::parse);
     kind.and_then(CycleKind::sequence).unwrap_or(sequence.id)

@@ -3,7 +3,8 @@
 /// An axis of the machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// The travel of the axis in machine coordinates, in millimetres or degrees. `None`: the machine file does not give it.
+    /// The travel of the axis in machine coordinates, in millimetres or degrees. `None`: the machine file does not give
+    /// the travel.
     pub travel: Option<Travel>,
     /// Speed of rapids, in millimetres or degrees per minute.
     pub rapid: Option<f64>,
@@ -13,9 +14,9 @@ pub struct Axis {
     pub acceleration: Option<f64>,
     /// For a rotary axis, the part of the machine that it turns.
     pub kind: Option<Kind>,
-    /// For a rotary axis, the direction about which it turns.
+    /// For a rotary axis, the direction of the axis of rotation.
     pub about: Option<[f64; 3]>,
-    /// Whether words of the axis are angles of the table and not of the tool. They are then negated.
+    /// Whether words of the axis are angles of the table and not of the tool. Angles of the table are negated.
     pub counts_table: bool,
 }
 
@@ -42,8 +43,8 @@ impl Axis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// The part, on a table.
+    /// The axis turns the part, on a table.
     Table,
-    /// The spindle, in a head.
+    /// The axis turns the spindle, in a head.
     Head,
 }

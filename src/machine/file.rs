@@ -13,8 +13,8 @@ use super::{Corners, LETTERS, Machine, Rotary, offsets};
 use crate::control::{self, Control, Wrong};
 use crate::toolpath::Units;
 
-/// A function that reads a file which the machine file names. It returns the text, or the reason why the file can't be read. Names are
-/// relative to the folder of the machine file.
+/// A function that reads a file which the machine file names. The function returns the text, or the reason why the file
+/// can't be read. Names are relative to the folder of the machine file.
 pub type Beside<'a> = dyn Fn(&str) -> Result<String, String> + 'a;
 
 /// Reads the text of a machine file.

@@ -1,6 +1,6 @@
 //! Boxes that no rapid may enter, such as clamps and vices.
 
-/// A box that is in a work offset.
+/// A box whose position is given in a work offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
     /// Name of the box in the shop.
@@ -22,7 +22,7 @@ pub struct Sweep {
     pub to: [f64; 3],
     /// Radius of the tool, in millimetres.
     pub radius: f64,
-    /// Length of the tool above its tip. If it is unknown, it is infinite, because the spindle is above the tool.
+    /// Length of the tool above its tip. An unknown length counts as infinite, because the spindle is above the tool.
     pub length: f64,
 }
 
@@ -36,7 +36,8 @@ impl Fixture {
         self.distance(at(begin), at(end)) < sweep.radius.max(TOUCH)
     }
 
-    /// The part of the path on which the cylinder is at the height of the box. It is given as two fractions of the path.
+    /// The part of the path on which the cylinder is at the height of the box. The part is given as two fractions of
+    /// the path.
     fn at_its_height(&self, sweep: &Sweep) -> Option<[f64; 2]> {
         let (mut begin, mut end) = (0.0f64, 1.0f64);
         let rise = sweep.to[2] - sweep.from[2];
@@ -60,7 +61,7 @@ impl Fixture {
         (begin <= end).then_some([begin, end])
     }
 
-    /// The least distance between a straight path and the box in X and Y. It is 0 if the path enters the box.
+    /// The least distance between a straight path and the box in X and Y. The distance is 0 if the path enters the box.
     fn distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let (least, greatest) = (&self.least, &self.greatest);
         if crosses(from, to, [least[0], least[1]], [greatest[0], greatest[1]]) {
@@ -80,7 +81,8 @@ impl Fixture {
 /// Tolerance for touching, in millimetres.
 const TOUCH: f64 = 1e-6;
 
-/// Whether a part of the path is inside the box. Calculated from the fractions at which the path enters and leaves each pair of sides.
+/// Whether a part of the path is inside the box. The result is calculated from the fractions at which the path enters
+/// and leaves each pair of sides.
 fn crosses(from: [f64; 2], to: [f64; 2], least: [f64; 2], greatest: [f64; 2]) -> bool {
     let (mut begin, mut end) = (0.0f64, 1.0f64);
     for axis in 0..2 {

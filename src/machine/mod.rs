@@ -36,7 +36,8 @@ pub struct Machine {
     pub control: Option<&'static Control>,
     /// The units of lengths in messages about the machine.
     pub units: Units,
-    /// Whether the machine is a lathe whose X is a diameter in the file and in messages. Here X is always a radius.
+    /// Whether the machine is a lathe whose X is a diameter in the file and in messages. In this type, X is always a
+    /// radius.
     pub by_diameter: bool,
     /// The axes X Y Z A B C. Axes that the file does not contain are `None`.
     pub axes: [Option<Axis>; 6],
@@ -68,10 +69,10 @@ pub struct Machine {
     pub fixtures: Vec<Fixture>,
 }
 
-/// The rotary axes. They are read and checked, and used for planes.
+/// The rotary axes. The values of the axes are read and checked, and used for planes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rotary {
-    /// The letters of the axes. The first is the axis nearest to the frame of the machine.
+    /// The letters of the axes. The first letter is the axis nearest to the frame of the machine.
     pub order: Vec<char>,
     /// The point where the axes intersect, in machine coordinates, in millimetres.
     pub centre: [f64; 3],
@@ -125,7 +126,7 @@ impl Machine {
     }
 }
 
-/// A number as text, without unneeded zeros. It is rounded to 1/`parts`.
+/// A number as text, without unneeded zeros. The number is rounded to 1/`parts`.
 fn short(value: f64, parts: f64) -> String {
     format!("{}", (value * parts).round() / parts + 0.0)
 }

@@ -11,8 +11,8 @@ const USUAL_PARTS: [u16; 4] = [541, 591, 592, 593];
 /// Maximum number of additional offsets.
 const ADDITIONAL: usize = WorkOffset::MOST as usize;
 
-/// The number of the offset with this name on this control: G54 is 1, and the first additional offset is 10. If the control
-/// numbers its offsets, its own number is used. `None`: the control has no such offset.
+/// The number of the offset with this name on this control: G54 is 1, and the first additional offset is 10. If the
+/// control numbers its offsets, the number of the control is used. `None`: the control has no such offset.
 pub fn number(control: &Control, text: &str) -> Option<usize> {
     let text = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
     (1..=USUAL.len() + ADDITIONAL).find(|number| names(control, *number).contains(&text))
@@ -49,7 +49,8 @@ fn names(control: &Control, number: usize) -> Vec<String> {
     names
 }
 
-/// The letter with which the control selects an offset by its number: E on a FADAL, H on an Okuma. `None`: it selects offsets by codes.
+/// The letter with which the control selects an offset by its number: E on a FADAL, H on an Okuma. `None`: the control
+/// selects offsets by codes.
 fn counted(control: &Control) -> Option<u8> {
     let by_code = || {
         [150, 2470].into_iter().find_map(|tenths| match control.row(Code { letter: b'G', tenths })?.runs.work? {

@@ -4,11 +4,13 @@ use super::{LETTERS, Machine};
 use crate::control::{Control, Rules};
 use crate::times::{AxisRates, Corner, PathMode, Rates};
 
-/// How far a path may deviate at a corner if the file does not contain a value, in millimetres. It is the default of Grbl's `$11`.
+/// How far a path may deviate at a corner if the file does not contain a value, in millimetres. The value is the
+/// default of Grbl's `$11`.
 const DEVIATION: f64 = 0.01;
-/// Number of blocks that Grbl plans ahead: its buffer has 16 blocks, one of which stays free.
+/// Number of blocks that Grbl plans ahead: the buffer of Grbl has 16 blocks, one of which stays free.
 const GRBL_AHEAD: usize = 15;
-/// Number of blocks that other controls plan ahead if the file does not contain a value. This is our own choice.
+/// Number of blocks that other controls plan ahead if the file does not contain a value. The value is postform's own
+/// choice.
 const AHEAD: usize = 200;
 
 /// How a control moves through corners.
@@ -24,7 +26,7 @@ impl Machine {
     /// The speeds and accelerations of the machine.
     ///
     /// # Errors
-    /// Some values are missing. The error names them.
+    /// Some values are missing. The error names the missing values.
     pub fn rates(&self) -> Result<Rates, String> {
         let missing = |what: &str, of: fn(&super::Axis) -> Option<f64>| {
             let lacks = |axis: &usize| self.axes[*axis].as_ref().is_some_and(|axis| of(axis).is_none());

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 pub struct ToolTable(pub BTreeMap<u32, Entry>);
 
 impl ToolTable {
-    /// The length in a register. The register has the number of its tool. If it is negative, the length is negated.
+    /// The length in a register. The register has the number of its tool. If the register is negative, the length is
+    /// negated.
     pub fn length(&self, register: i32) -> Option<f64> {
         let length = self.0.get(&register.unsigned_abs())?.length?;
         Some(if register < 0 { -length } else { length })
@@ -23,14 +24,15 @@ pub struct Entry {
     pub diameter: Option<f64>,
     /// Name of the tool in the shop.
     pub name: Option<String>,
-    /// Offset of the tip from the spindle axis along X and Y. Only tables of LinuxCNC contain it.
+    /// Offset of the tip from the spindle axis along X and Y. Only tables of LinuxCNC contain this offset.
     pub aside: [f64; 2],
 }
 
 /// An error in a table: the number of the line from 1, and the reason.
 pub type Wrong = (usize, String);
 
-/// Reads a table. Its format is recognised from its text. `scale`: the number of millimetres in a unit of the table.
+/// Reads a table. The format of the table is recognised from its text. `scale`: the number of millimetres in a unit of
+/// the table.
 ///
 /// # Errors
 /// The line of the first error, and the reason.
@@ -136,8 +138,8 @@ fn unquoted(cell: &str) -> &str {
     cell.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(cell)
 }
 
-/// Reads lengths from lines such as `G10 L10 P5 R123.4`. `L12` is skipped, because the list does not show whether it is a
-/// radius or a diameter. `L11` and `L13` are wear. The wear of a length is added to the length.
+/// Reads lengths from lines such as `G10 L10 P5 R123.4`. `L12` is skipped, because the list does not show whether the
+/// value is a radius or a diameter. `L11` and `L13` are wear. The wear of a length is added to the length.
 fn g10(text: &str, scale: f64) -> Result<ToolTable, Wrong> {
     let mut table = ToolTable::default();
     let mut wear: BTreeMap<u32, f64> = BTreeMap::new();

@@ -24,12 +24,13 @@ pub enum Action {
     Rapid {
         /// End of the move.
         to: Position,
-        /// As bits, the axes whose end is a machine position. Their position in the work offset is unknown, because it
-        /// depends on values that only the machine has.
+        /// As bits, the axes whose end is a machine position. The positions of these axes in the work offset are
+        /// unknown, because they depend on values that only the machine has.
         machine: u8,
-        /// Those of the `machine` axes that have moved by increments since then. Their machine position is unknown, too.
+        /// As bits, the `machine` axes that later moved by increments. The machine position of these axes is unknown,
+        /// too.
         astray: u8,
-        /// Those of the `machine` axes whose machine position the program contains, by G28 or G53.
+        /// As bits, the `machine` axes whose machine position the program contains, by G28 or G53.
         placed: u8,
     },
     /// A straight feed move.
@@ -42,7 +43,7 @@ pub enum Action {
         lead: Option<f64>,
         /// As bits, the axes whose position is known only at the machine.
         machine: u8,
-        /// Those of the `machine` axes that this move takes to a machine position, by G53 with G1.
+        /// As bits, the `machine` axes that this move takes to a machine position, by G53 with G1.
         home: u8,
     },
     /// An arc or helix at feed.
@@ -183,7 +184,8 @@ impl Cooling {
 pub struct Turn {
     /// End of the arc.
     pub to: Position,
-    /// Centre of the arc, X Y Z. Along the axis perpendicular to the plane, it has the coordinate of the start.
+    /// Centre of the arc, X Y Z. Along the axis perpendicular to the plane, the centre has the coordinate of the arc's
+    /// start.
     pub center: [f64; 3],
     /// The plane of the arc.
     pub plane: Plane,
@@ -197,7 +199,8 @@ pub struct Turn {
     pub machine: u8,
 }
 
-/// The heights of a hole that the program contains. All other heights are known only at the machine.
+/// The heights of a hole that the program contains. The heights that the program does not contain are known only at the
+/// machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {
     /// All heights.
@@ -232,7 +235,8 @@ impl Cycle {
 pub struct Drilling {
     /// The cycle of the hole.
     pub cycle: Cycle,
-    /// The position above the hole at the return level. While the words of the cycle are read, its height is not used yet.
+    /// The position above the hole at the return level. The height of this position is not used while the words of the
+    /// cycle are read.
     pub at: Position,
     /// The plane perpendicular to the hole.
     pub plane: Plane,

@@ -9,25 +9,26 @@ use super::state::State;
 use crate::control::{Control, Meaning};
 
 impl Simulator<'_> {
-    /// Sets the units that are active until the program sets units itself. Call this before the first block.
+    /// Sets the units that are active until the program sets units itself. Call this function before the first block.
     pub fn begin_in(&mut self, units: crate::toolpath::Units) {
         self.state.begin_in(units);
     }
 
-    /// Sets the work offsets of the machine by number, and its positions for G28 and G30. All are in machine
-    /// coordinates (millimetres and degrees). Call this before the first block.
+    /// Sets the work offsets of the machine by number, and the machine's positions for G28 and G30. Offsets and
+    /// positions are in machine coordinates (millimetres and degrees). Call this function before the first block.
     pub fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         self.state.begin_on(offsets, homes);
     }
 
-    /// Sets the number of programs before the main one in the input. They are subprograms of the control. Call this
-    /// before the first block.
+    /// Sets the number of programs before the main one in the input. The programs before the main one are subprograms
+    /// of the control. Call this function before the first block.
     pub fn begin_behind(&mut self, programs: usize) {
         self.passing = if programs == 0 { 0 } else { programs + 1 };
     }
 
-    /// Runs the program as a lathe program, with the lathe control of the same maker. Call this before the first block.
-    /// X is a diameter if `by_diameter` is set, as by a machine parameter; on LinuxCNC, G7 makes X a diameter.
+    /// Runs the program as a lathe program, with the lathe control of the same maker. Call this function before the
+    /// first block. If `by_diameter` is set, X is a diameter, as a machine parameter can define. On LinuxCNC, G7 makes
+    /// X a diameter.
     pub fn is_of_lathe(&mut self, by_diameter: bool) {
         let units = self.state.units();
         let control = self.state.settings.control.of_lathe();
@@ -36,7 +37,8 @@ impl Simulator<'_> {
         self.parameters = Parameters::new(control);
     }
 
-    /// Runs the program as a wire EDM program, with the wire EDM control of the same maker. Call this before the first block.
+    /// Runs the program as a wire EDM program, with the wire EDM control of the same maker. Call this function before
+    /// the first block.
     pub fn is_of_wire(&mut self) {
         let units = self.state.units();
         let control = self.state.settings.control.of_wire();
@@ -91,7 +93,7 @@ impl Simulator<'_> {
         self.block.g_meaning(Group::Length) == Some(Meaning::LengthAdd)
     }
 
-    /// Whether the last block moves a frame so that the tool has the position that the block contains.
+    /// Whether the last block shifts a frame: the position in the block then is the position of the tool.
     pub fn presets(&self) -> bool {
         match self.block.g_meaning(Group::Once) {
             Some(Meaning::Preset) => true,

@@ -1,4 +1,4 @@
-//! A block: its words with their values, its codes, and the check that they may be used together.
+//! A block: its words with their values, its codes, and the check that these words and codes may be used together.
 
 use super::call::{Call, Pattern};
 use super::codes::{AXES, CHECKED, Group, bit};
@@ -48,7 +48,7 @@ pub struct Block {
     pub(super) incremental: u8,
     /// The tool that is preselected after the tool change of this block.
     pub(super) next_tool: Option<f64>,
-    /// The number of the work offset, if a word that is not a G code selects one.
+    /// The number of the work offset, if a word that is not a G code selects the work offset.
     pub(super) work: Option<f64>,
     /// Number of full turns that the arc of the block makes before its end.
     pub(super) turns: u32,
@@ -181,7 +181,7 @@ impl Block {
         self.values[usize::from(letter - b'A')] = value;
     }
 
-    /// Adds a G code. Returns whether it is the first code of its group.
+    /// Adds a G code. Returns whether the code is the first code of its group in the block.
     pub fn put_g(&mut self, row: &'static Row, its_group: Group, takes_axes: bool) -> bool {
         self.is_empty = false;
         self.has_g = true;
@@ -223,7 +223,9 @@ impl Block {
             let letter = char::from(b'A' + unused.trailing_zeros() as u8);
             let message = format!("the block has {letter}, but no code that uses {letter}");
             let help = match letter {
-                'H' => "write G43 with it, or name the control: `--control`, for a job `--job-control`".to_owned(),
+                'H' => {
+                    "write G43 in this block, or name the control: `--control`, for a job `--job-control`".to_owned()
+                }
                 _ => format!("remove the {letter}, or write its code in this block"),
             };
             return refuse(Code::PN005, message, help);

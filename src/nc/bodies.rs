@@ -10,7 +10,7 @@ use crate::diag::Code;
 use crate::toolpath::{StopKind, Units};
 
 impl Drilling {
-    /// The position in the axis of the hole at a height.
+    /// The position at a height on the axis of the hole.
     #[inline]
     pub fn over(&self, height: f64) -> Position {
         let mut to = self.at;
@@ -89,8 +89,9 @@ impl State {
         self.place.rapid_to(hole.beside(hole.clear), out);
     }
 
-    /// Makes the moves of a hole, from R to the return level. `from`: an earlier call has begun the hole, and the next
-    /// peck ends at this depth. If this call has made enough actions, it returns the depth at which the next peck ends.
+    /// Makes the moves of a hole, from R to the return level. `from`: the depth at which the next peck ends, if an
+    /// earlier call has begun the hole. If this call reaches the limit of actions, the function returns the depth at
+    /// which the next peck ends.
     pub(super) fn drill(&mut self, hole: &Drilling, from: Option<f64>, out: &mut Out<'_>) -> Done<Option<f64>> {
         let emc2 = self.control.rules() == Rules::Emc2;
         match hole.cycle.motions {
@@ -203,13 +204,13 @@ impl State {
         None
     }
 
-    /// The direction in which the spindle turns. It is an error if the spindle is stopped.
+    /// The direction in which the spindle turns. A stopped spindle is an error.
     fn turning(&self, hole: &Drilling) -> Done<Rotation> {
         if self.drive.spindle == Rotation::Stop {
             return refuse(
                 Code::PN012,
                 format!("{} with the spindle stopped", hole.cycle.code),
-                "write M3 or M4 before it",
+                "write M3 or M4 before the cycle",
             );
         }
         Ok(self.drive.spindle)
@@ -327,7 +328,7 @@ impl State {
     }
 }
 
-/// Refuses a hole with more than a million pecks, which would take a control days.
+/// Refuses a hole with more than a million pecks, because a control would need days for the hole.
 fn check_pecks(hole: &Drilling) -> Done {
     if (hole.r - hole.bottom) / hole.peck > 1e6 {
         return refuse(Code::PN018, format!("Q{} makes more than a million pecks", hole.peck), "write a larger Q");

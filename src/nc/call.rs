@@ -1,4 +1,5 @@
-//! Cycles whose calls contain all heights: the state on which a call depends, and the resulting steps of a hole.
+//! Cycles whose calls contain all heights. This file defines the state on which a call depends, and the steps of a hole
+//! that the call makes.
 
 use std::collections::VecDeque;
 use std::fmt::Debug;
@@ -23,7 +24,7 @@ pub enum Step {
     Orient(f64),
     /// A rapid by these distances: along the two axes of the plane, and along the axis perpendicular to it.
     Aside([f64; 3]),
-    /// A rapid to the upper limit of the axis. Its height is known only at the machine.
+    /// A rapid to the upper limit of the axis. The height of this limit is known only at the machine.
     Top,
     /// A program stop.
     Stop,
@@ -32,7 +33,7 @@ pub enum Step {
 /// A hole with all its steps. The tool may be at any height above the hole when the first step begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canned {
-    /// The hole, at the current position of the tool.
+    /// The hole, which is at the current position of the tool.
     pub hole: Drilling,
     /// The steps in order.
     pub steps: Vec<Step>,
@@ -55,7 +56,8 @@ pub struct Stand {
     pub speed: f64,
     /// Rotation of the spindle.
     pub turning: Rotation,
-    /// The rapid into a hole after a peck stops at this distance above the depth reached so far, if the cycle has no word for it.
+    /// After a peck, the rapid into the hole stops at this distance above the depth reached so far. A cycle with its
+    /// own word for this distance uses the value of this word.
     pub back_off: f64,
     /// The direction along the first axis in which a boring tool moves away from the wall: 1 or -1.
     pub bore_shift: f64,

@@ -20,7 +20,7 @@ pub const CHECKED: u32 = letters("DEHIJKLPQR");
 /// The bits of the axis words.
 pub const AXES: u32 = letters("XYZABCUVW");
 
-/// The group in which a row's G code is stored in a block.
+/// The group under which a block stores the G code of a row.
 pub fn group(row: &Row, rules: Rules) -> Group {
     use Meaning as M;
     match row.meaning {
@@ -51,7 +51,7 @@ pub fn m_code(control: &'static Control, code: u16) -> Option<&'static Row> {
     control.row(Code { letter: b'M', tenths }).filter(|row| is_run(row, b'M'))
 }
 
-/// Whether the simulator runs a row under codes with this letter.
+/// Whether the simulator runs the code of a row if the code has this letter.
 #[inline]
 fn is_run(row: &Row, letter: u8) -> bool {
     row.not_run.is_none() && is_run_by(row.meaning, letter) && row.lacks().is_none()
@@ -75,8 +75,8 @@ fn article(letter: char) -> &'static str {
     if letter == 'M' { "an" } else { "a" }
 }
 
-/// Whether the simulator runs this meaning under codes with this letter. Other codes with this meaning are refused,
-/// with their name.
+/// Whether the simulator runs codes with this meaning and this letter. The simulator refuses other codes with this
+/// meaning and names them.
 #[inline]
 const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
     use Meaning as M;
@@ -110,7 +110,7 @@ const fn is_run_by(meaning: Meaning, letter: u8) -> bool {
     }
 }
 
-/// The group of an M code: a block may have only one code of a group. Group 0 has no effect in the simulator.
+/// The group of an M code: a block may have only one code of a group. Codes of group 0 have no effect in the simulator.
 pub fn m_group(row: &Row) -> u8 {
     use crate::control::Group as G;
     match row.meaning {

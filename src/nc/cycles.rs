@@ -18,7 +18,8 @@ fn given(word: Option<f64>) -> Option<f64> {
 }
 
 impl State {
-    /// Runs a cycle. Its words come from this block, otherwise from earlier blocks of the cycle; a word in neither is an error.
+    /// Runs a cycle. A word that is missing in this block is taken from earlier blocks of the cycle. A word that no
+    /// block contains is an error.
     pub(super) fn linuxcnc_cycle(&mut self, row: &'static Row, block: &Block, out: &mut Out<'_>) -> Done {
         self.check_cycle(block)?;
         let same = self.modes.motion.is_some_and(|motion| motion.code == row.code);
@@ -87,7 +88,7 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// Makes the holes of a block, one after the other. If the output is full, the rest is made by the next call.
+    /// Makes the holes of a block, one after the other. If the output is full, the next call makes the remaining holes.
     pub(super) fn make_holes(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         while let Some(mut work) = self.holes.work.take() {
             if work.depth.is_none() {
@@ -167,7 +168,7 @@ impl State {
         Ok(())
     }
 
-    /// Adds the action of a hole. The actions of its moves follow.
+    /// Adds the action of a hole. The actions of the hole's moves follow.
     pub(super) fn announce(&self, hole: &Drilling, out: &mut Out<'_>) {
         out.by_cycle = false;
         let at = hole.over(hole.clear);
@@ -179,7 +180,7 @@ impl State {
             return refuse(Code::PN005, "A, B or C in a canned cycle", "turn the axis in a block before the cycle");
         }
         if self.drive.feed == 0.0 {
-            return refuse(Code::PN008, "a canned cycle without a feed", "write F in its block");
+            return refuse(Code::PN008, "a canned cycle without a feed", "write F in the block of the cycle");
         }
         if self.modes.feed_mode == FeedMode::InverseTime {
             return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before the cycle");
@@ -194,7 +195,8 @@ impl State {
         Ok(())
     }
 
-    /// Takes P, Q and the shift from the block, or their values from earlier blocks. The first block of a cycle must contain them.
+    /// Takes P, Q and the shift from the block, or their values from earlier blocks. The first block of a cycle must
+    /// contain these words.
     fn words(&mut self, cycle: Cycle, same: bool, block: &Block) -> Done<Drilling> {
         let Cycle { code: name, motions, dwells } = cycle;
         let missing = |letter: char| {

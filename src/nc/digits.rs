@@ -1,4 +1,5 @@
-//! Reads the numbers of an NC program, with sign and decimal point. Like a control, it allows spaces anywhere in a number.
+//! Reads the numbers of an NC program, with sign and decimal point. As on a control, spaces are allowed anywhere in a
+//! number.
 
 use crate::number::short_decimal;
 
@@ -46,7 +47,7 @@ pub(super) fn skip_blanks(line: &[u8], mut at: usize) -> usize {
 /// Powers of ten, up to the number of decimal digits that a double represents exactly.
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// Reads digits with at most one decimal point. Spaces between them are ignored.
+/// Reads digits with at most one decimal point. Spaces between the digits are ignored.
 #[inline(always)]
 pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     if let Some(short) = short_decimal(line, start) {
@@ -58,7 +59,7 @@ pub(super) fn unsigned(line: &[u8], start: usize) -> Option<(Number, usize)> {
     unsigned_of_any_length(line, start)
 }
 
-/// Whether the number, or a further blank, continues after a blank.
+/// Whether a blank is followed by more of the number or by another blank.
 #[inline(always)]
 fn goes_on(line: &[u8], blank: usize) -> bool {
     matches!(line.get(blank + 1), Some(b'0'..=b'9' | b'.' | b' ' | b'\t'))
@@ -117,8 +118,8 @@ fn in_parts(line: &[u8], start: usize) -> Option<(Number, usize)> {
     number(mantissa, count, decimals, point, &line[start..at]).map(|number| (number, at))
 }
 
-/// The value of a number. `mantissa` is the value of its digits without the decimal point; `decimals` of them are after
-/// the point. `None`: there are no digits.
+/// The value of a number. `mantissa` is the value of the number's digits without the decimal point; `decimals` is the
+/// number of digits after the point. `None`: there are no digits.
 #[inline(always)]
 fn number(mantissa: u64, count: usize, decimals: usize, point: bool, text: &[u8]) -> Option<Number> {
     let value = match count {

@@ -8,7 +8,7 @@ use crate::diag::Code;
 /// Maximum nesting of brackets.
 const DEEPEST: u32 = 64;
 
-/// The tokens of a line, without spaces. The reader is always one token ahead.
+/// The tokens of a line, without spaces. The reader always holds the next token.
 pub struct Reader<'a> {
     line: &'a [u8],
     tokens: Tokens<'a>,
@@ -21,7 +21,7 @@ const OPERATORS: [&[&str]; 5] =
     [&["AND", "OR", "XOR"], &["EQ", "NE", "GT", "GE", "LT", "LE"], &["+", "-"], &["*", "/", "MOD"], &["**"]];
 
 impl<'a> Reader<'a> {
-    /// A reader that begins after the tokens that are already taken.
+    /// A reader that begins at the next token of `tokens`.
     pub fn new(line: &'a [u8], tokens: Tokens<'a>) -> Reader<'a> {
         let mut reader = Reader { line, tokens, ahead: None, depth: 0 };
         reader.ahead = reader.pull();
@@ -72,17 +72,25 @@ impl<'a> Reader<'a> {
     /// Reads a value with its signs: a number, a parameter, an expression in brackets, or a function.
     ///
     /// # Errors
-    /// There is no value, or the value is not defined, such as a division by zero.
+    /// The value is missing or not defined, such as the result of a division by zero.
     pub fn value(&mut self, parameters: &Parameters) -> Done<f64> {
         self.depth += 1;
         if self.depth > DEEPEST {
-            return refuse(Code::PN014, format!("brackets more than {DEEPEST} deep"), "write it in several blocks");
+            return refuse(
+                Code::PN014,
+                format!("brackets more than {DEEPEST} deep"),
+                "write the expression in several blocks",
+            );
         }
         let value = self.plain_value(parameters);
         self.depth -= 1;
         let value = value?;
         if !value.is_finite() {
-            return refuse(Code::PN014, "the expression has no finite result", "check its division or function");
+            return refuse(
+                Code::PN014,
+                "the expression has no finite result",
+                "check the division or the function in the expression",
+            );
         }
         Ok(value)
     }

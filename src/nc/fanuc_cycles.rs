@@ -1,4 +1,4 @@
-//! Canned cycles of Fanuc and Haas mills. The values of their words are kept until G80, even if the cycle code changes.
+//! Canned cycles of Fanuc and Haas mills. The values of cycle words are kept until G80, even if the cycle code changes.
 
 use super::action::{Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
@@ -80,8 +80,8 @@ impl State {
         self.make_holes(block, out)
     }
 
-    /// The feed and the peck of a tapping cycle that has a separate word for the pitch. `None`: there is no such word,
-    /// and the pitch comes from the feed.
+    /// The feed and the peck of a tapping cycle that has a separate word for the pitch. `None`: the cycle has no word
+    /// for the pitch, and the pitch comes from the feed.
     fn tap_by_pitch(&self, row: &Row) -> Done<Option<(f64, f64)>> {
         let kept = |letter: u8| match letter {
             b'Q' => self.holes.series.peck,
@@ -95,7 +95,7 @@ impl State {
             let (letter, units) =
                 (char::from(pitch.letter), if units == Units::Inch { "inches" } else { "millimetres" });
             let message = format!("{} takes {letter} only in programs in {units}", row.code);
-            return refuse(Code::PN018, message, "write the pitch with the word for these units");
+            return refuse(Code::PN018, message, "write the pitch with the word for the units of the program");
         }
         Ok(Some(match pitch.unit {
             PitchUnit::Turn => (value * self.drive.feed, peck),
@@ -110,7 +110,7 @@ impl State {
     }
 
     /// Stores the words of a block for the holes of the series. `depth` is the letter of the axis perpendicular to the
-    /// plane. Increments are converted to positions at once; they are measured from the initial level of the series.
+    /// plane. Increments are measured from the initial level of the series, and are converted to positions at once.
     fn keep_cycle_words(&mut self, block: &Block, depth: u8) {
         let dwell = block.get(b'P').map(|p| self.seconds(p, block));
         let initial = self.holes.series.initial;
@@ -142,10 +142,10 @@ impl State {
             );
         }
         if self.modes.feed_mode == FeedMode::InverseTime {
-            return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before it");
+            return refuse(Code::PN013, "a canned cycle under G93", "write G94 and a feed before the cycle");
         }
         if self.drive.feed == 0.0 && !has_feed {
-            return refuse(Code::PN008, "a canned cycle without a feed", "write F with it");
+            return refuse(Code::PN008, "a canned cycle without a feed", "write F in the block of the cycle");
         }
         if cycle.motions.shifts() && self.holes.series.peck.is_some_and(|q| q < 0.0) {
             let help = "Q is a distance: a parameter of the control sets its direction";

@@ -38,7 +38,7 @@ pub enum Step {
     EndRepeat,
 }
 
-/// The words after an O word, and their steps.
+/// The words that may follow an O word, each with its step.
 const NAMES: [(&str, Step); 15] = [
     ("sub", Step::Sub),
     ("endsub", Step::EndSub),
@@ -93,14 +93,15 @@ impl Flow {
         }
         while let Some(token) = reader.next() {
             if !matches!(token.kind, Kind::LineEnd | Kind::Comment | Kind::Remark) {
-                let help = "write them in a separate block";
+                let help = "write the words in a separate block";
                 return Err(Fault::at(Code::PN015, token.start, "words after an O word", help));
             }
         }
         Ok(Flow { label, step })
     }
 
-    /// Reads the label and the step of a line, but not the values after them. Used for lines that are skipped.
+    /// Reads the label and the step of a line, but not the values after them. This function is used for lines that are
+    /// skipped.
     pub fn head(line: &[u8]) -> Option<(String, Step)> {
         let first = line.iter().find(|b| !b.is_ascii_whitespace())?;
         if !matches!(first, b'o' | b'O' | b':') {

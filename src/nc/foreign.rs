@@ -9,7 +9,7 @@ use memchr::memmem;
 use super::settings::RunSettings;
 use crate::control::Control;
 
-/// Number of bytes at the beginning of a program that are searched.
+/// Number of bytes that are searched at the beginning of a program.
 const SEARCHED: usize = 16 << 10;
 
 /// A text that identifies a language, in upper case.
@@ -91,7 +91,8 @@ pub struct Foreign {
     pub text: Vec<u8>,
 }
 
-/// Detects the language of a program by its first blocks. `None`: they contain no mark of a language in the table.
+/// Detects the language of a program by its first blocks. `None`: the first blocks contain no mark of a language in the
+/// table.
 pub fn foreign(start: &[u8]) -> Option<Foreign> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);

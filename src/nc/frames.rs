@@ -31,8 +31,8 @@ pub struct Frames {
     pub tool: [f64; 3],
 }
 
-/// The number of work offsets: one that shifts all others, nine usual ones, 99 additional ones of a Haas, and one for
-/// all higher numbers.
+/// The number of work offsets: one offset that shifts all others, nine usual offsets, 99 additional offsets of a Haas,
+/// and one offset for all higher numbers.
 const OFFSETS: usize = 110;
 
 impl Default for Frames {
@@ -115,8 +115,8 @@ impl Frames {
         self.given[self.active]
     }
 
-    /// The distance by which a work offset must move, so that the machine position `place` has these values in it. It
-    /// is 0 for axes without a value.
+    /// The distance by which a work offset must move, so that the machine position `place` has these values in the
+    /// offset. The distance is 0 for axes without a value.
     pub fn to_stand(&self, number: usize, place: &Position, values: &[Option<f64>; 6]) -> Position {
         if number >= self.work.len() {
             return Position::default();

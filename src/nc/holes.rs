@@ -14,7 +14,7 @@ pub struct Holes {
     pub series: Series,
     /// The part of the block's cycle that has not been run yet.
     pub work: Option<Work>,
-    /// The holes of the block that are not made yet. Each is made by a call of a cycle.
+    /// The holes of the block that are not made yet. Each of these holes is made by a call of a cycle.
     pub pattern: Option<Box<Pattern>>,
 }
 
@@ -46,7 +46,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// Ends the series. To be called for a block with a motion that is not a cycle.
+    /// Ends the series. Call this function for a block with a motion that is not a cycle.
     pub fn end(&mut self) {
         self.running = false;
     }

@@ -12,7 +12,7 @@ use crate::diag::Code;
 const DEEPEST: usize = 64;
 
 fn no_end() -> Box<Fault> {
-    Fault::new(Code::PN015, "the subprogram has no end", "end it with M99 before the next O number")
+    Fault::new(Code::PN015, "the subprogram has no end", "end the subprogram with M99 before the next O number")
 }
 
 impl Simulator<'_> {
@@ -78,8 +78,8 @@ impl Simulator<'_> {
         }
     }
 
-    /// Runs the beginning of a program or subprogram, as on a Fanuc. It is an error if the subprogram before it has no
-    /// M99 and continues into it.
+    /// Runs the beginning of a program or subprogram, as on a Fanuc. A subprogram without M99 that continues into this
+    /// beginning is an error.
     fn program_begins(&mut self, label: String) -> Done<Jump> {
         self.program = self.program.or(label.parse().ok());
         self.labels.insert(label, self.at);
@@ -92,7 +92,8 @@ impl Simulator<'_> {
     /// Runs `o.. call`.
     fn call_with(&mut self, label: String, arguments: &[f64]) -> Done<Jump> {
         let Some(&start) = self.labels.get(&label) else {
-            let help = "subprograms in other files are not simulated: define it in this one, before its call";
+            let help =
+                "subprograms in other files are not simulated: define the subprogram in this file, before its call";
             return refuse(Code::PN016, format!("there is no subprogram o{label}"), help);
         };
         self.parameters.enter(arguments);
@@ -133,7 +134,7 @@ impl Simulator<'_> {
         Ok(Jump::On)
     }
 
-    /// Leaves a loop (`for_good`), or only its current round.
+    /// Leaves a loop (`for_good`), or ends only the current round of the loop.
     pub(super) fn out_of_loop(&mut self, label: String, for_good: bool) -> Done<Jump> {
         while let Some(frame) = self.frames.last_mut() {
             if frame.label() != label {
@@ -173,7 +174,7 @@ impl Simulator<'_> {
     }
 
     pub(super) fn stray<T>(&self, label: &str) -> Done<T> {
-        let help = "give every part of a loop or branch the number of its beginning";
+        let help = "give every O word of a loop or branch the number of the first O word";
         refuse(Code::PN015, format!("o{label} does not belong to an open loop or branch"), help)
     }
 
@@ -198,7 +199,7 @@ impl Simulator<'_> {
             return refuse(
                 Code::PN015,
                 format!("the end of {what}, which was not called"),
-                "call it, or remove the end",
+                "call the subprogram, or remove the end",
             );
         }
         // M99 in a main program starts the program again; here it is run once
@@ -252,7 +253,8 @@ impl Simulator<'_> {
         }
     }
 
-    /// Skips the programs before the main one. Each is a subprogram, which must have an M99 even if it is never called.
+    /// Skips the programs before the main one. Each of these programs is a subprogram, which must have an M99 even if
+    /// no program calls it.
     pub(super) fn pass_programs(&mut self) -> Result<(), RunError> {
         let mut left = std::mem::take(&mut self.passing);
         let mut returns = true;
@@ -302,7 +304,7 @@ impl Simulator<'_> {
             self.line = text;
         }
         let Some(&start) = self.labels.get(&label) else {
-            let help = "subprograms in other files are not simulated: add it after M30";
+            let help = "subprograms in other files are not simulated: add the subprogram after M30";
             return Err(self.refused(Fault::new(Code::PN016, format!("there is no subprogram O{label}"), help)));
         };
         if let Err(fault) = self.push(Frame::Call { label, back, start, times, arguments: false }) {

@@ -15,7 +15,7 @@ const FLANKS: [f64; 6] = [0.0, 29.0, 30.0, 55.0, 60.0, 80.0];
 /// The maximum number of passes of a thread.
 const MOST: u32 = 10_000;
 
-/// Data of the first block of G76. It is kept until another first block.
+/// Data of the first block of G76. The data is kept until another first block of G76.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FirstBlock {
     /// The number of times that the last pass is cut.
@@ -50,8 +50,8 @@ struct Pass {
 }
 
 impl Threads {
-    /// Deletes the stored pass if a code follows that is not a pass: another motion, or a code that takes effect only
-    /// in its block. A dwell does not delete it.
+    /// Deletes the stored pass at a code that is not a pass: another motion, or a code that takes effect only in its
+    /// block. A dwell does not delete the stored pass.
     pub(super) fn end_passes(&mut self, by: Option<Meaning>) {
         let goes_on =
             matches!(by, None | Some(Meaning::Dwell | Meaning::TurnPass | Meaning::FacePass | Meaning::ThreadPass));
@@ -62,7 +62,7 @@ impl Threads {
 }
 
 impl State {
-    /// Runs a T word. Its last two digits are the offset. The turret indexes at once.
+    /// Runs a T word. The last two digits of the T word are the offset. The turret indexes at once.
     pub(super) fn turn_turret(&mut self, word: f64, out: &mut Out<'_>) {
         const STATIONS: f64 = 100.0;
         let offset = word % STATIONS;
@@ -115,7 +115,7 @@ impl State {
         for (at, name) in ["X", "Z"].into_iter().enumerate().filter(|(at, _)| !says[*at]) {
             let Some(kept) = kept else {
                 let message = format!("{code} has no {name}, and there is no earlier pass of {code}");
-                return refuse(Code::PN007, message, format!("write {name} with it, or {}", ["U", "W"][at]));
+                return refuse(Code::PN007, message, format!("write {name} in this block, or {}", ["U", "W"][at]));
             };
             end[2 * at] = kept.end[at];
             self.place.at_machine &= !(1 << (2 * at));
@@ -124,24 +124,24 @@ impl State {
         let before = self.threads.pass.map_or(0.0, |pass| pass.taper);
         if taper.is_none() && before != 0.0 && block.row(Group::Motion).is_some() {
             let message = format!("{code} is written again after a tapered pass, but without its taper");
-            return refuse(Code::PN016, message, "write R in its block; R0. for no taper");
+            return refuse(Code::PN016, message, "write R in this block; R0. for no taper");
         }
         let taper = taper.unwrap_or(before);
         self.threads.pass = Some(Pass { made_by: does, end: [end[0], end[2]], taper });
         Ok((end, taper))
     }
 
-    /// Makes the moves of a thread. G32 makes one cut that follows the spindle, G92 one pass with its retract, G76 all
-    /// passes.
+    /// Makes the moves of a thread. G32 makes one cut that follows the spindle. G92 makes one pass with its retract.
+    /// G76 makes all passes.
     pub(super) fn lathe_thread(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
-            return refuse(Code::PN012, "a thread with the spindle stopped", "write M3 or M4 before it");
+            return refuse(Code::PN012, "a thread with the spindle stopped", "write M3 or M4 before the thread");
         }
         if self.drive.feed <= 0.0 {
-            return refuse(Code::PN008, "a thread without its lead", "write F with it");
+            return refuse(Code::PN008, "a thread without its lead", "write F in the block of the thread");
         }
         if self.tool.side.is_some() {
-            return refuse(Code::PN013, "a thread under cutter compensation", "end it with G40 first");
+            return refuse(Code::PN013, "a thread under cutter compensation", "end the compensation with G40 first");
         }
         let lead = Some(self.drive.feed);
         let first = self.threads.first.filter(|_| does == Meaning::ThreadCycle);
@@ -195,7 +195,11 @@ impl State {
     /// pass times the square root of n.
     fn passes(&self, begin: [f64; 6], end: [f64; 6], taper: f64, block: &Block) -> Done<(Passes, Vec<f64>)> {
         let Some(first) = self.threads.first else {
-            return refuse(Code::PN007, "G76 without its first block", "write G76 P010060 Q.. R.. before it");
+            return refuse(
+                Code::PN007,
+                "G76 without its first block",
+                "write the first block before this block: G76 P010060 Q.. R..",
+            );
         };
         let (Some(depth), Some(cut)) = (block.get(b'P'), block.get(b'Q')) else {
             return refuse(Code::PN007, "G76 without P or Q", "G76 X Z R P(depth) Q(first cut) F(lead)");

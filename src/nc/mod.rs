@@ -1,7 +1,7 @@
 //! NC programs are read as bytes and run by the rules of a control.
 //!
-//! The rules of LinuxCNC were found by running programs on its interpreter. Those of Fanuc and Haas follow the usual
-//! reading of their manuals.
+//! The rules of LinuxCNC were found by running programs on its interpreter. The rules of Fanuc and Haas follow the
+//! usual interpretation of their manuals.
 
 mod action;
 mod arcs;

@@ -5,10 +5,11 @@ use super::state::State;
 use crate::control::{Code, Meaning};
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
-/// The modal state of the control between two blocks. Fields of type `u16` are the number of the usual code, times ten.
+/// The modal state of the control between two blocks. A field of type `u16` contains the number of the usual code,
+/// times ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modal {
-    /// The active motion: G0 to G3 or another code of their group. Canned cycles are in `cycle`.
+    /// The active motion: G0 to G3 or another code of their group. The field `cycle` contains canned cycles.
     pub motion: Option<Code>,
     /// G17 to G19.
     pub plane: u16,

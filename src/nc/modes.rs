@@ -52,7 +52,7 @@ impl State {
                     return refuse(
                         Code::PN016,
                         message,
-                        "give it in a control file of your own: `[dwell]` and `P = \"s\"` or `\"ms\"`",
+                        "give the unit in a control file of your own: `[dwell]` and `P = \"s\"` or `\"ms\"`",
                     );
                 }
                 (Some(p), _) => self.seconds(p, block),
@@ -116,7 +116,7 @@ impl State {
         if seconds { p } else { p / 1000.0 }
     }
 
-    /// If `changes` is set, refuses a change while cutter compensation is on, as LinuxCNC does.
+    /// If `changes` is set, refuses the change of a mode while cutter compensation is on, as LinuxCNC does.
     pub(super) fn compensated(&self, changes: bool, what: &str) -> Done {
         if !changes || self.tool.side.is_none() || !self.control.is_linuxcnc() {
             return Ok(());
@@ -167,7 +167,11 @@ impl State {
                 let said = block.get(letter).filter(|number| number.fract() == 0.0 && *number >= 1.0);
                 let Some(number) = said else {
                     let letter = char::from(letter);
-                    return refuse(Code::PN007, "a work offset without its number", format!("write {letter}1 with it"));
+                    return refuse(
+                        Code::PN007,
+                        "a work offset without its number",
+                        format!("write {letter}1 in this block"),
+                    );
                 };
                 self.counted_work(number, out);
                 return Ok(());
@@ -177,7 +181,7 @@ impl State {
                 let said = block.get(letter).filter(|number| number.fract() == 0.0 && (1.0..=most).contains(number));
                 let Some(number) = said else {
                     let letter = char::from(letter);
-                    let help = format!("write {letter}1 to {letter}{most} with it");
+                    let help = format!("write {letter}1 to {letter}{most} in this block");
                     return refuse(Code::PN007, "an additional work offset without its number", help);
                 };
                 additional(number)
@@ -188,13 +192,13 @@ impl State {
         Ok(())
     }
 
-    /// Selects a work offset on a control that only numbers its offsets.
+    /// Selects a work offset on a control whose work offsets have numbers but no codes.
     fn counted_work(&mut self, number: f64, out: &mut Out<'_>) {
         self.place.reframe(|frames| frames.active = Frames::counted(number));
         self.work_is(number, out);
     }
 
-    /// Sets the work offset, given as the number of its code or of the offset.
+    /// Sets the work offset. `work` is the number of its code, or the number of the offset itself.
     fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
         if self.place.work_is(work) && self.settings.places_unknown {
             self.place.becomes_unknown(0b111);

@@ -25,7 +25,7 @@ impl State {
         block.absolute & at != 0 || self.modes.absolute && block.incremental & at == 0
     }
 
-    /// As bits, the axes for which a block contains positions.
+    /// Bit mask of the axes for which a block contains positions.
     pub(super) fn said_positions(&self, block: &Block) -> u8 {
         let polar = if block.polar == [None; 2] { 0 } else { 0b11 };
         let said = |axis: &usize| self.axis_word(block, *axis).is_some() && self.is_absolute(block, *axis);
@@ -69,26 +69,30 @@ impl State {
         Ok(to)
     }
 
-    /// The value of an incremental word of a lathe: U along X, where it is a diameter, and W along Z.
+    /// The value of an incremental word of a lathe: U along X, as a diameter, or W along Z.
     pub(super) fn increment(&self, block: &Block, axis: usize) -> Option<f64> {
         let letter = [b'U', b'V', b'W'].get(axis).filter(|_| self.control.is_lathe())?;
         let value = block.get(*letter)?;
         Some(if self.modes.diameter && axis == 0 { value / 2.0 } else { value })
     }
 
-    /// Applies polar coordinates: `@` radius, `^` angle.
+    /// Applies polar coordinates: `@` is the radius, `^` is the angle.
     pub(super) fn polar(&self, block: &Block, to: &mut Position) -> Done {
         if self.modes.plane != Plane::Xy {
             return refuse(Code::PN005, "polar coordinates outside G17", "write G17 first");
         }
         if block.has(bit(b'X') | bit(b'Y')) {
-            return refuse(Code::PN005, "polar coordinates and X or Y in one block", "write one or the other");
+            return refuse(
+                Code::PN005,
+                "polar coordinates and X or Y in one block",
+                "write either polar coordinates, or X and Y",
+            );
         }
         let [x, y, ..] = self.place.position;
         let (mut radius, mut angle) = (x.hypot(y), y.atan2(x).to_degrees());
         match (self.modes.absolute, block.polar) {
             (true, [_, None]) if x == 0.0 && y == 0.0 => {
-                return refuse(Code::PN018, "a polar radius at the origin without its angle", "write ^ with it");
+                return refuse(Code::PN018, "a polar radius at the origin without its angle", "write ^ in this block");
             }
             (true, [r, a]) => (radius, angle) = (r.unwrap_or(radius), a.unwrap_or(angle)),
             (false, _) if x == 0.0 && y == 0.0 => {
@@ -147,7 +151,7 @@ impl State {
         Ok(())
     }
 
-    /// As bits, the linear axes for which the block has words.
+    /// Bit mask of the linear axes for which the block has words.
     fn named(&self, block: &Block) -> u8 {
         (0..3).filter(|&axis| self.axis_word(block, axis).is_some()).map(|axis| 1 << axis).sum()
     }
@@ -185,11 +189,12 @@ impl State {
         Ok(())
     }
 
-    /// Runs G33.1: a tap that follows the spindle into the hole, reverses the spindle, and follows it back to the start.
+    /// Runs G33.1: the tap follows the spindle into the hole, the spindle reverses, and the tap follows the spindle
+    /// back to the start.
     pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let (begin, turning, unknown) = (self.place.position, self.drive.spindle, self.place.at_machine);
         if turning == Rotation::Stop {
-            return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before it");
+            return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before G33.1");
         }
         self.synchronised(true, block, out)?;
         out.push(Action::Spindle(turning.reversed(), self.drive.speed));
@@ -199,7 +204,7 @@ impl State {
         Ok(())
     }
 
-    /// Runs G33: a move that follows the spindle. If it is a tap (`taps`), rotary axes do not move.
+    /// Runs G33: a move that follows the spindle. If the move is a tap (`taps`), rotary axes do not move.
     pub(super) fn synchronised(&mut self, taps: bool, block: &Block, out: &mut Out<'_>) -> Done {
         let Some(lead) = block.get(b'K') else {
             return refuse(Code::PN007, "G33 without K", "write K with the distance per revolution");

@@ -3,7 +3,7 @@
 use super::action::{Action, Item};
 use super::profiled::Profiled;
 
-/// Maximum number of actions of one call. If a block makes more, the next call makes the rest.
+/// Maximum number of actions of one call. If a block makes more actions, the next call makes the rest.
 const AT_ONCE: usize = 4096;
 
 /// How a program continues after a block.
@@ -25,7 +25,7 @@ pub enum Next {
 
 /// The output to which a block adds its actions.
 pub struct Out<'a> {
-    /// The list of actions. It also contains actions of earlier blocks.
+    /// The list of actions. The list also contains actions of earlier blocks.
     pub items: &'a mut Vec<Item>,
     /// Number of actions in the list before the block.
     start: usize,
@@ -36,12 +36,12 @@ pub struct Out<'a> {
 }
 
 impl<'a> Out<'a> {
-    /// An output for a line. Its actions are appended to `items`.
+    /// An output for a line. The actions of the line are appended to `items`.
     pub fn new(items: &'a mut Vec<Item>, line: u64) -> Out<'a> {
         Out { start: items.len(), items, line, by_cycle: false }
     }
 
-    /// Whether the output has enough actions, so that the caller should read them first.
+    /// Whether the output has so many actions that the caller should read them first.
     #[inline]
     pub fn is_full(&self) -> bool {
         self.items.len() - self.start >= AT_ONCE

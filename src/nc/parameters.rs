@@ -19,7 +19,7 @@ pub struct Parameters {
     local: Vec<HashMap<String, f64>>,
     /// For each running subprogram, the values of `#1` to `#30` that are restored at its end.
     kept: Vec<[Option<f64>; 30]>,
-    /// Position of the tool, which is read by `#5420` and the next parameters.
+    /// Position of the tool, which programs read from `#5420` and the next parameters.
     pub position: [f64; 6],
 }
 
@@ -71,11 +71,11 @@ impl Parameters {
             None if self.control.is_linuxcnc() && number < 5000 => Ok(0.0),
             // these hold tool positions, alarms and offsets, which the program does not set
             None if number >= 1000 => {
-                let help = "write its value as a number, or run the program without this block";
+                let help = "write the value as a number, or run the program without this block";
                 refuse(Code::PN016, format!("#{number} is a variable of the control, known only at the machine"), help)
             }
             None => {
-                let help = format!("set it in the program before this block: #{number}=0");
+                let help = format!("set the variable in the program before this block: #{number}=0");
                 refuse(Code::PN016, format!("#{number} is not set in the program"), help)
             }
         }
@@ -91,11 +91,11 @@ impl Parameters {
         match found {
             Some(value) => Ok(*value),
             None if name.starts_with("_hal[") || name.starts_with("_ini[") => {
-                let help = "write its value as a number, or run the program without this block";
+                let help = "write the value as a number, or run the program without this block";
                 refuse(Code::PN016, format!("#<{name}> is a value of the machine"), help)
             }
             None => {
-                let help = format!("set it before this block: #<{name}>=0");
+                let help = format!("set the parameter before this block: #<{name}>=0");
                 // names with `_` may be system parameters of LinuxCNC, which are not simulated; LinuxCNC refuses other
                 // names without a value
                 let code = if name.starts_with('_') { Code::PN016 } else { Code::PN014 };
@@ -129,7 +129,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// Begins a subprogram: `#1` to `#30` get the values of its arguments.
+    /// Begins a subprogram: `#1` to `#30` get the values of the subprogram's arguments.
     pub fn enter(&mut self, arguments: &[f64]) {
         let mut kept = [None; 30];
         for (i, old) in kept.iter_mut().enumerate() {

@@ -12,9 +12,10 @@ pub struct Place {
     pub position: Position,
     /// Axes whose position is in machine coordinates, as bits.
     pub at_machine: u8,
-    /// Those of the `at_machine` axes that have moved by increments since then. Their machine position is unknown, too.
+    /// As bits, the `at_machine` axes that later moved by increments. The machine position of these axes is unknown,
+    /// too.
     pub astray: u8,
-    /// As bits, those of the `at_machine` axes whose machine position the program contains.
+    /// As bits, the `at_machine` axes whose machine position the program contains.
     pub placed: u8,
     /// The coordinate frames of the program.
     pub frames: Frames,
@@ -38,18 +39,19 @@ impl Place {
         }
     }
 
-    /// Selects a work offset. Returns whether it differs from the one before. The distance between the two is then unknown.
+    /// Selects a work offset. Returns whether the new offset differs from the previous offset. The distance between two
+    /// different offsets is unknown.
     pub fn work_is(&mut self, work: f64) -> bool {
         self.work.replace(work) != Some(work)
     }
 
-    /// The program contains the position of an axis: it is known from now on.
+    /// Records that the program contains the position of an axis. The position is known from now on.
     #[inline]
     pub fn given(&mut self, axis: usize) {
         self.are_given(1 << axis);
     }
 
-    /// The program contains the positions of these axes: they are known from now on.
+    /// Records that the program contains the positions of these axes. The positions are known from now on.
     #[inline]
     pub fn are_given(&mut self, axes: u8) {
         self.at_machine &= !axes;
@@ -87,7 +89,8 @@ impl Place {
         self.placed &= !axes;
     }
 
-    /// Makes the position of axes unknown, although they do not move: from now on it is known only at the machine.
+    /// Makes the position of axes unknown, although the axes do not move. From now on, the position is known only at
+    /// the machine.
     pub fn becomes_unknown(&mut self, axes: u8) {
         self.placed &= !axes;
         self.astray &= self.at_machine;

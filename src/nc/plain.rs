@@ -1,6 +1,6 @@
 //! Runs simple blocks fast. A simple block is a straight cut with axis words, perhaps with its code and a feed; most
-//! blocks of long programs are such. Checks that can't apply to a simple block are left out. [`State::run`] gives the
-//! same result for these blocks; a test compares both.
+//! blocks of long programs are simple blocks. Checks that can't apply to a simple block are left out. [`State::run`]
+//! gives the same result for simple blocks; a test compares both results.
 
 use super::block::Block;
 use super::codes::{AXES, Group, bit, g_code, letters};
@@ -15,7 +15,7 @@ const WORDS: u32 = letters("XYZABCFN");
 
 impl Block {
     /// Reads a line that has only axis words, a number, a feed and one G0 or G1, with short numbers. Returns `false` if
-    /// the line has anything else; the general reader must then read it.
+    /// the line has anything else; the general reader must then read the line.
     #[inline]
     pub(super) fn read_plain(&mut self, line: &[u8], control: &'static Control) -> bool {
         let (mut at, mut given, mut whole, mut code) = (0, 0, 0, None);

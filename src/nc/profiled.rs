@@ -1,6 +1,6 @@
 //! Data for the cycles of a lathe that follow a profile, and for corners.
 
-/// Data from the first block of a cycle with two blocks. It is kept until another first block.
+/// Data from the first block of a cycle with two blocks. The data is kept until the next first block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FirstBlocks {
     /// Depth of a pass of G71, and retract after it.
@@ -11,7 +11,7 @@ pub struct FirstBlocks {
     pub pattern: [Option<f64>; 3],
     /// Retract after each peck of G74 and G75.
     pub back: Option<f64>,
-    /// A chamfer or rounded corner that was just cut. The next block must continue from it.
+    /// A chamfer or rounded corner that was just cut. The next block must continue from this corner.
     pub corner: Option<Corner>,
 }
 
@@ -20,7 +20,7 @@ pub struct FirstBlocks {
 pub struct Corner {
     /// The axis along which the next block must move.
     pub axis: usize,
-    /// Distance along that axis from the corner to the end of the chamfer, with its sign.
+    /// Distance with sign from the corner to the end of the chamfer, along the axis of the next block's move.
     pub by: f64,
 }
 
@@ -46,7 +46,7 @@ pub enum How {
         across: bool,
         /// Depth of a pass.
         depth: f64,
-        /// Retract after each pass.
+        /// Distance of the retract after each pass.
         back: f64,
         /// Allowance that the finish removes: on the radius, and along Z.
         left: [f64; 2],

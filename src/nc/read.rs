@@ -37,7 +37,7 @@ impl Block {
                         Code::PN015,
                         token.start,
                         "words before an O word",
-                        "write it in a separate block",
+                        "write the O word in a separate block",
                     ));
                 }
                 Kind::Word(b'O' | b':', number) => {
@@ -138,7 +138,12 @@ impl Block {
             Kind::Remark => _ = self.comment.get_or_insert((start + 1, end)),
             Kind::OpenComment if self.open_comments => _ = self.comment.get_or_insert((start + 1, end)),
             Kind::OpenComment => {
-                return Err(Fault::at(Code::PN001, start, "a comment without its `)`", "close it on this line"));
+                return Err(Fault::at(
+                    Code::PN001,
+                    start,
+                    "a comment without its `)`",
+                    "close the comment on this line",
+                ));
             }
             Kind::Delete => self.deleted = true,
             Kind::Percent => self.percent = true,
@@ -228,9 +233,17 @@ impl Block {
         }
         // codes of group `Other` have no effect in the simulator, so a block may contain several of them
         if let Some(before) = self.g[group].filter(|_| its_group != Group::Other) {
-            let message =
-                format!("{} and {} are of one group", before.code, control::Code { letter: b'G', tenths: code });
-            return Err(Fault::at(Code::PN004, column, message, "write them in two blocks, or take one out"));
+            let message = format!(
+                "{} and {} are of one group: a block takes one of them",
+                before.code,
+                control::Code { letter: b'G', tenths: code }
+            );
+            return Err(Fault::at(
+                Code::PN004,
+                column,
+                message,
+                "write the codes in two blocks, or remove one of the codes",
+            ));
         }
         self.g[group] = Some(row);
         Ok(())
@@ -246,7 +259,7 @@ impl Block {
             let name = control::Code::m(code as u16);
             return match why_not_run(control, name) {
                 Some(why) => not_run(name, &why, column),
-                None => refuse(format!("{name} is unknown"), "the control does not have it: remove it"),
+                None => refuse(format!("{name} is unknown"), "remove the code: the control does not have it"),
             };
         };
         if !self.put_m(code as u16, row) {
@@ -267,19 +280,20 @@ impl Block {
             for letter in [b'F', b'L'] {
                 if self.get(letter).is_some_and(|value| value < 0.0) {
                     let letter = char::from(letter);
-                    return refuse(Code::PN018, format!("a negative {letter}"), "write it without the minus");
+                    return refuse(Code::PN018, format!("a negative {letter}"), "write the value without the minus");
                 }
             }
         }
         Ok(())
     }
 
-    /// Refuses a code whose meaning is known only for some values of a word, if the word has another value.
+    /// Some codes have a known meaning only for some values of a word. Refuses such a code if the word has another
+    /// value.
     fn check_values(&self) -> Done {
         for row in self.g.iter().flatten().filter(|row| !row.only.is_empty()) {
             if !row.only.iter().any(|&(letter, value)| self.get(letter) == Some(value)) {
                 let message = format!("{} with these words is not supported", row.code);
-                return refuse(Code::PN016, message, "run the program without it");
+                return refuse(Code::PN016, message, "run the program without this code");
             }
         }
         Ok(())
@@ -290,13 +304,13 @@ impl Block {
         for (at, (code, row)) in self.m().enumerate() {
             if at > 0 && control.traits().one_m {
                 let message = format!("M{code} is the second M code of the block, but {} takes one", control.name());
-                return refuse(Code::PN004, message, "write them in two blocks");
+                return refuse(Code::PN004, message, "write the M codes in two blocks");
             }
             let group = m_group(row);
             let at = 1 << group;
             if group > 0 && seen & at != 0 {
-                let help = "write them in two blocks";
-                return refuse(Code::PN004, format!("M{code} and another M code of its group"), help);
+                let help = "write the M codes in two blocks";
+                return refuse(Code::PN004, format!("M{code} and another M code of the same group in one block"), help);
             }
             seen |= at;
         }
@@ -317,7 +331,7 @@ const STATEMENTS: [&str; 13] =
 #[cold]
 fn unknown_name(text: &str, after_comment: bool, column: usize, control: &'static Control) -> Box<Fault> {
     if STATEMENTS.contains(&text.to_ascii_uppercase().as_str()) {
-        let help = "run the program without it: its effect depends on the control";
+        let help = "run the program without this statement: its effect depends on the control";
         return Fault::at(Code::PN016, column, format!("the statement `{text}` is not simulated"), help);
     }
     let help = if after_comment {
@@ -344,7 +358,7 @@ fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) ->
 /// Refuses a code with a known meaning that the simulator does not run.
 #[cold]
 fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
-    Err(Fault::at(Code::PN016, column, format!("{code} is not supported: {why}"), "run the program without it"))
+    Err(Fault::at(Code::PN016, column, format!("{code} is not supported: {why}"), "run the program without this code"))
 }
 
 #[cold]

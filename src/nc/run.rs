@@ -15,8 +15,8 @@ use crate::toolpath::{Direction, FeedMode, Units};
 const LENGTHS: u32 = letters("XYZABCIJKRQ");
 
 impl State {
-    /// The words that need no code in their block. If the control is only assumed, H in the block of a work offset does
-    /// need a code, because on some controls `G56 H1` selects a tool length.
+    /// The words that need no code in their block. If the control is only assumed, H in a block with a work offset
+    /// needs a code, because `G56 H1` selects a tool length on some controls.
     fn free_words(&self, block: &Block) -> u32 {
         let free = self.control.traits().everywhere.bits();
         if self.settings.assumed && block.row(Group::Work).is_some() { free & !bit(b'H') } else { free }
@@ -63,7 +63,11 @@ impl State {
             && (block.has_axes() || is_one_of(motion, &ARCS) || self.control.is_linuxcnc())
             && (!is_one_of(motion, &STRAIGHT) || in_force.is_some() || begins_cycle(block))
         {
-            return refuse(Code::PN006, "G53 without G0 or G1", "write G0 with it, and end a cycle with G80 before");
+            return refuse(
+                Code::PN006,
+                "G53 without G0 or G1",
+                "write G0 in the block of G53; if a cycle is active, end it with G80 first",
+            );
         }
         if block.axes_are_taken() || block.row(Group::Once).is_some() {
             self.once(block, &mut out)?;
@@ -91,7 +95,7 @@ impl State {
         self.finish(block, &mut out)
     }
 
-    /// Runs the rest of a block whose output was full. The block must be unchanged.
+    /// Continues a block that stopped because its output was full. The block must be unchanged.
     ///
     /// # Errors
     /// The control refuses the block.
@@ -161,7 +165,8 @@ impl State {
         }
     }
 
-    /// The code of the motion that a block makes, if it moves. If no motion is active, this is the code of the active cycle.
+    /// The code of the motion that a block makes; `None`: the block does not move. If no motion is active, the result
+    /// is the code of the active cycle.
     fn motion_of(&self, block: &Block) -> Done<Motion> {
         let word = block.row(Group::Motion);
         let moves = block.has_axes() && !block.axes_are_taken();
@@ -177,7 +182,7 @@ impl State {
         }
         if let Some(row) = word.filter(|row| row.meaning != Meaning::CycleEnd) {
             if block.has_axes() && block.axes_are_taken() && self.control.is_linuxcnc() {
-                let help = "write them in two blocks";
+                let help = "write the codes in two blocks";
                 return refuse(Code::PN004, "two codes that both use the axis words", help);
             }
             let needs_axes = match row.meaning {
@@ -220,7 +225,7 @@ impl State {
                 return refuse(
                     Code::PN016,
                     format!("{} is not a motion of {}", row.code, self.control.name()),
-                    "run the program without it",
+                    "run the program without this code",
                 );
             }
         };
@@ -276,7 +281,7 @@ impl State {
             _ => refuse(
                 Code::PN016,
                 format!("{} is not a motion of {}", row.code, self.control.name()),
-                "run the program without it",
+                "run the program without this code",
             ),
         }
     }

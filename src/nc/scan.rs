@@ -12,7 +12,7 @@ pub struct Token {
     pub kind: Kind,
     /// First byte in the line.
     pub start: usize,
-    /// The byte after the last one.
+    /// The byte after the last byte of the token.
     pub end: usize,
 }
 
@@ -41,7 +41,7 @@ pub enum Kind {
     OpenComment,
     /// A comment that begins with `;`, up to the end of the line.
     Remark,
-    /// A `/` before a block, with the digit after it if there is one.
+    /// A `/` before a block, and the digit that may follow the `/`.
     Delete,
     /// A `%`, with the text after it.
     Percent,

@@ -17,21 +17,21 @@ pub struct RunSettings {
     pub back_off: Option<f64>,
     /// The meaning of a length without a decimal point, on a Fanuc.
     pub unpointed: Unpointed,
-    /// Whether the position of the tool counts as unknown at the beginning, and its height after a tool change.
-    /// Otherwise the position is zero.
+    /// Whether two positions count as unknown: the position of the tool at the beginning, and its height after a tool
+    /// change. If `false`, the position is zero.
     pub places_unknown: bool,
     /// Whether I, J and K are absolute positions at the beginning, as after G90.1.
     pub centers_absolute: bool,
-    /// Whether the control is an assumption: the user did not name it, and the program gives no indication of another one.
+    /// Whether the control is an assumption: the user did not name a control, and the program does not indicate one.
     pub assumed: bool,
     /// The direction along the first axis in which G76 and G87 of a Fanuc move away from the wall: 1 or -1. A machine
-    /// parameter sets it.
+    /// parameter sets this direction.
     pub bore_shift: f64,
     /// On a lathe, whether X is a diameter; `None`: as in the control's file.
     pub by_diameter: Option<bool>,
 }
 
-/// The meaning of a length without a decimal point on a Fanuc. It depends on a setting of the machine.
+/// The meaning of a length without a decimal point on a Fanuc. This meaning depends on a setting of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Unpointed {
     /// A length without a decimal point is an error, because the setting is unknown.

@@ -19,12 +19,13 @@ use super::way::{Frame, Jump, Spot};
 use crate::control::Rules;
 use crate::diag::{Code, Diag};
 
-/// The longest line of any control, in bytes.
+/// Maximum length of a line on any control, in bytes.
 const LONGEST: usize = 1 << 16;
-/// Maximum number of loop rounds, calls and repeated blocks. A program with more counts as endless and is refused.
+/// Maximum number of loop rounds, calls and repeated blocks. A program with more rounds, calls and repeats counts as
+/// endless and is refused.
 const MOST_JUMPS: u64 = 1_000_000;
 
-/// Maximum number of actions from subprograms, loops and long blocks. A program with more is refused.
+/// Maximum number of actions from subprograms, loops and long blocks. A program with more actions is refused.
 const MOST_REPEATED: u64 = 20_000_000;
 
 /// The reason why a program was not run to its end.
@@ -32,7 +33,7 @@ const MOST_REPEATED: u64 = 20_000_000;
 pub enum RunError {
     /// The program can't be read.
     Io(io::Error),
-    /// The control refuses a block. The number is its line.
+    /// The control refuses a block. The number is the line of this block.
     Refused(Box<Diag>, u64),
 }
 
@@ -76,16 +77,16 @@ pub struct Simulator<'a> {
     pub(super) labels: HashMap<String, Spot>,
     /// Whether the rest of the input has been searched for labels.
     pub(super) searched: bool,
-    /// Profiles that a roughing cycle has followed. They are stored for the finish.
+    /// Profiles that a roughing cycle has followed. These profiles are stored for the finish.
     pub(super) profiles: Vec<profile::Found>,
     /// The first O number of the program.
     pub(super) program: Option<f64>,
     percent: bool,
     over: bool,
-    /// Whether the program ended with M99. The control would start it again.
+    /// Whether the program ended with M99. The control would start the program again.
     pub(super) again: bool,
     jumps: u64,
-    /// The highest line that was read before a jump. Lines up to this one may be read again.
+    /// The highest line that was read before a jump. Lines up to this line may be read again.
     pub(super) farthest: u64,
     /// Number of actions from subprograms, loops and long blocks.
     repeated: u64,
@@ -156,7 +157,8 @@ impl<'a> Simulator<'a> {
         &self.line
     }
 
-    /// The text of the line that was run last. Take it before the next step. `None`: the line has further actions.
+    /// The text of the line that was run last. Take the text before the next step. `None`: the line has further
+    /// actions.
     #[inline]
     pub fn text_to_keep(&mut self) -> Option<&mut Vec<u8>> {
         if self.unfinished { None } else { Some(&mut self.line) }
@@ -167,7 +169,7 @@ impl<'a> Simulator<'a> {
         self.ran
     }
 
-    /// Whether the program ended with M99. The control would start it again.
+    /// Whether the program ended with M99. The control would start the program again.
     pub fn begins_again(&self) -> bool {
         self.again
     }
@@ -245,7 +247,7 @@ impl<'a> Simulator<'a> {
         Ok(true)
     }
 
-    /// Skips a refused block, as an operator might. Returns `false` if the program has no further block.
+    /// Skips a refused block, as an operator could do. Returns `false` if the program has no further block.
     pub fn pass_over(&mut self) -> bool {
         if self.ended {
             return false;
@@ -285,7 +287,7 @@ impl<'a> Simulator<'a> {
             && let Some((line, text)) = turned(head)
         {
             (self.at.line, self.line, self.ended) = (line, text, true);
-            let help = "name its control: `--control fanuc-lathe` or `haas-lathe`, for a job `--job-control`";
+            let help = "name the control: `--control fanuc-lathe` or `haas-lathe`, for a job `--job-control`";
             return Err(self.refused(Fault::new(
                 Code::PN016,
                 "the program is for a lathe, but no lathe control is named",
@@ -298,7 +300,7 @@ impl<'a> Simulator<'a> {
         let (message, help) = match found.control {
             Some(own) => (
                 format!("the program is {}, but {} reads another language", found.is, control.name()),
-                format!("name its control: `--control {0}`, for a job `--job-control {0}`", own.name()),
+                format!("name the control of the program: `--control {0}`, for a job `--job-control {0}`", own.name()),
             ),
             None => (
                 format!("the program is {}: postform can't read it", found.is),
@@ -367,7 +369,7 @@ impl<'a> Simulator<'a> {
         Ok(true)
     }
 
-    /// Runs the current line, or the rest of it. Returns where the program continues.
+    /// Runs the current line, or the rest of this line. Returns the point at which the program continues.
     #[inline]
     fn line_step(&mut self, items: &mut Vec<Item>) -> Done<Jump> {
         let before = items.len();
@@ -403,7 +405,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Reads the line into the block. Returns a jump if there is nothing to run.
+    /// Reads the line into the block. If the line contains nothing to run, returns where the program continues.
     #[inline]
     fn read_block(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         let control = self.state.settings.control;
@@ -437,7 +439,7 @@ impl<'a> Simulator<'a> {
                 self.percent = true;
                 if ends && control.rules() == Rules::Fanuc {
                     self.ended = true;
-                    let help = "end it with M30 or M2: a Fanuc stops at `%` with an alarm and a turning spindle";
+                    let help = "print M30 or M2 at the end: a Fanuc stops at `%` with an alarm and a turning spindle";
                     return refuse(Code::PN010, "the program ends at `%` without M30 or M2", help);
                 }
                 return Ok(Some(if ends { Jump::End } else { Jump::On }));
@@ -458,7 +460,7 @@ impl<'a> Simulator<'a> {
         Ok(None)
     }
 
-    /// Handles an input that ends before the program does.
+    /// Handles an input that ends before the end of the program.
     fn at_end(&mut self) -> Done<bool> {
         (self.over, self.ended) = (true, true);
         if self.state.settings.control.rules() == Rules::Grbl {
@@ -492,7 +494,7 @@ impl<'a> Simulator<'a> {
     pub(super) fn count_jump(&mut self) -> Result<(), RunError> {
         self.jumps += 1;
         if self.jumps > MOST_JUMPS {
-            let help = "check the condition of its loop";
+            let help = "check the condition of the loop";
             return Err(self.refused(Fault::new(Code::PN015, "the program does not end", help)));
         }
         Ok(())

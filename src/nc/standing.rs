@@ -1,4 +1,4 @@
-//! The state that is active between two blocks. It is used to restore this state in another program.
+//! The state that is active between two blocks. postform uses this data to restore the state in another program.
 
 use super::action::{Position, Rotation};
 use super::frames::Shift;
@@ -11,9 +11,9 @@ use crate::toolpath::{FeedMode, Plane, Units};
 pub struct Standing {
     /// Position in program coordinates and the active units.
     pub position: Position,
-    /// As bits, the axes whose position is known only at the machine.
+    /// Bit mask of the axes whose position is known only at the machine.
     pub unknown: u8,
-    /// Those of the `unknown` axes whose machine position the program contains.
+    /// The axes of `unknown` whose machine position the program contains.
     pub said: u8,
     /// The active units.
     pub units: Units,

@@ -42,7 +42,7 @@ pub(super) struct Modes {
     pub absolute: bool,
     /// Whether I, J and K are absolute positions: G90.1.
     pub centers_absolute: bool,
-    /// Whether it is known if I, J and K are positions, from the control's file or from the program.
+    /// Whether the control's file or the program shows if I, J and K are positions.
     pub centers_known: bool,
     pub feed_mode: FeedMode,
     /// Whether cycles return to the initial level: G98.
@@ -71,7 +71,7 @@ pub(super) struct Tool {
     pub length_on: bool,
     /// The side of the programmed path on which the tool is; `None`: cutter compensation is off.
     pub side: Option<Side>,
-    /// The last D number. A Fanuc keeps it.
+    /// The last D number, which a Fanuc keeps.
     pub diameter_register: Option<f64>,
 }
 
@@ -88,7 +88,7 @@ impl Drive {
         if self.feed > 0.0 {
             return Ok(self.feed);
         }
-        refuse(Code::PN008, "a feed move without a feed", "write F in its block")
+        refuse(Code::PN008, "a feed move without a feed", "write F in the block of the move")
     }
 }
 
@@ -196,8 +196,8 @@ impl State {
         frames.to_work(&at)
     }
 
-    /// The number of the active work offset: G54 is 1, the first additional offset is 10. On controls that only number
-    /// their offsets, it is their number.
+    /// The number of the active work offset: G54 is 1, the first additional offset is 10. On a control that only
+    /// numbers its work offsets, the result is the offset's own number.
     pub fn work_number(&self) -> usize {
         self.place.frames.active
     }
@@ -207,7 +207,8 @@ impl State {
         self.place.frames.given()
     }
 
-    /// Sets the machine's offsets and reference points, in millimetres and degrees. Call this before the first block.
+    /// Sets the machine's offsets and reference points, in millimetres and degrees. Call this function before the first
+    /// block.
     pub(super) fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         let factor = 1.0 / self.modes.units.in_mm();
         for (number, at) in offsets {
@@ -238,7 +239,7 @@ impl State {
         }
     }
 
-    /// Returns the warnings since the last call.
+    /// Returns the warnings since the last call of this function.
     pub fn take_warnings(&mut self) -> Vec<(Code, &'static str)> {
         std::mem::take(&mut self.warnings)
     }

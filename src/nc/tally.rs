@@ -160,7 +160,7 @@ fn distance(from: &Position, to: &Position) -> f64 {
     (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The angle of an arc in radians. If the arc ends where it begins, it is a full turn.
+/// The angle of an arc in radians. An arc that ends where it begins is a full turn.
 pub(crate) fn sweep(from: &[f64], turn: &Turn) -> f64 {
     let [first, second, _] = axes_of(turn.plane);
     let angle = |at: &[f64]| (at[second] - turn.center[second]).atan2(at[first] - turn.center[first]);

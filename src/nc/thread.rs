@@ -29,7 +29,7 @@ impl State {
     /// Makes all passes of a thread.
     pub(super) fn thread(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         if self.drive.spindle == Rotation::Stop {
-            return refuse(Code::PN012, "G76 with the spindle stopped", "write M3 or M4 before it");
+            return refuse(Code::PN012, "G76 with the spindle stopped", "write M3 or M4 before G76");
         }
         let need = |letter: u8| match block.get(letter) {
             Some(value) => Ok(value),

@@ -130,7 +130,8 @@ impl State {
         out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
     }
 
-    /// Handles a second T word in a block: the number of the next tool, after the one that the block loads.
+    /// Handles a second T word in a block. The first T word is the tool that the block loads, and the second is the
+    /// next tool.
     fn preselect(&mut self, tool: f64, block: &Block) -> Done {
         if !block.changes_tool() {
             let help = "a second T is allowed only with M6, for the next tool: write M6, or keep one T";
@@ -147,10 +148,10 @@ impl State {
         Ok(())
     }
 
-    /// Runs M6. The spindle is stopped after it.
+    /// Runs M6. The spindle is stopped after M6.
     pub(super) fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
         let Some(tool) = self.tool.number else {
-            return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before it");
+            return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before M6");
         };
         if self.settings.places_unknown {
             self.place.goes_to_machine(0b100);
@@ -180,10 +181,18 @@ impl State {
             return Ok(());
         }
         if self.tool.side.is_some() && self.control.is_linuxcnc() {
-            return refuse(diag::Code::PN013, "cutter compensation is already on", "end it with G40 first");
+            return refuse(
+                diag::Code::PN013,
+                "cutter compensation is already on",
+                "end the compensation with G40 first",
+            );
         }
         if !self.control.is_linuxcnc() && is_one_of(motion, &ARCS) {
-            return refuse(diag::Code::PN013, "cutter compensation begins on an arc", "begin it on a straight move");
+            return refuse(
+                diag::Code::PN013,
+                "cutter compensation begins on an arc",
+                "begin the compensation on a straight move",
+            );
         }
         let side = if row.meaning == Meaning::SideLeft { Side::Left } else { Side::Right };
         // without D, LinuxCNC uses the diameter of the tool in the spindle

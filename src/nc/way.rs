@@ -51,7 +51,7 @@ pub(super) enum Ends {
     Repeat,
     If,
     Branch,
-    /// The condition of a `do`. This condition is then evaluated.
+    /// The condition of a `do`, which is evaluated after the skipped lines.
     Test,
 }
 

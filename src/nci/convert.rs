@@ -55,15 +55,15 @@ impl<'r, 's> Convert<'r, 's> {
         self.over
     }
 
-    /// Handles the end of the file. `line`: its last line.
+    /// Handles the end of the file. `line`: the last line of the file.
     pub fn end(&self, line: u64) -> Done {
         match (line, self.over) {
-            (0, _) => Err(wrong(Code::PI001, "the file is empty", "let Mastercam write it again", 1)),
+            (0, _) => Err(wrong(Code::PI001, "the file is empty", "let Mastercam write the file again", 1)),
             (_, true) => Ok(()),
             (line, false) => Err(wrong(
                 Code::PI004,
                 "the file ends without its last record, 1003",
-                "let Mastercam write it again",
+                "let Mastercam write the file again",
                 line,
             )),
         }
@@ -175,8 +175,8 @@ impl<'r, 's> Convert<'r, 's> {
         if self.side.is_some() {
             return Err(wrong(
                 Code::PI003,
-                "the operation before ends under compensation",
-                "end it with a move off the contour",
+                "the previous operation ends with compensation on",
+                "end compensation with a move off the contour",
                 record.line,
             ));
         }
@@ -213,7 +213,7 @@ impl<'r, 's> Convert<'r, 's> {
             return Err(wrong(
                 Code::PI003,
                 "the file ends under compensation",
-                "end it with a move off the contour",
+                "end compensation with a move off the contour",
                 line,
             ));
         }
@@ -221,7 +221,7 @@ impl<'r, 's> Convert<'r, 's> {
             return Err(wrong(
                 Code::PI001,
                 "the file has no tool change (1001)",
-                "let Mastercam write it again",
+                "let Mastercam write the file again",
                 self.place.line,
             ));
         }

@@ -22,7 +22,7 @@ pub struct Drilling {
     /// Top of the stock.
     top: f64,
     dwell: f64,
-    /// The feed. If it is 0 or less, the previous feed stays active.
+    /// The feed. If the feed is 0 or less, the previous feed stays active.
     pub feed: f64,
     first_peck: f64,
     peck: f64,
@@ -55,7 +55,7 @@ impl Open {
         own.checked(upper, record)
     }
 
-    /// Whether a hole belongs to the same cycle. Its depth may be different.
+    /// Whether a hole belongs to the open cycle. The depths of the holes may differ.
     pub fn takes(&self, hole: &Drilling) -> bool {
         let without = |hole: &Drilling| Drilling { at: [0.0; 2], bottom: 0.0, flag: None, ..*hole };
         let feed = if hole.feed > 0.0 { hole.feed } else { self.0.feed };
@@ -119,7 +119,7 @@ impl Drilling {
         Ok(self)
     }
 
-    /// The cycle that begins with this hole. `feed` is the active feed before it.
+    /// The cycle that begins with this hole. `feed` is the active feed before the cycle.
     ///
     /// # Errors
     /// The feed or the peck is missing.

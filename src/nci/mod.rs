@@ -1,9 +1,9 @@
 //! Reads NCI files of Mastercam as toolpaths.
 //!
-//! A record of an NCI file is two lines: the number of the record, and its values. Positions are absolute, in the units of the
-//! part; no record contains the units. The meanings of the numbers come from the sources of NCCS PostWorks (`ncilod.f`,
-//! `ncimot.f`). They were compared with programs that Mastercam's own posts printed (docs/sources/mastercam.md). Records whose
-//! meaning is disputed or unknown are refused.
+//! A record of an NCI file is two lines: the number of the record, and its values. Positions are absolute, in the units
+//! of the part; no record contains the units. The meanings of the numbers come from the sources of NCCS PostWorks
+//! (`ncilod.f`, `ncimot.f`). The meanings were compared with programs that Mastercam's own posts printed
+//! (docs/sources/mastercam.md). Records whose meaning is disputed or unknown are refused.
 
 mod convert;
 mod drilling;
@@ -19,7 +19,7 @@ use crate::toolpath::{ReadError, Sink, Units};
 use convert::Convert;
 use records::Records;
 
-/// Information that an NCI file does not contain.
+/// Information that the caller must give because an NCI file does not contain it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     /// The units of the lengths in the file.

@@ -7,9 +7,9 @@ use super::wrong;
 use crate::diag::Code;
 use crate::toolpath::{Arc, Axes, Direction, Event, Infeed, Plane, Side};
 
-/// The value that a rapid has as its feed.
+/// The feed value with which the file marks a rapid.
 const RAPID: f64 = -2.0;
-/// The value of a move that uses the previous feed.
+/// The feed value of a move that uses the previous feed.
 const UNCHANGED: f64 = -1.0;
 /// How far the components of a tool axis may differ from those of Z.
 const UPRIGHT: f64 = 1e-6;
@@ -54,7 +54,7 @@ impl Convert<'_, '_> {
         }
     }
 
-    /// How a move changes compensation. `None`: it does not change.
+    /// How a move changes compensation. `None`: the compensation does not change.
     fn turns(&mut self, value: f64, record: &Record) -> Done<Option<Option<Side>>> {
         let to = match value {
             0.0 => return Ok(None),
@@ -82,7 +82,7 @@ impl Convert<'_, '_> {
         Ok(Some(to))
     }
 
-    /// Reads the control flag of a move. Its sixth digit is the coolant.
+    /// Reads the control flag of a move. The sixth digit of the flag is the coolant.
     pub(super) fn flag(&mut self, value: Option<&f64>, record: &Record) -> Done {
         let digit = (value.copied().unwrap_or(0.0).abs() / 100_000.0).trunc() % 10.0;
         if digit < 1.0 {

@@ -1,4 +1,4 @@
-//! The records of an NCI file. Each is one line with a number and one line with values, which may be empty.
+//! The records of an NCI file. Each record is one line with a number and one line with values, which may be empty.
 
 use std::io::{BufRead as _, BufReader, Read};
 
@@ -15,12 +15,12 @@ pub struct Record {
     pub line: u64,
     /// The number of the record.
     pub code: u32,
-    /// The line of its values.
+    /// The text line with the values of the record.
     pub text: String,
 }
 
 impl Record {
-    /// The values of the record. There must be at least `least` of them.
+    /// The values of the record. There must be at least `least` values.
     ///
     /// # Errors
     /// A value is not a number, or there are too few values.
@@ -28,7 +28,7 @@ impl Record {
         self.numbers(self.text.split_whitespace(), least)
     }
 
-    /// The first `count` values. Any words may follow them.
+    /// The first `count` values. Any words may follow these values.
     ///
     /// # Errors
     /// The same as for [`Record::values`].

@@ -18,7 +18,7 @@ pub enum Sign {
 pub struct Digits {
     /// Number of digits.
     pub count: u8,
-    /// Whether exactly this number of digits is printed. Otherwise it is the maximum.
+    /// Whether exactly this number of digits is printed. Otherwise, this number is the maximum number of digits.
     pub fixed: bool,
 }
 
@@ -29,7 +29,7 @@ pub enum Point {
     Always,
     /// `~`: printed only if a fraction follows.
     BeforeFraction,
-    /// Not printed. The control knows its position from the number of decimals.
+    /// The decimal point is not printed. The control knows the position of the point from the number of decimals.
     Implied,
 }
 
@@ -46,11 +46,11 @@ pub struct LetterFormat {
     pub dec: Digits,
 }
 
-/// The reason why a format is invalid. It continues a sentence that begins with "the format".
+/// The reason why a format is invalid. The reason continues a sentence that begins with "the format".
 pub type BadFormat = &'static str;
 
 impl LetterFormat {
-    /// Reads a format, such as `->3.>4`, `>6`, `34` or `2`. It may begin with one space.
+    /// Reads a format, such as `->3.>4`, `>6`, `34` or `2`. The format may begin with one space.
     pub fn parse(text: &str) -> Result<LetterFormat, BadFormat> {
         let mut rest = text.strip_prefix(' ').unwrap_or(text).as_bytes();
         let sign = match rest.first() {

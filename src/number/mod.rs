@@ -1,7 +1,8 @@
 //! Numbers as a control reads them.
 //!
-//! A value is converted once to a whole number of units of the last decimal of its letter (quantised). Rounding uses the
-//! shortest decimal of the value, and halves are rounded away from zero. The result is used for comparing and for printing.
+//! Each value is converted once to a whole number (quantised); its unit is the last decimal in the format of the
+//! letter. Rounding uses the shortest decimal number that reads back as the value, and halves are rounded away from
+//! zero. The whole number is used for comparing and for printing.
 
 mod format;
 mod quantise;

@@ -3,7 +3,7 @@
 /// The largest number of decimals in a letter format.
 pub const MAX_DECIMALS: u8 = 9;
 
-/// Powers of ten for the digits of a number. They go beyond [`MAX_DECIMALS`].
+/// Powers of ten for the digits of a number. The table goes beyond [`MAX_DECIMALS`].
 pub const POWERS: [i64; 19] = {
     let mut powers = [1; 19];
     let mut i = 1;
@@ -17,14 +17,15 @@ pub const POWERS: [i64; 19] = {
 /// Powers of ten as doubles, for the decimals of a number.
 const SCALES: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// One and a half times 2^52. A double of this magnitude has no bits for a fraction. Adding this value therefore rounds to a
-/// whole number, which is then in the lowest bits.
+/// One and a half times 2^52. A double as large as this value has no bits for a fraction. Adding this value to a number
+/// therefore rounds the number to a whole number, which is then in the lowest bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// For values below this magnitude, adding [`ROUNDER`] gives the whole number exactly.
 const EXACT: f64 = 2_251_799_813_685_248.0;
 
-/// `value` in units of 10^-`decimals`. Its shortest decimal is rounded, with halves away from zero.
+/// `value` in units of 10^-`decimals`. The shortest decimal number that reads back as the double is rounded, with
+/// halves away from zero.
 ///
 /// `1.00005` with four decimals is 10001, although the double is a little less than that. `None` if the value is not finite
 /// or has more than 18 digits.
@@ -40,8 +41,8 @@ pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
     nearest(value * SCALES[decimals as usize]).or_else(|| by_digits(value, decimals))
 }
 
-/// The whole number nearest to `scaled`, a value times a power of ten. `None`: the value is not finite, is very large, or is so
-/// near to a half that only its decimal digits can decide. Use [`quantise`] then.
+/// The whole number nearest to `scaled`, a value times a power of ten. `None`: the value is not finite, is very large,
+/// or is so near to a half that only its decimal digits show the direction of rounding. Use [`quantise`] then.
 #[inline(always)]
 pub(crate) fn nearest(scaled: f64) -> Option<i64> {
     let rounded = scaled + ROUNDER;
@@ -52,7 +53,8 @@ pub(crate) fn nearest(scaled: f64) -> Option<i64> {
         .then(|| (rounded.to_bits() as i64).wrapping_sub(ROUNDER.to_bits() as i64))
 }
 
-/// The value in whole units of the last decimal, calculated from the digits of its shortest decimal.
+/// The value in whole units of the last decimal, calculated from the digits of the shortest decimal number that reads
+/// back as the value.
 #[cold]
 fn by_digits(value: f64, decimals: u8) -> Option<i64> {
     if !value.is_finite() {
@@ -76,7 +78,8 @@ fn by_digits(value: f64, decimals: u8) -> Option<i64> {
     Some(if value < 0.0 { -units } else { units })
 }
 
-/// The shortest decimal of a finite double that is not negative: its digits (at most 17) and the exponent of ten.
+/// The shortest decimal number that reads back as a finite double that is not negative: its digits (at most 17) and its
+/// exponent of ten.
 fn shortest(value: f64) -> (i64, i32) {
     let mut text = Text { bytes: [0; 32], len: 0 };
     // std prints the shortest digits that give the same double again; the buffer has a fixed size, so nothing is allocated

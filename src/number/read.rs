@@ -47,8 +47,8 @@ fn long_decimal(text: &[u8]) -> Option<Decimal> {
     fits.then_some(Decimal { digits, whole, decimals, point, length: whole + usize::from(point) + decimals })
 }
 
-/// Appends the digits at the beginning of `text` to a number. Returns it and their count. Too many digits wrap around, so the
-/// caller checks the count.
+/// Appends the digits at the beginning of `text` to a number. Returns the new number and the count of appended digits.
+/// With too many digits the number overflows, so the caller must check the count.
 fn run_of_digits(text: &[u8], mut number: i64) -> (i64, usize) {
     let count = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
     for digit in &text[..count] {
@@ -144,7 +144,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
-        /// The values are equal to those of the standard library, wherever the number is in the text.
+        /// The values are equal to the values of the standard library, wherever the number is in the text.
         #[test]
         fn values_are_the_nearest_doubles(number in "[0-9]{0,7}(\\.[0-9]{0,7})?", before in "[ -~]{0,9}", after in "([ -/:-~][ -~]{0,9})?") {
             let text = format!("{before}{number}{after}");

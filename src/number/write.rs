@@ -28,7 +28,8 @@ pub fn write_number(
 #[derive(Clone, Copy, Debug)]
 pub struct Printing {
     format: LetterFormat,
-    /// Smaller magnitudes are printed by the fast method. 0 if the fast method does not support the format.
+    /// Numbers with a magnitude below this limit are printed by the fast method. The limit is 0 if the fast method does
+    /// not support the format.
     short_below: u64,
     /// Digits after the point.
     decimals: u32,
@@ -61,7 +62,7 @@ impl Printing {
 
     /// Appends `lead` and then the number.
     ///
-    /// The arguments are those of [`write_number`].
+    /// The other arguments are the arguments of [`write_number`].
     #[inline]
     pub fn write(&self, out: &mut Vec<u8>, lead: Lead, units: i64, leading_zero: bool) -> Result<(), Unprintable> {
         let magnitude = units.unsigned_abs();
@@ -106,7 +107,7 @@ pub struct Lead {
 }
 
 impl Lead {
-    /// Appends a character. There is space for three.
+    /// Appends a character. There is space for three characters.
     #[inline(always)]
     pub fn push(&mut self, byte: u8) {
         debug_assert!(self.length < 3, "the sign needs the last byte");
@@ -123,7 +124,8 @@ const ASCII: u64 = 0x3030_3030_3030_3030;
 
 /// The eight digits of a number below 100,000,000, one in each byte. The first digit is in the lowest byte.
 ///
-/// Each step divides all parts of the register at the same time, by a multiplication and a shift that are exact for such values.
+/// Each step divides all parts of the register at the same time. The division is a multiplication and a shift, which
+/// are exact for parts of this size.
 #[inline(always)]
 fn eight_digits(value: u32) -> u64 {
     // two groups of four digits, one in each half of the register

@@ -1,8 +1,8 @@
 //! Converts positions of the axes to positions on the part: rotary axes turn the part under the tool.
 //!
 //! A positive angle turns the tool about the part by the right-hand rule (ISO 841, "as if the tool moved"). The axis of
-//! this rotation passes through program zero. If several axes turn, A and B carry C, as on most trunnion tables; this
-//! order is an assumption of postform, because no program contains it.
+//! this rotation passes through program zero. If several axes turn, A and B carry C, as on most trunnion tables;
+//! postform assumes this order, because no program states the order.
 
 /// The tool position on the part, X Y Z, for positions of A B C in degrees.
 pub(super) fn on_part([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> [f64; 3] {

@@ -1,8 +1,8 @@
 //! The backplot: the motions of a program, as lines that can be drawn.
 //!
-//! A program is run by the rules of its control. The result is a [`Picture`]: the moves in their order, the block of
-//! each move, and the modal state after each block. [`strips`](Picture::strips) converts the picture to points,
-//! including the arcs, and [`svg`] draws a still picture.
+//! To make the backplot, a program is run by the rules of its control. The result is a [`Picture`]: the moves in their
+//! order, the block of each move, and the modal state after each block. [`strips`](Picture::strips) converts the
+//! picture to points, including the arcs, and [`svg`] draws a still picture.
 
 mod frame;
 mod run;
@@ -43,7 +43,7 @@ pub struct Move {
     pub to: [f64; 3],
     /// Line of the program, from 1.
     pub line: u32,
-    /// If the move is an arc, its index in [`Picture::arcs`].
+    /// If the move is an arc: the index of this arc in [`Picture::arcs`].
     pub arc: u32,
     /// The tool, as an index into [`Picture::tools`].
     pub tool: u16,
@@ -69,16 +69,16 @@ pub struct Hole {
 }
 
 impl Hole {
-    /// Top and bottom of the hole as positions on the part, X Y Z: the rotary axes have turned the part.
+    /// Top and bottom of the hole as positions X Y Z on the part, after the rotary axes have turned the part.
     pub fn on_part(&self) -> [[f64; 3]; 2] {
         [self.top, self.bottom].map(|at| frame::on_part(at, self.turned))
     }
 }
 
-/// New positions of the rotary axes. They are valid from a certain move on.
+/// New positions of the rotary axes. The new positions are valid from the move `from` on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
-    /// The first move that ends at these positions, as an index into [`Picture::moves`].
+    /// The first move that ends at these positions of the rotary axes, as an index into [`Picture::moves`].
     pub from: u32,
     /// Positions of A B C in degrees.
     pub to: [f64; 3],
@@ -89,21 +89,22 @@ pub struct Turned {
 pub struct Picture {
     /// Units of all lengths: the units of the first move.
     pub units: Units,
-    /// Moves, in their order.
+    /// The moves, in the order of the program.
     pub moves: Vec<Move>,
-    /// Minutes from the beginning of the program to the end of each move, calculated as in [`Tally::minutes`].
+    /// For each move, the minutes from the beginning of the program to the end of the move, calculated as in
+    /// [`Tally::minutes`].
     pub minutes: Vec<f32>,
     /// Positions of the rotary axes: a row for each move that turns them, in the order of the moves. Empty: no axis turns.
     pub turned: Vec<Turned>,
     /// Letters of the axes in `Move::to`: `XYZ`, or `XY` on a wire EDM machine.
     pub letters: &'static str,
-    /// Arcs of the moves, in the picture's units. The field `to` of each arc is the end of its move.
+    /// Arcs of the moves, in the picture's units. The field `to` of each arc is the end of the move with this arc.
     pub arcs: Vec<Turn>,
-    /// Holes, in their order.
+    /// The holes, in the order of the program.
     pub holes: Vec<Hole>,
     /// Numbers of the tools in the order of their first use. The first number is 0: no tool is active yet.
     pub tools: Vec<f64>,
-    /// Changes of the modal state, in the order of the run.
+    /// Changes of the modal state, in the order in which the blocks are run.
     pub changes: Vec<Change>,
     /// Counts and times.
     pub tally: Tally,
@@ -111,7 +112,7 @@ pub struct Picture {
     pub blocks: u64,
     /// Warnings of the run, at most one hundred; their locations are lines of the program.
     pub warnings: Vec<Diag>,
-    /// The error with which the control refused a block, and the line of this block. The run ended there, before the
-    /// end of the program.
+    /// The error with which the control refused a block, and the line of this block. The run ended at this line, before
+    /// the end of the program.
     pub refused: Option<(Box<Diag>, u64)>,
 }

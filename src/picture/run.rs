@@ -9,7 +9,7 @@ use crate::toolpath::Units;
 
 /// Maximum number of warnings that are kept.
 const MOST_WARNINGS: usize = 100;
-/// A position farther away than this is drawn at this distance.
+/// A position farther away than this distance is drawn at this distance.
 const FARTHEST: f64 = 1e9;
 /// Maximum number of moves: further moves are not drawn.
 const MOST_MOVES: usize = 20_000_000;
@@ -49,7 +49,7 @@ struct Pen {
     /// Letters of the axes of the machine, in the order of a position.
     letters: &'static [u8; 6],
     tool: u16,
-    /// Factor from the program's units to the picture's.
+    /// Factor from the program's units to the picture's units.
     factor: f64,
     units: Units,
 }
@@ -158,7 +158,7 @@ impl Pen {
         }
     }
 
-    /// Sets the current units. The units of the picture are those of its first move.
+    /// Sets the current units. The picture has the units of its first move.
     fn count_in(&mut self, units: Units) {
         self.units = units;
         if self.picture.moves.is_empty() {
@@ -180,7 +180,7 @@ impl Pen {
         })
     }
 
-    /// The position of the upper guide. U and V are its X and Y; its height is unknown.
+    /// The position of the upper guide. U and V are X and Y of this guide; the height of the guide is unknown.
     fn guide(&self, to: &Position, machine: u8) -> [f64; 3] {
         let place = |axis: usize| (to[axis] * self.factor).clamp(-FARTHEST, FARTHEST);
         let [u, v] = [2, 3].map(|axis| if machine & 1 << axis == 0 { place(axis) } else { f64::NAN });
@@ -197,8 +197,8 @@ impl Pen {
         }
     }
 
-    /// Adds the move of the upper guide during an arc. It is the same arc if the offset between the guides is the same
-    /// at both ends; otherwise it is a straight move.
+    /// Adds the move of the upper guide during an arc. The upper guide moves along the same arc if the offset between
+    /// the guides is equal at both ends; otherwise it moves straight.
     fn guide_round(&mut self, item: &Item, from: [f64; 3], turn: &Turn) {
         let Some(above) = self.upper else { return };
         let upper = self.guide(&turn.to, turn.machine);

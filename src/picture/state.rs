@@ -1,4 +1,4 @@
-//! The modal state after each block, stored as changes.
+//! The modal state after each block. Only the changes from block to block are stored.
 
 use crate::nc::{Action, Cooling, Modal, Position, Rotation};
 
@@ -45,8 +45,8 @@ pub struct Change {
     pub line: u32,
     /// The register.
     pub register: Register,
-    /// The value of the register: the number of a code, or another value; NaN: none. For the spindle and the coolant it
-    /// is the number of an M code.
+    /// The value of the register: the number of a code, or another number. NaN: the register has no value. For the
+    /// spindle and the coolant, the value is the number of an M code.
     pub value: f64,
 }
 
@@ -71,8 +71,8 @@ impl Registers {
         }
     }
 
-    /// Updates the registers for axes other than X Y Z: A B C in degrees after their first turn, U V of a wire EDM
-    /// machine in the program's units. Each bit of `machine` marks an axis whose position is unknown.
+    /// Updates the registers for axes other than X Y Z: A B C in degrees after the first turn of the axis, U V of a
+    /// wire EDM machine in the program's units. Each bit of `machine` marks an axis whose position is unknown.
     pub fn axes(&mut self, line: u32, letters: &[u8; 6], position: &Position, machine: u8, changes: &mut Vec<Change>) {
         for (axis, letter) in letters.iter().enumerate().skip(2) {
             let register = match letter {
@@ -148,7 +148,7 @@ impl Registers {
     }
 }
 
-/// Converts a value of 0 to NaN, which means none.
+/// Converts a value of 0 to NaN, which means that the register has no value.
 fn some(value: f64) -> f64 {
     if value == 0.0 { f64::NAN } else { value }
 }

@@ -14,7 +14,7 @@ const ERROR: f64 = 1.0 / 4000.0;
 /// Maximum number of pieces of one arc. A helix may have a million turns.
 const MOST_PIECES: f64 = 20_000.0;
 
-/// A straight piece of a move. It begins at the end of the piece before it.
+/// A straight piece of a move. Each piece begins at the end of the previous piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// End of the piece, X Y Z in the picture's units.

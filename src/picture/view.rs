@@ -7,7 +7,7 @@ use super::{Picture, Register};
 pub enum View {
     /// From above: X to the right, Y up.
     Top,
-    /// From the front, as the operator sees it: X to the right, Z up.
+    /// From the front, where the operator stands: X to the right, Z up.
     Front,
     /// From the right: Y to the right, Z up.
     Side,
@@ -42,7 +42,7 @@ impl View {
 }
 
 impl Picture {
-    /// The default view: lathe programs in the lathe view, all others in the isometric view.
+    /// The default view: the lathe view for lathe programs, the isometric view for all other programs.
     pub fn usual_view(&self) -> View {
         let still = self.moves.iter().all(|found| found.to[1].is_nan() || found.to[1] == 0.0);
         let plane = self.changes.iter().rev().find(|change| change.register == Register::Plane);

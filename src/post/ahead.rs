@@ -13,9 +13,9 @@ use crate::sema::{PropertyKind, PropertyValue};
 use crate::survey::{Survey, Surveyor};
 
 impl Post {
-    /// Whether the form needs values that are known only at the end of a job: tools, operations or extents, as `@for tool` and
-    /// `[hmin]`. A job is then read twice, and a job from a stream is kept in memory. Parts of the form that the properties in
-    /// the options switch off are not considered.
+    /// Whether the form needs values that are known only at the end of a job: tools, operations or extents, as
+    /// `@for tool` and `[hmin]`. If the form needs such values, a job is read twice, and a job from a stream is kept in
+    /// memory. Parts of the form that the properties in the options switch off are not considered.
     ///
     /// # Errors
     /// The form does not have one of the properties, or a property does not accept its value.
@@ -24,8 +24,8 @@ impl Post {
         Ok(self.asks(options)?.all)
     }
 
-    /// Whether a job may be read twice, because the form needs values from the rest of the job, or only the next tool. In the
-    /// second case, a job that lists its tools in the head is read only once.
+    /// Whether a job may be read twice, because the form needs values from the rest of the job, or only the next tool.
+    /// If the form needs only the next tool, a job that lists its tools in the head is read only once.
     ///
     /// # Errors
     /// The same as for [`Post::reads_ahead`].
@@ -35,7 +35,8 @@ impl Post {
         Ok(all || tools)
     }
 
-    /// A property and a value with which a job is read only once, such as `header=no`; `None` if there is none.
+    /// A property and a value with which a job is read only once, such as `header=no`; `None` if there is no such
+    /// property.
     #[doc(hidden)]
     pub fn reads_once_with(&self) -> Option<String> {
         let settings = &self.0.program.settings;

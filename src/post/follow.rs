@@ -40,8 +40,8 @@ pub struct Seen {
 }
 
 impl Post {
-    /// Prints a job and records what each line of the form prints. If an error ends the program, the part before it is kept,
-    /// because the author of a form needs it.
+    /// Prints a job and records what each line of the form prints. If an error ends the program, the part before the
+    /// error is kept, because the author of a form needs this part.
     ///
     /// # Errors
     /// An option is invalid.

@@ -1,4 +1,5 @@
-//! Stops programs that are far longer than their job. The usual cause is a wrong step or count. The caller may allow such programs.
+//! Stops programs that are far longer than their job. The usual cause of such a long program is a wrong step or count.
+//! The caller may allow programs of any length.
 
 use std::cell::Cell;
 use std::rc::Rc;

@@ -36,7 +36,8 @@ pub trait Files {
     /// Returns the form with this name. The name is the one in `Call`, relative to the calling form.
     ///
     /// # Errors
-    /// The form can't be read. The error continues a sentence that begins with its name, such as `can't be found`.
+    /// The form can't be read. The error text continues a sentence that begins with the name of the form, such as
+    /// `can't be found`.
     fn read(&self, name: &str) -> Result<Source, String>;
 }
 
@@ -68,7 +69,8 @@ pub struct Prompt<'a> {
     pub default: Option<f64>,
 }
 
-/// A compiled form, which prints programs. It is checked and immutable. Clones share the same data, also between threads.
+/// A compiled form, which prints programs. A post is checked and immutable. Clones share the same data, also between
+/// threads.
 #[derive(Clone, Debug)]
 pub struct Post(Arc<Compiled>);
 
@@ -117,26 +119,27 @@ impl Post {
         self.0.program.settings.machine_file.as_deref()
     }
 
-    /// The prompts of the form. Their answers go into [`Options::set`].
+    /// The prompts of the form. The answers to the prompts go into [`Options::set`].
     pub fn prompts(&self) -> impl Iterator<Item = Prompt<'_>> {
         let prompts = self.0.program.settings.prompts.iter();
         prompts.map(|prompt| Prompt { variable: prompt.var.row().name, text: &prompt.text, default: prompt.default })
     }
 
-    /// The properties of the form. Their values go into [`Options::properties`].
+    /// The properties of the form. The values of properties go into [`Options::properties`].
     pub fn properties(&self) -> &[Property] {
         let all = &self.0.program.settings.properties;
         // the fields of tools come first; their values come from the job
         &all[all.iter().take_while(|property| property.of_tool().is_some()).count()..]
     }
 
-    /// Whether the form prints the date or time of printing. If so, set [`Options::clock`].
+    /// Whether the form prints the date or time of printing. If the form prints one of them, set [`Options::clock`].
     pub fn says_time(&self) -> bool {
         let texts = self.0.program.texts_printed;
         texts.has(TextId::Date) || texts.has(TextId::Time)
     }
 
-    /// The form's warnings and notes, with its text. They contain no errors, because a form with errors is never compiled.
+    /// The form's warnings and notes, with its text. The list contains no errors, because a form with errors is never
+    /// compiled.
     pub fn findings(&self) -> &Findings {
         &self.0.findings
     }

@@ -1,4 +1,4 @@
-//! The file name of a program. It is known before the program is printed.
+//! The file name of a program, which is known before the program is printed.
 
 use super::Post;
 use super::options::Options;

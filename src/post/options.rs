@@ -9,7 +9,7 @@ use crate::sema::{Property, PropertyValue, Settings};
 use crate::times::Rates;
 use crate::toolpath::Units;
 
-/// Options for printing a job. Each has a default.
+/// Options for printing a job. Each option has a default.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Options {
@@ -19,13 +19,14 @@ pub struct Options {
     pub units: Option<Units>,
     /// How canned cycles are printed: by the sequences of the form, or as single moves.
     pub cycles: Cycles,
-    /// Values of variables and answers to prompts, by the name of the variable (such as `val1`). They have priority over values in the
-    /// job.
+    /// Values of variables and answers to prompts, by the name of the variable (such as `val1`). These values have
+    /// priority over values in the job.
     pub set: Vec<(String, f64)>,
-    /// Values of the form's properties by name, as a user writes them. They have priority over all other values.
+    /// Values of the form's properties by name, as a user writes them. These values have priority over all other
+    /// values.
     pub properties: Vec<(String, String)>,
-    /// Values of properties that a shop sets for all its forms. They have priority only over the defaults of the forms. Names
-    /// that a form does not have are ignored.
+    /// Values of properties that a shop sets for all its forms. These values have priority only over the defaults of
+    /// the forms. Names of properties that a form does not have are ignored.
     pub shop_properties: Vec<(String, String)>,
     /// Whether the depth of a countersink is calculated from diameter and angle by the formula in GENER's manual, which is
     /// correct only at 90 degrees. Default: the depth is calculated by geometry.
@@ -36,13 +37,13 @@ pub struct Options {
     pub clock: Option<Clock>,
     /// Name of the job's file, for forms that print this name.
     pub job_file: Option<String>,
-    /// Whether to read the job only once. If the form needs values from the rest of the job, this is an error. `[nexttool]`
-    /// then has a value only if the job gives its `tool_order`.
+    /// Whether to read the job only once. With this option, a form that needs values from the rest of the job is an
+    /// error. When the job is read only once, `[nexttool]` has a value only if the job gives its `tool_order`.
     pub one_pass: bool,
     /// Whether to record the form line and the job item that printed each line of the program.
     pub trace: bool,
-    /// Speeds and accelerations of the machine's axes. If they are set, `[cuttime]` includes accelerations. Only the command line
-    /// sets them, because it reads machine files.
+    /// Speeds and accelerations of the machine's axes. If the speeds and accelerations are set, `[cuttime]` includes
+    /// accelerations. Only the command line sets these values, because it reads machine files.
     #[doc(hidden)]
     pub rates: Option<Rates>,
     /// How [`Post::render`](super::Post::render) verifies the program. `None`: the program is not verified.
@@ -82,7 +83,7 @@ impl Options {
         Ok(())
     }
 
-    /// The properties whose values nothing else changes, by row.
+    /// The properties that the caller sets, by row. Nothing else changes their values.
     pub(super) fn fixed_properties(&self, settings: &Settings) -> Result<Vec<(u16, PropertyValue)>, Error> {
         properties(&self.properties, settings, true)
     }
@@ -131,7 +132,7 @@ fn properties(given: &[(String, String)], settings: &Settings, must: bool) -> Re
     Ok(values)
 }
 
-/// Finds a variable that can be set. Its name may be in brackets.
+/// Finds a variable that can be set. The name of the variable may be in brackets.
 fn variable(name: &str) -> Result<VarId, String> {
     let name = name.trim().trim_matches(['[', ']']);
     let Some(var) = VarId::parse(name) else {
@@ -145,7 +146,7 @@ fn variable(name: &str) -> Result<VarId, String> {
     }
 }
 
-/// Options for verifying a program. Each has a default.
+/// Options for verifying a program. Each option has a default.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Proof {

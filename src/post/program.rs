@@ -24,30 +24,32 @@ impl Program {
         self.text
     }
 
-    /// The verdict on the program. It is never [`Verdict::Different`], because such a program is returned as an error.
+    /// The verdict on the program. The verdict is never [`Verdict::Different`], because a program with other motions is
+    /// returned as an error.
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
     }
 
-    /// Warnings and notes about the job and about printing it. Each kind occurs only once.
+    /// Warnings and notes about the job and about printing it. Each kind of warning or note occurs only once.
     pub fn notes(&self) -> &[Diag] {
         &self.rendered.notes
     }
 
-    /// The notes and the findings of the verdict. These are differences, or parts that are not proven.
+    /// The notes and the findings of the verdict. The findings of the verdict are differences, or parts that are not
+    /// proven.
     #[doc(hidden)]
     pub fn findings(&self) -> Vec<Diag> {
         [self.rendered.notes.clone(), self.verdict.diags("the program")].concat()
     }
 
-    /// The file name that form and job give the program.
+    /// The file name of the program, from the form and the job.
     #[doc(hidden)]
     pub fn file_name(&self) -> &str {
         &self.rendered.file_name
     }
 
-    /// For each line, the form line and the job item that printed it. Empty if [`Options::trace`](super::Options::trace) is
-    /// not set.
+    /// For each line, the form line and the job item that printed it. The list is empty if
+    /// [`Options::trace`](super::Options::trace) is not set.
     pub fn trace(&self) -> &[TraceLine] {
         &self.trace
     }
@@ -63,7 +65,7 @@ impl AsRef<str> for Program {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Rendered {
-    /// Warnings and notes about the job and about printing it. Each kind occurs only once.
+    /// Warnings and notes about the job and about printing it. Each kind of warning or note occurs only once.
     pub notes: Vec<Diag>,
     /// Number of lines in the program.
     pub lines: u64,

@@ -16,13 +16,13 @@ use crate::verify::{Batch, Verdict};
 
 /// Number of bytes of text after which the text is passed on.
 const CHUNK: usize = 64 * 1024;
-/// Number of events after which they are passed on. This many events and their text fit into the processor's cache.
+/// Number of events after which the events are passed on. These events and their text fit into the processor's cache.
 const EVENTS: usize = 1024;
 
 impl Post {
-    /// Prints a job: either the whole program or nothing. Unless the options disable it, the program is also verified: it is
-    /// simulated by the rules of its control and compared with the job. For this the job is read a second time, and a job
-    /// from a stream is kept in memory.
+    /// Prints a job: either the whole program or nothing. Unless the options disable it, the program is also verified:
+    /// it is simulated by the rules of its control and compared with the job. To verify the program, the job is read a
+    /// second time, and a job from a stream is kept in memory.
     ///
     /// # Errors
     /// The job can't be read, contains an error, or requests something that the form can't print. The error is
@@ -71,7 +71,8 @@ impl Post {
     /// Prints a job while the job is read. Memory use does not grow with the job. The program is not verified.
     ///
     /// # Errors
-    /// The same as for [`Post::render`], or the output fails. The output is then incomplete and must be deleted.
+    /// The same as for [`Post::render`], or the output fails. After an error, the output is incomplete and must be
+    /// deleted.
     pub fn render_to(&self, job: Job<'_>, options: &Options, out: &mut impl Write) -> Result<Rendered, Error> {
         self.render_parts(job, options, &mut |part| out.write_all(part.text))
     }
@@ -80,7 +81,7 @@ impl Post {
     /// about 64 KB long. The program is not verified.
     ///
     /// # Errors
-    /// The same as for [`Post::render`], or `take` fails. The parts are then incomplete and must be deleted.
+    /// The same as for [`Post::render`], or `take` fails. After an error, the parts are incomplete and must be deleted.
     #[doc(hidden)]
     pub fn render_parts(
         &self,
@@ -91,9 +92,9 @@ impl Post {
         self.print(job, options, take, None)
     }
 
-    /// Like [`Post::render_parts`], and also passes on the data for a verification. `prove` receives events and text in their
-    /// order, for [`Post::prove`] on another thread. It returns a batch to be filled next, which may be empty or used before.
-    /// It returns `None` if no more data is needed.
+    /// Like [`Post::render_parts`], and also passes on the data for a verification. `prove` receives events and text in
+    /// their order, for [`Post::prove`] on another thread. `prove` returns a batch to be filled next, which may be
+    /// empty or used before. `prove` returns `None` if no more data is needed.
     ///
     /// # Errors
     /// The same as for [`Post::render_parts`].
@@ -154,7 +155,7 @@ fn fault(what: &str) -> Box<Diag> {
     Box::new(Diag::new(Code::PX001, what).help("this is an error in postform: please report it"))
 }
 
-/// A sink between a reader and an output. It prints the events and passes the text on.
+/// A sink between a reader and an output. The sink prints the events and passes the text on.
 struct Printer<'p, 't, 's> {
     renderer: Renderer<'p>,
     growth: Growth,

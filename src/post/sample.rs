@@ -10,7 +10,7 @@ use crate::job::Job;
 use crate::lang::{Machine, UnitChoice};
 use crate::sema::{Checked, Settings};
 
-/// A job with a complete part for the type of machine, in units that the form accepts. It uses most sequences.
+/// A job with a complete part for the type of machine, in units that the form accepts. The job uses most sequences.
 pub fn sample_job(settings: &Settings) -> &'static str {
     let (text, inch) = match settings.machine {
         Machine::Mill => (include_str!("../../samples/bracket/job.json"), true),

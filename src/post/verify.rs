@@ -25,7 +25,7 @@ pub struct Proven {
     pub verdict: Verdict,
     /// How many cuts and holes were compared.
     pub counts: Counts,
-    /// Warnings about the program from its simulation. Their locations are lines of the program.
+    /// Warnings about the program from its simulation. The locations of the warnings are lines of the program.
     pub warnings: Vec<Diag>,
 }
 
@@ -39,7 +39,8 @@ impl Post {
         Ok(proven.verdict)
     }
 
-    /// Verifies that a program makes the motions of its job. `options` are the options with which it was printed.
+    /// Verifies that a program makes the motions of its job. `options` are the options with which the program was
+    /// printed.
     ///
     /// # Errors
     /// The job or the program can't be read, or the job contains an error. Errors in the program are part of the verdict.
@@ -53,20 +54,20 @@ impl Post {
         prove(Some(&self.0.program), job, program, options, proof)
     }
 
-    /// Settings for simulating a program that this form printed. `units` apply until the program sets its own.
+    /// Settings for simulating a program that this form printed. `units` apply until the program sets its own units.
     #[doc(hidden)]
     pub fn run_settings(&self, proof: &Proof, units: Units) -> RunSettings {
         proof.settings(Some(&self.0.program), units)
     }
 
-    /// If the form is for a lathe, whether X in its programs is a diameter. `None` for other forms.
+    /// Whether X in the programs of a lathe form is a diameter. `None`: the form is not for a lathe.
     #[doc(hidden)]
     pub fn turns(&self) -> Option<bool> {
         let settings = &self.0.program.settings;
         (settings.machine == crate::lang::Machine::Lathe).then_some(settings.by_diameter)
     }
 
-    /// The tools of a job. Their diameters are in millimetres.
+    /// The tools of a job. The diameters of the tools are in millimetres.
     ///
     /// # Errors
     /// The job can't be read.
@@ -99,7 +100,7 @@ impl Post {
     /// not check whether the job can be printed to its end.
     ///
     /// # Errors
-    /// None is expected, because a printed program can always be read.
+    /// No error is expected, because a printed program can always be read.
     #[doc(hidden)]
     pub fn prove<B: AsRef<Batch>>(
         &self,
@@ -141,8 +142,9 @@ impl Post {
         Some(Error::proof(Findings { diags, files: self.files().to_vec(), suppressed: 0 }))
     }
 
-    /// Completes the findings of a verification: adds the form line that printed the block of each finding. If there are
-    /// findings, the job is printed again. `options` are the options with which the program was printed.
+    /// Completes the findings of a verification: adds the form line that printed the block of each finding. If there
+    /// are findings, the job is printed again to find these lines. `options` are the options with which the program was
+    /// printed.
     ///
     /// # Errors
     /// The job can't be read again, or an option is invalid.
@@ -200,7 +202,7 @@ impl Proof {
         prove(None, job, program, &options, self)
     }
 
-    /// The tools of a job if there is no form. Their diameters are in millimetres.
+    /// The tools of a job if there is no form. The diameters of the tools are in millimetres.
     ///
     /// # Errors
     /// The job can't be read.
@@ -209,7 +211,7 @@ impl Proof {
         tools_of(None, job)
     }
 
-    /// The settings for simulating a program. `form`: the form that printed it, if any.
+    /// The settings for simulating a program. `form`: the form that printed the program, if any.
     fn settings(&self, form: Option<&compile::Program>, units: Units) -> RunSettings {
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
@@ -239,7 +241,7 @@ struct Plan {
     expectation: Expectation,
     /// Whether the program begins in the units of the job.
     of_job: bool,
-    /// Whether the control is assumed, because neither the caller nor the form names it.
+    /// Whether the control is assumed, because neither the caller nor the form names a control.
     assumed: bool,
 }
 
@@ -294,7 +296,8 @@ fn prove(
     }
 }
 
-/// A sink that sets the program's units at the first event. They are those of the job, unless the program was printed in other units.
+/// A sink that sets the program's units at the first event. The program's units are those of the job, unless the
+/// program was printed in other units.
 struct Started<'a> {
     comparer: Comparer<'a>,
     of_job: bool,

@@ -26,7 +26,7 @@ pub(super) struct Check<'m> {
     tools: Vec<u32>,
     pace: Pace,
     clock: Result<Clock, String>,
-    /// The findings by code and subject. Several findings about one subject become one.
+    /// The findings by code and subject. Several findings about one subject are joined to one finding.
     found: BTreeMap<(Code, String), Finding>,
     /// For each of the two reference points: the program moved there, but the machine's file does not contain its position.
     no_reference: [bool; 2],
@@ -293,7 +293,7 @@ impl<'m> Check<'m> {
             match table.0.get(&number) {
                 None => {
                     let message = format!("the machine's table has no T{number}");
-                    let help = "add it to the table, with its length and diameter";
+                    let help = "add the tool to the table, with its length and diameter";
                     self.found(Code::PM011, &format!("T{number}"), message, help, line);
                 }
                 Some(entry) => {
@@ -341,7 +341,7 @@ impl<'m> Check<'m> {
         if !offsets.contains_key(&number) && run.state().offset_given() == 0 {
             let name = offsets::name(self.control, number);
             let message = format!("the machine's file does not contain {name}");
-            let help = "add it under [offsets], or use the interval that is printed";
+            let help = "add the offset under [offsets], or use the interval that is printed";
             self.found(Code::PM015, &name, message, help, line);
         }
     }
@@ -364,13 +364,13 @@ impl<'m> Check<'m> {
     pub fn memory(&mut self, bytes: u64, program: Option<f64>) {
         if let Some(most) = self.machine.bytes.filter(|most| bytes > *most) {
             let message = format!("the program has {bytes} bytes, but the control stores only {most}");
-            self.found(Code::PM014, "bytes", message, "drip-feed it from outside, or split it", (0, b""));
+            self.found(Code::PM014, "bytes", message, "drip-feed the program from outside, or split it", (0, b""));
         }
         if let (Some([least, most]), Some(number)) = (self.machine.numbers, program)
             && !(f64::from(least)..=f64::from(most)).contains(&number)
         {
             let message = format!("the program number is {number}, but the control takes only {least} to {most}");
-            self.found(Code::PM014, "number", message, "give it another number: `--program`", (0, b""));
+            self.found(Code::PM014, "number", message, "give the program another number: `--program`", (0, b""));
         }
     }
 

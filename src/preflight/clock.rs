@@ -15,11 +15,13 @@ pub struct Times {
     pub rapid: f64,
     /// Time of dwells.
     pub dwells: f64,
-    /// Time of tool changes, chip to chip, as given in the machine's file. It includes the spindle start after the change.
+    /// Time of tool changes, chip to chip, as given in the machine's file. The time of a tool change includes the
+    /// spindle start after the change.
     pub changes: f64,
     /// Time of spindle speed changes. A control does not wait while the spindle stops.
     pub spindle: f64,
-    /// Number of moves from or to an unknown position. The times do not include their travel along the unknown axes.
+    /// Number of moves from or to an unknown position. The times do not include the travel of these moves along the
+    /// unknown axes.
     pub unplaced: u64,
     /// Number of cuts whose time is unknown, because the feed depends on a spindle speed that is not set.
     pub timeless: u64,
@@ -76,7 +78,7 @@ pub(super) struct Clock {
     tool: Option<u32>,
     /// Duration of a tool change, in seconds.
     change: f64,
-    /// Time in seconds by which the spindle speed changes by one revolution per minute.
+    /// Time in seconds in which the spindle speed changes by one revolution per minute.
     spin_up: f64,
     /// Spindle speed in revolutions per minute; negative counterclockwise.
     turning: f64,
@@ -88,7 +90,7 @@ impl Clock {
     /// Creates a clock for a machine.
     ///
     /// # Errors
-    /// The machine's file lacks values that the clock needs. The text names them.
+    /// The machine's file lacks values that the clock needs. The text names the missing values.
     pub fn of(machine: &Machine) -> Result<Clock, String> {
         let fastest = machine.speeds.map_or(f64::INFINITY, |[_, fastest]| fastest);
         Ok(Clock {

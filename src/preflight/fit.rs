@@ -11,7 +11,7 @@ use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
 use crate::verify::Finding;
 
-/// The unknown value of a row. It may be the sum of an offset and a length.
+/// The unknown value of a row, which may be the sum of an offset and a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Unknown {
     Offset(usize),

@@ -20,11 +20,11 @@ pub enum Base {
 pub struct Needs {
     /// Number of the work offset.
     pub work: usize,
-    /// The offset is unknown, so the position is relative to it.
+    /// Whether the offset is unknown, so that the position is relative to the offset.
     pub offset_unknown: bool,
     /// The length register of the tool if a tool length is active; negative if the length is subtracted.
     pub register: Option<i32>,
-    /// The length is unknown, so the position does not include it.
+    /// Whether the length is unknown, so that the position does not include the length.
     pub length_unknown: bool,
 }
 
@@ -38,8 +38,8 @@ impl Needs {
 /// The position of an axis.
 #[derive(Clone, Copy, Debug)]
 pub struct At {
-    /// Position in millimetres or degrees. It is in machine coordinates if the offset and the length of its base are
-    /// known; otherwise it is relative to the unknown one.
+    /// Position in millimetres or degrees. The position is in machine coordinates if the offset and the length of its
+    /// base are known; otherwise it is relative to the unknown value.
     pub value: f64,
     pub base: Base,
 }
@@ -56,13 +56,13 @@ pub struct Places<'m> {
     pub register: Option<i32>,
     /// Whether the machine is a lathe. On a lathe, tool lengths are along X and Z.
     is_lathe: bool,
-    /// Whether a tool length was added to an active one. The sum is not tracked.
+    /// Whether a tool length was added to an active tool length. The sum of the two lengths is not tracked.
     pub adds: bool,
     /// Whether a tool was changed and no Z position has been programmed since.
     changed: bool,
     /// Axes for which no position has been programmed since the tool length last changed, as bits.
     lengthened: u8,
-    /// Axes whose frame was moved while they were in `lengthened`, as bits. Positions in this frame are unknown.
+    /// Axes that were in `lengthened` when their frame was moved, as bits. Positions in this frame are unknown.
     lost: u8,
     /// Axes for which a position was programmed in an unknown frame, as bits.
     pub unframed: u8,
@@ -81,7 +81,8 @@ pub struct Going {
     pub hidden: u8,
     /// Axes for which the block contains a position.
     pub says: u8,
-    /// Whether every axis that moves counts as programmed. True for a cycle, because its words contain the positions.
+    /// Whether every axis that moves counts as programmed. True for a cycle, because the words of a cycle contain the
+    /// positions.
     pub all_said: bool,
 }
 
@@ -104,7 +105,8 @@ impl<'m> Places<'m> {
     }
 
     /// Moves to a program position. If the block contains a position for an axis, the axis goes to that position in the
-    /// active work offset and with the active tool length. Every other axis keeps its machine position, plus its increment.
+    /// active work offset and with the active tool length. Every other axis moves by its increment from its machine
+    /// position.
     pub fn goes(&mut self, to: &Position, going: Going, run: &Simulator<'_>) {
         let known = run.state().in_machine_coordinates(to);
         let known: Position = std::array::from_fn(|axis| self.scaled(axis, known[axis], run));
@@ -145,7 +147,7 @@ impl<'m> Places<'m> {
         self.lost |= self.lengthened;
     }
 
-    /// Changes the tool. The Z position is then unknown until the program contains one.
+    /// Changes the tool. After a tool change, the Z position is unknown until the program contains a Z position.
     pub fn changes_tool(&mut self) {
         self.changed = !self.is_lathe;
     }

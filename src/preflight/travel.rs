@@ -9,7 +9,7 @@ use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
 use crate::verify::Finding;
 
-/// An axis may be this far beyond its travel, in millimetres: it is less than the resolution of a control's display.
+/// How far an axis may be beyond its travel, in millimetres: less than the resolution of a control's display.
 const OVER: f64 = 1e-4;
 
 /// The ranges of the axes that a running program has used so far.
@@ -20,14 +20,15 @@ pub struct Travels<'m> {
     /// The range of each axis. The key also contains the offset and the length on which the range depends, and the tool
     /// in the spindle.
     pub extents: BTreeMap<(usize, Needs, Option<u32>), Extent>,
-    /// Axes beyond their travel. The key is the axis, the end of the travel, the base of the position, and the tool.
+    /// Moves of axes beyond their travel. The key is the axis, the end of the travel, the base of the position, and the
+    /// tool.
     beyond: BTreeMap<(usize, bool, Base, Option<u32>), Beyond>,
 }
 
 /// An axis beyond one end of its travel.
 #[derive(Clone, Debug)]
 struct Beyond {
-    /// The farthest position, and the block that goes there.
+    /// The farthest position, and the block that moves to it.
     worst: f64,
     line: u64,
     block: String,

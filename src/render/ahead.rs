@@ -37,7 +37,8 @@ pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool, 
     Terms { defaults, work: default_work(settings), first_work: settings.work, only_order, rates }
 }
 
-/// The work offset of a job that names none. If the form counts its offsets from 1, the default code is converted to that count.
+/// The work offset of a job that names no work offset. If the form counts its offsets from 1, the default code is
+/// converted to that count.
 pub fn default_work(settings: &Settings) -> f64 {
     let default = settings.work_default;
     if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) }
@@ -122,8 +123,8 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));
 }
 
-/// Sets whether the tool is the first or the last one, and the tools before and after it. The first tool comes after
-/// the last one again.
+/// Sets whether the tool is the first or the last one, and the tools before and after it. After the last tool, the
+/// first tool comes next again.
 fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>, want: &mut Want) {
     want.set(VarId::Isfirsttool, f64::from(u8::from(at == 0)));
     want.set(VarId::Islasttool, f64::from(u8::from(at + 1 == count)));

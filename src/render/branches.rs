@@ -1,4 +1,5 @@
-//! Selects the branches of a sequence. All its conditions are evaluated before the sequence prints anything.
+//! Selects the branches of a sequence. All conditions of the sequence are evaluated before the sequence prints
+//! anything.
 
 use super::ahead;
 use super::form_sets::Kept;
@@ -14,7 +15,7 @@ use crate::sema::{Formula, Value, Without};
 use crate::span::Span;
 
 impl Shape<'_> {
-    /// The sequence with its branches selected for the current values; `None` if the form has no such sequence.
+    /// The sequence with its branches selected for the current values; `None` if the form does not have the sequence.
     #[inline]
     pub fn routine(&self, id: SequenceId, want: &Want, said: &Said) -> Option<&Routine> {
         self.program.routine(id).map(|routine| self.way(routine, want, said))
@@ -39,7 +40,8 @@ impl Shape<'_> {
     }
 }
 
-/// Evaluates the conditions of a sequence in order. `set` holds the values from `@set` directives before them.
+/// Evaluates the conditions of a sequence in order. `set` holds the values from the `@set` directives before these
+/// conditions.
 fn choose(nodes: &[Node], set: &mut Kept, branches: &mut u128, shape: &Shape, want: &Want, said: &Said) {
     for node in nodes {
         match node {

@@ -14,7 +14,7 @@ pub struct Codes {
     pub own_off: Option<f64>,
 }
 
-/// The codes of one kind; `None` if the form has none.
+/// The codes of one kind; `None` if the form has no codes for the kind.
 pub fn codes(kind: Coolant, settings: &Settings) -> Option<Codes> {
     let [on, _, mist] = settings.coolant;
     match (settings.coolant_kinds.iter().find(|own| own.kind == kind), kind) {
@@ -28,7 +28,7 @@ pub fn codes(kind: Coolant, settings: &Settings) -> Option<Codes> {
 /// The codes of one kind.
 ///
 /// # Errors
-/// PR054 if the form has none.
+/// PR054 if the form has no codes for the kind.
 pub fn codes_of(kind: Coolant, settings: &Settings) -> Done<Codes> {
     match codes(kind, settings) {
         Some(codes) => Ok(codes),

@@ -5,7 +5,8 @@ use super::said::Said;
 use super::shape::Shape;
 use super::want::Want;
 
-/// The state of a renderer, borrowed by the functions that handle an event. They may set values for the next block.
+/// The state of a renderer, borrowed by the functions that handle an event. These functions may set values for the next
+/// block.
 pub struct Cx<'a> {
     /// The form for this job.
     pub shape: &'a Shape<'a>,
@@ -25,7 +26,8 @@ impl Cx<'_> {
     }
 }
 
-/// The state of a renderer, borrowed by the functions that print words and blocks. They do not change the job's values.
+/// The state of a renderer, borrowed by the functions that print words and blocks. These functions do not change the
+/// job's values.
 pub struct Writer<'a> {
     /// The form for this job.
     pub shape: &'a Shape<'a>,

@@ -58,7 +58,7 @@ pub fn cycle_defaults(settings: &Settings, job: Units, into: Units, sink_as_prin
     }
 }
 
-/// The unit of the form; `None` if it is for both.
+/// The unit of the form; `None` if the form is for both units.
 pub fn form_units(settings: &Settings) -> Option<Units> {
     match settings.units {
         UnitChoice::Inch => Some(Units::Inch),

@@ -1,4 +1,4 @@
-//! Dwells, printed by the form's own sequence if it has one.
+//! Dwells, printed by the form's own sequence, or otherwise as a generated block.
 
 use crate::lang::{SequenceId, VarId};
 use crate::render::cx::Cx;

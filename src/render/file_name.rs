@@ -10,11 +10,11 @@ use crate::number::write_number;
 use crate::sema::{NamePart, is_of_file_names};
 use crate::toolpath::Start;
 
-/// Maximum length of a name; every file system accepts it.
+/// Maximum length of a file name; every file system accepts this length.
 const LONGEST: usize = 100;
 
-/// The file name of a program, with its extension. If the form defines no name, or the job has none of its values, the name of
-/// the job's file is used.
+/// The file name of a program, with its extension. If the form defines no name, or the job has none of the values in
+/// the name, the name of the job's file is used.
 pub fn file_name(shape: &Shape, want: &Want) -> String {
     let settings = &shape.program.settings;
     let mut name = String::new();

@@ -65,7 +65,7 @@ pub use file_name::file_name_of;
 pub use options::{Clock, Cycles, Options};
 pub use printer::{TraceLine, TraceWord};
 
-/// Prints the blocks of one program. The caller pushes the events of a job and takes the text as it comes.
+/// Prints the blocks of one program. The caller pushes the events of a job and takes the text while it is printed.
 pub struct Renderer<'p> {
     shape: Shape<'p>,
     want: Want,
@@ -104,7 +104,7 @@ impl<'p> Renderer<'p> {
         }
     }
 
-    /// The text that was printed and not yet taken. The caller takes it with `drain` or `clear`.
+    /// The text that was printed and not yet taken. The caller takes the text with `drain` or `clear`.
     pub fn text(&mut self) -> &mut Vec<u8> {
         &mut subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).text
     }
@@ -119,7 +119,7 @@ impl<'p> Renderer<'p> {
         subprograms::main_page(&self.shape, &mut self.out, &mut self.subs).words.as_mut()
     }
 
-    /// The current value of a variable in the program's units; `None` if it has none.
+    /// The current value of a variable in the program's units; `None` if the variable has no value.
     pub fn value(&self, var: VarId) -> Option<f64> {
         self.want.get(var)
     }
@@ -144,7 +144,8 @@ impl<'p> Renderer<'p> {
         self.order == Order::End
     }
 
-    /// Dispatches an event. An open cycle ends before every event, except its own holes and events after which the cycle may go on.
+    /// Dispatches an event. An open cycle ends before every event, except the holes of the cycle and events after which
+    /// the cycle may continue.
     fn take(&mut self, event: Event<'_>) -> Done {
         let goes_on = matches!(event, Event::Hole(_) | Event::Feed(_) | Event::Tilt(_) | Event::SubStart(_));
         let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;

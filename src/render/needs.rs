@@ -1,4 +1,4 @@
-//! Checks that the form's control has what the job needs. If it lacks a code or an axis, the job is an error.
+//! Checks that the form's control has what the job needs. If the control lacks a code or an axis, the job is an error.
 
 use super::fault::{Done, fault};
 use super::shape::Shape;

@@ -31,16 +31,19 @@ pub fn no_value<T>(var: VarId) -> Done<T> {
         _ if var.row().origin == Origin::Job => {
             format!("give it with `--set {}=VALUE` or under \"set\" in the job", var.name())
         }
-        _ => format!("its meaning: {}; give it in the job, or remove the word from the form", var.row().meaning),
+        _ => format!(
+            "meaning of the variable: {}; give its value in the job, or remove the word from the form",
+            var.row().meaning
+        ),
     };
     fault(Code::PR001, format!("[{}] has no value here", var.name()), help)
 }
 
-/// Error: a condition depends on the tools ahead, but the job is read only once and does not list them.
+/// Error: a condition depends on the tools ahead, but the job is read only once and does not list its tools.
 #[cold]
 pub fn no_order() -> Diag {
     Diag::new(Code::PR052, "the next tools are unknown")
-        .help("list them under `tool_order` at the beginning of the job, or render without `--stream`")
+        .help("list the tools under `tool_order` at the beginning of the job, or render without `--stream`")
 }
 
 /// The error of a division by zero.
@@ -48,5 +51,5 @@ pub fn no_order() -> Diag {
 pub fn division_by_zero(divisor: Span) -> Diag {
     Diag::new(Code::PR051, "a division by zero")
         .at(divisor, "this is 0 here")
-        .help("test it first, as `@if [pitch] > 0`")
+        .help("test the divisor first, as `@if [pitch] > 0`")
 }

@@ -5,7 +5,8 @@ use crate::compile::{Letter, LetterKind};
 use crate::diag::Code;
 use crate::number::{LetterFormat, POWERS, Unprintable, quantise};
 
-/// Converts a value to units of its letter's last decimal; reverses the sign if the form does so.
+/// Converts a value to units of its letter's last decimal. Reverses the sign if the form reverses the sign of the
+/// letter.
 #[inline(always)]
 pub fn quantised(info: &Letter, value: f64) -> Done<i64> {
     let value = if info.reversed { -value } else { value };

@@ -10,14 +10,14 @@ use crate::toolpath::Units;
 /// How canned cycles are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Cycles {
-    /// By the form's sequences, or as single moves if the form has none.
+    /// By the form's sequences, or as single moves if the form has no sequence for the cycle.
     #[default]
     Form,
     /// Always as single moves.
     Emulated,
 }
 
-/// Date and time of printing. The caller provides them, because the library never reads a clock.
+/// Date and time of printing. The caller provides date and time, because the library never reads a clock.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Clock {
     /// `[date]`, as 2026-03-31.
@@ -27,8 +27,8 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Parses a date, as `2026-03-31`, or a date with a time, as `2026-03-31T14:05`. A space instead of the T and trailing
-    /// seconds are also accepted. `None`: the text is neither, or the date or time does not exist.
+    /// Parses a date, as `2026-03-31`, or a date with a time, as `2026-03-31T14:05`. A space instead of the T and
+    /// trailing seconds are also accepted. `None`: the text has neither format, or the date or time does not exist.
     pub fn parse(text: &str) -> Option<Clock> {
         let (date, time) = match text.split_once(['T', ' ']) {
             Some((date, time)) => (date, Some(time)),
@@ -76,7 +76,7 @@ pub struct Options {
     pub units: Option<Units>,
     /// Number of the program; default: the number in the job.
     pub program: Option<u32>,
-    /// Answers to prompts and values of variables. They override the job's.
+    /// Answers to prompts and values of variables. These values override those of the job.
     pub set: Vec<(VarId, f64)>,
     /// Values of properties that override all others, by row.
     pub properties: Vec<(u16, PropertyValue)>,

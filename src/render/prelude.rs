@@ -1,4 +1,4 @@
-//! Codes before a sequence of moves that lacks them: plane, motion and feed.
+//! Prints codes before a sequence of moves that lacks them: plane, motion and feed.
 
 use super::cx::Writer;
 use super::fault::{Done, fault_at};
@@ -13,7 +13,7 @@ use crate::lang::{Machine, VarId};
 use crate::sema;
 use crate::toolpath::Axes;
 
-/// Prints the plane's code in a separate block if the sequence needs it and does not print it.
+/// Prints the plane's code in a separate block if the sequence needs the code and does not print it.
 pub fn plane_block(plane: Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     if writer.said.is_in_plane(plane) || prints_code(routine, |code| shape.is_plane(code), shape) {
@@ -32,8 +32,8 @@ pub fn enter_plane(plane: Code, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Prints the motion code before a sequence of moves without one, if the control is in another motion: otherwise a cut would be a
-/// rapid. Returns whether it was printed.
+/// Prints the motion code before a sequence of moves without a motion code, if the control is in another motion.
+/// Otherwise a cut would be a rapid. Returns whether the code was printed.
 fn motion_before(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done<bool> {
     let shape = writer.shape;
     let lacks = !writer.said.motion_in_force(code) && shape.program.speaks_g && !prints_motion(routine, shape);
@@ -43,14 +43,15 @@ fn motion_before(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) 
     Ok(lacks)
 }
 
-/// Prints the motion code in a separate block, before a sequence of rapids without one.
+/// Prints the motion code in a separate block, before a sequence of rapids without a motion code.
 pub fn motion_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
     motion_before(code, routine, writer)?;
     writer.out.end_block();
     Ok(())
 }
 
-/// Prints the motion code before a sequence that moves without one: the feed code for cuts, the rapid code for everything else.
+/// Prints the motion code before a sequence that moves without a motion code: the feed code for cuts, the rapid code
+/// for everything else.
 pub fn way_before(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let program = shape.program;
@@ -67,7 +68,8 @@ pub fn way_before(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Prints motion code and feed in a separate block, before a sequence that lacks one of them. Arc sequences print their own code.
+/// Prints motion code and feed in a separate block, before a sequence that lacks the motion code or the feed. Arc
+/// sequences print their own code.
 pub fn feed_block(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let begun = code.code == shape.program.settings.feed.code && motion_before(code, routine, writer)?;

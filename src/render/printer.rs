@@ -41,7 +41,7 @@ struct TooLong {
     length: usize,
     /// Maximum block length of the control.
     most: usize,
-    /// The `Replace` that made it too long.
+    /// The `Replace` that made the block too long.
     replaced: Option<Span>,
 }
 
@@ -67,7 +67,7 @@ pub struct Printer {
 /// Text with its source map: the program itself, or text that is stored until the program reaches its position.
 #[derive(Debug, Default)]
 pub struct Page {
-    /// Finished blocks and the open one. The caller takes them.
+    /// Finished blocks and the open one. The caller takes the finished blocks.
     pub text: Vec<u8>,
     /// Blocks printed so far.
     pub lines: u64,
@@ -78,7 +78,7 @@ pub struct Page {
 }
 
 impl Printer {
-    /// An empty printer. The first block number is that of the form.
+    /// An empty printer. The number of the first block is the number that the form sets.
     pub fn new(settings: &Settings, letters: &LetterTable, trace: bool, words: bool) -> Printer {
         let layout = Layout::new(settings, letters);
         Printer {
@@ -155,7 +155,7 @@ impl Printer {
         self.page.lines
     }
 
-    /// Adds a note on the current item; each kind once.
+    /// Adds a note on the current item; each kind of note is added once.
     pub fn note(&mut self, code: Code, message: String, help: &str) {
         self.note_at(code, message, help, None);
     }
@@ -183,7 +183,8 @@ impl Printer {
         self.too_long.map_or(Ok(()), too_long)
     }
 
-    /// Prints a value in units of its letter's last decimal. If it does not fit, the open block is discarded.
+    /// Prints a value in units of its letter's last decimal. If the value does not fit its format, the open block is
+    /// discarded.
     #[inline]
     pub fn letter(&mut self, info: &Letter, units: i64, glued: bool) -> Done {
         let mut lead = Lead::default();
@@ -237,7 +238,7 @@ impl Printer {
         &mut self.page.text
     }
 
-    /// Begins a word in the open block. Returns whether the caller must print a space before it.
+    /// Begins a word in the open block. Returns whether the caller must print a space before the word.
     #[inline]
     fn begins_word(&mut self, glued: bool) -> bool {
         let before = self.words;
@@ -371,7 +372,7 @@ impl Printer {
         self.numbered = false;
     }
 
-    /// Inserts the block number. This comes last because the block may print a number of its own.
+    /// Inserts the block number. The number is inserted last, because the block may print a number of its own.
     fn insert_number(&mut self) {
         let mut prefix = [b' '; 24];
         let bare = self.layout.number_letter == Some(SequenceNumbers::BARE);

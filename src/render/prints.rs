@@ -33,14 +33,14 @@ pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     prints_code(routine, |code| shape.group_of(code) == Some(Group::Motion), shape) || routine.steps().any(by_variable)
 }
 
-/// Does a sequence print a motion code, or a code of no group, which may move by itself?
+/// Does a sequence print a motion code, or a code without a modal group, which may move the axes by itself?
 pub fn prints_own_motion(routine: &Routine, shape: &Shape) -> bool {
     let own = |code: Code| code.letter == b'G' && matches!(shape.group_of(code), None | Some(Group::Motion));
     prints_motion(routine, shape) || prints_code(routine, own, shape)
 }
 
-/// Does a sequence print axis words before its first motion code? A block with a code of no group, as G28, does not count: it
-/// moves by itself.
+/// Does a sequence print axis words before its first motion code? A block with a code without a modal group, such as
+/// G28, does not count, because the code moves the axes by itself.
 pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
     for start in routine.steps().filter(is_line) {
@@ -56,7 +56,7 @@ pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     false
 }
 
-/// Does a sequence print the work offset? An argument of a macro does not count.
+/// Does a sequence print the work offset? An argument of a macro does not count as a work offset.
 pub fn says_work(routine: &Routine, shape: &Shape) -> bool {
     routine.steps().any(|op| shape.program.work.says(op))
 }
@@ -84,7 +84,8 @@ pub fn prints_axis(routine: &Routine, axis: usize, shape: &Shape) -> bool {
     words_of(axis, shape).iter().any(|&var| routine.vars.has(var))
 }
 
-/// Does a sequence print axis words? `typed`: only words with typed or calculated numbers, which move the tool off its position.
+/// Does a sequence print axis words? `typed`: only words with typed or calculated numbers, which move the tool away
+/// from its position.
 pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool {
     routine.steps().any(|i| {
         let letter = match shape.program.ops[i] {

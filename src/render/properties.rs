@@ -10,7 +10,7 @@ use crate::toolpath::Given;
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     value: PropertyValue,
-    /// True: a length is in the form's units. False: in those of the program.
+    /// Whether a length is in the form's units; otherwise it is in the program's units.
     in_forms_units: bool,
 }
 
@@ -18,16 +18,16 @@ struct Held {
 #[derive(Clone, Debug, Default)]
 pub struct Properties {
     now: Vec<Held>,
-    /// Values for operations that set none.
+    /// Values for operations that set no values themselves.
     of_job: Vec<Held>,
-    /// The caller set the value, so that nothing overrides it.
+    /// Whether the caller set the value, which nothing overrides.
     fixed: Vec<bool>,
     /// Number of properties that are fields of tools. They come first.
     of_tool: usize,
 }
 
 impl Properties {
-    /// Values from the form, the shop and the caller. Those of the caller override all others.
+    /// Values from the form, the shop and the caller. Values from the caller override all others.
     pub fn new(settings: &Settings, shop: &[(u16, PropertyValue)], caller: &[(u16, PropertyValue)]) -> Properties {
         let own =
             settings.properties.iter().map(|property| Held { value: property.default.clone(), in_forms_units: true });
@@ -50,12 +50,12 @@ impl Properties {
         &self.now[usize::from(row)].value
     }
 
-    /// Is a length in the form's units? Otherwise it is in the program's.
+    /// Is a length in the form's units? Otherwise the length is in the program's units.
     pub fn is_in_forms_units(&self, row: u16) -> bool {
         self.now[usize::from(row)].in_forms_units
     }
 
-    /// Saves the current values as those of the job.
+    /// Saves the current values as the values of the job.
     pub fn keep(&mut self) {
         self.of_job.clone_from(&self.now);
     }

@@ -24,7 +24,8 @@ pub fn settle(cx: &mut Cx<'_>) -> Done {
     print_lacking(cx)
 }
 
-/// Prints waiting changes at the current position. `cuts`: a cut follows, so that an Upon must not leave the tool elsewhere.
+/// Prints waiting changes at the current position. `cuts`: a cut follows, so an Upon must not leave the tool at another
+/// position.
 #[cold]
 pub fn settle_here(cuts: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
@@ -98,7 +99,7 @@ pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Warns if a line of the form set another value than the condition of the job that is about to be printed.
+/// Warns if a line of the form has set another value than the job requests for the condition that is printed next.
 fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Printer) {
     let Some((typed, line)) = said.take_typed(var) else { return };
     let letter = if var == VarId::Speed { char::from(shape.program.settings.speed_code) } else { 'M' };
@@ -127,7 +128,7 @@ fn own_change(id: SequenceId, vars: &[VarId], cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Prints speed and direction by the form's own sequence, else as a block.
+/// Prints speed and direction by the form's own sequence, otherwise as a block.
 fn spindle_change(cx: &mut Cx<'_>) -> Done {
     let vars = [VarId::Speed, VarId::Direct, VarId::Speedtype];
     own_change(SequenceId::SpindleChange, &vars, cx)?;
@@ -175,8 +176,8 @@ fn print_spindle(writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Checks the spindle limit of a tool whose tool change printed the first speed as the limit: a higher speed or a surface speed
-/// is an error.
+/// Checks the spindle limit of a tool whose tool change printed the first speed as the limit. A higher speed or a
+/// surface speed is an error.
 fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
     let Some(limit) = said.conditions.get(VarId::Maxrpm).filter(|_| want.get(VarId::Maxrpm).is_none()) else {
         return Ok(());

@@ -1,5 +1,5 @@
-//! The form, adapted to one job: its letters, axes, factors to the program's units, and the output that it needs. The head of the
-//! job completes it. A turret on the other side reverses one axis.
+//! The form, adapted to one job: its letters, axes, factors to the program's units, and the output that it needs. The
+//! head of the job completes the shape. A turret on the other side reverses one axis.
 
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
@@ -41,13 +41,13 @@ pub(super) struct Shape<'p> {
     pub units: Units,
     /// Defaults of cycles, in program units.
     pub defaults: Defaults,
-    /// An Upon depends on the targets of moves.
+    /// Whether an Upon depends on the targets of moves.
     pub watches_moves: bool,
-    /// The form prints lengths or times of moves.
+    /// Whether the form prints lengths or times of moves.
     pub measures: bool,
-    /// Every move must set the position variables; otherwise they are set only before a sequence prints.
+    /// Whether every move must set the position variables; otherwise they are set only before a sequence prints.
     pub sets_targets: bool,
-    /// Factors of straight cuts that are printed in one pass; `None`: no cuts are.
+    /// Factors of straight cuts that are printed in one pass; `None`: no cuts are printed in one pass.
     pub plain_factors: Option<[f64; 3]>,
     /// Routines for the branch combinations that were taken so far.
     pub ways: Ways,
@@ -118,8 +118,8 @@ impl<'p> Shape<'p> {
         self.plain_factors = self.factors();
     }
 
-    /// Factors from positions in the program's units to units of the letters h, v, d; `None`: the form prints or checks more in a
-    /// straight cut than positions, its code and a feed.
+    /// Factors from positions in the program's units to units of the letters h, v, d. `None`: in a straight cut, the
+    /// form prints or checks more than positions, its code and a feed.
     fn factors(&self) -> Option<[f64; 3]> {
         let (program, settings) = (self.program, &self.program.settings);
         let cuts = settings.feed.code;
@@ -150,7 +150,7 @@ impl<'p> Shape<'p> {
         self.program.settings.codes().row(code)
     }
 
-    /// The meaning of a code on the form's control; `None` if it is unknown.
+    /// The meaning of a code on the form's control; `None` if the meaning is unknown.
     pub fn meaning_of(&self, code: Code) -> Option<Meaning> {
         self.code_row(code).map(|row| row.meaning)
     }
@@ -175,7 +175,7 @@ impl<'p> Shape<'p> {
         if self.linear == ROTARY.start { ROTARY } else { 0..0 }
     }
 
-    /// Is it the letter of an axis that the form ignores?
+    /// Is this the letter of an axis that the form ignores?
     pub fn is_ignored(&self, letter: u8) -> bool {
         let settings = &self.program.settings;
         settings.is_flat && letter == settings.axes[2]

@@ -11,7 +11,7 @@ use crate::lang::VarId;
 use crate::number::quantise;
 use crate::toolpath::Axes;
 
-/// Sets the variables of a target and of the position before it.
+/// Sets the variables of a target and of the position before the target.
 #[inline]
 pub fn set_targets(target: &Axes, shape: &Shape, want: &mut Want, said: &mut Said) -> Done {
     const UPPER: [VarId; 2] = [VarId::H2, VarId::V2];

@@ -19,7 +19,7 @@ use crate::toolpath::{Start, ToolChange};
 pub struct Texts([String; TEXT_COUNT]);
 
 impl Texts {
-    /// A text; empty where the job has none.
+    /// A text of the job; empty if the job does not have the text.
     pub fn get(&self, id: TextId) -> &str {
         &self.0[id as usize]
     }
@@ -73,7 +73,7 @@ impl Texts {
     }
 }
 
-/// Are all texts in the operations of a comment empty? `property`: is the text of a property empty?
+/// Are all texts of a comment empty? `property`: is the text of a property empty?
 pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) -> bool {
     comment.iter().all(|op| match op {
         Op::TextVar { var, .. } => texts.get(var.id).is_empty(),
@@ -87,8 +87,8 @@ pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) 
 pub struct Names(HashMap<String, String>);
 
 impl Names {
-    /// Checks a tool name that is printed as a word. The control selects the tool by it, so it must not be empty, and no other
-    /// tool may print the same.
+    /// Checks a tool name that is printed as a word. The control selects the tool by its name, so the name must not be
+    /// empty, and no other tool may print the same name.
     pub fn tool(&mut self, text: &Text, out: &Printer) -> Done {
         let own = plain_word(text, fits(out));
         if text.text.is_empty() {
@@ -104,23 +104,24 @@ impl Names {
             return Ok(());
         }
         let message = format!("the tools `{other}` and `{}` both print as {own}", text.text);
-        fault(Code::PR057, message, "give them names with different letters, digits or _ - .")
+        fault(Code::PR057, message, "give the tools names with different letters, digits or _ - .")
     }
 }
 
-/// A text as printed in a word, without the spaces that fill its width.
+/// A text as printed in a word, without the spaces that fill the width of the text.
 fn plain_word(text: &Text, fits: fn(char) -> Option<char>) -> String {
     let wide = usize::from(text.width.unsigned_abs());
     let most = if wide == 0 { usize::MAX } else { wide };
     text.text.chars().take(most).map(|c| fits(c).unwrap_or('_')).collect()
 }
 
-/// A character that a word may contain; `None` for others.
+/// A character that a word may contain; `None` for other characters.
 fn in_word(c: char) -> Option<char> {
     Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
 }
 
-/// A character that a typed text in quotation marks may contain: none that could end the quotation, a block or a comment.
+/// A character that a typed text in quotation marks may contain. The character must not end the quotation, a block or a
+/// comment.
 fn in_quotes(c: char) -> Option<char> {
     in_word(c).or(Some(c).filter(|c| " ,:/+*=<>&'#[]".contains(*c)))
 }
@@ -154,7 +155,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
     };
     if room < most.min(full) {
         let message = format!("{name} is cut to {room} characters: the control's line is full");
-        out.note(Code::PR050, message, "shorten it in the job, or print it on a separate line");
+        out.note(Code::PR050, message, "shorten the text in the job, or print it on a separate line");
     }
     let taken = full.min(room);
     let blanks = room - taken;
@@ -185,7 +186,7 @@ pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out
         out.note(
             Code::PR050,
             message,
-            "use only letters, digits and _ - . in it, or print it in quotation marks or in a comment",
+            "use only letters, digits and _ - . in the text, or print it in quotation marks or in a comment",
         );
     }
 }

@@ -13,12 +13,14 @@ use crate::compile::{LetterKind, Op, Routine, Upon};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
 
-/// Is an Upon due? Its first use only stores the value, unless it prints at every use.
+/// Must an Upon sequence print now? The first use of its variable only stores the value, unless the Upon prints at
+/// every use.
 fn is_due(upon: &Upon, before: Option<f64>, value: f64) -> bool {
     upon.every || before.is_some_and(|before| before != value)
 }
 
-/// Is an Upon sequence due before these variables are used? `moving`: consider only those that print axis words.
+/// Is an Upon sequence due before these variables are used? `moving`: consider only Upon sequences that print axis
+/// words.
 pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said: &Said) -> bool {
     shape.program.upon_vars.meets(used)
         && shape.program.upons.iter().zip(&said.upon_used).any(|(upon, before)| {
@@ -28,8 +30,9 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
         })
 }
 
-/// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? It does if Index retracts the
-/// tool and moves over the new position, and the Upon does nothing else. Then only the code of the offset is printed.
+/// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? Index replaces the
+/// `Upon` if Index retracts the tool and moves over the new position, and the Upon does nothing else. If Index replaces
+/// the `Upon`, only the code of the offset is printed.
 pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
@@ -52,7 +55,8 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
 }
 
-/// Marks Upons that move the tool as printed if the tool change prints their variables. Otherwise they would move the old tool.
+/// Marks Upons that move the tool as printed if the tool change prints their variables. Otherwise these Upons would
+/// move the old tool.
 pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said) {
     for (i, upon) in shape.program.upons.iter().enumerate() {
         if routine.vars.has(upon.var) && prints_axis_words(&upon.routine, false, shape) {
@@ -61,7 +65,7 @@ pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut
     }
 }
 
-/// Records that a value was printed by other means, so that no Upon is due for it.
+/// Records that a value was printed by other means, so that no Upon sequence prints for the value.
 pub fn upons_are_printed(var: VarId, value: f64, shape: &Shape, said: &mut Said) {
     for (upon, used) in shape.program.upons.iter().zip(&mut said.upon_used) {
         if upon.var == var && !upon.every {
@@ -76,7 +80,8 @@ pub fn run_with_upons(routine: &Routine, cx: &mut Cx<'_>) -> Done {
     run_all(routine, &mut cx.writer())
 }
 
-/// Prints the Upon sequences that are due before these variables are used. Words inside them trigger no further Upons.
+/// Prints the Upon sequences that are due before these variables are used. Words inside Upon sequences trigger no
+/// further Upons.
 pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
@@ -93,7 +98,8 @@ pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
             let routine = shape.way(&upon.routine, cx.want, cx.said);
             let moves = prints_axis_words(routine, false, shape);
             if moves && cx.want.compensated {
-                let message = format!("Upon [{}] moves the tool under cutter compensation", upon.var.name());
+                let message =
+                    format!("the sequence Upon [{}] moves the tool under cutter compensation", upon.var.name());
                 let help = "end the compensation with an `outfeed` before the change";
                 return fault_at(Code::PR030, message, help, Some(routine.span));
             }
@@ -110,7 +116,7 @@ pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Makes increments count from the position that the sequence printed: the remaining distance along its axes is zero.
+/// Makes increments count from the position that the sequence printed: along its axes, no distance remains.
 fn stands_where_it_was_put(shape: &Shape, want: &mut Want, said: &mut Said) {
     for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
         if said.stand.placed & 1 << axis != 0

@@ -8,7 +8,8 @@ use super::want::Want;
 use crate::lang::{Coolant, TextId, VarId};
 use crate::sema::{PropertyKind, Target, Values};
 
-/// Sources of values, and the letter that prints them. The letter matters for angles, because they differ from axis to axis.
+/// Sources of values, and the letter that prints them. The letter matters for angles, because rotary axes have
+/// different angles.
 pub struct Now<'r, 'p> {
     pub shape: &'r Shape<'p>,
     pub want: &'r Want,
@@ -17,12 +18,12 @@ pub struct Now<'r, 'p> {
     pub letter: u8,
     /// Number of the open block, if there is one.
     pub block: Option<i64>,
-    /// Values from `@set` in the sequence, known before it prints.
+    /// Values from `@set` in the sequence, known before the sequence prints.
     pub set: &'r Kept,
 }
 
 impl Now<'_, '_> {
-    /// The value of a variable, if it has one.
+    /// The value of a variable, if the variable has a value.
     #[inline]
     pub fn get(&self, var: VarId) -> Option<f64> {
         if let Some(value) = self.said.kept.of(Target::Var(var)) {
@@ -78,12 +79,12 @@ impl Values for Now<'_, '_> {
     }
 }
 
-/// A property that is a text: the form's `@set` value, else the job's.
+/// The text of a property: the form's `@set` value, otherwise the job's value.
 pub fn property_text<'r>(row: u16, want: &'r Want, said: &'r Said) -> &'r str {
     said.kept.text_of(Target::Property(row)).unwrap_or_else(|| want.properties.get(row).text())
 }
 
-/// The spindle limit, if none is given: the speed itself, unless it is a surface speed.
+/// The spindle limit if the job gives no limit: the speed itself, unless it is a surface speed.
 pub fn rpm_as_limit(shape: &Shape, want: &Want) -> Option<f64> {
     let turns = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[1]);
     want.get(VarId::Speed).filter(|_| turns)

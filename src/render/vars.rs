@@ -22,7 +22,7 @@ pub const PLACE: [VarId; 6] = [VarId::H, VarId::V, VarId::D, VarId::Lasth, VarId
 pub const MEASURES: VarSet =
     VarSet::of(&[VarId::Movelength, VarId::Movetime, VarId::Totalcutdist, VarId::Totalcuttime, VarId::Invtime]);
 
-/// One value for each variable that has one.
+/// The values of variables; a variable may have no value.
 #[derive(Clone, Debug)]
 pub struct Vars {
     values: [f64; MOST_VARIABLES],

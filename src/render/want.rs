@@ -1,4 +1,5 @@
-//! The values that the job currently requests: variables, feed, conditions, tool. Only events of the job change them.
+//! The values that the job currently requests: variables, feed, conditions, tool. Only events of the job change these
+//! values.
 
 use std::sync::Arc;
 
@@ -26,11 +27,11 @@ pub struct Want {
     pub texts: Texts,
     /// Values of the form's properties.
     pub properties: Properties,
-    /// A condition or a variable changed: the next move must check whether it is printed.
+    /// Whether a condition or a variable changed, so that the next move must check whether the change is printed.
     pub changed: bool,
     /// The feed of moves, in program units.
     feed: Option<f64>,
-    /// Feed of moves in units of its letter, if rounding loses little.
+    /// Feed of moves in units of its letter, if the rounding error is small.
     feed_units: Option<i64>,
     /// Unit of feeds.
     feed_mode: FeedMode,
@@ -44,19 +45,19 @@ pub struct Want {
     pub tool_changes: usize,
     /// Spindle limit from a prompt.
     pub most_rpm: Option<f64>,
-    /// An operation is open.
+    /// Whether an operation is open.
     pub in_operation: bool,
     /// Kinds of coolant that the job turned on.
     pub coolant: Coolant,
-    /// The job has set the coolant; otherwise the form may turn some on itself.
+    /// Whether the job has set the coolant; if it has not, the form may turn coolant on.
     pub coolant_is_said: bool,
     /// Code that turns off another kind of coolant and is not printed yet.
     pub ends_coolant: Option<f64>,
-    /// Cutter compensation is on.
+    /// Whether cutter compensation is on.
     pub compensated: bool,
-    /// The current item of the job is a cut.
+    /// Whether the current item of the job is a cut.
     pub cutting: bool,
-    /// The warning about a cut with the spindle off was given in this operation.
+    /// Whether the warning about a cut with the spindle off was given in this operation.
     pub standing_told: bool,
     /// The open canned cycle.
     pub cycle: Option<CycleKind>,
@@ -99,7 +100,7 @@ impl Want {
         want
     }
 
-    /// The value of a variable, if it has one.
+    /// The value of a variable, if the variable has a value.
     #[inline]
     pub fn get(&self, var: VarId) -> Option<f64> {
         self.vars.get(var)
@@ -139,7 +140,7 @@ impl Want {
         self.vars = vars;
     }
 
-    /// Sets a condition; the next move must check whether it is printed.
+    /// Sets a condition; the next move must check whether the condition is printed.
     pub fn set_condition(&mut self, var: VarId, value: f64) {
         self.vars.set(var, value);
         self.changed = true;
@@ -153,7 +154,7 @@ impl Want {
         self.feed
     }
 
-    /// The feed of moves in units of its letter, if rounding loses little.
+    /// The feed of moves in units of its letter, if the rounding error is small.
     #[inline]
     pub fn feed_units(&self) -> Option<i64> {
         self.feed_units
@@ -170,8 +171,8 @@ impl Want {
         self.feed_mode == FeedMode::InverseTime
     }
 
-    /// Sets the feed of a move, which also applies to the following moves. Without one, the previous feed is kept; a move without
-    /// any feed is an error.
+    /// Sets the feed of a move, which also applies to the following moves. If the move has no feed, the previous feed
+    /// is kept. A move without any feed is an error.
     #[inline]
     pub fn take_feed(&mut self, feed: Option<f64>, shape: &Shape) -> Done {
         if let Some(feed) = feed {
@@ -279,8 +280,8 @@ impl Want {
         self.set(VarId::Coolantoff, own.unwrap_or(settings.coolant[1]));
     }
 
-    /// Sets the coolant: one kind, several, or none. `[coolantoff]` becomes the code that turns off the previous kind; of several
-    /// kinds, the first.
+    /// Sets the coolant: one kind, several, or none. `[coolantoff]` becomes the code that turns off the previous kind
+    /// of coolant, or the first of several previous kinds.
     pub fn set_coolant(&mut self, coolant: Coolant, shape: &Shape) -> Done {
         let settings = &shape.program.settings;
         let off = settings.coolant[1];
@@ -302,7 +303,8 @@ impl Want {
         Ok(())
     }
 
-    /// Handles a tool change for which the job sets no coolant. The job's coolant is then off, and the form may turn some on itself.
+    /// Handles a tool change for which the job sets no coolant. The job's coolant is off after the tool change, and the
+    /// form may turn coolant on.
     pub fn coolant_unsaid(&mut self, shape: &Shape) -> Done {
         self.set_coolant(Coolant::OFF, shape)?;
         self.coolant_is_said = false;

@@ -17,9 +17,9 @@ use crate::toolpath::Axes;
 #[derive(Default)]
 pub struct AxisUnits {
     pub units: [i64; 6],
-    /// Axes whose value differs from the printed one.
+    /// Axes whose value differs from the printed value.
     pub changed: u8,
-    /// Axes whose words must be printed: they changed, or are never left out.
+    /// Axes whose words must be printed: the axes changed, or their words are never left out.
     pub prints: u8,
 }
 
@@ -111,7 +111,7 @@ pub fn motion_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     code_word(code, writer)
 }
 
-/// Prints a code, as typed in its command, else in its letter's format.
+/// Prints a code as typed in its command, otherwise in its letter's format.
 pub fn code_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let info = &shape.letters[code.letter()];
@@ -132,8 +132,8 @@ pub fn value_code(letter: u8, value: f64, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Prints a word that is a parameter of the code before it: the time of a dwell, the angle of an orientation. If its letter is
-/// that of an axis, the feed or the speed, the value of that letter is unknown afterwards.
+/// Prints a word that is a parameter of the code before it: the time of a dwell, the angle of an orientation. If the
+/// letter of the parameter is that of an axis, the feed or the speed, the value of the letter is unknown afterwards.
 pub fn parameter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     letter_word(letter, value, shape, said, out)?;
     said.forget(&shape.letters[letter]);

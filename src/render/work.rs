@@ -40,7 +40,11 @@ pub fn work_block(work: f64, writer: &mut Writer<'_>) -> Done {
         }
         None => {
             let message = format!("the work offset changes to {work}, but the form does not print [work]");
-            return fault(Code::PR017, message, "print `G[work]` in the tool changes, or add `Upon [work]`");
+            return fault(
+                Code::PR017,
+                message,
+                "print `G[work]` in the tool changes, or add the sequence `Upon [work]`",
+            );
         }
     }
     writer.out.end_block();

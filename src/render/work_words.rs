@@ -8,7 +8,8 @@ use crate::compile::WorkWord;
 use crate::control::Code;
 use crate::sema;
 
-/// Prints the words of `G[work]` for a fixture of `MoreWork`. Returns false if the form has none for it.
+/// Prints the words of `G[work]` for a fixture of `MoreWork`. Returns false if the form has no `MoreWork` for the
+/// fixture.
 pub fn more_work_words(work: f64, writer: &mut Writer<'_>) -> Done<bool> {
     match writer.shape.program.work.more(work) {
         Some((&WorkWord { code, letter: Some(letter), is_code, .. }, value)) => {

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::source::Source;
 use crate::verify::{Counts, Finding, Verdict};
 
-/// A verdict with all findings. `names` are those of the job and of the program, `files` those of the form.
+/// A verdict with all findings. `names` are the names of the job and of the program, `files` the files of the form.
 pub fn proof(verdict: &Verdict, counts: Counts, names: [&str; 2], files: &[Source]) -> Value {
     let [job, program] = names;
     let allowed: serde_json::Map<String, Value> = match verdict {
@@ -40,7 +40,8 @@ fn some(line: u64) -> Option<u64> {
     Some(line).filter(|line| *line > 0)
 }
 
-/// A finding about a program, with its locations in the job, the form and the program. `files` are those of the form.
+/// A finding about a program, with its locations in the job, the form and the program. `files` are the files of the
+/// form.
 pub fn finding(found: &Finding, files: &[Source]) -> Value {
     let form = found.form.and_then(|span| Some((files.get(span.file as usize)?, span)));
     json!({

@@ -30,7 +30,7 @@ pub struct Row {
     pub text: String,
 }
 
-/// The row of a finding; `files` are those of its form.
+/// The row of a finding; `files` are the files of its form.
 pub fn row(diag: &Diag, files: &[Source]) -> Row {
     let place = diag.place.clone().unwrap_or_default();
     let in_form = diag.labels.first().and_then(|label| {

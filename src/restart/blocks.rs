@@ -7,7 +7,8 @@ use crate::machine::offsets;
 use crate::nc::Rotation;
 use crate::toolpath::{FeedMode, Plane, Units};
 
-/// Returns the text, the number of lines before the first line that is copied from the old program, and the notes for the operator.
+/// Returns the text of the new program, the number of its lines before the first line copied from the old program, and
+/// the notes for the operator.
 pub fn program(
     text: &[u8],
     control: &Control,
@@ -242,12 +243,12 @@ fn way_in(control: &Control, entry: &Entry, blocks: &mut Vec<String>) -> Result<
     Ok(())
 }
 
-/// Whether comments of the control begin with a semicolon, as on Grbl.
+/// Whether a comment begins with a semicolon on this control, as on Grbl.
 fn is_bare(control: &Control) -> bool {
     control.rules() == crate::control::Rules::Grbl
 }
 
-/// A number as in programs: with a decimal point and without trailing zeros.
+/// A number as programs contain it: with a decimal point and without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{:.6}", value);
     let text = text.trim_end_matches('0');

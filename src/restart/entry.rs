@@ -1,4 +1,4 @@
-//! Finds the entry: the last line, up to the requested one, at which a program can safely begin.
+//! Finds the entry: the last line at which a program can safely begin, at or before the requested line.
 
 use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
@@ -29,13 +29,13 @@ pub struct Entry {
     /// Further values that are active before this line.
     pub switches: Switches,
     pub said: Said,
-    /// The height from which the tool moves down; `None`: it moves from the tool change position.
+    /// The height from which the tool moves down; `None`: the tool moves from the tool change position.
     pub height: Option<f64>,
-    /// The depth to which the tool then moves at feed, if a cut continues there.
+    /// The depth to which the tool moves at feed from this height, if the program begins in the middle of a cut.
     pub depth: Option<f64>,
 }
 
-/// Values that a program has switched on, besides the modal state.
+/// Values that a program has switched on and that are not part of the modal state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Switches {
     /// Coolant: flood, through the spindle, mist.
@@ -51,7 +51,7 @@ pub struct Switches {
     pub work: bool,
 }
 
-/// Whether the program has set these modes, even to the value that was active already.
+/// Whether the program has set these modes. Setting a mode that was already active also counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Said {
     pub units: bool,
@@ -59,7 +59,7 @@ pub struct Said {
 }
 
 impl Switches {
-    /// Updates the values after a block.
+    /// Updates these values after a block was run.
     pub fn follow(&mut self, action: &Action, run: &Simulator<'_>) {
         match action {
             Action::Coolant(Cooling::Off) => (self.flood, self.mist, self.through) = (false, false, false),
@@ -81,9 +81,10 @@ pub struct Found {
     pub entry: Entry,
     /// The requested line.
     pub asked: u64,
-    /// Number of lines in the head, which ends before the first block that moves, starts the spindle or coolant, or changes a tool.
+    /// Number of lines in the head of the program. The head ends before the first block that moves an axis, starts the
+    /// spindle or coolant, or changes a tool.
     pub head: u64,
-    /// Codes between the head and the entry that are not part of the modal state, with their lines.
+    /// Codes between the head and the entry that are not part of the modal state, each with its line.
     pub codes: Vec<(u64, String)>,
 }
 
@@ -129,7 +130,7 @@ struct Search<'t> {
     /// Whether comments in the head are ignored in the search for an operation.
     past_head: bool,
     switches: Switches,
-    /// The last possible entry that was found up to the requested line.
+    /// The last possible entry found so far that is not after the requested line.
     entry: Option<Entry>,
     /// The first possible entry after the requested line.
     next: Option<u64>,
@@ -146,10 +147,10 @@ struct Search<'t> {
     way: Option<f64>,
     /// Whether the last move was a rapid.
     came_at_rapid: bool,
-    /// Whether the tool length has changed since the last programmed Z position. The height of the tool then depends on
-    /// both lengths.
+    /// Whether the tool length has changed since the last programmed Z position. After such a change, the height of the
+    /// tool depends on the old and on the new length.
     height_by_other: bool,
-    /// A possible entry at a T word whose tool change has not come yet. At this entry the tool is clear of the part.
+    /// A possible entry at a T word whose tool change has not come yet. At this T word the tool is clear of the part.
     tool_line: Option<Entry>,
 }
 
@@ -276,8 +277,8 @@ impl<'t> Search<'t> {
         }
     }
 
-    /// The entry before this block, if one is possible. The block must change the tool, or the tool must be at the
-    /// height of its rapids.
+    /// The entry before this block, if an entry is possible there. The block must change the tool, or the tool must be
+    /// at the height of its rapids.
     fn entry_before(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         let control = run.control();
         let is_free = !before.compensated && !before.has_cycle && !before.is_shifted;
@@ -312,7 +313,8 @@ impl<'t> Search<'t> {
         (is_high && goes_on).then(|| entry(Some(height)))
     }
 
-    /// The entry at the requested block itself. The tool goes to the height of its last rapid, and then at feed into the cut.
+    /// The entry at the requested block itself. The tool goes to the height of its last rapid, and from this height at
+    /// feed into the cut.
     fn exact_entry(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         if changes {
             return self.entry_before(before, line, changes, run);
@@ -320,7 +322,7 @@ impl<'t> Search<'t> {
         let why = if run.control().is_lathe() {
             "on a lathe a restart begins at a turret change"
         } else if before.compensated {
-            "the block is under cutter compensation, which must begin with its own move"
+            "cutter compensation is on in the block, but the program must begin before the move that turns it on"
         } else if before.has_cycle {
             "a canned cycle is active, and its words are in the blocks before"
         } else if before.is_shifted || self.height_by_other || before.unknown & 0b111 != 0 {
@@ -359,7 +361,7 @@ impl<'t> Search<'t> {
         }
         let Some(entry) = self.entry else {
             let why =
-                self.never.unwrap_or_else(|| "the tool is never at the height of its rapids before this line".into());
+                self.never.unwrap_or_else(|| "before this line the tool is never at the height of its rapids".into());
             return refuse(format!("the program can't begin at or before line {asked}: {why}"), after);
         };
         let mut codes = self.codes;

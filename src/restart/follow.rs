@@ -7,12 +7,12 @@ use super::{Refused, refuse};
 use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
 use crate::toolpath::Plane;
 
-/// If positions differ by at most this value, they are equal. The value is in the program's units; positions are
+/// Two positions are equal if they differ by at most this value. The value is in the program's units; positions are
 /// written with six decimals.
 const SAME: f64 = 2e-6;
 
-/// Runs both programs in parallel and returns the number of equal moves. `across`: the new program has moved to the X
-/// and Y of the entry, as far as they are known.
+/// Runs both programs in parallel and returns the number of equal moves. `across`: whether the new program has moved to
+/// the X and Y of the entry, as far as X and Y are known.
 pub fn same(
     old: &[u8],
     new: &[u8],
@@ -35,7 +35,7 @@ pub fn same(
             (Some(one), Some(_)) if !placed && one.goes_down_unsaid() => {
                 return refuse(
                     format!(
-                        "at line {} the program goes down, but its X and Y are given only before the entry",
+                        "at line {} the tool moves down, but the X and Y of the move are given only before the entry",
                         old.line()
                     ),
                     "begin at another line, so that X and Y are given between this line and the move down",
@@ -60,7 +60,7 @@ pub fn same(
     Ok(moves)
 }
 
-/// A move or a stop, with the modal state when it is made.
+/// A move or a stop, with the modal state at this move or stop.
 #[derive(Debug)]
 struct Seen {
     action: Action,
@@ -175,12 +175,12 @@ fn at(to: &[f64; 6]) -> String {
     format!("X{} Y{} Z{}", to[0], to[1], to[2])
 }
 
-/// Whether two positions are equal. Axes whose position the program does not contain are not compared.
+/// Whether two positions are equal. An axis is not compared if the program does not contain its position.
 fn near_known(one: &[f64; 6], two: &[f64; 6], machine: u8) -> bool {
     (0..6).all(|axis| machine & 1 << axis != 0 || (one[axis] - two[axis]).abs() <= SAME)
 }
 
-/// A program that is being run.
+/// One of the two programs, while it is run.
 struct Side<'a> {
     run: Simulator<'a>,
     switches: Switches,

@@ -1,8 +1,8 @@
-//! Makes a program that begins in the middle of another program, with the same modal state.
+//! Makes a program that begins in the middle of an old program, with the modal state that the old program has there.
 //!
 //! The new program has four parts: the head of the old program, blocks that restore the modal state at the entry, an
-//! approach from above, and the unchanged rest of the old program. Both programs are then run and compared. If their
-//! motions differ anywhere after the entry, no new program is returned.
+//! approach from above, and the unchanged rest of the old program. The old and the new program are run, and their
+//! motions are compared. If their motions differ anywhere after the entry, no new program is returned.
 
 mod blocks;
 mod entry;
@@ -22,7 +22,8 @@ pub struct Asked {
     pub target: Target,
     /// A height above all obstacles, in the program's units, for a control that can't retract to machine zero.
     pub clear: Option<f64>,
-    /// Whether the program must begin at the requested block itself, even in the middle of a cut. The tool then moves down at feed.
+    /// Whether the program must begin at the requested block itself, even in the middle of a cut. In the middle of a
+    /// cut, the tool moves down at feed.
     pub exactly: bool,
 }
 
@@ -37,7 +38,7 @@ pub struct Restarted {
     pub asked: u64,
     /// Notes for the operator, one sentence each.
     pub notes: Vec<String>,
-    /// Number of equal moves in both programs, from the entry on.
+    /// Number of moves after the entry that are equal in both programs.
     pub moves: u64,
 }
 
@@ -46,7 +47,7 @@ pub struct Restarted {
 pub enum Refused {
     /// The program can't be read.
     Io(io::Error),
-    /// A sentence, and a proposed solution.
+    /// A sentence with the reason, and a proposed solution.
     Why(String, String),
 }
 

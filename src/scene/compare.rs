@@ -29,7 +29,8 @@ pub fn against(name: &str, old: &[u8], new: &str, options: &Options) -> Option<V
     Some(value)
 }
 
-/// The lines that differ from the program that the last saved form prints. `before` is `None` if that form prints no program.
+/// The lines that differ from the program that the last saved form prints. `before` is `None` if the last saved form
+/// prints no program.
 pub fn saved(before: Option<&str>, new: &str, options: &Options) -> Option<Value> {
     match before {
         Some(before) => Some(hunks(&compared(before.as_bytes(), new, options)?)),

@@ -12,7 +12,7 @@ use crate::span::Span;
 const MOST: usize = 500;
 
 /// The files of a form, the findings of lint, the lines of the letter formats, and the properties. For a form without
-/// text it also contains the posts that come with postform: a new form may begin with one of them.
+/// text, the posts that come with postform are added, because a new form may begin with one of these posts.
 pub fn form(checked: &Checked, diags: &[Diag], suppressed: usize) -> Value {
     let files = checked.files.as_slice();
     let count = |severity| diags.iter().filter(|diag| diag.severity == severity).count();

@@ -39,8 +39,8 @@ pub struct At {
     pub ask: Ask,
 }
 
-/// Answers a request. The answer contains either `list`, the possible words with the text that each of them replaces,
-/// or `text`, which is Markdown, with its location `at`. Null: there is no answer.
+/// Answers a request. The answer contains `list` or `text`. `list` has the possible words, each with the text that it
+/// replaces. `text` is Markdown, with its location `at`. Null: there is no answer.
 pub fn help(request: Request<'_>, at: &At) -> Value {
     if at.ask == Ask::Explain {
         return explain(&at.file).map_or(Value::Null, |text| json!({ "text": text }));

@@ -37,7 +37,7 @@ use crate::toolpath::Units;
 
 /// The page of `postform watch`, as `page/` builds it.
 pub const WATCH_PAGE: &str = include_str!("../../page/dist/watch.html");
-/// The page of `postform plot`, as `page/` builds it. It does not contain a scene yet.
+/// The page of `postform plot`, as `page/` builds it, without a scene.
 pub const PLOT_PAGE: &str = include_str!("../../page/dist/plot.html");
 
 /// The input of a scene.
@@ -50,13 +50,15 @@ pub struct Request<'a> {
     pub limits: Limits,
     /// Severities of the lint rules.
     pub levels: &'a Levels,
-    /// The job, or the reason why it can't be read. The scene then shows the reason and no program.
+    /// The job, or the reason why it can't be read. If the job can't be read, the scene shows the reason and no
+    /// program.
     pub job: Result<Job<'a>, String>,
     /// The name of the job.
     pub job_name: &'a str,
     /// Options for printing the job.
     pub options: Options,
-    /// Values of the form's properties that were set in the page: names and texts. They replace the values in `options`.
+    /// Values of the form's properties that were set in the page: names and texts. These values replace those in
+    /// `options`.
     pub properties: Vec<(String, String)>,
     /// Settings for running the program.
     pub proof: Proof,
@@ -155,7 +157,7 @@ pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     scene
 }
 
-/// A small scene with one value. It is sent after the main scene, or absorbed by it.
+/// A small scene with one value, which is sent after the main scene or becomes a part of the main scene.
 pub fn behind(name: &str, value: Value) -> Scene {
     let mut scene = Scene::new();
     scene.say(name, value);
@@ -229,7 +231,8 @@ impl Printed {
         compare::against(name, old, self.text(), options)
     }
 
-    /// The blocks that differ from the program that the last saved form prints. `before` is `None` if that form printed no program.
+    /// The blocks that differ from the program that the last saved form prints. `before` is `None` if the last saved
+    /// form printed no program.
     pub fn since_saved(&self, before: Option<&str>, options: &diff::Options) -> Option<Value> {
         compare::saved(before, self.text(), options)
     }

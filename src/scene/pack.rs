@@ -22,7 +22,7 @@ pub struct Scene {
 struct Section {
     name: String,
     bytes: Vec<u8>,
-    /// The hash of the bytes. It is calculated when it is first needed.
+    /// The hash of the bytes. The hash is calculated when it is first needed.
     hash: OnceCell<u64>,
 }
 
@@ -76,13 +76,13 @@ impl Scene {
         format!("{:016x}", hasher.finish())
     }
 
-    /// Removes all sections, for a client that already has them.
+    /// Removes all sections, for a client that already has these sections.
     pub fn without_sections(&mut self) {
         self.sections.clear();
     }
 
     /// Removes each section that the client already has. `known` contains the hashes of the client's sections by name,
-    /// as in the head of an earlier scene. The head then lists the names of the removed sections as `kept`.
+    /// as in the head of an earlier scene. The head lists the names of the removed sections as `kept`.
     pub fn without_known(&mut self, known: &HashMap<String, String>) {
         let mut hashes = Map::new();
         let mut kept = Vec::new();

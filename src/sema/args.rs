@@ -28,7 +28,8 @@ pub struct Arguments<'a> {
     pub all: &'a [Spanned],
     /// The whole command.
     pub span: Span,
-    /// Whether the arguments are written in the form and are not defaults. Codes in them are then printed as written.
+    /// Whether the arguments are written in the form and are not defaults. Codes in written arguments are printed as
+    /// written.
     pub typed: bool,
 }
 
@@ -145,7 +146,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads the word of a choice. Returns it in the spelling of the command table.
+    /// Reads the word of a choice. Returns the word in the spelling of the command table.
     pub fn choice(&self) -> Read<&'static str> {
         match choice_of(self.id, &self.all[0].text) {
             Some(word) => Ok(word),
@@ -195,7 +196,7 @@ fn wants(id: CommandId) -> String {
     }
 }
 
-/// Finds the word of a choice. Returns it in the spelling of the command table.
+/// Finds the word of a choice. Returns the word in the spelling of the command table.
 pub fn choice_of(id: CommandId, text: &str) -> Option<&'static str> {
     match id.row().args {
         Args::Choice(words) => words.iter().find(|w| w.eq_ignore_ascii_case(text)).copied(),

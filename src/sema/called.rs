@@ -22,7 +22,7 @@ fn is_outside(name: &str) -> bool {
 }
 
 impl Analysis {
-    /// Parses a file. At each `Call`, also parses the file that it names.
+    /// Parses a file. At each `Call`, also parses the file that the `Call` names.
     pub(super) fn add_file(
         &mut self,
         source: Source,

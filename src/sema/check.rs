@@ -1,4 +1,4 @@
-//! Analyses a whole form. Each item is read once, and all findings are collected in one run.
+//! Analyses a whole form. Each item of the form is read once, and all findings are collected in one run.
 
 use std::collections::HashSet;
 
@@ -29,7 +29,7 @@ pub struct Checked {
 }
 
 impl Checked {
-    /// Whether the form has errors. Such a form can't be rendered.
+    /// Whether the form has errors. A form with errors can't be rendered.
     pub fn has_errors(&self) -> bool {
         self.diags.iter().any(Diag::is_error)
     }
@@ -79,7 +79,8 @@ impl Analysis {
         self.diags.push(diag);
     }
 
-    /// Reads machine and units before all other commands, because the defaults of the others depend on them.
+    /// Reads machine and units before all other commands, because the defaults of other commands depend on machine and
+    /// units.
     fn settings(&mut self, items: &[&Head]) {
         let find = |id: CommandId| {
             items.iter().find_map(|item| match item {
@@ -109,7 +110,7 @@ impl Analysis {
                 let joined: String = text.split_whitespace().take(2).collect();
                 let help = match SequenceId::parse(&joined) {
                     Some(id) => format!("write `{}`", id.name()),
-                    None => "remove it, or give the lines above it a sequence name".into(),
+                    None => "remove this End, or give the lines above it a sequence name".into(),
                 };
                 self.report(
                     Diag::new(Code::PF007, "End is outside a sequence")

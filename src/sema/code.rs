@@ -2,8 +2,8 @@
 
 use crate::control;
 
-/// A code in a command. A code written with its letter is printed as written. A code written without it is printed in the format of its
-/// letter.
+/// A code in a command. A code written with its letter is printed as written. A code written without its letter is
+/// printed in the format of the letter.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Code {
     /// The letter (written or implied) and the number.

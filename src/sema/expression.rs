@@ -10,7 +10,7 @@ use crate::lang::{Coolant, TextVar, VarId, VarSet, did_you_mean};
 use crate::span::Span;
 use crate::syntax::{Arithmetic, Comparison, Expr, ExprKind, Operator, Spanned, Unread};
 
-/// Variables whose value is 1 or 0. A condition may use such a variable without a comparison.
+/// Variables whose value is 1 or 0. A condition may use a variable of this list without a comparison.
 const YES_OR_NO: VarSet =
     VarSet::of(&[VarId::Lasthole, VarId::Isfirsthole, VarId::Rigid, VarId::Isfirsttool, VarId::Islasttool]);
 
@@ -43,7 +43,8 @@ pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Di
     Some(formula)
 }
 
-/// Reads a condition. A variable without a comparison is true if it has a value; a variable that is 1 or 0 is true if it is 1.
+/// Reads a condition. A variable without a comparison is true if the variable has a value. A variable that is 1 or 0 is
+/// true if it is 1.
 pub fn condition(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     asked(read(expr, diags)?, context, diags)
 }
@@ -295,8 +296,8 @@ fn compared(
     Some(Formula::Compare(comparison, Box::new([left_formula, right_formula])))
 }
 
-/// Checks a comparison of a choice property with a text in quotes. The text must be one of the choice's words, and only `=`, `<>` and
-/// `like` are allowed, because the words have no order.
+/// Checks a comparison of a choice property with a text in quotes. The text must be one of the choice's words. Only
+/// `=`, `<>` and `like` are allowed, because the words have no order.
 fn chosen(
     operator: Operator,
     sides: [(Formula, Kind); 2],
@@ -349,7 +350,7 @@ fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Op
     }
 }
 
-/// Resolves a name without brackets. Its meaning depends on the other operand.
+/// Resolves a name without brackets. The meaning of the name depends on the other operand.
 fn named(
     word: &str,
     span: Span,

@@ -18,7 +18,8 @@ pub enum NamePart {
     Text(TextId),
 }
 
-/// The file name of a program, without its extension. If empty, the program has the name of the job's file.
+/// The file name of a program, without its extension. If the file name is empty, the program has the name of the job's
+/// file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ProgramName(pub Vec<NamePart>);
 

@@ -18,10 +18,10 @@ pub const MOST_ARMS: usize = 128;
 /// Combines the lines of a sequence with its directives.
 #[derive(Default)]
 pub struct Flow {
-    /// The open levels, each with its finished steps.
+    /// The open levels of directives, each with its finished steps.
     levels: Vec<Level>,
-    /// Number of directives beyond the maximum depth that are not yet closed by `@end`. They open no level, which limits
-    /// the depth of the tree.
+    /// Number of directives beyond the maximum depth that are not yet closed by `@end`. A directive beyond the maximum
+    /// depth opens no level, which limits the depth of the tree.
     too_deep: usize,
     /// Steps of the outermost level.
     steps: Vec<Step>,
@@ -212,8 +212,8 @@ impl Flow {
         self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { .. }))
     }
 
-    /// Whether a directive is beyond the maximum depth, or belongs to such a directive. The lines of such a directive are added to the
-    /// level above.
+    /// Whether a directive is beyond the maximum depth, or belongs to a directive beyond it. The lines of these
+    /// directives are added to the level above.
     fn lies_too_deep(&mut self, directive: &Directive, diags: &mut Vec<Diag>) -> bool {
         if directive.kind.opens() && self.levels.len() == DEEPEST {
             if self.too_deep == 0 {

@@ -106,9 +106,9 @@ impl Function {
 
 /// The source of the values for a formula.
 pub trait Values {
-    /// The current value of a variable; `None` if it has none.
+    /// The current value of a variable; `None` if the variable has no value.
     fn number(&self, var: VarId) -> Option<f64>;
-    /// A text; empty if the job has none.
+    /// A text of the job; empty if the job does not have the text.
     fn text(&self, id: TextId) -> &str;
     /// The coolant that the job currently requests.
     fn coolant(&self) -> Coolant;
@@ -118,7 +118,7 @@ pub trait Values {
     fn property_text(&self, row: u16) -> &str;
 }
 
-/// A source without values. A formula that can be calculated with it is constant.
+/// A source without values. A formula that can be calculated without values is constant.
 pub struct NoValues;
 
 impl Values for NoValues {

@@ -7,7 +7,8 @@ use crate::source::Source;
 use crate::syntax::{self, Head, Statement};
 
 impl Analysis {
-    /// The index of the item at which a second post begins. Reports this post as an error. The items after it are not analysed.
+    /// The index of the item at which a second post begins. Reports this post as an error. The items after the start of
+    /// the second post are not analysed.
     pub(super) fn second_post(&mut self, items: &[&Head]) -> Option<usize> {
         let begun = items.iter().enumerate().filter_map(|(at, item)| Some((at, named(item)?)));
         let posts: Vec<(usize, &Statement)> = begun.collect();
@@ -46,7 +47,7 @@ fn text(statement: &Statement) -> String {
 /// numbers do not change.
 ///
 /// # Errors
-/// The file has no post with this name. The error lists the names of its posts.
+/// The file has no post with this name. The error lists the names of the posts in the file.
 pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
     let tree = syntax::parse(&file, 0);
     let posts: Vec<(String, usize)> = tree

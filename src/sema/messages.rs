@@ -29,7 +29,7 @@ pub(super) fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
         .help("keep one of them")
 }
 
-/// Adds the advice to write the line in backquotes, because it is text for the control.
+/// Adds the advice to write a line of text for the control in backquotes.
 pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
     let [begin, end] = [span.start, span.end].map(|at| (Span { start: at, end: at, ..span }, "`".to_owned()));
     diag.help("put text of the control in backquotes, from the beginning of the line to its end").fix(
@@ -55,7 +55,7 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     diag
 }
 
-/// Whether the name is a letter with a number, as `G80`. No valid name has this form.
+/// Whether the name is a letter with a number, as `G80`. No valid name is a letter with a number.
 pub fn is_word(name: &str) -> bool {
     let number = name.strip_prefix(|c: char| c.is_ascii_alphabetic());
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))

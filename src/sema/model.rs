@@ -10,7 +10,7 @@ use crate::lang::{SequenceId, TextVar, VarId, VarSet};
 use crate::number::LetterFormat;
 use crate::span::Span;
 
-/// An analysed form. It can be rendered if the analysis found no error.
+/// An analysed form. A form can be rendered if the analysis found no error.
 #[derive(Clone, Debug, Default)]
 pub struct Form {
     /// Settings from the commands.
@@ -21,7 +21,7 @@ pub struct Form {
     pub packed: IndexMap<u8, String>,
     /// The sequences in file order.
     pub sequences: IndexMap<SequenceId, Sequence>,
-    /// `Upon [var]` and `Upon Every [var]`.
+    /// The sequences `Upon [var]` and `Upon Every [var]`.
     pub upons: Vec<Upon>,
 }
 
@@ -34,7 +34,7 @@ pub struct Sequence {
     pub span: Span,
     /// For an advanced cycle, the number of lines that print at the first hole only.
     pub count: Option<usize>,
-    /// The comment after the name. For a Custom cycle it names the kind of cycle.
+    /// The comment after the name. For a Custom cycle the comment names the kind of cycle.
     pub remark: Option<String>,
     /// Whether the body consists of the word `None`.
     pub is_none: bool,
@@ -47,14 +47,14 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// The kind of cycle that a Custom sequence prints. It is the first word of the sequence's comment.
+    /// The kind of cycle that a Custom sequence prints: the first word of the sequence's comment.
     pub fn custom_kind(&self) -> Option<&str> {
         let is_custom = matches!(self.id, SequenceId::Custom1 | SequenceId::Custom2 | SequenceId::Custom3);
         self.remark.as_deref().filter(|_| is_custom).and_then(kind_of_remark)
     }
 }
 
-/// The first word of a comment. In a Custom cycle it names the kind of cycle.
+/// The first word of a comment. In a Custom cycle this word names the kind of cycle.
 pub fn kind_of_remark(remark: &str) -> Option<&str> {
     remark.split([' ', '\t', ',', '(']).next().filter(|word| !word.is_empty())
 }
@@ -101,7 +101,7 @@ pub enum WordKind {
     Var(u8, VarId),
     /// The value of a variable without a letter.
     Value(VarId),
-    /// A variable inside a comment of the program. The control does not read its value.
+    /// A variable inside a comment of the program. The control does not read the value in the comment.
     Remark(VarId),
     /// A letter and a number, printed as written in the form.
     Literal(u8, String, f64),
@@ -123,8 +123,8 @@ pub enum WordKind {
     PropertyText(u16),
     /// A property with a text value inside a comment of the program.
     RemarkProperty(u16),
-    /// A comment with texts of the job. The number is how many of the following words belong to it. It is not printed if all its texts
-    /// are empty.
+    /// A comment with texts of the job. The number counts the following words that belong to the comment. The comment
+    /// is not printed if all its texts are empty.
     Comment(usize),
 }
 
@@ -170,7 +170,7 @@ impl Word {
         }
     }
 
-    /// The G or M code of the word if it is a number in the form. A slash for block delete may precede the code.
+    /// The G or M code of the word if the code is a number in the form. A slash for block delete may precede the code.
     pub fn code(&self) -> Option<Code> {
         b"GM".iter().find_map(|&letter| Code::of(letter, self.typed(letter)?))
     }
@@ -180,7 +180,8 @@ impl Word {
         self.typed(letter).is_some_and(|value| codes.contains(&value))
     }
 
-    /// The number of a word with this letter if it is a number in the form. A slash for block delete may precede the word.
+    /// The number of a word with this letter if the number is written in the form. A slash for block delete may precede
+    /// the word.
     pub fn typed(&self, letter: u8) -> Option<f64> {
         match &self.kind {
             WordKind::Literal(own, _, value) if *own == letter => Some(*value),

@@ -1,12 +1,12 @@
-//! The tolerance for comparing numbers in a form. Calculations have rounding errors: 12.7 mm are 0.49999999999999994 inches. A
-//! form that compares this value with .5 must find them equal.
+//! The tolerance for comparing numbers in a form. Calculations have rounding errors: 12.7 mm are 0.49999999999999994
+//! inches. In a form, this value must count as equal to .5.
 
 use std::cmp::Ordering;
 
-/// Absolute tolerance. It is a thousandth of the finest digit that a control reads.
+/// Absolute tolerance: a thousandth of the finest digit that a control reads.
 const NEAR: f64 = 1e-9;
 
-/// Relative tolerance. It applies to numbers so large that their binary precision is coarser than the absolute tolerance.
+/// Relative tolerance, for numbers so large that their binary precision is coarser than the absolute tolerance.
 const NEAR_OF_LARGE: f64 = 1e-12;
 
 fn is_near(left: f64, right: f64) -> bool {
@@ -23,13 +23,13 @@ pub fn is_zero(value: f64) -> bool {
     is_near(value, 0.0)
 }
 
-/// The next lower whole number. A number within the tolerance of a whole number is rounded to it.
+/// The next lower whole number. A number within the tolerance of a whole number is rounded to this whole number.
 pub fn floor(value: f64) -> f64 {
     let nearest = value.round();
     if is_near(value, nearest) { nearest } else { value.floor() }
 }
 
-/// The next higher whole number. A number within the tolerance of a whole number is rounded to it.
+/// The next higher whole number. A number within the tolerance of a whole number is rounded to this whole number.
 pub fn ceil(value: f64) -> f64 {
     -floor(-value)
 }

@@ -19,7 +19,8 @@ impl Property {
     }
 }
 
-/// The tool fields that the texts of a form use, such as `[tool.holder]`. A job can give their values under `data` of each tool.
+/// The tool fields that the texts of a form use, such as `[tool.holder]`. A job can give the values of the tool fields
+/// under `data` of each tool.
 pub(super) fn fields_of_tools<'t>(texts: impl Iterator<Item = &'t str>) -> Vec<Property> {
     let mut fields: Vec<Property> = Vec::new();
     for text in texts {

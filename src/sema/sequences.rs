@@ -221,9 +221,9 @@ impl Analysis {
         }
     }
 
-    /// Reports a command between the name and the End of a sequence, where it would be printed. A line counts as a command only
-    /// if its arguments are valid. Commands with text arguments are not checked, because conversational controls use words such
-    /// as `CALL` and `NAME` too.
+    /// Reports a command between the name and the End of a sequence, where the command would be printed as words. A
+    /// line counts as a command only if its arguments are valid. Commands with text arguments are not checked, because
+    /// conversational controls use words such as `CALL` and `NAME` too.
     fn command_inside(&mut self, body: &Body) {
         let Some((first, args)) = body.words.split_first().filter(|(_, args)| !args.is_empty()) else { return };
         let [Piece { kind: PieceKind::Stray(name), .. }] = first.pieces.as_slice() else { return };
@@ -268,7 +268,8 @@ fn is_often(id: SequenceId) -> bool {
     id.row().is_cycle || moves.contains(&id)
 }
 
-/// Finds a misspelt End, such as `EndCancel`, `End; Cancel` or `End;`. Returns its text, location and correct spelling.
+/// Finds a misspelt End, such as `EndCancel`, `End; Cancel` or `End;`. Returns the text, the location and the correct
+/// spelling of the `End`.
 fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
     let texts: Option<Vec<&str>> = body
         .words
@@ -292,7 +293,7 @@ fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
 struct Lines {
     lines: Vec<Line>,
     steps: Option<Vec<Step>>,
-    /// Whether a directive is wrong. It is then unknown which lines print.
+    /// Whether a directive is wrong, so that it is unknown which lines print.
     torn: bool,
 }
 

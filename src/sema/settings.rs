@@ -15,7 +15,7 @@ use crate::syntax::Spanned;
 pub enum ArcCentre {
     /// One letter for each axis, in the order of the axes. With only two letters, arcs are possible in fewer planes.
     Letters(Vec<u8>),
-    /// The radius, with this letter, instead of the centre. It is negative for arcs over 180 degrees.
+    /// The radius, with this letter, instead of the centre. The radius is negative for arcs over 180 degrees.
     Radius(u8),
 }
 
@@ -33,7 +33,8 @@ pub struct DwellWord {
 /// The settings of block numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SequenceNumbers {
-    /// The letter; a space for numbers without a letter. If `None`, only lines that print `[block]` have numbers.
+    /// The letter of block numbers; a space for numbers without a letter. If `None`, only lines that print `[block]`
+    /// have numbers.
     pub letter: Option<u8>,
     /// The first number.
     pub start: i64,
@@ -57,9 +58,9 @@ impl Default for ArcCentre {
 pub struct CoolantKind {
     /// Kind of coolant.
     pub kind: Coolant,
-    /// Code that turns it on.
+    /// Code that turns the coolant on.
     pub on: f64,
-    /// Code that turns it off. If `None`, the code for flood coolant is used.
+    /// Code that turns the coolant off. `None`: the code for flood coolant is used.
     pub off: Option<f64>,
 }
 
@@ -72,7 +73,7 @@ pub struct MoreWork {
     pub code: Option<control::Code>,
     /// The letter of the word that selects the offset.
     pub letter: u8,
-    /// The number in that word for the first of these offsets.
+    /// The number that selects the first of these offsets.
     pub number: f64,
 }
 
@@ -144,21 +145,21 @@ macro_rules! settings {
             pub cw: Code,
             /// The code of generated counter-clockwise arcs.
             pub ccw: Code,
-            /// Letters of the three axes in generated moves. The third is the depth axis.
+            /// Letters of the three axes in generated moves. The third letter is the depth axis.
             pub axes: [u8; 3],
             /// Letters of the axes of the upper wire guide.
             pub axes2: [u8; 3],
-            /// How the centre of full circles is printed, if differently.
+            /// How the centre of full circles is printed, if not like the centre of other arcs.
             pub centre_full: Option<ArcCentre>,
             /// Prompts for variables.
             pub prompts: Vec<Prompt>,
             /// Whether the later passes of a thread print approach, cut, clear and return, and not only X.
             pub thread_full: bool,
-            /// Secondary clearance of deep cycles for which the job gives none.
+            /// Secondary clearance of deep cycles for which the job gives no clearance of this kind.
             pub cycle_back_deep: Option<f64>,
-            /// Secondary clearance of chip-breaking cycles for which the job gives none.
+            /// Secondary clearance of chip-breaking cycles for which the job gives no clearance of this kind.
             pub cycle_back_chipbreak: Option<f64>,
-            /// Secondary clearance of cycles through webs for which the job gives none.
+            /// Secondary clearance of cycles through webs for which the job gives no clearance of this kind.
             pub cycle_back_thru: Option<f64>,
             /// Whether a peck cycle dwells after each step.
             pub cycle_dwell_steps: bool,
@@ -167,7 +168,7 @@ macro_rules! settings {
         }
 
         impl Settings {
-            /// Empty settings. They do not have the defaults of the commands.
+            /// Empty settings, without the defaults of the commands.
             pub(super) fn blank() -> Self {
                 Settings {
                     $($($field: <$type>::default(),)?)*
@@ -234,12 +235,13 @@ impl Settings {
         self.store(args)
     }
 
-    /// The control of the form. If the form names none, this is a generic control similar to a Fanuc.
+    /// The control of the form. If the form names no control, this is a generic control similar to a Fanuc.
     pub fn control(&self) -> &'static Control {
         self.control.unwrap_or_else(Control::of_no_name)
     }
 
-    /// The control whose code table applies. On lathes and wire EDM machines codes have other meanings, so the generic control is used.
+    /// The control whose code table applies. On lathes and wire EDM machines, codes have other meanings, so the code
+    /// table of the generic control is used.
     pub fn codes(&self) -> &'static Control {
         if self.machine == Machine::Mill { self.control() } else { Control::of_no_name() }
     }
@@ -262,7 +264,7 @@ impl Settings {
         }
     }
 
-    /// Whether a command of the form has this G code. The effect of the code is then known.
+    /// Whether a command of the form has this G code, so that the effect of the code is known.
     pub fn names_code(&self, asked: control::Code) -> bool {
         let codes = [Some(&self.rapid), Some(&self.feed), Some(&self.cw), Some(&self.ccw), Some(&self.dwell.code)];
         let more = [self.depth_rapid.as_ref(), self.thread.as_ref(), Some(&self.orient.0)];

@@ -120,7 +120,7 @@ impl Setting for LineEnd {
     }
 }
 
-/// Two texts. The second may be empty.
+/// Two texts, of which the second may be empty.
 impl Setting for [String; 2] {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         *self = [0, 1].map(|i| args.all.get(i).map_or_else(String::new, |arg| arg.text.clone()));
@@ -176,7 +176,8 @@ impl Setting for Vec<Prompt> {
 }
 
 impl Settings {
-    /// Checks the word of `Machine` or `Units`. Both were read before all other commands, whose defaults depend on them.
+    /// Checks the word of `Machine` or `Units`. `Machine` and `Units` were read before all other commands, whose
+    /// defaults depend on these two.
     pub(super) fn known_word(&mut self, args: &Arguments) -> Read<()> {
         args.choice().map(|_| ())
     }

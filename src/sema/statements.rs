@@ -71,7 +71,7 @@ impl Analysis {
             let at = bad.span.unwrap_or(statement.line.span);
             let mut diag = Diag::new(Code::PF302, bad.message).at(at, "here");
             if let Tail::Lost(lost) = &statement.line.tail {
-                diag = diag.at(lost.span, "two spaces before this make it a comment");
+                diag = diag.at(lost.span, "two spaces before this text make it a comment");
             }
             let without = match id.row().without.to_string() {
                 nothing if nothing.is_empty() => nothing,
@@ -119,8 +119,8 @@ impl Analysis {
     }
 }
 
-/// Finds a control character in a text that is printed. `Name` is not checked: it is not printed, and old forms may have such characters
-/// in it.
+/// Finds a control character in a text that is printed. `Name` is not checked, because it is not printed and old forms
+/// may have control characters in it.
 fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> {
     use CommandId::{Comment, Eob, Mod, Replace};
     if !matches!(id, Comment | Eob | Mod | Replace) {

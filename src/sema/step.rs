@@ -12,11 +12,11 @@ use crate::span::Span;
 pub enum Step {
     /// Lines of the sequence that print.
     Lines(Range<usize>),
-    /// Branches. The steps of the first arm with a true condition print. If no condition is true, nothing prints.
+    /// Branches. The steps of the first branch with a true condition print. If no condition is true, nothing prints.
     If(Vec<Arm>),
     /// A list. The steps print once for each item.
     For(Each, Vec<Step>, Span),
-    /// Sets a variable or property. The value applies to everything after it.
+    /// Sets a variable or property. The value applies to everything after the directive.
     Set(Target, Formula, Span),
 }
 
@@ -25,9 +25,9 @@ pub enum Step {
 pub struct Arm {
     /// Location of the directive.
     pub span: Span,
-    /// Condition of the arm; `None` for `@else`.
+    /// Condition of the branch; `None` for `@else`.
     pub condition: Option<Formula>,
-    /// Steps inside the arm.
+    /// Steps inside the branch.
     pub steps: Vec<Step>,
 }
 

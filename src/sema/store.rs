@@ -7,7 +7,7 @@ use crate::lang::Args;
 
 /// A field of the settings that a command sets.
 pub trait Setting {
-    /// Sets the field from the arguments. Their number is already checked.
+    /// Sets the field from the arguments. The number of arguments is already checked.
     fn set(&mut self, args: &Arguments) -> Read<()>;
 }
 
@@ -28,7 +28,7 @@ impl Setting for bool {
     }
 }
 
-/// A control, by its name. If a file describes the control, it is stored before the commands are read.
+/// A control, by its name. If a file describes the control, the control is stored before the commands are read.
 impl Setting for Option<&'static Control> {
     fn set(&mut self, args: &Arguments) -> Read<()> {
         let name = args.text().to_ascii_lowercase();

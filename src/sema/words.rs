@@ -53,8 +53,8 @@ fn statement(words: &[syntax::Word]) -> Option<Span> {
     asks.then(|| first.span.to(last.span))
 }
 
-/// The number of words before a comment that extends to the end of the block. The words after its mark are text of the comment,
-/// as in round brackets. They set nothing and print whenever the block prints.
+/// The number of words before a comment that extends to the end of the block. The words after the comment mark are text
+/// of the comment, as in round brackets. Words in a comment set no values and print whenever the block prints.
 pub fn before_remark(words: &[syntax::Word], comment: &[String; 2]) -> usize {
     let [open, close] = comment;
     let opens = |word: &syntax::Word| matches!(word.pieces.first(), Some(Piece { kind: PieceKind::Stray(text), .. }) if text.starts_with(open.as_str()));
@@ -121,7 +121,7 @@ fn push(piece: &Piece, previous: Option<&Piece>, context: &Context, words: &mut 
     if is_value && previous.is_some_and(Piece::is_word) {
         diags.push(
             Diag::new(Code::PF001, "a value directly after a word")
-                .at(piece.span, "this would be printed as a separate word")
+                .at(piece.span, "the value would be printed as a separate word")
                 .help("keep one of them; for leading zeros use a format, as `T 2` for T01"),
         );
     }
@@ -164,8 +164,8 @@ fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     var
 }
 
-/// Checks that a text of the job outside a comment follows text of the form. Otherwise the control could read a name such as M30
-/// as a code. A space, a point or the slash of block delete is not sufficient.
+/// Checks that a text of the job outside a comment follows text of the form. Without text of the form, the control
+/// could read a name such as M30 as a code. A space, a point or the slash of block delete does not count as text here.
 fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     let holds = |piece: &Piece| match &piece.kind {
         PieceKind::Stray(text) | PieceKind::Quote(text) => !text.trim_matches([' ', '/', '.']).is_empty(),
@@ -276,7 +276,7 @@ impl<'a> Note<'a> {
         }
     }
 
-    /// Adds a comment in round brackets. If the comment is not closed in the form, it ends with the form's closing mark.
+    /// Adds a comment in round brackets. A comment that is not closed in the form ends with the form's closing mark.
     fn brackets(&mut self, parts: &[Piece], closed: bool, context: &Context, diags: &mut Vec<Diag>) {
         self.text.push('(');
         self.pieces(parts, context, diags);
@@ -322,8 +322,8 @@ fn check_text(text: &str, span: Span, after_word: bool, diags: &mut Vec<Diag>) {
     } else if after_word {
         diags.push(
             Diag::new(Code::PF001, format!("`{}` is directly after a word", text))
-                .at(span, "this would be printed after the value")
-                .help("remove it, or put a space before it"),
+                .at(span, "this text would be printed after the value")
+                .help("remove the text, or put a space before it"),
         );
     }
 }

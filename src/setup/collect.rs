@@ -42,8 +42,8 @@ fn json(value: &Given) -> serde_json::Value {
     }
 }
 
-/// The rows that come from the job. The caller adds the data of the program, the machine and the files.
-/// `by_diameter`: on a lathe, whether X of its programs is a diameter; `None` for a mill.
+/// The rows that come from the job. The caller adds the data of the program, the machine and the files. `by_diameter`:
+/// whether X in the programs of a lathe is a diameter; `None` for a mill.
 pub fn of_job(
     survey: &Survey,
     stops: Stops,

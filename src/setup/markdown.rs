@@ -25,7 +25,8 @@ pub fn markdown(sheet: &SetupSheet) -> String {
     text
 }
 
-/// A text for a cell of a table. It is escaped so that it neither ends the cell nor forms Markdown.
+/// A text for a cell of a table. Its special characters are escaped, so the text can't end the cell and is not read as
+/// Markdown.
 fn cell(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

@@ -33,11 +33,11 @@ pub struct SetupSheet {
     pub form: String,
     /// `mm` or `inch`.
     pub units: &'static str,
-    /// On a lathe, whether X of the program is a radius or a diameter. `None`: the job is for a mill.
+    /// Whether X in a lathe's program is a radius or a diameter. `None`: the job is for a mill.
     pub x: Option<&'static str>,
     /// The result of verifying the program against the job.
     pub verdict: String,
-    /// The machine, and the results of the check whether the program fits into it, one sentence each.
+    /// The machine, and the results of the check whether the program fits into the machine, one sentence each.
     pub machine: Vec<String>,
     /// Work offsets, each with the extents of its cuts.
     pub works: Vec<Work>,
@@ -47,12 +47,13 @@ pub struct SetupSheet {
     pub operations: Vec<OperationRow>,
     /// Program stops, each with the comment before it in the job.
     pub stops: Vec<StopRow>,
-    /// Minutes of all cuts. Rapids, dwells and tool changes are not included.
+    /// Minutes of all cuts, without rapids, dwells and tool changes.
     pub minutes: Option<f64>,
-    /// Times of the program on the machine, calculated with its accelerations; `None`: the accelerations are unknown.
+    /// Times of the program on the machine, calculated with the machine's accelerations; `None`: the accelerations are
+    /// unknown.
     #[serde(serialize_with = "seconds")]
     pub times: Option<Times>,
-    /// SHA-256 hashes of job, form, control, machine and program, each with the name of its file.
+    /// SHA-256 hashes of the files of job, form, control, machine and program, each with its file name.
     pub hashes: Vec<[String; 2]>,
     /// Pictures as SVG, each with a caption.
     #[serde(skip)]
@@ -60,7 +61,7 @@ pub struct SetupSheet {
 }
 
 impl SetupSheet {
-    /// Adds a file with its SHA-256, as `sha256sum` prints it.
+    /// Adds a file with its SHA-256 hash, written as `sha256sum` prints it.
     pub fn add_file(&mut self, name: String, bytes: &[u8]) {
         let digits = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         self.hashes.push([name, digits]);
@@ -97,7 +98,8 @@ fn seconds<S: serde::Serializer>(times: &Option<Times>, serializer: S) -> Result
 pub struct Work {
     /// Name of the offset in the program.
     pub name: String,
-    /// Least and greatest X, Y, Z of the cuts. On a lathe, X is a radius or a diameter as in the program, and Y is `None`.
+    /// Least and greatest X, Y, Z of the cuts. On a lathe, X is a radius or a diameter, whichever the program uses, and
+    /// Y is `None`.
     pub cuts: [Option<[f64; 2]>; 3],
     /// Least and greatest X, Y, Z of cuts and rapids.
     pub moves: [Option<[f64; 2]>; 3],
@@ -122,7 +124,7 @@ pub struct ToolRow {
     pub length: Option<f64>,
     /// Comment about the tool in the job.
     pub comment: Option<String>,
-    /// Further values of the tool in the job, with the names that they have there.
+    /// Further values of the tool, with their names in the job.
     pub data: serde_json::Map<String, serde_json::Value>,
     /// Names of the operations that use the tool.
     pub operations: Vec<String>,
@@ -232,7 +234,7 @@ fn time(minutes: Option<f64>) -> String {
     minutes.map_or("not known".into(), crate::nc::clock)
 }
 
-/// A table with its column titles. The HTML page and the Markdown text both use it.
+/// A table with its column titles. The HTML page and the Markdown text both use this table.
 struct Table {
     title: &'static str,
     head: Vec<&'static str>,

@@ -4,8 +4,8 @@ use crate::toolpath::Side;
 
 use super::sweep::Shape;
 
-/// If 1 plus the cosine of the change of direction is at most this value, the corner is sharp: the tool moves around
-/// it, and not to the point where the offset paths meet.
+/// A corner is sharp if 1 plus the cosine of the change of direction is at most this value. The tool moves around a
+/// sharp corner, and not to the point where the offset paths meet.
 const SHARP: f64 = 0.25;
 
 /// A straight piece of the path of a tool, in millimetres.
@@ -31,7 +31,7 @@ impl Piece {
 }
 
 /// Offsets the programmed path by the tool radius. A compensated piece is returned only after the next piece is known,
-/// because its end depends on both.
+/// because the end of a compensated piece also depends on the next piece.
 #[derive(Clone, Debug, Default)]
 pub struct Centre {
     /// The last compensated piece as programmed, and the position of the tool's centre at its start.
@@ -53,7 +53,7 @@ impl Centre {
         [before, None]
     }
 
-    /// Ends the waiting piece and returns it. `next` is the piece after it, if that one is compensated, too.
+    /// Ends the waiting piece and returns it. `next` is the compensated piece that follows the waiting piece, if any.
     pub fn ends(&mut self, next: Option<&Piece>) -> Option<Piece> {
         let (piece, from) = self.waits.take()?;
         let sign = if piece.side == Some(Side::Left) { 1.0 } else { -1.0 };

@@ -28,7 +28,8 @@ pub struct StockCheck {
     pub blocks: usize,
     /// What was not checked, one sentence for each reason. Empty: every move was checked.
     pub not_checked: Vec<String>,
-    /// Whether the program uses cutter compensation. It is then assumed that the control compensates the whole radius of the tool.
+    /// Whether the program uses cutter compensation. The check assumes that the control compensates the whole radius of
+    /// the tool.
     pub compensates: bool,
 }
 
@@ -92,7 +93,8 @@ enum Missing {
     Rotary,
     /// The spindle is stopped at an angle: a boring bar may be moved away from the wall of its hole.
     Oriented,
-    /// The moves after a block that the control refuses: the line of the block, and the reason.
+    /// The control refuses a block, so the moves after the block are not checked: the line of the block, and the
+    /// reason.
     After(u64, String),
 }
 
@@ -101,17 +103,17 @@ struct Check<'a> {
     stock: &'a Stock,
     tools: &'a [JobTool],
     units: Units,
-    /// The stock in each work offset. It is added at the first move below its top.
+    /// The stock in each work offset. The stock of an offset is added at the first move below the top of the stock.
     fields: BTreeMap<usize, Field>,
     /// Position of the tip in its work offset; NaN if unknown.
     at: [f64; 3],
-    /// The same position in program coordinates and the program's units.
+    /// Position of the tip in program coordinates and the program's units.
     from: Position,
     tool: Option<u32>,
     side: Option<Side>,
     is_oriented: bool,
-    /// Whether the tool may be below the top of the stock at an unknown height. True after a change of the work offset
-    /// below the top.
+    /// Whether the tool may be below the top of the stock at an unknown height. The value is true after a change of the
+    /// work offset while the tool is below the top.
     may_be_low: bool,
     centre: Centre,
     /// Number of the active work offset.
@@ -290,7 +292,7 @@ impl<'a> Check<'a> {
         });
     }
 
-    /// The shape of the tool in the spindle. If it can't be checked, records the reason.
+    /// The shape of the tool in the spindle. If the tool can't be checked, records the reason.
     fn shape(&mut self, line: u64) -> Option<Shape> {
         let Some(number) = self.tool else {
             self.missing(Missing::Tool, line);
@@ -320,7 +322,8 @@ impl<'a> Check<'a> {
         self.missing.entry(what).or_insert((line, 0)).1 += 1;
     }
 
-    /// The next move does not continue the path: ends the piece that is waiting for it, and cuts this piece.
+    /// Ends the piece that waits for the next move, and cuts this piece, because the next move does not continue the
+    /// path.
     fn breaks(&mut self) {
         if let Some(piece) = self.centre.ends(None) {
             self.makes(Kind::Cut, &piece, (0, b""));
@@ -357,7 +360,8 @@ impl<'a> Check<'a> {
     }
 }
 
-/// A position in its work offset, in millimetres. NaN for axes whose position is known only at the machine.
+/// A position in its work offset, in millimetres. Axes whose position is known only in machine coordinates have the
+/// value NaN.
 fn in_stock(at: &Position, machine: u8, run: &Simulator<'_>) -> [f64; 3] {
     let scale = run.state().units().in_mm();
     let place = run.state().in_work_offset(at);

@@ -8,7 +8,8 @@ use super::sweep::Shape;
 /// The smallest size of a cell in millimetres, and the greatest number of cells along a side of the stock.
 const FINEST: f64 = 0.25;
 const MOST_CELLS: f64 = 1000.0;
-/// If a rapid is below the surface by at most this distance in millimetres, there is no finding, because the cells are not finer.
+/// A rapid that is at most this distance (in millimetres) below the surface is no finding, because the cells are not
+/// finer.
 const TOLERANCE: f64 = 0.2;
 
 /// The deepest point of a rapid that goes through the stock.
@@ -111,7 +112,7 @@ impl Field {
         self.cells(1, from[1].min(to[1]) - radius, from[1].max(to[1]) + radius)
     }
 
-    /// The columns of a row that the tool may touch. Only the part of the move near the row counts.
+    /// The columns of a row that the tool may touch. Only the part of the move near the row is considered.
     fn columns(&self, row: usize, from: [f64; 3], to: [f64; 3], radius: f64) -> Range<usize> {
         let way: [f64; 2] = std::array::from_fn(|axis| to[axis] - from[axis]);
         let beside = [-radius, radius].map(|by| (self.middle(1, row) + by - from[1]) / way[1]);

@@ -73,5 +73,5 @@ fn number(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.abs() <= FARTHEST)
 }
 
-/// A position farther from zero than this is a typing error, in any unit.
+/// A position farther from zero than this value is a typing error, in any unit.
 const FARTHEST: f64 = 1e6;

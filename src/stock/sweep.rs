@@ -5,7 +5,8 @@
 pub struct Shape {
     /// Radius of the tool in millimetres.
     pub radius: f64,
-    /// Corner radius of the tool in millimetres. If it equals the radius of the tool, the tool is a ball end mill.
+    /// Corner radius of the tool in millimetres. If the corner radius equals the radius of the tool, the tool is a ball
+    /// end mill.
     pub corner: f64,
 }
 
@@ -57,5 +58,6 @@ impl Shape {
     }
 }
 
-/// Each step makes the interval a third shorter: after 20 steps, a 3000th of the move over the point is left.
+/// Each step of the search makes the interval a third shorter: after 20 steps, a 3000th of the move over the point is
+/// left.
 const NARROWINGS: u32 = 20;

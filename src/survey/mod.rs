@@ -1,5 +1,6 @@
-//! Collects the contents of a job before it is printed: tools, operations and work offsets, the extents and the length of the
-//! cuts. Some forms print these before the first move. The job is then read twice, and the first reading makes the survey.
+//! Collects the contents of a job before it is printed: tools, operations and work offsets, the extents and the length
+//! of the cuts. Some forms print these contents before the first move. For these forms the job is read twice, and the
+//! first reading makes the survey.
 
 mod motion;
 mod subprograms;
@@ -23,11 +24,11 @@ use subprograms::Subprograms;
 pub struct Terms {
     /// Default values of cycles: the first for jobs in inches, the second for jobs in millimetres.
     pub defaults: [Defaults; 2],
-    /// The work offset of a job that names none, in the numbering of the form.
+    /// The work offset of a job that names no work offset, in the numbering of the form.
     pub work: f64,
     /// The number that the form uses for the first work offset.
     pub first_work: f64,
-    /// Whether only the order of the tools is needed. Some jobs contain this order in their head.
+    /// Whether only the order of the tools is needed. Some jobs contain the order of the tools in their head.
     pub only_order: bool,
     /// The speeds of the machine, for calculating times with its accelerations.
     pub rates: Option<Rates>,
@@ -222,7 +223,7 @@ impl Surveyor {
         self.row_of(self.work);
     }
 
-    /// The index of a work offset. A new row is added at its first use.
+    /// The index of a work offset. A new row is added at the first use of the offset.
     fn row_of(&mut self, work: f64) -> usize {
         let works = &mut self.survey.works;
         *self.work_rows.entry(key(work)).or_insert_with(|| {
@@ -231,7 +232,8 @@ impl Surveyor {
         })
     }
 
-    /// Adds the moves of a subprogram. They are in the work offset of the call, unless the subprogram selects one itself.
+    /// Adds the moves of a subprogram. The moves are in the work offset of the call, unless the subprogram selects its
+    /// own work offset.
     fn call(&mut self, call: &Call) {
         self.flush();
         self.motion.forget_place();

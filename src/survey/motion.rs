@@ -64,7 +64,7 @@ impl Motion {
         self.at = Axes::default();
     }
 
-    /// Begins a subprogram. In a subprogram, only the values that it sets itself are known.
+    /// Begins a subprogram. In a subprogram, only the values that the subprogram sets itself are known.
     pub fn begin_subprogram(&mut self) {
         self.forget_place();
         self.spindle = Spindle::default();
@@ -102,8 +102,9 @@ impl Motion {
         self.spindle.speed.filter(|_| self.spindle.css != Some(true))
     }
 
-    /// Spindle revolutions per minute during a cut that begins at `from`. At a constant surface speed (in metres or feet per
-    /// minute), they are those at the middle of the cut. For a straight cut, this gives the exact time.
+    /// Spindle revolutions per minute during a cut that begins at `from`. At a constant surface speed (in metres or
+    /// feet per minute), the revolutions at the middle of the cut are used. For a straight cut, the speed at the middle
+    /// gives the exact time.
     fn rpm_from(&self, from: &Axes) -> Option<f64> {
         let (Some(speed), Some(true)) = (self.spindle.speed, self.spindle.css) else { return self.rpm() };
         let radius = (from.get(1)? + self.at.get(1)?).abs() / 2.0;
@@ -163,7 +164,8 @@ impl Motion {
         }
     }
 
-    /// The travel from `from`, in millimetres and degrees. It is 0 for an axis of which one position is unknown.
+    /// The travel from `from`, in millimetres and degrees. The travel is 0 for an axis of which one position is
+    /// unknown.
     fn way(&self, from: &Axes) -> Way {
         let between = |axis| Some(self.at.get(axis)? - from.get(axis)?);
         let way = |axis| between(axis).map_or(0.0, |way| if axis < 3 { way * self.scale } else { way });

@@ -1,4 +1,5 @@
-//! The sums of subprograms, which are added wherever a subprogram is called. They are computed once, even if there are many calls.
+//! The sums of subprograms, which are added wherever a subprogram is called. The sums are computed once, even if there
+//! are many calls.
 
 use std::collections::HashMap;
 
@@ -34,7 +35,7 @@ enum State {
     /// Only the subprogram's own moves are included.
     #[default]
     Own,
-    /// The sums of the subprograms that it calls are being added.
+    /// The sums of the called subprograms are being added.
     Adding,
     /// The sums are complete.
     Known,

@@ -23,7 +23,7 @@ impl Reach {
         }
     }
 
-    /// Extends the ranges to those of `other`.
+    /// Extends the ranges so that they include those of `other`.
     pub fn join(&mut self, other: &Reach) {
         for (axis, reach) in other.0.iter().enumerate() {
             if let Some((least, most)) = reach {
@@ -89,7 +89,8 @@ impl Totals {
         self.moves == Reach::default() && self.holes == 0
     }
 
-    /// Whether all positions are in one work offset. If not, they have no common least and greatest value.
+    /// Whether all positions are in one work offset. Positions in several work offsets have no common least and
+    /// greatest value.
     pub fn in_one_frame(&self) -> bool {
         self.works.len() <= 1
     }

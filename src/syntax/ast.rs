@@ -1,4 +1,5 @@
-//! The syntax tree. It contains each name, letter, variable, number, comment and ignored rest of a line with its location.
+//! The syntax tree. The tree contains each name, letter, variable, number, comment and ignored rest of a line with its
+//! location.
 
 use super::expression::{Expr, Unread};
 use crate::span::Span;
@@ -67,7 +68,7 @@ pub enum Head {
         /// The text after the letter, such as `->3.>4`.
         spec: Spanned,
     },
-    /// A command, or a line that looks like one.
+    /// A command, or a line that looks like a command.
     Statement(Statement),
     /// An `End` outside a sequence.
     StrayEnd(Line),
@@ -91,7 +92,7 @@ pub enum Tail {
     None,
     /// A comment that begins with `#`.
     Comment(Span),
-    /// Text after two spaces or a tab. It is not printed.
+    /// Text after two spaces or a tab, which is not printed.
     Lost(Spanned),
 }
 
@@ -102,7 +103,7 @@ pub struct Statement {
     pub line: Line,
     /// The first word of the line.
     pub name: Spanned,
-    /// The words after it, without quotes.
+    /// The words after the first word, without quotes.
     pub args: Vec<Spanned>,
 }
 
@@ -118,7 +119,7 @@ pub struct SequenceNode {
 }
 
 impl SequenceNode {
-    /// The location from the name line to the end. If the end is missing, to the last line.
+    /// The location from the name line to the end, or to the last line if the end is missing.
     pub fn span(&self) -> Span {
         let end = self.end.as_ref().map(|end| end.line.span);
         let last = end.or(self.body.last().map(|body| body.line.span));
@@ -131,13 +132,13 @@ impl SequenceNode {
 pub struct Body {
     /// The line.
     pub line: Line,
-    /// The words of the line. Empty on an empty line, and for a comment or a directive.
+    /// The words of the line. The list is empty on an empty line, and for a comment or a directive.
     pub words: Vec<Word>,
     /// The directive, if the line is a directive instead of words.
     pub directive: Option<Box<Directive>>,
 }
 
-/// A directive, such as `@if [cool] = through`. It selects the lines that print.
+/// A directive, such as `@if [cool] = through`. A directive selects the lines that print.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Directive {
     /// The name as written, such as `@if`.
@@ -195,7 +196,7 @@ pub struct End {
 pub struct Word {
     /// Location.
     pub span: Span,
-    /// The parts of the word. It has several parts if a space is missing, or if it is a text with variables.
+    /// The parts of the word. A word has several parts if a space is missing, or if it is a text with variables.
     pub pieces: Vec<Piece>,
 }
 
@@ -236,12 +237,12 @@ pub enum PieceKind {
     },
     /// A variable with a text value, such as `[toolname]` or `[toolname:12]`.
     TextVariable {
-        /// The letter before it. Such a letter is an error.
+        /// The letter before the variable, which is an error.
         letter: Option<u8>,
         /// The name between the brackets, with its width.
         name: Spanned,
     },
-    /// The text in backquotes. It is printed as written.
+    /// The text in backquotes, which is printed as written.
     Quote(String),
     /// Any other text, as written.
     Stray(String),
@@ -270,8 +271,9 @@ impl Piece {
         matches!(self.kind, PieceKind::Variable { .. } | PieceKind::Expression { .. } | PieceKind::Literal { .. })
     }
 
-    /// Whether a space is missing between the previous part and this one. Both are then still printed as separate words. Before a
-    /// value without a letter, a space never counts as missing, because the value may belong to the word before it.
+    /// Whether a space is missing between the previous part and this part. Both parts are still printed as separate
+    /// words. Before a value without a letter, a space never counts as missing, because the value may belong to the
+    /// word before it.
     pub fn lacks_blank_after(&self, before: &Piece) -> bool {
         let begins = match self.kind {
             PieceKind::Variable { letter, .. } | PieceKind::Expression { letter, .. } => letter.is_some(),

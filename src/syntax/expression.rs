@@ -33,9 +33,9 @@ pub enum ExprKind {
     Number(String),
     /// Text between quotes.
     Text(String),
-    /// A name in brackets. It is a variable.
+    /// A name in brackets, which is a variable.
     Variable(String),
-    /// A name outside brackets. It is the name of a value, such as `through`.
+    /// A name outside brackets, which is the name of a value, such as `through`.
     Word(String),
     /// A function with its arguments, such as `max(h, 0)`.
     Call(Spanned, Vec<Expr>),
@@ -65,7 +65,7 @@ pub struct Unread {
     pub span: Span,
     /// The reason.
     pub why: String,
-    /// How to correct it, if known.
+    /// How to correct the error, if known.
     pub help: Option<String>,
 }
 
@@ -165,7 +165,7 @@ fn unread(text: &str, at: usize, span: Span) -> Unread {
 
 /// A correction for syntax of other languages.
 fn instead(read: &str, rest: &str) -> Option<String> {
-    /// Text at the point where reading stopped, each with its correction.
+    /// Texts at the point where reading stopped, each with its correction.
     const OTHERS: [(&str, &str); 8] = [
         ("!=", "write `<>` for not equal"),
         ("!", "write `not`"),

@@ -1,4 +1,4 @@
-//! Parses the lines of a form with the grammar. Only this file and the one for expressions use the crate pest.
+//! Parses the lines of a form with the grammar. Only this file and `expression.rs` use the crate pest.
 
 use pest::Parser;
 use pest::iterators::Pair;
@@ -11,7 +11,7 @@ use crate::lang::{CommandId, SequenceId, SequenceName, TextVar};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Minimum of free stack in bytes. If less than 64 KB are left, pest refuses its input.
+/// Minimum of free stack in bytes. If less than 64 KB of stack are left, pest refuses its input.
 const LEAST_STACK: usize = 128 << 10;
 /// Size of the new stack that is allocated if less than the minimum is free.
 const STACK: usize = 1 << 20;
@@ -64,7 +64,7 @@ fn lines(source: &Source, file: u32) -> Form {
     form
 }
 
-/// Adds a sequence as an item. It is boxed, because most items are lines and much smaller.
+/// Adds a sequence as an item. The sequence is boxed, because most items are lines and much smaller.
 fn boxed(node: SequenceNode) -> Head {
     Head::Sequence(Box::new(node))
 }
@@ -91,13 +91,13 @@ impl At {
     }
 }
 
-/// The pairs of one line. The grammar accepts every line. If it fails because of a bug (property tests look for such bugs), the
-/// line counts as empty.
+/// The pairs of one line. The grammar accepts every line. If the grammar fails because of a bug (property tests look
+/// for such bugs), the line counts as empty.
 fn pairs(rule: Rule, text: &str) -> impl Iterator<Item = Pair<'_, Rule>> {
     FormGrammar::parse(rule, text).into_iter().flatten().flat_map(Pair::into_inner)
 }
 
-/// Parses a line outside sequences. If it begins a sequence, returns this sequence.
+/// Parses a line outside sequences. If the line begins a sequence, returns this sequence.
 fn head(at: At, text: &str, index: usize, around: &mut Around<'_>, form: &mut Form) -> Option<SequenceNode> {
     for pair in pairs(Rule::head_line, text) {
         let mut line = at.line(text);
@@ -173,7 +173,8 @@ fn statement(at: At, mut line: Line, pair: Pair<Rule>) -> Statement {
     Statement { line, name, args }
 }
 
-/// Maximum number of lines from an unknown name to its `End`, with empty lines and comments. In known forms it is less than half of that.
+/// Maximum number of lines from an unknown name to its `End`, including empty lines and comments. In known forms the
+/// number of lines is less than half of this maximum.
 const LONGEST_SEQUENCE: usize = 400;
 
 /// The lines around the current one.
@@ -197,7 +198,7 @@ impl Around<'_> {
 enum Mark {
     /// The line is an `End`.
     End,
-    /// The line is a known name. An `End` after it does not belong to the unknown name above.
+    /// The line is a known name. An `End` after the known name does not belong to the unknown name above.
     Name,
     /// Any other line.
     Other,
@@ -219,8 +220,8 @@ impl Mark {
     }
 }
 
-/// Whether this line begins a sequence. A known name does. An unknown name does if an `End` follows before the next known name.
-/// A misspelt name then causes one error, and not one for each line.
+/// Whether this line begins a sequence. A known name begins a sequence. An unknown name begins a sequence if an `End`
+/// follows before the next known name. A misspelt name therefore causes one error, and not an error for each line.
 fn opens_sequence(statement: &Statement, index: usize, around: &mut Around<'_>) -> bool {
     if names_sequence(statement) {
         return true;
@@ -247,7 +248,7 @@ fn names_sequence(statement: &Statement) -> bool {
     SequenceName::parse(&words).is_some()
 }
 
-/// Whether a line inside a sequence is the name line of the next one: its words are a name and at most a count.
+/// Whether a line inside a sequence is the name line of the next sequence: its words are a name and at most a count.
 fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
     let Some(last) = body.words.last() else { return false };
     let words: Vec<&str> = text[..last.span.end as usize - start].split_whitespace().collect();
@@ -259,7 +260,7 @@ fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
     }
 }
 
-/// Parses a line inside a sequence. `Err`: the line is its end.
+/// Parses a line inside a sequence. `Err`: the line is the end of the sequence.
 fn body_line(at: At, text: &str) -> Result<Body, End> {
     let mut body = Body { line: at.line(text), words: Vec::new(), directive: None };
     if is_too_deep(text) {
@@ -365,7 +366,7 @@ fn is_number(text: &str) -> bool {
     text.parse::<f64>().is_ok() && text.bytes().all(|b| b.is_ascii_digit() || b"+-.".contains(&b))
 }
 
-/// Converts `G<0>` to `G0` in arguments of the oldest forms. The location stays the same.
+/// Converts `G<0>` to `G0` in arguments of the oldest forms. The location of the argument stays the same.
 fn without_brackets(mut arg: Spanned) -> Spanned {
     let inner = arg.text.strip_suffix('>').and_then(|text| text.split_once('<'));
     if let Some((letter, number)) = inner
@@ -479,7 +480,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
-        /// The grammar accepts every line. Its words, comment and ignored rest cover everything except spaces.
+        /// The grammar accepts every line. The words, the comment and the ignored rest of a line cover everything
+        /// except spaces.
         #[test]
         fn every_line_matches(text in "[ \\tA-Za-z0-9#;%:()\\[\\]<>.+~\"/é\u{0}-]{0,24}") {
             for rule in [Rule::head_line, Rule::body_line] {

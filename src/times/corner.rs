@@ -3,7 +3,7 @@
 /// The rule of a control for corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Corner {
-    /// The speed in a corner is that on an arc at this distance from the corner, in millimetres: `$11` of Grbl.
+    /// The speed in a corner is the speed on an arc at this distance from the corner, in millimetres: `$11` of Grbl.
     Deviation(f64),
     /// The rule of LinuxCNC's trajectory planner, with this path mode at the beginning.
     Linuxcnc(PathMode),

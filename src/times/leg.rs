@@ -8,7 +8,7 @@ pub(super) struct Leg {
     /// Square of the speed that the leg would have without the adjacent legs.
     pub speed: f64,
     pub acceleration: f64,
-    /// Square of the greatest speed at the beginning of the leg. The corner there limits this speed.
+    /// Square of the greatest speed at the beginning of the leg. The corner at the beginning limits this speed.
     pub most_entry: f64,
     /// Square of the speed at the beginning of the leg, as planned so far.
     pub entry: f64,

@@ -46,7 +46,7 @@ impl Planner {
         }
     }
 
-    /// Adds time to the current block that is not the time of a move, in seconds.
+    /// Adds to the current block a time, in seconds, that is not the time of a move.
     pub fn waits(&mut self, seconds: f64) {
         self.queue.adds(self.queue.row(), seconds);
     }

@@ -24,13 +24,14 @@ pub struct BlockTime {
 
 /// Legs whose planned speeds may still rise.
 ///
-/// The last leg is planned to end in a stop. A new leg may raise the speeds before it. They are recalculated backwards
-/// until a leg keeps its speed, then forwards as far as the accelerations allow. Legs that no later leg can change are
-/// added to the time and removed. The first leg is also removed if the queue has more legs than the control plans ahead.
+/// The last leg is planned to end in a stop. A new leg may raise the speeds of the legs before it. The speeds are
+/// recalculated backwards until a leg keeps its speed, then forwards as far as the accelerations allow. Legs that no
+/// later leg can change are added to the time and removed. The first leg is also removed if the queue has more legs
+/// than the control plans ahead.
 #[derive(Clone, Debug)]
 pub(super) struct Queue {
     ahead: usize,
-    /// The legs in their order. The entry speed of the first one does not change any more.
+    /// The legs in their order. The entry speed of the first leg does not change any more.
     legs: VecDeque<Leg>,
     spent: Spent,
     /// The times of blocks, if they are recorded.

@@ -28,8 +28,8 @@ pub struct Rates {
 }
 
 impl Rates {
-    /// The length of a path to which the feed refers. It is the length of X Y Z if one of these moves, otherwise the
-    /// length of A B C.
+    /// The length of a path to which the feed refers. The feed refers to the length of X Y Z if one of these axes
+    /// moves, otherwise to the length of A B C.
     pub(super) fn length(&self, way: &Way) -> f64 {
         let linear = size(&way[..3]);
         if linear > 0.0 { linear } else { size(way) }

@@ -10,7 +10,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// A position in which the first axes have these values and the others are not given.
+    /// A position in which the first axes have these values and the other axes are not given.
     pub fn new(values: &[f64]) -> Axes {
         let mut axes = Axes::default();
         for (i, &value) in values.iter().take(6).enumerate() {

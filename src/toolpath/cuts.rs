@@ -14,19 +14,19 @@ const DEPTH: u8 = 0b100;
 const SAME_HEIGHT: f64 = 1e-6;
 
 /// A sink that adds the begin and end of cuts and passes all events on. A cut lasts from the first feed move to the
-/// next rapid. It is a part of the path ([`Section::Cut`]) and includes the lead-in and lead-out.
+/// next rapid. The cut is a part of the path ([`Section::Cut`]) and includes the lead-in and lead-out.
 pub struct Cuts<'s> {
     sink: &'s mut dyn Sink,
     /// Whether the form ignores the depth axis.
     is_flat: bool,
     /// Whether the tool is in a cut.
     is_on: bool,
-    /// Other parts that began or ended since the last move: whether the part began, its section, and its location in
-    /// the job.
+    /// Other parts that began or ended since the last move. Each entry contains whether the part began, its section,
+    /// and its location in the job.
     parts: Vec<(bool, Section, Place)>,
     /// Position of the tool.
     at: Axes,
-    /// The height of all cuts, once known.
+    /// The height of all cuts; `None`: not known yet.
     height: Option<f64>,
 }
 
@@ -36,8 +36,8 @@ impl<'s> Cuts<'s> {
         Cuts { sink, is_flat, is_on: false, parts: Vec::new(), at: Axes::default(), height: None }
     }
 
-    /// Pushes the waiting parts and the begin or end of a cut. A cut begins before the parts that begin with it, and
-    /// ends after the parts that end with it.
+    /// Pushes the waiting parts and the begin or end of a cut. If a cut and another part begin at the same move, the
+    /// cut begins first. If both end at the same move, the cut ends last.
     fn switch(&mut self, begins: bool, place: Place) -> Result<(), Stop> {
         let parts = std::mem::take(&mut self.parts);
         let ended = parts.iter().position(|(begins, ..)| *begins).unwrap_or(parts.len());
@@ -74,7 +74,7 @@ impl<'s> Cuts<'s> {
         moves
     }
 
-    /// Handles a rapid, which ends the cut. A rapid along an ignored depth axis only is not passed on.
+    /// Handles a rapid, which ends the cut. A rapid along only an ignored depth axis is not passed on.
     fn rapid(&mut self, to: Axes, place: Place) -> Result<(), Stop> {
         self.switch(false, place)?;
         let moves = self.goes(&to);

@@ -39,7 +39,7 @@ pub struct CycleSpec {
     pub kind: CycleKind,
     /// Depth of the bottom below the point of the hole, positive down.
     pub depth: Option<f64>,
-    /// Height of the R plane above the point of the hole. The feed begins there.
+    /// Height of the R plane above the point of the hole. The feed into the hole begins at the R plane.
     pub clear: Option<f64>,
     /// Height of the return plane above the first point.
     pub return_height: Option<f64>,
@@ -51,7 +51,8 @@ pub struct CycleSpec {
     pub step: Option<f64>,
     /// Depth of the first peck.
     pub first_step: Option<f64>,
-    /// Height above the last depth where the feed begins again. After a chip break, the height by which the tool is lifted.
+    /// Height above the last depth at which the feed begins again. After a chip break, the height by which the tool is
+    /// lifted.
     pub back: Option<f64>,
     /// Dwell at the bottom, in seconds.
     pub dwell: Option<f64>,
@@ -75,7 +76,7 @@ pub struct CycleSpec {
     pub decr: Option<f64>,
     /// Depth of the smallest peck.
     pub min_step: Option<f64>,
-    /// Diameter of a countersink. The depth is calculated from it and from `angle`.
+    /// Diameter of a countersink. The depth is calculated from this diameter and from `angle`.
     pub diameter: Option<f64>,
     /// Included angle of a countersink, in degrees.
     pub angle: Option<f64>,
@@ -93,10 +94,11 @@ pub struct CycleSpec {
     pub rapout: bool,
     /// Height by which a boring cycle lifts the tool while it is off the wall.
     pub jog: Option<f64>,
-    /// Distance by which a boring cycle moves off the wall along y. `offset` is then the distance along x.
+    /// Distance by which a boring cycle moves off the wall along y. If `offset_y` is set, `offset` is the distance
+    /// along x.
     pub offset_y: Option<f64>,
-    /// Whether steps are counted from the point of the hole, as in APT. Otherwise they are counted from the clearance plane, as Q of a
-    /// control.
+    /// Whether steps are counted from the point of the hole, as in APT. Otherwise steps are counted from the clearance
+    /// plane, like Q on a control.
     pub steps_from_point: bool,
     /// Whether the cycle is printed as single moves, even if the form has a sequence for it.
     pub emulate: bool,

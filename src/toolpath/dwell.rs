@@ -1,8 +1,9 @@
-//! The last dwell, which one cycle takes over from another.
+//! The last dwell of a cycle, which a later cycle can use.
 
 use super::{CycleKind, CycleSpec};
 
-/// The last dwell of a cycle. A face cycle, or a tap that does not reverse the spindle, uses it if it has no dwell of its own.
+/// The last dwell of a cycle. A face cycle, or a tap that does not reverse the spindle, uses the last dwell if it has
+/// no dwell of its own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LastDwell {
     seconds: Option<f64>,
@@ -10,7 +11,7 @@ pub struct LastDwell {
 }
 
 impl LastDwell {
-    /// Sets the dwell of a cycle that needs one and has none. If the cycle has its own dwell, remembers it.
+    /// Sets the dwell of a cycle that needs a dwell and has none. If the cycle has its own dwell, stores this dwell.
     pub fn fill(&mut self, spec: &mut CycleSpec) {
         match (spec.dwell, spec.revs) {
             (None, None) if spec.kind == CycleKind::Face || spec.norevr => {

@@ -1,4 +1,4 @@
-//! The events of a toolpath. Readers push them, and the renderer converts them to blocks (docs/rendering.md).
+//! The events of a toolpath. Readers push events, and the renderer converts events to blocks (docs/rendering.md).
 
 use super::axes::Axes;
 use super::cycle::{CycleSpec, Hole};
@@ -47,7 +47,7 @@ pub struct Call {
 /// One event of a job. Readers push events, and sinks receive them.
 #[derive(Clone, Debug)]
 pub enum Event<'a> {
-    /// The head of the job. It is always the first event.
+    /// The head of the job. The head is always the first event.
     Start(&'a Start),
     /// An operation begins. The tool changes if the operation has another tool number.
     ToolChange(&'a ToolChange),
@@ -83,7 +83,7 @@ pub enum Event<'a> {
         /// Whether the move is a rapid.
         rapid: bool,
     },
-    /// The tool axis from here on, as a unit vector. At the start of a job it is 0, 0, 1.
+    /// The tool axis from here on, as a unit vector. At the start of a job, the tool axis is 0, 0, 1.
     Tilt([f64; 3]),
     /// A named part of the path begins.
     Begin(Section),
@@ -125,6 +125,6 @@ pub enum Event<'a> {
     Thread(&'a Thread),
     /// An action of a wire EDM machine.
     Edm(EdmAction),
-    /// The job ends. It is always the last event.
+    /// The job ends. `Finish` is always the last event.
     Finish,
 }

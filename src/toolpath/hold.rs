@@ -13,7 +13,7 @@ use crate::lang::Machine;
 /// The largest number of items that may come before the first move of an operation.
 const MOST_HELD: usize = 4096;
 
-/// A filter between a reader and its sink. It holds back tool changes.
+/// A filter between a reader and its sink. The filter holds back tool changes.
 pub struct Hold<'s> {
     sink: &'s mut dyn Sink,
     change: Option<(ToolChange, Place)>,
@@ -22,7 +22,8 @@ pub struct Hold<'s> {
     axes: u8,
     /// The axis along which the tool enters a hole, as a bit.
     depth: u8,
-    /// The first position of the path: for each axis, the first value in the rapids so far. Complete if all axes are given.
+    /// The first position of the path: for each axis, the first value in the rapids so far. The position is complete if
+    /// all axes are given.
     first: Axes,
     /// The number of the tool in the spindle.
     tool: Option<f64>,
@@ -61,7 +62,8 @@ impl Waiting {
         })
     }
 
-    /// Whether postform prints nothing for this event before the tool change. This applies to comments, rapids and changes.
+    /// Whether postform prints nothing for this event before the tool change. Comments, rapids, and changes of feed,
+    /// spindle or coolant print nothing.
     fn prints_nothing(&self) -> bool {
         matches!(
             self,
@@ -99,7 +101,8 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// Passes the held tool change on. `first` is its first move, unless an earlier rapid has given a position.
+    /// Passes the held tool change on. If no earlier rapid has given a position, `first` becomes the first move of the
+    /// tool change.
     fn release(&mut self, first: First) -> Result<(), Stop> {
         let said = std::mem::take(&mut self.first);
         if let Some((mut change, place)) = self.change.take() {
@@ -119,8 +122,9 @@ impl<'s> Hold<'s> {
         Ok(())
     }
 
-    /// Records the target of a rapid. For each axis, the first position is kept. A new tool has no height until a rapid
-    /// gives one. Until then, the last rapid across counts, because the tool goes down there.
+    /// Records the target of a rapid. For each axis, the first position is kept. The height of a new tool is unknown
+    /// until a rapid gives a height. Until a rapid gives a height, the last rapid across counts, because the tool goes
+    /// down at its end.
     fn reaches(&mut self, to: &Axes) {
         if self.is_way() && self.first.given & to.given & !self.depth != 0 {
             self.first.given &= !to.given;
@@ -201,13 +205,13 @@ impl<'s> Hold<'s> {
         }
     }
 
-    /// Whether postform prints nothing for all waiting events.
+    /// Whether postform prints nothing for any of the waiting events.
     fn prints_nothing(&self) -> bool {
         self.waiting.iter().all(|(waiting, _)| waiting.prints_nothing())
     }
 
-    /// Sets the work offset of the tool change. The first position is then in this offset. The tool must not go to a
-    /// position of the previous offset.
+    /// Sets the work offset of the tool change. The first position is then a position in this work offset. The tool
+    /// must not go to a position of the previous offset.
     fn change_in(&mut self, work: f64) {
         if self.first.given != 0 {
             // a new tool moves directly to its position in the last work offset
@@ -268,7 +272,7 @@ impl<'s> Hold<'s> {
     fn wait(&mut self, waiting: Waiting, place: Place) -> Result<(), Stop> {
         if self.waiting.len() == MOST_HELD {
             let message = format!("more than {MOST_HELD} items before the operation's first move");
-            return Err(Diag::new(Code::PJ013, message).help("put the first rapid before them").into());
+            return Err(Diag::new(Code::PJ013, message).help("put the first rapid before these items").into());
         }
         self.waiting.push((waiting, place));
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::{Arc, Call, CycleSpec, Event, Given, Infeed, Start, Thread, ToolChange};
 
-/// An owned copy of an event. It can be kept or sent to another thread.
+/// An owned copy of an event. The copy can be kept or sent to another thread.
 #[derive(Clone, Debug)]
 pub struct Kept(Own);
 

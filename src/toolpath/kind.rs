@@ -1,4 +1,4 @@
-//! Kinds of canned cycles, and the sequence of a form for each.
+//! Kinds of canned cycles, and the sequence of the form for each kind.
 
 use super::tool::SpindleTurn;
 use crate::lang::SequenceId;
@@ -14,9 +14,9 @@ pub enum CycleKind {
     Tap,
     /// A tap for a left-hand thread.
     LTap,
-    /// Feed in, stop the spindle, rapid out.
+    /// The tool feeds in, the spindle stops, and the tool rapids out.
     Bore,
-    /// A back bore: it is cut upward from below.
+    /// A back bore: the tool cuts upward from below the part.
     Back,
     /// Feed in, feed out.
     Ream,
@@ -39,7 +39,7 @@ pub enum CycleKind {
 }
 
 impl CycleKind {
-    /// All kinds with their names in jobs.
+    /// All kinds of cycles, each with its name in jobs.
     pub const NAMES: [(&'static str, CycleKind); 15] = [
         ("drill", CycleKind::Drill),
         ("face", CycleKind::Face),
@@ -68,8 +68,8 @@ impl CycleKind {
         Self::NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, kind)| *kind)
     }
 
-    /// The sequence with the name of this kind, which prints its holes. Kinds without such a sequence are printed only
-    /// by a Custom sequence whose comment names the kind.
+    /// The sequence that prints the holes of this kind; it has the name of the kind. If a kind has no sequence with its
+    /// name, only a Custom sequence whose comment names the kind prints the holes.
     pub fn sequence(self) -> Option<SequenceId> {
         Some(match self {
             CycleKind::Drill => SequenceId::Drill,

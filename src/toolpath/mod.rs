@@ -1,4 +1,4 @@
-//! Toolpath events. Readers of jobs produce them one at a time, and sinks such as the renderer process them.
+//! Toolpath events. Readers of jobs produce events one at a time, and sinks such as the renderer process the events.
 
 mod axes;
 mod cuts;

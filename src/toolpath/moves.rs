@@ -15,7 +15,8 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The two axes of the plane and the axis across it. The two axes are in the order in which counter-clockwise is positive.
+    /// The two axes of the plane, and the axis perpendicular to the plane. The two axes are in the order in which
+    /// counter-clockwise is positive.
     pub fn axes(self) -> ([usize; 2], usize) {
         match self {
             Plane::Xy => ([0, 1], 2),
@@ -39,9 +40,9 @@ pub enum Direction {
 pub struct Arc {
     /// End of the arc.
     pub to: Axes,
-    /// Centre of the arc as an absolute position. Its coordinate perpendicular to the plane is ignored.
+    /// Centre of the arc as an absolute position. The coordinate of the centre perpendicular to the plane is ignored.
     pub center: Option<Axes>,
-    /// Radius, if it is given instead of the centre. It is negative for the longer arc.
+    /// Radius, if it is given instead of the centre. A negative radius means the longer arc.
     pub radius: Option<f64>,
     /// Direction of the arc.
     pub direction: Direction,
@@ -65,7 +66,7 @@ pub enum Side {
 pub struct Infeed {
     /// End of the move.
     pub to: Axes,
-    /// Side of the path on which the tool moves after it.
+    /// Side of the path on which the tool moves after this move.
     pub side: Side,
     /// Whether the move is a rapid.
     pub rapid: bool,

@@ -6,14 +6,15 @@ use super::start::Given;
 use super::tool::{FeedMode, Spindle, Tool};
 use crate::lang::Coolant;
 
-/// The beginning of an operation's path. Readers find it in advance, because a tool change may print its position.
+/// The beginning of an operation's path. Readers find the first move in advance, because a tool change may print its
+/// position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum First {
     /// The path begins with a rapid to this position.
     Rapid(Axes),
     /// The path begins with the first hole of a cycle.
     Hole(Box<CycleSpec>, Hole),
-    /// The path begins with a cut. The tool must not move to the end of this cut at rapid.
+    /// The path begins with a cut. The tool must not move at rapid to the end of this cut.
     Cut,
     /// The path has no move.
     #[default]
@@ -41,7 +42,7 @@ pub struct ToolChange {
     pub feed_mode: Option<FeedMode>,
     /// A comment to print.
     pub comment: Option<String>,
-    /// Values for variables, by name: those of the operation and those that are set before its first move.
+    /// Values for variables, by name: the values of the operation, and the values that are set before its first move.
     pub set: Vec<(String, Given)>,
     /// The beginning of the path.
     pub first: First,

@@ -3,13 +3,13 @@
 use super::event::Event;
 use crate::diag::{Code, Diag};
 
-/// The state of a stream of events, as far as it determines which events may follow.
+/// The state of a stream of events. This state determines which events may follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
     /// Outside a cycle.
     #[default]
     Path,
-    /// In a cycle. Any event except a hole ends it.
+    /// In a cycle. Any event except a hole ends the cycle.
     Cycle,
     /// After the end of the job.
     End,
@@ -34,7 +34,7 @@ impl Order {
     }
 }
 
-/// The error for events that no reader may push. It is an error in postform itself.
+/// The error for events that no reader may push. The cause is an error in postform itself.
 ///
 /// # Errors
 /// Always fails.

@@ -1,4 +1,4 @@
-//! Locations in a job. They are small, because every event is passed with its location.
+//! Locations in a job. Locations are small, because every event is passed with its location.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crate::diag::Location;
 /// The location of an event in its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Place {
-    /// Line of the input, from 1; 0 if there is none.
+    /// Line of the input, from 1; 0 if the event has no line.
     pub line: u64,
     /// Column, from 1.
     pub column: u32,
@@ -24,7 +24,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// The path inside the document, such as `operations[0].path[3].cycle.points[2]`. It is empty outside of operations and subprograms.
+    /// The path inside the document, such as `operations[0].path[3].cycle.points[2]`. The path is empty outside of
+    /// operations and subprograms.
     pub fn path(&self) -> String {
         let mut path = match (self.operation, self.subprogram) {
             (0, 0) => return String::new(),

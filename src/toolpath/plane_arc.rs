@@ -14,12 +14,14 @@ pub struct PlaneArc {
     pub radius: f64,
     /// Angle of the start, in radians.
     pub start: f64,
-    /// Angle from start to end, positive counter-clockwise. For a helix with several turns it is more than a full turn.
+    /// Angle from start to end, positive counter-clockwise. The angle of a helix with several turns is more than a full
+    /// turn.
     pub sweep: f64,
 }
 
 impl PlaneArc {
-    /// The arc from `from` to `to` around `centre`. If start and end are equal, it is a full circle. `turns` full turns are added.
+    /// The arc from `from` to `to` around `centre`. If start and end are equal, the arc is a full circle. `turns` full
+    /// turns are added.
     pub fn new(from: [f64; 2], to: [f64; 2], centre: [f64; 2], ccw: bool, turns: u32) -> PlaneArc {
         let angle = |p: [f64; 2]| (p[1] - centre[1]).atan2(p[0] - centre[0]);
         let (start, end) = (angle(from), angle(to));
@@ -85,7 +87,7 @@ impl PlaneArc {
         parts.extend((1..count as u64).map(|i| i as f64 / count));
     }
 
-    /// The largest angle at which a chord is nowhere farther than `tolerance` from the arc.
+    /// The largest angle of a chord that stays within `tolerance` of the arc.
     pub fn chord_angle(&self, tolerance: f64) -> f64 {
         if tolerance >= self.radius {
             return PI / 2.0;
@@ -123,7 +125,8 @@ mod tests {
     }
 
     proptest! {
-        /// A centre that is calculated from a radius has this distance from both ends, and the arc is the requested one of the two.
+        /// A centre that is calculated from a radius has the distance of this radius from both ends. The arc is the
+        /// requested one of the two possible arcs.
         #[test]
         fn radius_arcs_close(x in -10.0..10.0f64, y in -10.0..10.0f64, stretch in 1.001..5.0f64, ccw: bool, long: bool) {
             prop_assume!(x.hypot(y) > 0.01);

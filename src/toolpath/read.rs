@@ -10,7 +10,7 @@ pub enum ReadError {
     Io(std::io::Error),
     /// The job has an error, or its events request something that is not possible.
     Job(Box<Diag>),
-    /// The sink needs no more events. This is not an error.
+    /// The sink needs no more events. Ending early is not an error.
     Stopped,
 }
 

@@ -9,7 +9,7 @@ use crate::diag::{Diag, Location};
 /// The reason why a sink stops the reader.
 #[derive(Debug)]
 pub enum Stop {
-    /// The sink needs no more events. This is not an error.
+    /// The sink needs no more events. Stopping early is not an error.
     Enough,
     /// The event is wrong, or it requests something that is not possible.
     Wrong(Box<Diag>),
@@ -28,7 +28,7 @@ impl From<Diag> for Stop {
 }
 
 impl Stop {
-    /// Adds a location to the finding if it has none.
+    /// Adds a location to a finding that has no location.
     pub(crate) fn placed(mut self, place: impl FnOnce() -> Location) -> Stop {
         if let Stop::Wrong(diag) = &mut self {
             diag.place.get_or_insert_with(place);

@@ -63,19 +63,19 @@ impl Summary {
         self.extents[axis] = Some((least.min(value), greatest.max(value)));
     }
 
-    /// The findings that make the job unprintable for every form. Rendering would report them too.
+    /// The findings about the job that prevent every form from printing it. Rendering would report these findings too.
     pub fn unprintable(&self) -> Vec<Diag> {
         let at = |place: Place, code, message: String, help: &str| Diag::new(code, message).help(help).place(place);
         let tilted = self.tilted.map(|place| {
             let places = if self.tilts == 1 { "here".into() } else { format!("{} moves, the first one here", self.tilts) };
-            let message = format!("no form can print this, because the tool is tilted ({places})");
+            let message = format!("no form can print the job, because the tool is tilted ({places})");
             let help =
                 "forms can't print a tilted tool: post the operations of each tool axis separately, as setups; for a \
                  CL file `--setup N` selects one";
             at(place, Code::PR008, message, help)
         });
         let idle = self.idle.map(|place| {
-            let message = "no form can print this, because the operation has no move".to_owned();
+            let message = "no form can print the job, because an operation has no move".to_owned();
             at(place, Code::PR012, message, "remove the operation, or give it a move")
         });
         tilted.into_iter().chain(idle).collect()

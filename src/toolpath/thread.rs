@@ -2,7 +2,7 @@
 
 use super::axes::Axes;
 
-/// A thread on a lathe. Its positions are z and a radius as x. Lengths are in the job's units.
+/// A thread on a lathe. The positions of the thread are z, and x as a radius. Lengths are in the job's units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thread {
     /// Start of the thread: z, and the radius of the crest.
@@ -11,7 +11,8 @@ pub struct Thread {
     pub to: Axes,
     /// Distance between two crests.
     pub pitch: f64,
-    /// Height of the thread, measured on the radius. It is negative for an internal thread, which is cut outward.
+    /// Height of the thread, measured on the radius. The height of an internal thread, which is cut outward, is
+    /// negative.
     pub depth: f64,
     /// Depth of the first cut, on the radius.
     pub first_depth: Option<f64>,

@@ -13,17 +13,17 @@ pub struct Tool {
     pub diameter: Option<f64>,
     /// Radius of the corner, in the job's units.
     pub corner_radius: Option<f64>,
-    /// Number of the register with the tool's length.
+    /// Number of the register that holds the tool's length.
     pub length_offset: Option<f64>,
-    /// Number of the register with the tool's diameter, for cutter compensation.
+    /// Number of the register that holds the tool's diameter, for cutter compensation.
     pub diameter_offset: Option<f64>,
-    /// Position in the turret, if it differs from the number.
+    /// Position of the tool in the turret, if it differs from the tool number.
     pub turret: Option<f64>,
     /// Name of the tool.
     pub name: Option<String>,
     /// Comment about the tool that the program prints.
     pub comment: Option<String>,
-    /// Other data under names that the job chooses, such as the holder or the stick-out.
+    /// Other data of the tool, such as the holder or the stick-out, each with a name that the job chooses.
     pub data: Vec<(String, Given)>,
 }
 
@@ -38,7 +38,7 @@ pub enum SpindleTurn {
     Off,
 }
 
-/// Spindle data. Values that are not given stay unchanged.
+/// Spindle data. A value that the job does not give stays unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Spindle {
     /// Speed in revolutions per minute, or surface speed in the unit of the control.

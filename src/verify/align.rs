@@ -1,5 +1,5 @@
-//! Pairs each cut of the job with a cut of the program. One side may have cuts that the other side lacks: cuts shorter
-//! than the program's digits, and cuts that the program repeats after the tool was taken out.
+//! Pairs each cut of the job with a cut of the program. Two kinds of cuts have no partner: cuts shorter than the
+//! program's digits, and cuts that the program repeats after the tool was taken out.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lead_alike, lies_between, same};
 use super::intent::Done;
@@ -8,8 +8,8 @@ use super::passage::Passage;
 use super::sides::Sides;
 use super::{arcs, begin};
 
-/// Whether the program leaves out this cut of the job because the cut is shorter than the program's digits. If so, the
-/// cut needs no further comparison. Cuts of holes are never left out.
+/// Whether the program leaves out this cut of the job because the cut is shorter than the program's digits. If `true`,
+/// the cut needs no further comparison. Cuts of holes are never left out.
 pub(super) fn leaves_out(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     if !cut.is_short(s.limits.tolerance) || !vanishes(s, cut)? {
         return Ok(false);
@@ -19,8 +19,8 @@ pub(super) fn leaves_out(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     Ok(true)
 }
 
-/// The program's next cut that can be the same as this cut of the job. Cuts before it that the job does not need are
-/// skipped. `None`: the program has no more cuts.
+/// The program's next cut that can correspond to this cut of the job. Earlier cuts of the program that the job does not
+/// need are skipped. `None`: the program has no more cuts.
 pub(super) fn partner(s: &mut Sides<'_>, cut: &Cut) -> Done<Option<Cut>> {
     while let Some(found) = s.next()? {
         if enters_again(s, cut, &found) {
@@ -49,7 +49,7 @@ pub(super) fn after_the_last(s: &mut Sides<'_>) -> Done<Option<Cut>> {
     Ok(None)
 }
 
-/// Whether a cut of the program is too short to matter and is neither the job's cut nor the first part of it.
+/// Whether a cut of the program is too short to matter, and is not the job's cut or its first part.
 fn is_put_in(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     !found.by_cycle
         && is_nothing(s, found)
@@ -58,7 +58,8 @@ fn is_put_in(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
         && !is_part(s, cut, found)
 }
 
-/// Whether a very short cut of the job has no length in the program because positions are rounded. `false` if the program makes the cut.
+/// Whether a very short cut of the job has no length in the program, because the program's positions are rounded.
+/// `false` if the program makes the cut.
 fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     let Some(found) = s.next()? else { return Ok(true) };
     let tolerance = s.limits.tolerance;
@@ -79,13 +80,14 @@ fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     Ok(!joins || !nearer || circle)
 }
 
-/// Whether the next cuts of both sides follow directly on their previous cuts, or both have rapids before them.
+/// Whether the next cuts of job and program both follow directly on a cut, or both follow on rapids.
 fn joins_alike(s: &Sides<'_>) -> bool {
     let (a, b, tolerance) = (&s.program.passage, &s.job, s.limits.tolerance);
     a.rapids.is_empty() == b.rapids.is_empty() || a.stays(tolerance) && b.stays(tolerance)
 }
 
-/// Whether a cut of the program is too short to matter. The limit is twice the tolerance, because both ends are rounded.
+/// Whether a cut of the program is too short to matter. The greatest length of such a cut is twice the tolerance,
+/// because both ends of the cut are rounded.
 fn is_nothing(s: &Sides<'_>, found: &Cut) -> bool {
     found.unknown == 0 && found.is_short(2.0 * s.limits.tolerance)
 }
@@ -100,8 +102,8 @@ fn is_itself(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
         && lead_alike(cut, found)
 }
 
-/// Whether a short cut of the program is the first part of the job's cut. `false` if it ends at the beginning of the
-/// job's cut.
+/// Whether a short cut of the program is the first part of the job's cut. `false` if the program's cut ends at the
+/// beginning of the job's cut.
 fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
     let goes_along = match (cut.what, found.what) {
@@ -112,8 +114,8 @@ fn is_part(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     goes_along && same(&cut.from, &found.from, ALL, tolerance) && !same(&cut.from, &found.end(), ALL, tolerance)
 }
 
-/// Whether the program only returns straight down to the position where the job's cut continues. This happens after the
-/// tool was taken out, for example to unwind a rotary axis.
+/// Whether the program only returns straight down to the position where the job's cut continues. A program returns in
+/// this way after the tool was taken out, for example to unwind a rotary axis.
 fn enters_again(s: &mut Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let What::Line { to } = found.what else { return false };
     let tolerance = s.limits.tolerance;

@@ -8,11 +8,12 @@ use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
 
-/// How far parts may deviate from the circle, in tolerances. The factor is more than 1 because centres are rounded too.
+/// Greatest deviation of the parts of an arc from its circle, in tolerances. The factor is more than 1, because the
+/// centres of arcs are rounded too.
 const OFF: f64 = 5.0;
 
-/// Whether a short straight cut from the beginning of the arc is a chord of the arc. It is a chord if its end is on the arc, at most
-/// half a turn from the beginning.
+/// Whether a short straight cut that begins at the start of the arc is a chord of the arc. The cut is a chord if its
+/// end is on the arc, at most half a turn from the beginning of the arc.
 pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bool {
     let [first, second, _] = axes_of(turn.plane);
     let radius = |at: &Place| (at[first] - turn.center[first]).hypot(at[second] - turn.center[second]);
@@ -20,7 +21,8 @@ pub(super) fn is_chord(cut: &Cut, turn: &Turn, to: &Place, tolerance: f64) -> bo
     (radius(to) - radius(&cut.from)).abs() <= tolerance && angle <= sweep(&cut.from, turn).min(std::f64::consts::PI)
 }
 
-/// Compares the program's cuts with an arc of the job. The program may make the arc in parts. Its first part was already reached.
+/// Compares the program's cuts with an arc of the job. The program may make the arc in parts. The program was already
+/// run to the first part.
 pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     let (tolerance, chord) = (s.limits.tolerance, s.limits.chord);
     let [first, second, across] = axes_of(turn.plane);
@@ -101,7 +103,8 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     }
 }
 
-/// The point that a part of the arc reaches after this angle, in the plane. For a straight part, this is the end of the part.
+/// The point in the plane of the arc that a part of the arc reaches after this angle. For a straight part, the point is
+/// the end of the part.
 fn point_of(found: &Cut, turn: &Turn, angle: f64) -> [f64; 2] {
     let [first, second, _] = axes_of(turn.plane);
     match found.what {

@@ -8,16 +8,16 @@ use crate::diag::Code;
 
 /// The beginning of the program's next cut, relative to the job's cut.
 enum Begins {
-    /// At the beginning of the job's cut.
+    /// The program's cut begins at the beginning of the job's cut.
     There,
-    /// After the job's cut. The program reaches the end of the job's cut by a rapid.
+    /// The program's cut begins after the job's cut. The program reaches the end of the job's cut by a rapid.
     Behind,
-    /// Before the job's cut. The program has a feed move where the job has a rapid.
+    /// The program's cut begins before the job's cut. The program has a feed move where the job has a rapid.
     Before,
 }
 
-/// Finds the program's cut for this cut of the job. Compares the path to it, its beginning and its modal state. `None`:
-/// the program has a rapid where the job cuts.
+/// Finds the program's cut for this cut of the job. Compares the path to the cut, the beginning of the cut and its
+/// modal state. `None`: the program has a rapid where the job cuts.
 pub(super) fn meet(s: &mut Sides<'_>, cut: &Cut, hole: Option<&Expected>) -> Done<Option<Cut>> {
     let found = loop {
         let Some(found) = align::partner(s, cut)? else { return is_missing(s, cut, hole) };
@@ -100,7 +100,12 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     }
     let Some(hole) = hole else {
         let message = format!("a cut begins at {is}, but the job's cut begins at {wanted}");
-        return s.differs(Code::PV001, line, message, "check the words that the form prints for the moves before it");
+        return s.differs(
+            Code::PV001,
+            line,
+            message,
+            "check the words that the form prints for the moves before the cut",
+        );
     };
     if !same(&hole.at, &found.from, ACROSS, tolerance) {
         let at = over(&hole.at);
@@ -116,7 +121,7 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
         return s.differs(Code::PV005, line, message, "print [d] before the cycle");
     }
     // report it and continue: the hole is at the job's position, and the next hole may be too
-    s.found(Code::PV005, line, "print R[vclear] in the cycle, at every hole where it changes", || {
+    s.found(Code::PV005, line, "print R[vclear] in the cycle, at every hole where the R plane changes", || {
         format!(
             "the feed begins at Z{}, but the job's clearance plane is Z{}",
             number(found.from[DEPTH]),
@@ -126,7 +131,8 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     Ok(Begins::There)
 }
 
-/// Whether the program has a feed move to a position that the job reaches at rapid. If so, reports the difference.
+/// Whether the program has a feed move to a position that the job reaches at rapid. If `true`, the difference is
+/// reported.
 pub(super) fn is_the_jobs_rapid(s: &mut Sides<'_>, found: &Cut) -> bool {
     let (end, tolerance) = (found.end(), s.limits.tolerance);
     let is = s.job.rapids.iter().any(|rapid| same(&rapid.to, &end, ALL, tolerance));

@@ -11,13 +11,13 @@ const MOST_DONE: u64 = 20_000_000;
 const DEEPEST: u32 = 64;
 
 impl Job {
-    /// The number of subprograms at the beginning of the program.
+    /// The number of subprograms that the program contains before its main program.
     pub(super) fn subprograms_first(&self) -> usize {
         if self.expectation.subs_first { self.subprograms.count() } else { 0 }
     }
 
-    /// Runs a call: sets its work offset, moves to its position, and runs the items of the subprogram as often as the
-    /// call requests. After each run, the modal state of the calling operation is restored.
+    /// Runs a call: sets the work offset of the call, moves to the call's position, and runs the items of the
+    /// subprogram as often as the call requests. After each run, the modal state of the calling operation is restored.
     pub(super) fn call(&mut self, call: &Call, to: &mut impl Intent) -> Done {
         let Some(index) = self.subprograms.defined.iter().position(|sub| sub.number == call.sub) else {
             return unproven(Unmodelled::MissingSubprogram);

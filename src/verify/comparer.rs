@@ -21,12 +21,14 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{self, Event, Flow, Sink, Stop, StopKind, Units};
 
-/// Factor on the tolerance. Differences of exactly the tolerance are allowed, and binary rounding makes them a little larger.
+/// Factor by which the tolerance is increased. A difference equal to the tolerance is allowed, but binary rounding may
+/// make it a little larger than the tolerance.
 const BINARY: f64 = 1.0 + 1e-6;
 
 /// Compares a program with the events of its job. Push the events, then call [`Comparer::verdict`].
 ///
-/// Neither side is kept in memory. The program is read only as far as the events require, so both may be streams.
+/// Job and program are not kept in memory. The program is read only as far as the events require, so job and program
+/// may be streams.
 pub struct Comparer<'a> {
     job: Job,
     sides: Sides<'a>,
@@ -72,18 +74,19 @@ impl<'a> Comparer<'a> {
         }
     }
 
-    /// Sets the units that apply until the program sets its own.
+    /// Sets the units that apply until the program sets its own units.
     pub fn begin_in(&mut self, units: Units) {
         self.sides.program.begin_in(units);
     }
 
-    /// Whether the control refused a block before the job reached it. The refusal is reported at the job's next cut.
+    /// Whether the control refused a block of the program that runs ahead of the job. The refusal is reported at the
+    /// job's next cut.
     pub(super) fn is_stuck(&self) -> bool {
         self.sides.program.has_failed()
     }
 
-    /// Runs the program ahead while text is waiting. Before the first operation nothing runs, because the job may still
-    /// change the settings of the run.
+    /// Runs the program ahead while text is waiting. The program does not run before the first operation, because the
+    /// job may still change the settings of the run.
     pub(super) fn run_on(&mut self, waits: &dyn Fn() -> bool) {
         if self.begun {
             self.sides.program.run_on(waits);
@@ -115,12 +118,12 @@ impl<'a> Comparer<'a> {
         self.sides.program.warnings()
     }
 
-    /// Whether the verdict is final. The rest of the job then can't change it.
+    /// Whether the verdict is final. If `true`, the rest of the job can't change the verdict.
     pub fn is_decided(&self) -> bool {
         self.found() > 0 || self.sides.report.unproven.is_some()
     }
 
-    /// The verdict. Call this after the last event, or after an event that made a difference.
+    /// The verdict. Call this function after the last event, or after an event that found a difference.
     ///
     /// # Errors
     /// The program can't be read.
@@ -143,7 +146,8 @@ impl<'a> Comparer<'a> {
 }
 
 impl Sink for Comparer<'_> {
-    /// Compares one event. Breaks when nothing more can be compared; [`Comparer::verdict`] then returns the reason.
+    /// Compares one event. Returns a break when nothing more can be compared; then [`Comparer::verdict`] returns the
+    /// reason.
     fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.report.place = place;
         if matches!(event, Event::ToolChange(_)) && !std::mem::replace(&mut self.begun, true) {
@@ -344,8 +348,8 @@ impl Intent for Sides<'_> {
 }
 
 impl Sides<'_> {
-    /// Fails if the job does more between two cuts than postform keeps in memory. The program is checked when it runs
-    /// to its next cut.
+    /// Fails if the job does more between two cuts than postform keeps in memory. The length of the program's passage
+    /// is checked when the program runs to its next cut.
     #[inline]
     fn can_hold(&mut self) -> Done {
         if self.job.is_too_long() {

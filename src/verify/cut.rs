@@ -1,4 +1,4 @@
-//! The cuts of job and program and the rapids to them, in the form in which they are compared.
+//! The data types for the cuts of job and program, and for the rapids to these cuts, that the comparison uses.
 
 use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
@@ -16,10 +16,10 @@ pub(super) fn position(place: &Place) -> Position {
     [x, y, z, a, b, c]
 }
 
-/// Value of U or V if the program does not move the upper wire guide separately. The wire is then vertical.
+/// Value of U or V if the program does not move the upper wire guide separately. In this case the wire is vertical.
 pub(super) const UNSAID: f64 = 1e9;
 
-/// Converts a position of a mill or lathe to a `Place`. Its U and V have no value.
+/// Converts a position of a mill or lathe to a `Place`. U and V of the `Place` have no value.
 pub(super) fn place(position: &Position) -> Place {
     let [x, y, z, a, b, c] = *position;
     [x, y, z, a, b, c, UNSAID, UNSAID]
@@ -31,7 +31,7 @@ pub(super) struct Rapid {
     pub to: Place,
     /// Axes whose position is known only at the machine, as bits.
     pub unknown: u8,
-    /// The required or actual state of the spindle, if it matters.
+    /// The state of the spindle, required by the job or set by the program, if the state matters.
     pub spin: Option<Spin>,
 }
 
@@ -47,8 +47,8 @@ pub(super) enum Spin {
 }
 
 impl Spin {
-    /// Whether the spindle is in the state that the job requires. If the job requires a stopped spindle, the way it is stopped does not
-    /// matter.
+    /// Whether the spindle is in the state that the job requires. If the job only requires a stopped spindle, the angle
+    /// at which it stops does not matter.
     pub fn serves(self, wanted: Spin) -> bool {
         match (wanted, self) {
             (Spin::At(a), Spin::At(b)) => ((a - b) / 360.0).fract().abs() * 360.0 < ORIENTED,
@@ -90,20 +90,22 @@ pub(super) struct State {
     pub coolant: Option<Cooling>,
     /// Cutter compensation. `Some(None)`: off.
     pub side: Option<Option<Side>>,
-    /// Register of the tool length. The next field is the register of the diameter while compensation is on.
+    /// Register of the tool length. The field after `length` is the register of the diameter while cutter compensation
+    /// is on.
     pub length: Option<f64>,
     pub diameter: Option<f64>,
     /// Whether the speed is a surface speed.
     pub css: bool,
-    /// Highest speed of the spindle. It limits a surface speed near the axis of the lathe.
+    /// Highest speed of the spindle. Near the axis of a lathe, a surface speed is limited to this value.
     pub limit: Option<f64>,
-    /// The plane of the compensation.
+    /// The plane of the cutter compensation.
     pub plane: Plane,
     /// Whether the control synchronises feed and spindle (rigid tapping).
     pub rigid: Option<bool>,
-    /// Data of a thread that are not in its moves.
+    /// Data of a thread that its moves do not contain.
     pub thread: Threading,
-    /// Rotation of the spindle at the beginning of the control's cycle for a floating tap. For a job: the required rotation.
+    /// Rotation of the spindle when the control's cycle for a floating tap begins. For a cut of the job: the required
+    /// rotation.
     pub into_tap: Option<Rotation>,
 }
 
@@ -124,7 +126,8 @@ impl State {
     }
 }
 
-/// A state that many cuts share until it changes. A comparison of two shared states compares their pointers first.
+/// A modal state that consecutive cuts share until the state changes. Two shared states are compared by their pointers
+/// first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shared(Rc<State>);
 
@@ -144,7 +147,7 @@ impl Deref for Shared {
 }
 
 impl DerefMut for Shared {
-    /// The state, to be changed. Other cuts that share it keep the old state.
+    /// The state, as a value that may be changed. Other cuts with the shared state keep the old state.
     fn deref_mut(&mut self) -> &mut State {
         Rc::make_mut(&mut self.0)
     }
@@ -165,7 +168,7 @@ pub(super) struct Cut {
     pub unknown: u8,
     /// Axes that the cut moves to a machine position (G53 under G1).
     pub home: u8,
-    /// Axes whose end position is a machine position that is unknown.
+    /// Axes that end at an unknown machine position.
     pub open: u8,
     pub what: What,
     pub feed: Option<f64>,
@@ -173,8 +176,8 @@ pub(super) struct Cut {
     /// Feed per turn, if the control synchronises the cut with the spindle.
     pub lead: Option<f64>,
     pub state: Shared,
-    /// Kinds of sequences, as the bits of `form_values::by`: those that the job used since its last spindle event, and
-    /// those that may have set the feed of this cut.
+    /// Kinds of events, as the bits of `form_values::by`: the events of the job since its last spindle event, and the
+    /// events that may have set the feed of this cut.
     pub by: [u8; 2],
     /// Whether a canned cycle of the control makes the cut.
     pub by_cycle: bool,
@@ -188,8 +191,8 @@ impl Cut {
         self.what.end()
     }
 
-    /// Whether the cut is so short that the digits of a program may not show it. A full circle is never short, although
-    /// it ends where it begins.
+    /// Whether the cut is so short that its start and end may have the same digits in a program. A full circle is never
+    /// short, although it ends where it begins.
     pub fn is_short(&self, tolerance: f64) -> bool {
         let end = self.end();
         let near = same(&self.from, &end, ALL, tolerance) && turn_as_far([&self.from, &self.from], [&self.from, &end]);
@@ -200,7 +203,7 @@ impl Cut {
     }
 }
 
-/// Whether an arc is so short in its plane that the digits of a program may not show its curve.
+/// Whether an arc is so short in its plane that the digits of a program may show it as a straight line.
 pub(super) fn is_straight(cut: &Cut, turn: &Turn, tolerance: f64) -> bool {
     let [first, second, _] = axes_of(turn.plane);
     let radius = (cut.from[first] - turn.center[first]).hypot(cut.from[second] - turn.center[second]);
@@ -211,7 +214,7 @@ pub(super) fn is_straight(cut: &Cut, turn: &Turn, tolerance: f64) -> bool {
 pub(super) const ALL: u8 = 0xff;
 /// The names of the axes.
 pub(super) const NAMES: [u8; 8] = *b"XYZABCUV";
-/// Index of the axis across a lathe's part. Its value is the radius.
+/// Index of the axis across a lathe's part. The position along this axis is the radius.
 pub(super) const RADIUS: usize = 0;
 /// Index of the axis along which holes are drilled.
 pub(super) const DEPTH: usize = 2;
@@ -240,7 +243,7 @@ pub(super) fn turn_as_far(a: [&Place; 2], b: [&Place; 2]) -> bool {
     (3..6).all(|axis| ((a[1][axis] - a[0][axis]) - (b[1][axis] - b[0][axis])).abs() <= 2.0 * ANGLE)
 }
 
-/// Whether b is on the straight line from a to c, within the tolerance.
+/// Whether the position `b` is on the straight line from `a` to `c`, within the tolerance.
 pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
     let (mut along, mut length) = (0.0, 0.0);
     for axis in 0..8 {
@@ -255,15 +258,15 @@ pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> b
         && (0..8).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
 }
 
-/// Whether two cuts have roughly the same direction: the angle between them is less than 90 degrees. If `b` is an arc, it
-/// is accepted.
+/// Whether two cuts have roughly the same direction: the angle between them is less than 90 degrees. If `b` is an arc,
+/// the result is `true`.
 pub(super) fn lead_alike(a: &Cut, b: &Cut) -> bool {
     let [own, other] = [a, b].map(|cut| (cut.from, cut.end()));
     let along: f64 = (0..8).map(|axis| (own.1[axis] - own.0[axis]) * (other.1[axis] - other.0[axis])).sum();
     along > 0.0 || matches!(b.what, What::Arc(_))
 }
 
-/// Distance of two positions along the axis on which they differ most.
+/// Distance of two positions along the axis on which the positions differ most.
 pub(super) fn distance(a: &Place, b: &Place) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

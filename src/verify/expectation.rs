@@ -1,4 +1,4 @@
-//! The values that a form supplies when its job has none, and values that the form itself defines.
+//! The values that a form supplies for values missing in the job, and the values that the form itself defines.
 
 use super::form_values::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
@@ -12,7 +12,7 @@ use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{Coolant, EdmAction, Units};
 
-/// The values of the form that the comparison with the job needs.
+/// The values of the form that are needed to compare job and program.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Expectation {
@@ -24,25 +24,28 @@ pub struct Expectation {
     pub increment: [f64; 2],
     /// Code of the first work offset: 54.
     pub first_work: f64,
-    /// Work offset in force until the job selects one.
+    /// Work offset that is active until the job selects a work offset.
     pub work: Option<f64>,
     /// How the form prints work offsets, and the control that defines their codes.
     pub(super) work_words: Option<(WorkWords, &'static Control)>,
-    /// Numbers that are added to a tool's number to get its length and diameter registers, if the job has none.
+    /// Numbers that are added to a tool's number to get its length register and its diameter register, if the job names
+    /// no register.
     pub registers: Option<[f64; 2]>,
     /// Whether the machine loads tools (M6) and has length offsets.
     pub tools: bool,
-    /// Whether a length offset must be on before the tool goes down. This applies only to machines with length offsets.
+    /// Whether a length offset must be on before the tool goes down. The value has an effect only on machines with
+    /// length offsets.
     pub lengths_due: bool,
     /// Whether the program must set the units itself.
     pub units_due: bool,
-    /// The axis in the program for each of the job's X Y Z A B C (the form's `Rename`).
+    /// For each of the job's axes X Y Z A B C, the axis in the program (the form's `Rename`).
     pub axes: [u8; 6],
     /// Codes of the coolant: on, off, mist.
     pub coolant: [f64; 3],
-    /// Whether taps are rigid if the job does not define it; `None`: the form does not define it either.
+    /// Whether taps are rigid if the job does not define whether they are; `None`: the form does not define it either.
     pub rigid_tap: Option<bool>,
-    /// Whether the form prints the code (M29) that makes the following taps rigid. Without this code they are not rigid.
+    /// Whether the form prints the code (M29) that makes the following taps rigid. Without this code the taps are not
+    /// rigid.
     pub announces_taps: bool,
     /// Whether X of a lathe is a diameter.
     pub by_diameter: bool,
@@ -61,7 +64,7 @@ pub struct Expectation {
 }
 
 impl Default for Expectation {
-    /// The values without a form: the job gets no defaults.
+    /// The values if there is no form: the job gets no defaults.
     fn default() -> Self {
         let defaults = Defaults { rigid: true, ..Defaults::default() };
         Expectation {
@@ -120,8 +123,8 @@ impl Expectation {
         }
     }
 
-    /// Adds the feeds and speeds that the form's sequences print as numbers or calculate. A cut may have one of them
-    /// instead of the job's value.
+    /// Adds the feeds and speeds that the form's sequences print as numbers or calculate. A cut may have one of these
+    /// feeds or speeds instead of the job's value.
     #[must_use]
     pub fn typed(mut self, program: &Program) -> Expectation {
         let settings = &program.settings;
@@ -173,7 +176,8 @@ impl Expectation {
 }
 
 impl Expectation {
-    /// Replaces the form's defaults of properties by given values. A property is identified by its row.
+    /// Replaces the form's defaults of properties by given values. The row in the form's table of properties identifies
+    /// the property.
     #[must_use]
     pub fn given(mut self, properties: &[(u16, PropertyValue)]) -> Expectation {
         for (row, value) in properties {
@@ -198,8 +202,8 @@ fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
 }
 
 impl Expectation {
-    /// The coolant that the program has for a coolant of the job. Two kinds may have the same code, for example on a
-    /// machine without mist. `None`: the simulator does not model this kind.
+    /// The coolant that the program must switch on for a coolant of the job. Two kinds of coolant may have the same
+    /// code, for example on a machine without mist. `None`: the simulator does not model this kind of coolant.
     pub(super) fn cooling(&self, coolant: Coolant) -> Option<Cooling> {
         let [on, off, mist] = self.coolant;
         let (code, named) = match coolant {
@@ -227,7 +231,7 @@ pub(super) fn taps_ahead(control: &Control) -> bool {
     control.has(Meaning::RigidAhead)
 }
 
-/// Whether the control loads tools. A control that refuses M6, such as Grbl, does not.
+/// Whether the control loads tools. A control that refuses M6, such as Grbl, does not load tools.
 fn loads_tools(control: &Control) -> bool {
     !control.refuses(crate::control::Code::m(6))
 }

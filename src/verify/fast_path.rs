@@ -1,6 +1,7 @@
-//! Fast paths for the most frequent cases: a straight cut after a straight cut, and the cut of a hole after the same rapids,
-//! each equal in job and program. Most cuts of long jobs are of these kinds, so they are compared without copies. All other
-//! cuts take the general comparison, which has the same result for the cuts handled here.
+//! Fast comparisons for the two most frequent cuts that are equal in job and program: a straight cut directly after a
+//! straight cut, and the cut of a hole after equal rapids. Most cuts of long jobs are of these kinds, so they are
+//! compared without copies. The general comparison handles all other cuts; it would have the same result for the cuts
+//! of this module.
 
 use super::cut::{ALL, Cut, What, same, turn_as_far};
 use super::intent::{Done, Expected};
@@ -9,11 +10,12 @@ use super::rapids::{moves_as_before, same_rapids};
 use super::sides::Sides;
 use crate::lang::Machine;
 
-/// Shortest cut for the fast path, in tolerances. The rounding of either side can't remove a longer cut.
+/// Shortest cut for the fast comparison, in tolerances. A longer cut is always longer than the rounding of its
+/// positions.
 const LONG: f64 = 4.0;
 
-/// Whether the program's next cut equals the job's cut and both follow directly on the previous cut. If so, the cut is
-/// counted as compared.
+/// Whether the program's next cut equals the job's cut, and both cuts directly follow another cut. If `true`, the cut
+/// is counted as compared.
 pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> bool {
     let What::Line { to } = &cut.what else { return false };
     let tolerance = s.limits.tolerance;
@@ -40,8 +42,8 @@ pub(super) fn goes_on(s: &mut Sides<'_>, cut: &Cut) -> bool {
     is_usual
 }
 
-/// Whether the program's next cut is the job's cut of a hole, after the same rapids and in the same state. If so, the cut is
-/// done.
+/// Whether the program's next cut is the job's cut of a hole, after the same rapids and in the same state. If `true`,
+/// the cut needs no further comparison.
 ///
 /// # Errors
 /// The program can't be run to its next cut.

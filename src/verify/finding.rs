@@ -15,13 +15,13 @@ pub struct Finding {
     pub message: String,
     /// What to check or change.
     pub help: &'static str,
-    /// The job's item, if the finding concerns one.
+    /// The item of the job, if the finding concerns an item.
     pub place: Option<toolpath::Place>,
     /// The program's line, from 1; 0 if there is none.
     pub line: u64,
     /// The line of the program as written.
     pub block: String,
-    /// The form line that printed the block, if it was traced.
+    /// The form line that printed the block, if this line was recorded (traced).
     pub form: Option<Span>,
     /// How often the difference was found. Later differences with the same cause are only counted.
     pub times: u64,

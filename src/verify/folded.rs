@@ -1,4 +1,5 @@
-//! Compares holes in programs for two different controls. The strokes may differ if both programs make the same hole.
+//! Compares holes in programs for two different controls. The strokes of the two programs may differ if both programs
+//! make the same hole.
 
 use super::cut::{Cut, DEPTH, What, same};
 use super::program::Program;
@@ -15,7 +16,7 @@ fn is_stroke(cut: &Cut, tolerance: f64) -> bool {
     matches!(cut.what, What::Line { .. }) && cut.unknown == 0 && same(&cut.from, &cut.end(), ACROSS, tolerance)
 }
 
-/// Whether both programs begin a hole at the same position and height with a stroke down.
+/// Whether both programs begin a hole with a stroke down from the same position and height.
 pub(super) fn begin_alike(a: &Cut, b: &Cut, tolerance: f64) -> bool {
     let down = |cut: &Cut| is_stroke(cut, tolerance) && cut.end()[DEPTH] < cut.from[DEPTH] - tolerance;
     down(a) && down(b) && same(&a.from, &b.from, ACROSS | 1 << DEPTH, tolerance)

@@ -1,5 +1,5 @@
-//! Feeds and speeds that a form itself defines, as numbers or calculated from the job's values. Each has the kinds of
-//! events that print it, because only cuts after such an event may have the value.
+//! Feeds and speeds that a form itself defines, as numbers or calculated from the job's values. Each value has the
+//! kinds of events that print it, because only cuts after such an event may have the value.
 
 use super::tables::OWN;
 use crate::compile::{Program, WorkWords};
@@ -7,7 +7,8 @@ use crate::control::Control;
 use crate::lang::{Coolant, SEQUENCES, SequenceId, TextId, VarId, VarSet};
 use crate::sema::{Formula, PropertyValue, Values};
 
-/// Kinds of events that print a sequence, as bits. If the job has no such event, the values of the sequence do not apply.
+/// Kinds of events that print a sequence, as bits. If the job has no event of these kinds, the values of the sequence
+/// do not apply.
 pub(super) mod by {
     /// Events of every job: its start, its tool changes, its plain moves.
     pub const JOB: u8 = 1;
@@ -23,7 +24,7 @@ pub(super) mod by {
     pub const PAUSE: u8 = 1 << 5;
     /// A subprogram.
     pub const SUB: u8 = 1 << 6;
-    /// Events that print a cut themselves. A feed in the sequence of such an event is the feed of that cut.
+    /// Events whose sequences print a cut. A feed in one of these sequences is the feed of the cut.
     pub const CUTS: u8 = HOLE | INFEED | OUTFEED;
 }
 
@@ -61,11 +62,12 @@ pub(super) fn printed_by(sequence: SequenceId) -> u8 {
 /// The values that the form itself defines for one quantity, such as the feed.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
-    /// Numbers in the form, with the events that print them.
+    /// Numbers in the form, each with the kinds of events that print the number.
     typed: Vec<(f64, u8)>,
-    /// Calculations from the job's value, such as `[min(speed,800)]`, with the events that print them.
+    /// Calculations from the job's value, such as `[min(speed,800)]`, each with the kinds of events that print the
+    /// result.
     calculated: Vec<(Formula, u8)>,
-    /// The form's properties as numbers: a given value, or else the form's default.
+    /// The form's properties as numbers: the value given by the user, or the form's default if no value is given.
     properties: Vec<f64>,
 }
 
@@ -91,7 +93,7 @@ impl Own {
         }
     }
 
-    /// Adds a calculated word if its formula uses no variables, or exactly one variable and this variable is in `of`.
+    /// Adds a calculated word if its formula uses no variable, or only one variable, which is in `of`.
     pub(super) fn calculates(&mut self, formula: &Formula, of: &[VarId], by: u8) {
         let vars = formula.vars();
         let counts = vars.is_empty() || of.iter().any(|&var| vars == VarSet::of(&[var]));
@@ -110,9 +112,9 @@ impl Own {
         words.name(&values, control).unwrap_or(work)
     }
 
-    /// Whether the form itself defines a value that may replace this value of the job. It must be within the allowed
-    /// range around the job's value. `by`: the kinds of events of the job so far. `is`: tests whether a number is the
-    /// program's value.
+    /// Whether the form itself defines a value that may replace the job's value `wanted`. The form's value must be
+    /// within the allowed range around the job's value. `by`: the kinds of events that the job has had so far. `is`:
+    /// tests whether a number is the program's value.
     pub(super) fn says(&self, wanted: f64, by: u8, is: impl Fn(f64) -> bool) -> bool {
         let values = OfJob { wanted, properties: &self.properties };
         let near = |own: f64| (OWN[0] * wanted..=OWN[1] * wanted).contains(&own) && is(own);
@@ -130,7 +132,7 @@ fn number(value: &PropertyValue) -> f64 {
     }
 }
 
-/// Variables for a formula: each variable has the value of the job.
+/// Variables for a formula: each variable has the job's value `wanted`.
 struct OfJob<'a> {
     wanted: f64,
     properties: &'a [f64],

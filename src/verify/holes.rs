@@ -1,4 +1,4 @@
-//! Compares pecked holes. A control's cycle may make other pecks than the job and still the same hole.
+//! Compares pecked holes. The cycle of a control may make the job's hole with other pecks than the job.
 
 use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
 use super::intent::{Done, Expected};
@@ -9,7 +9,8 @@ use super::strokes::Strokes;
 use super::tables::LONGER;
 use crate::diag::Code;
 
-/// Compares the program's cuts in this hole with the job's. The first cut was already reached.
+/// Compares the program's cuts in this hole with the job's cuts. The program was already run to its first cut in the
+/// hole.
 pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let Limits { tolerance, increment, .. } = s.limits;
     let pecks = std::mem::take(&mut s.hole.pecks);
@@ -43,7 +44,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
             let deepest = strokes.deepest;
             s.found(Code::PV009, found.line, "check the clearance of the pecks", || {
                 let (low, cut) = (number(lowest), number(deepest));
-                format!("a rapid goes to Z{low} in the hole at {}, which is cut only to Z{cut}", over(&hole.at))
+                format!("a rapid goes to Z{low} in the hole at {}, but the hole is cut only to Z{cut}", over(&hole.at))
             });
         }
         let What::Line { to } = found.what else { break };
@@ -84,7 +85,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
             );
             return s.unproven(why, "the moves of a custom cycle are defined only in the form", line);
         }
-        s.found(Code::PV004, line, "print Z[d] at every hole where it changes", || {
+        s.found(Code::PV004, line, "print Z[d] at every hole where the depth changes", || {
             format!("the hole at {at} is cut to Z{}, but the job's hole to Z{}", number(deepest), number(hole.bottom))
         });
     }
@@ -104,7 +105,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     Ok(())
 }
 
-/// The depth of the hole before each of its pecks. A peck cuts new material below this depth, so no two pecks cut the
+/// The depth of the hole before each peck. Only material below this depth is new for the peck, so no two pecks cut the
 /// same material.
 fn begins(pecks: &[Cut]) -> Vec<f64> {
     let depths = pecks.iter().scan(f64::INFINITY, |deepest, peck| {
@@ -115,7 +116,8 @@ fn begins(pecks: &[Cut]) -> Vec<f64> {
     depths.collect()
 }
 
-/// Compares the spindle, registers and feed of a stroke with those of a peck of the job that cuts some of the same material.
+/// Compares a stroke of the program with a peck of the job that cuts the same material, at least in part. The spindle,
+/// the registers and the feed are compared.
 fn peck_state(
     s: &mut Sides<'_>,
     (pecks, begins): (&[Cut], &[f64]),
@@ -157,22 +159,22 @@ fn peck_state(
     }
 }
 
-/// Checks the pecks of a hole. Other pecks are accepted. But if the job pecks the hole, so must the program, and the tool
-/// must leave the hole as often as in the job.
+/// Checks the pecks of a hole. The pecks may differ from the job's pecks. But if the job pecks the hole, the program
+/// must also peck it, and the tool must leave the hole as often as in the job.
 fn check(s: &mut Sides<'_>, hole: &Expected, [wanted, made]: [&Strokes; 2], line: u64) {
     let help = "print Q[vbite] with G83 or G73, according to the kind of cycle in the job";
     let [count, outs] = wanted.counted(s.limits.tolerance);
     if count > 1 && (made.counts[0] < 2 || made.longest > LONGER * wanted.longest) {
         s.found(Code::PV023, line, help, || {
             let (is, by) = (number(made.longest), number(wanted.longest));
-            format!("the hole at {} is cut by {is} in one peck, but the job pecks by {by}", over(&hole.at))
+            format!("in the hole at {} one peck is {is} deep, but at most {by} in the job", over(&hole.at))
         });
     }
     if hole.comes_out && outs > 0 && (made.counts[1] == 0 || made.farthest > LONGER * wanted.farthest) {
         s.found(Code::PV023, line, help, || {
             let (is, by) = (number(made.farthest), number(wanted.farthest));
             format!(
-                "the hole at {} is cut by {is} before the tool retracts out of it, but by {by} in the job",
+                "in the hole at {} the tool cuts {is} deep before it retracts out of the hole, but {by} in the job",
                 over(&hole.at)
             )
         });

@@ -1,12 +1,13 @@
-//! Compares paths without a cut: those of a tool or a work offset without a cut, and those after the program's last cut.
+//! Compares paths without a cut: paths of a tool or a work offset that makes no cut, and paths after the program's last
+//! cut.
 
 use super::cut::{ALL, Rapid, same};
 use super::passage::{Frame, Passage};
 use super::rapid_path::RapidPath;
 use super::ways::{Compared, compare as compare_way};
 
-/// The number of paths without a cut that the job has and the program does not have. `at_end`: the comparison is after
-/// the last cut, so the last path has no cut either. `tools`: the machine loads tools.
+/// Counts the job's paths without a cut that are missing in the program. `at_end`: the comparison is made after the
+/// last cut, so no cut follows the last path. `tools`: the machine loads tools.
 pub(super) fn otherwise(job: &Passage, program: &Passage, at_end: bool, tools: bool, tolerance: f64) -> u64 {
     // the first path leads away from a cut, if there was one
     let leaves = usize::from(job.start.is_some());
@@ -31,7 +32,7 @@ fn ways(passage: &Passage, leaves: usize, at_end: bool) -> impl Iterator<Item = 
     })
 }
 
-/// Whether the program goes to the job's positions, is nowhere lower and ends at the same position as the job.
+/// Whether the program goes to the job's positions, is nowhere lower than the job and ends at the job's last position.
 fn is_made(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let (mut own, mut other) = (RapidPath::default(), RapidPath::default());
     own.set(None, job, tolerance);

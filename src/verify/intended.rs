@@ -1,4 +1,4 @@
-//! The job's side of the comparison: converts events to the cuts and paths that the job intends.
+//! The job's side of the comparison: converts the events of the job to the cuts and paths that the program must make.
 
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
@@ -20,7 +20,7 @@ use crate::toolpath::{
 /// A cycle that the job has opened and not yet closed.
 pub(super) struct Open {
     pub spec: CycleSpec,
-    /// Height of the last hole's position.
+    /// Height of the point of the last hole.
     pub point: Option<f64>,
     pub first_return: Option<f64>,
 }
@@ -43,7 +43,8 @@ pub(super) struct Job {
     machine: Machine,
     /// The tool's number in the job.
     tool: Option<f64>,
-    /// Kinds of events that the job has had so far. Events that print a cut are counted only since the last spindle event.
+    /// Kinds of events in the job so far. Of the events that print a cut, only those after the last spindle event are
+    /// included.
     by: u8,
     /// The kind of event that prints the current cut.
     cuts_by: u8,
@@ -76,10 +77,10 @@ impl Job {
         }
     }
 
-    /// Processes an event and passes its motions on to `to`.
+    /// Processes an event of the job and passes the motions of the event on to `to`.
     ///
     /// # Errors
-    /// The effect of the event is unknown, or the comparison of its motions ended.
+    /// The effect of the event is unknown, or a difference ended the comparison.
     pub fn event(&mut self, event: Event<'_>, to: &mut impl Intent) -> Done {
         self.order.follow(&event)?;
         if self.subprograms.hold(&event, to.place())? { Ok(()) } else { self.act(event, to) }
@@ -235,7 +236,7 @@ impl Job {
         self.work_is(self.expectation.work_of(work), to);
     }
 
-    /// Sets the work offset by its code. A change begins a new frame.
+    /// Sets the work offset by its code. A new work offset begins a new coordinate frame.
     pub(super) fn work_is(&mut self, work: Option<f64>, to: &mut impl Intent) {
         if std::mem::replace(&mut self.state.work, work) != work {
             self.changed(false, to);
@@ -246,7 +247,8 @@ impl Job {
         to.changed(Frame { tool: self.state.tool, work: self.state.work }, self.state.length, tool);
     }
 
-    /// Handles text that is copied into the program unchanged. The codes in it change the job's state as they change the program's state.
+    /// Handles text that is copied into the program unchanged. The codes in the text change the job's state in the same
+    /// way as the program's state.
     fn text(&mut self, text: &str, to: &mut impl Intent) -> Done {
         let mut axes = false;
         for token in tokens(text.as_bytes()) {
@@ -278,7 +280,8 @@ impl Job {
         if axes { unproven(Unmodelled::Text) } else { Ok(()) }
     }
 
-    /// Sets whether the speed is a surface speed or in revolutions per minute. After a change, no speed is known.
+    /// Sets whether the speed is a surface speed or in revolutions per minute. After a change between these two kinds
+    /// of speed, the speed is unknown.
     fn counts_speed(&mut self, at_surface: bool) {
         if at_surface != self.css {
             self.state.speed = None;
@@ -303,7 +306,7 @@ impl Job {
         self.by &= !by::CUTS;
     }
 
-    /// Converts a position of the job. A lathe's job has its positions as Z and radius.
+    /// Converts a position of the job. The job of a lathe gives positions as Z and radius.
     pub(super) fn place(&self, to: &Axes) -> Axes {
         if !self.is_lathe() {
             return *to;
@@ -334,7 +337,7 @@ impl Job {
         target
     }
 
-    /// A position in the form that is used for comparison on both sides.
+    /// A position in the data type (`Place`) in which positions of job and program are compared.
     pub(super) fn whole(&self, at: &Axes) -> Place {
         let [x, y, u, v, ..] = at.values;
         let guide = |axis: usize, value: f64| if at.given & 1 << axis == 0 { UNSAID } else { value };
@@ -427,8 +430,8 @@ impl Job {
         self.cut_to(target, What::Arc(turn), to)
     }
 
-    /// Handles an action of the wire: threading, cutting, drilling its start hole, filling the tank. Its codes come from
-    /// the form's sequence.
+    /// Handles an action of the wire EDM machine: threading or cutting the wire, drilling the start hole, filling the
+    /// tank. The form's sequence for the action defines the codes.
     fn wire(&mut self, action: EdmAction, to: &mut impl Intent) -> Done {
         if self.expectation.wire.is_none() {
             return unproven(Unmodelled::Wire);
@@ -451,7 +454,7 @@ fn made_by(event: &Event<'_>) -> u8 {
     }
 }
 
-/// Passes a dwell on, unless its time is zero.
+/// Passes a dwell on if its time is not zero.
 pub(super) fn wait(seconds: f64, to: &mut impl Intent) {
     if seconds > 0.0 {
         to.wait(seconds);
@@ -466,7 +469,8 @@ pub(super) fn rotation(turn: SpindleTurn) -> Rotation {
     }
 }
 
-/// The station in the turret and the offset register of a lathe's tool, as in its T word. The register is the last two digits.
+/// The turret station and the offset register of a lathe's tool, as in the T word. The last two digits of the T word
+/// are the register.
 fn turret(tool: &Tool, register: Option<f64>) -> [Option<f64>; 2] {
     const STATIONS: f64 = 100.0;
     let whole = tool.number >= STATIONS;

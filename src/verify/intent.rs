@@ -1,4 +1,4 @@
-//! The output of the job's side: its cuts, holes, threads and paths between cuts.
+//! The output of the job's side of the comparison: cuts, holes, threads and paths between cuts.
 
 use super::cut::{Cut, Place, Rapid};
 use super::passage::Frame;
@@ -9,20 +9,20 @@ use crate::toolpath::{self, StopKind, Units};
 
 /// Receives the job's motions in their order.
 pub(super) trait Intent {
-    /// Sets the units of the job and two lengths in these units: the largest deviation of lines from an arc, and the
-    /// smallest step that the form can print along a hole.
+    /// Sets the units of the job. Also sets two lengths in these units: the largest deviation of lines from an arc, and
+    /// the smallest step that the form can print along a hole.
     fn units(&mut self, units: Units, chord: f64, increment: f64);
     /// A rapid.
     fn rapid(&mut self, rapid: Rapid) -> Done;
     /// A cut.
     fn cut(&mut self, cut: &Cut, hole: Option<&Expected>) -> Done;
-    /// A move that turns compensation on or off. In the program it may be a rapid or a feed move.
+    /// A move that turns compensation on or off. In the program this move may be a rapid or a feed move.
     fn rapid_or_feed(&mut self, cut: &Cut) -> Done;
     /// A dwell in seconds. NaN means a dwell of any length.
     fn wait(&mut self, seconds: f64);
     /// A stop.
     fn stop(&mut self, kind: StopKind);
-    /// A thread with all its passes, and the modal state at its passes.
+    /// A thread with all its passes, and the modal state at these passes.
     fn thread(&mut self, cut: &Cut, thread: &Threaded) -> Done;
     /// Sets that the job is for a lathe. `by_diameter`: X in the program is a diameter, not a radius.
     fn is_of_lathe(&mut self, by_diameter: bool);
@@ -30,9 +30,10 @@ pub(super) trait Intent {
     fn hole_begins(&mut self, hole: &Expected);
     /// The moves of a hole end.
     fn hole_ends(&mut self, hole: &Expected) -> Done;
-    /// The tool or the work offset changes. Positions after it are in another coordinate frame. `length`: the tool's register.
+    /// The tool or the work offset changes. Positions after this change are in another coordinate frame. `length`: the
+    /// tool's length register.
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
-    /// The tool goes home. Its position is then unknown. `length`: the tool's length register.
+    /// The tool goes home. At home the tool's position is unknown. `length`: the tool's length register.
     fn home(&mut self, length: Option<f64>);
     /// The job is over.
     fn finish(&mut self) -> Done;
@@ -60,11 +61,12 @@ pub(super) struct Expected {
     pub dwell: Option<f64>,
     /// Whether the program may make the hole with other pecks.
     pub pecks: bool,
-    /// Whether the tool leaves the hole between pecks. For a tap, a setting of the control decides this.
+    /// Whether the tool leaves the hole between pecks. For a tap, a setting of the control decides whether the tool
+    /// leaves the hole.
     pub comes_out: bool,
-    /// Whether the job drills the hole in one stroke. The program may still peck it.
+    /// Whether the job drills the hole in one stroke. The program may peck the hole even then.
     pub drilled_in_one: bool,
-    /// Whether the hole is tapped. Its feed and speed then define the pitch.
+    /// Whether the hole is tapped. In a tapped hole, feed and speed define the pitch of the thread.
     pub is_tap: bool,
     /// Whether the tool may leave the hole at feed and end higher than in the job.
     pub feeds_out: bool,
@@ -75,17 +77,17 @@ pub(super) struct Expected {
 /// The requirements of the job for one start of a thread. X is a radius.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Threaded {
-    /// The position from which the tool moves to each pass, away from the thread.
+    /// The position, away from the thread, from which the tool moves to each pass.
     pub begin: Place,
-    /// The Z of its end.
+    /// The Z of the end of the thread.
     pub end: f64,
-    /// Radius of its crest at the end.
+    /// Radius of the thread's crest at the end of the thread.
     pub crest: f64,
-    /// Radius at the beginning of a pass minus the radius at its end.
+    /// Radius at the beginning of a pass minus the radius at the end of the pass.
     pub taper: f64,
-    /// -1 if the passes go deeper towards the axis, 1 if they go deeper away from it.
+    /// -1 if the passes go deeper towards the axis, 1 if they go deeper away from the axis.
     pub inward: f64,
-    /// Depths of the job's passes below the crest.
+    /// Depth of each pass of the job below the crest of the thread.
     pub passes: Vec<f64>,
     /// Distance that the thread advances in one turn.
     pub lead: f64,

@@ -9,10 +9,10 @@ use super::sides::Sides;
 use crate::diag::Code;
 use crate::toolpath::FeedMode;
 
-/// If more consecutive cuts than this have a wrong end, the comparison ends.
+/// The largest number of consecutive cuts with a wrong end; the comparison ends after more of them.
 const MOST_SLIPS: u32 = 3;
 
-/// Compares a straight cut. The program may make it as one cut or in parts that lie on it.
+/// Compares a straight cut. The program may make the cut as one cut, or in parts that lie on the job's cut.
 pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
     let end = cut.end();
@@ -56,8 +56,10 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
             s.slips = 0;
             return Ok(());
         }
-        let message =
-            format!("the part turns in the opposite direction, or by more turns, in the move to {}", shown(&end, ALL));
+        let message = format!(
+            "in the move to {} the part turns in another direction than in the job, or by more turns",
+            shown(&end, ALL)
+        );
         return s.differs(Code::PV001, line, message, "check the travel of the rotary axis (`Limits`)");
     }
     s.slipped = Some([end, is]);
@@ -70,7 +72,7 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
             s.report.allowed.outs += 1;
             return Ok(());
         }
-        s.found(Code::PV004, line, "print Z[d] at every hole where it changes", || {
+        s.found(Code::PV004, line, "print Z[d] at every hole where the depth changes", || {
             format!(
                 "the hole at {} is cut to Z{}, but the job's hole to Z{}",
                 over(&end),
@@ -90,7 +92,8 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
     Ok(())
 }
 
-/// The required values for one part of a cut. In inverse time mode, the feed is scaled by the length of the part.
+/// The required values for one part of a cut. In inverse time mode, the required feed is scaled by the length of the
+/// part.
 fn in_parts(cut: &Cut, part: &Cut) -> Cut {
     let length = |cut: &Cut| apart(&cut.from, &cut.end());
     let share = length(part) / length(cut);

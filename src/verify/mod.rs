@@ -1,8 +1,8 @@
 //! Verifies that a program makes the motions that its job requests.
 //!
-//! The events of the job are converted to cuts, each with the path that leads to it. The program is simulated block by
-//! block, which also results in cuts and paths. Both are compared one by one, so memory does not grow with job or
-//! program.
+//! The events of the job are converted to cuts, each with the path to this cut. The program is simulated block by block
+//! and is also converted to cuts and paths. The cuts and paths of job and program are compared one by one, so memory
+//! does not grow with the job or the program.
 
 mod align;
 mod arcs;

@@ -10,7 +10,8 @@ use crate::toolpath::{self, FeedMode, Plane};
 /// A difference between two states: the code, the correction, and the message.
 type Differs = (Code, &'static str, String);
 
-/// Compares tool, work offset, spindle, coolant and compensation. `tap`: the cut is a tap, so feed and speed define the pitch.
+/// Compares tool, work offset, spindle, coolant and compensation. `tap`: the cut is made by a tap, so feed and speed
+/// define the pitch of the thread.
 pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let both = [cut.state.clone(), found.state.clone()];
     s.before = found.state.clone();
@@ -58,7 +59,7 @@ fn offsets([wanted, is]: [&State; 2]) -> Option<Differs> {
     let a = wanted.work.filter(|_| wanted.work != is.work)?;
     let is = is.work.map_or("not printed".to_owned(), |b| b.to_string());
     let message = format!("the work offset is {is}, but {a} in the job");
-    Some((Code::PV012, "print G[work] in the tool change, or in `Upon [work]`", message))
+    Some((Code::PV012, "print G[work] in the tool change, or in the sequence `Upon [work]`", message))
 }
 
 fn turning([wanted, is]: [&State; 2]) -> Option<Differs> {
@@ -105,7 +106,7 @@ fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
     Some((Code::PV024, "print M[cool] in the tool change, and after a stop", message))
 }
 
-/// Compares the spindle before a floating tap. Such a tap starts with the rotation that is already on.
+/// Compares the spindle before a floating tap. A floating tap starts with the rotation that is already on.
 fn into_tap([wanted, is]: [&State; 2]) -> Option<Differs> {
     let (a, b) = (wanted.into_tap?, is.into_tap?);
     let message = format!("the spindle is {} before the floating tap, but {} in the job", b.name(), a.name());
@@ -175,7 +176,7 @@ pub(super) fn feeds(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     });
 }
 
-/// Whether a cut of the program has the job's feed. Feeds in different feed modes are not compared.
+/// Whether a cut of the program has the job's feed. If the feed modes differ, the feeds are not compared.
 pub(super) fn has_feed(cut: &Cut, found: &Cut, tap: bool) -> bool {
     match (cut.feed, found.feed) {
         (Some(wanted), Some(is)) => cut.mode != found.mode || is_feed(wanted, is, tap),
@@ -183,7 +184,7 @@ pub(super) fn has_feed(cut: &Cut, found: &Cut, tap: bool) -> bool {
     }
 }
 
-/// Whether a feed equals the required one within the allowed rounding.
+/// Whether a feed equals the required feed within the allowed rounding.
 pub(super) fn is_feed(wanted: f64, is: f64, tap: bool) -> bool {
     (wanted - is).abs() <= (if tap { PITCH } else { ROUNDED } * wanted).max(1e-9)
 }

@@ -1,12 +1,12 @@
-//! A passage: everything between two cuts, such as rapids, changes of tool and work offset, stops and dwells. Job and
-//! program each have one.
+//! A passage: everything between two cuts, such as rapids, changes of tool and work offset, stops and dwells. The job
+//! has a passage between its cuts, and the program has a passage between its cuts.
 
 use super::cut::{ALL, DEPTH, Place, Rapid, same};
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
 
-/// The coordinate frame of positions, given by the tool and the work offset.
+/// The coordinate frame in which positions are given; the tool and the work offset define it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Frame {
     pub tool: Option<f64>,
@@ -21,7 +21,7 @@ pub(super) struct Leg {
     from: usize,
     /// Whether the leg begins where the job sends the tool home.
     home: bool,
-    /// Length registers that were active while the tool moved to known heights. For a job: the tool's register.
+    /// Length registers that were active while the tool moved to known heights. For a job: the tool's length register.
     pub lengths: Vec<Option<f64>>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Mark<T> {
     leg: usize,
     /// Whether the spindle was started from a stop between the last cut and the mark.
     pub started: bool,
-    /// Whether a torch or a laser is off at the mark. If so, the tool is not in a cut.
+    /// Whether a torch or a laser is off at the mark. A torch or laser that is off is not in a cut.
     pub is_off: bool,
     /// The program's line; 0 for a job.
     pub line: u64,
@@ -43,15 +43,15 @@ pub(super) struct Mark<T> {
     pub place: toolpath::Place,
 }
 
-/// Everything between the last cut and the next.
+/// Everything between two cuts.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
-    /// The start of the passage; `None` if it is known only at the machine.
+    /// The start position of the passage; `None` if this position is known only at the machine.
     pub start: Option<Rapid>,
-    /// Whether the passage begins at the end of a cut, and not at the start of the program.
+    /// Whether the passage begins at the end of a cut. `false`: it begins at the start of the program.
     after_cut: bool,
     pub rapids: Vec<Rapid>,
-    /// The parts of the path, one for each frame. There is at least one.
+    /// The parts of the path (legs), one for each frame. The list has at least one leg.
     legs: Vec<Leg>,
     pub stops: Vec<Mark<StopKind>>,
     /// Dwells in seconds. NaN means a dwell of any length.
@@ -70,27 +70,29 @@ pub(super) struct Passage {
     pub new_tool: bool,
     /// For each tool change of a lathe: the axes that are at a machine position, as bits.
     pub turrets: Vec<u8>,
-    /// Axes that went to a machine position whose value is in the program.
+    /// Axes that went to a machine position that the program gives as a number.
     pub homes: u8,
     /// Whether the job's path moves away from the axis of its hole.
     pub aside: bool,
     /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
     pub left_aside: bool,
-    /// Targets of incremental moves from an unknown machine position, with their lines.
+    /// Targets of incremental moves from an unknown machine position, each with its line.
     pub astray: Vec<(u64, Place)>,
 }
 
 /// The message for a passage that is too long.
 pub(super) const TOO_LONG: &str = "too many rapids, stops and dwells between two cuts";
-/// The largest number of rapids between two cuts. All of them are kept in memory, and no real job has more.
+/// The largest number of rapids between two cuts. All rapids between two cuts are kept in memory, and no real job has
+/// more.
 const MOST: usize = 1 << 16;
-/// The largest number of stops and dwells between two cuts. Each is compared with each, and no real job has more.
+/// The largest number of stops and dwells between two cuts. Each stop or dwell is compared with all others, and no real
+/// job has more.
 const MOST_MARKS: usize = 1 << 12;
 /// The largest number of changes of tool or work offset between two cuts. No real job has more.
 const MOST_LEGS: usize = 1 << 11;
 
 impl Passage {
-    /// A passage that begins at this start in this frame.
+    /// A passage that begins at the position `start` in the coordinate frame `frame`.
     pub fn new(start: Option<Rapid>, frame: Frame) -> Passage {
         Passage {
             start,
@@ -137,7 +139,7 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
-    /// Skips a cut that does not matter: the passage continues at the end of the cut.
+    /// Skips a cut that does not matter. The passage then continues from the end of the skipped cut.
     pub fn goes_on(&mut self, to: Place) {
         match &mut self.start {
             Some(start) if self.rapids.is_empty() && self.legs.len() == 1 => {
@@ -147,7 +149,7 @@ impl Passage {
         }
     }
 
-    /// Changes the frame. Positions after it are in other coordinates.
+    /// Changes the frame. Positions after the change are in another coordinate frame.
     pub fn change(&mut self, frame: Frame) {
         if let [.., before, last] = self.legs.as_slice()
             && last.from == self.rapids.len()
@@ -166,7 +168,7 @@ impl Passage {
         self.legs.push(Leg { frame, from: self.rapids.len(), ..Leg::default() });
     }
 
-    /// Sends the tool home. A new leg begins there, in the same frame.
+    /// Sends the tool home. A new leg begins at the home position, in the same frame.
     pub fn goes_home(&mut self, length: Option<f64>) {
         if self.legs.len() == 1 {
             self.left_aside = std::mem::take(&mut self.aside);
@@ -181,7 +183,7 @@ impl Passage {
     }
 
     /// Begins a new leg after each machine position along one of these axes. The job's passage also begins a leg where
-    /// it goes home. Returns whether there is such a position.
+    /// the job sends the tool home. Returns whether the passage contains a machine position along one of these axes.
     pub fn splits_at_home(&mut self, axes: u8) -> bool {
         let is_home = |rapid: &Rapid| rapid.unknown & axes != 0;
         let ends: Vec<usize> = (1..=self.rapids.len())
@@ -209,13 +211,13 @@ impl Passage {
         self.stops.iter().filter(|stop| stop.what == kind && stop.leg < leg).count()
     }
 
-    /// The indices of the legs that begin with another tool. `true`: this tool is the first of the program.
+    /// The indices of the legs that begin with a new tool. `true`: the new tool is the first tool of the program.
     pub fn tool_changes(&self) -> Vec<(usize, bool)> {
         let pairs = self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.tool != pair[1].frame.tool);
         pairs.map(|(at, pair)| (at + 1, pair[0].frame.tool.is_none())).collect()
     }
 
-    /// The current leg, which is the last one.
+    /// The current leg, which is the last leg of the passage.
     pub fn leg(&mut self) -> Option<&mut Leg> {
         self.legs.last_mut()
     }
@@ -273,7 +275,7 @@ impl Passage {
         sent || last.is_some_and(|rapid| rapid.unknown & axes != 0)
     }
 
-    /// Whether the tool is still at the end of the cut at this mark.
+    /// Whether the tool is still at the end of the last cut at this mark (such as a dwell).
     pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
         let Some(start) = self.start.filter(|_| self.after_cut && mark.leg == 0 && !mark.is_off) else { return false };
         let stays = |rapid: &Rapid| {
@@ -310,12 +312,12 @@ impl Passage {
         if fresh { None } else { self.rapids.last().copied().or(self.start) }
     }
 
-    /// Whether the next cut follows directly on the last cut, without any action between them.
+    /// Whether the next cut follows directly on the last cut, without a rapid or another action between the two cuts.
     pub fn is_plain(&self) -> bool {
         self.rapids.is_empty() && self.only_moves()
     }
 
-    /// Whether only rapids in one frame are between the last cut and the next.
+    /// Whether the passage contains only rapids, all in one frame.
     pub fn only_moves(&self) -> bool {
         self.legs.len() == 1 && self.stops.is_empty() && self.waits.is_empty() && self.does.is_empty()
     }

@@ -25,7 +25,7 @@ fn kind_of(kind: StopKind) -> &'static str {
     if kind == StopKind::Program { "program" } else { "optional" }
 }
 
-/// Checks that the program has the job's stops in the same order, with the tool at the same height or higher.
+/// Checks that the program has the job's stops in the job's order, with the tool at the job's height or higher.
 fn stops(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut others = s.program.passage.stops.clone();
@@ -44,7 +44,7 @@ fn stops(s: &mut Sides<'_>) {
         let away = rapids::away(s.machine);
         if s.job.at_home(stop, away) && !s.program.passage.at_home(&made, away) {
             told(s, stop, Code::PV019, made.line, "print the stop after the move home", || {
-                "the job stops with the tool at home, but the program stops before".to_owned()
+                "the job stops with the tool at home, but the program stops before the move home".to_owned()
             });
         }
         s.report.allowed.pauses += u64::from(is_elsewhere(s, stop, &made));
@@ -64,7 +64,8 @@ fn stops(s: &mut Sides<'_>) {
     }
 }
 
-/// Checks stops between two pecks of a hole. No job has a stop there. A stop below the clearance plane counts as a stop in a cut.
+/// Checks stops between two pecks of a hole. No job has a stop between two pecks. A stop below the clearance plane
+/// counts as a stop in a cut.
 pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     for stop in s.program.passage.stops.clone() {
         let stands = s.program.passage.standing(&stop);
@@ -73,25 +74,26 @@ pub(super) fn between_pecks(s: &mut Sides<'_>, hole: &Expected) {
     }
 }
 
-/// Handles a stop that the job does not have. In a cut it is a finding; outside cuts it is counted as an allowed difference.
+/// Handles a stop that the job does not have. A stop in a cut is a finding; a stop outside cuts is counted as an
+/// allowed difference.
 fn own_stop(s: &mut Sides<'_>, stop: &Mark<StopKind>, in_cut: bool) {
     if !in_cut {
         s.report.allowed.stops += 1;
         return;
     }
     s.found(Code::PV019, stop.line, "retract before the stop, or remove the stop", || {
-        "a stop that the job does not have, with the tool in the cut".to_owned()
+        "the program stops with the tool in the cut, but the job does not stop here".to_owned()
     });
 }
 
-/// Whether the tool is at different positions at the two marks.
+/// Whether the tool's position at the job's mark differs from its position at the program's mark.
 fn is_elsewhere<T>(s: &Sides<'_>, wanted: &Mark<T>, made: &Mark<T>) -> bool {
     let stands = [s.job.standing(wanted), s.program.passage.standing(made)];
     matches!(stands, [Some(a), Some(b)] if !same(&a.to, &b.to, ALL, s.limits.tolerance))
 }
 
-/// On a machine without tool changes, the program stops for each next tool. Such a stop comes after the job's stops with the previous
-/// tool.
+/// On a machine without tool changes, the program stops before each new tool. Such a stop for a tool comes after the
+/// job's stops with the previous tool.
 fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     if !s.job.new_tool || s.tools || s.switches {
         return;
@@ -118,15 +120,15 @@ fn operators_change(s: &mut Sides<'_>, others: &mut Vec<Mark<StopKind>>) {
     }
 }
 
-/// Reports a difference at the item of the job where the mark was made.
+/// Reports a difference at the item of the job that made the mark.
 fn told<T>(s: &mut Sides<'_>, mark: &Mark<T>, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
     let here = std::mem::replace(&mut s.report.place, mark.place);
     s.found(code, line, help, message);
     s.report.place = here;
 }
 
-/// Checks that the program has the job's dwells. Other dwells are allowed only outside cuts, or while the spindle comes
-/// to speed.
+/// Checks that the program has the job's dwells. Additional dwells are allowed only outside cuts, or while the spindle
+/// comes to speed.
 fn waits(s: &mut Sides<'_>) {
     let tolerance = s.limits.tolerance;
     let mut wanted = std::mem::take(&mut s.job.waits);

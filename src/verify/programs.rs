@@ -1,4 +1,5 @@
-//! Compares two programs by the motions of the machine. Different code for the same motions is no difference.
+//! Compares the motions of the machine in two programs. If different codes make the same motions, the programs are
+//! equal.
 
 use std::io::{Read, Seek};
 
@@ -19,32 +20,36 @@ use crate::toolpath::{StopKind, Units};
 pub struct MotionDifference {
     /// Description of the difference.
     pub message: String,
-    /// The line number and text of the block in the old and in the new program; line 0 if that program has ended.
+    /// The line number and text of the block in the old and in the new program; the line is 0 if the program has ended.
     pub blocks: [(u64, String); 2],
 }
 
 /// The result of comparing the motions of two programs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motions {
-    /// The first difference. The comparison ends there.
+    /// The first difference. The comparison ends at this difference.
     pub difference: Option<MotionDifference>,
-    /// Number of paths between cuts that differ although neither is lower.
+    /// Number of paths between two cuts that differ, although the path of neither program is lower.
     pub ways: u64,
     /// Number of cuts before which the two programs have different codes that are not simulated.
     pub codes: u64,
-    /// Number of holes with different pecks. Only programs for different controls are compared in this way.
+    /// Number of holes with different pecks. Different pecks are allowed only if the programs are for different
+    /// controls.
     pub pecks: u64,
-    /// Number of feeds that differ by rounding. Only programs for different controls may differ like this.
+    /// Number of feeds that differ by rounding. Rounding differences of feeds are allowed only if the programs are for
+    /// different controls.
     pub feeds: u64,
     /// Number of cuts compared.
     pub cuts: u64,
 }
 
-/// The reason why motions can't be compared: program 0 (old) or 1 (new) can't be read, or its control refuses a block.
+/// The reason why motions can't be compared: program 0 (old) or 1 (new) can't be read, or the control of this program
+/// refuses a block.
 #[derive(Debug)]
 pub struct NoMotion(pub usize, pub RunError);
 
-/// Compares the motions of two programs, cut by cut. Units, the order of words and canned cycles do not matter.
+/// Compares the motions of two programs, cut by cut. The programs may use different units, another order of words, or
+/// canned cycles instead of single moves.
 ///
 /// # Errors
 /// One of the programs can't be run.
@@ -153,7 +158,8 @@ pub fn compare_motions(
     }
 }
 
-/// Converts the result of comparing the old path with the new one. If the old path is lower, the paths are different.
+/// Converts the result of the comparison of the old path with the new path. If the old path is lower, the paths are
+/// different.
 fn higher(other: Compared) -> Compared {
     match other {
         Compared::Lower(low) => Compared::Elsewhere(low.to.to),
@@ -175,10 +181,10 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
         return Some(format!("a cut begins at {new}, but at {old} in the old program"));
     }
     if cut.open != found.open {
-        return Some("in one program a cut goes to an unknown machine position".to_owned());
+        return Some("only one program cuts to an unknown machine position".to_owned());
     }
     if cut.home != found.home {
-        return Some("in one program a cut goes to a position in machine coordinates".to_owned());
+        return Some("only one program cuts to a position in machine coordinates".to_owned());
     }
     if !same(&cut.from, &found.from, ALL, tolerance) {
         return Some(format!(
@@ -193,14 +199,16 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
             let to = low.to.to;
             return Some(format!("a rapid goes to {}, which is lower than in the old program", shown(&to, 0b111)));
         }
-        Compared::Elsewhere(to) => return Some(format!("the rapids near {} follow another path", shown(&to, 0b111))),
+        Compared::Elsewhere(to) => {
+            return Some(format!("the rapids near {} follow another path than in the old program", shown(&to, 0b111)));
+        }
     }
     match (cut.what, found.what) {
         (What::Arc(a), What::Arc(b)) => {
             let [first, second, _] = axes_of(a.plane);
             let centre = near(a.center[first], b.center[first]) && near(a.center[second], b.center[second]);
             if (a.plane, a.direction, a.turns) != (b.plane, b.direction, b.turns) || !centre {
-                return Some(format!("a different arc to {}", shown(&place(&b.to), 0b111)));
+                return Some(format!("the arc to {} is different", shown(&place(&b.to), 0b111)));
             }
         }
         (What::Line { .. }, What::Line { .. }) => {}
@@ -216,7 +224,7 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
         (Some(a), Some(b)) => {
             return Some(format!("the lead of a thread is {}, but {} in the old program", number(b), number(a)));
         }
-        _ => return Some("in one program a cut is synchronized with the spindle, as for a thread".to_owned()),
+        _ => return Some("only one program synchronizes a cut with the spindle, as for a thread".to_owned()),
     }
     if cut.lead.is_some() && cut.state.thread != found.state.thread {
         let text = |words: Threading| {
@@ -243,15 +251,17 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     }
     let taps = cut.by_cycle && found.by_cycle && !names.by_order;
     if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
-        return Some("in one program a tap is synchronized with the spindle (M29), in the other it is not".to_owned());
+        return Some("only one program synchronizes a tap with the spindle (M29)".to_owned());
     }
     state(&cut.state, &found.state, names)
 }
 
-/// How two programs name registers and work offsets. Programs for the same control use the same numbers.
+/// How the numbers of registers and work offsets in two programs are compared. Two programs for the same control use
+/// the same numbers.
 #[derive(Clone, Copy)]
 struct Names {
-    /// Whether work offsets are compared by their order. G54, `G15 H1` and datum 1 are each the first.
+    /// Whether work offsets are compared by their order. G54, `G15 H1` and datum 1 are each the first work offset of a
+    /// control.
     by_order: bool,
     /// Whether both programs name length and diameter registers. On some controls the registers belong to the tool.
     registers: bool,
@@ -324,11 +334,12 @@ fn state(before: &State, now: &State, names: Names) -> Option<String> {
     (before.side != now.side).then(|| "cutter compensation is different".to_owned())
 }
 
-/// Compares the targets of incremental moves from machine positions. Both programs must count from the same position.
+/// Compares the targets of incremental moves from machine positions. Incremental moves of both programs must start from
+/// the same position.
 fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
     let (a, b) = (&old.passage.astray, &new.passage.astray);
     let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
-    let message = "before this cut, increments from an unknown machine position lead to another position";
+    let message = "before this cut, incremental moves from an unknown machine position go to another position";
     (!alike).then(|| message.to_owned())
 }
 
@@ -382,7 +393,7 @@ fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<Strin
     })
 }
 
-/// Compares where a lathe's turret indexes: with X, Z, both or neither at home.
+/// Compares the positions at which a lathe's turret indexes: X at home, Z at home, both, or neither.
 fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let text = |axes: Option<&u8>| match axes {
         None => "at no tool change",
@@ -396,8 +407,8 @@ fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     Some(format!("the turret turns {}, but {} in the old program", text(now.get(differ)), text(before.get(differ))))
 }
 
-/// Checks that each axis that the old program moves home also goes home in the new program. Only Z is checked, on a lathe X
-/// and Z. Programs for controls with different languages are not compared.
+/// Checks that the new program moves home each axis that the old program moves home. Only Z is checked, on a lathe X
+/// and Z. If the controls have different languages, the check is left out.
 fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
     let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
     let lost = old.passage.homes & !new.passage.homes & counts;

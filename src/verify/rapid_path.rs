@@ -2,7 +2,8 @@
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, distance, lies_between, same};
 
-/// Minimum length of a rapid, in tolerances, whose direction can be determined from its printed digits.
+/// Minimum length of a rapid, in tolerances. The direction of a shorter rapid can't be determined from its printed
+/// digits.
 const LEG: f64 = 4.0;
 
 /// A path as a list of corners: its start, if known, and the ends of its rapids.
@@ -28,7 +29,7 @@ impl RapidPath {
         }
     }
 
-    /// Joins the parts of one straight rapid, unless the spindle has a required state between them.
+    /// Joins the parts of a straight rapid if no state of the spindle is required between the parts.
     pub fn join(&mut self, tolerance: f64) {
         // the direction of a rapid as short as the tolerance is unknown
         let leads = |a: &Rapid, b: &Rapid| distance(&a.to, &b.to) > LEG * tolerance;
@@ -60,17 +61,17 @@ impl RapidPath {
                 .all(|(a, b)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance))
     }
 
-    /// Sets the path to all these rapids from a start, including those without a move.
+    /// Sets the path to all these rapids from a start, including rapids without a move.
     pub fn set_all(&mut self, start: Option<Rapid>, rapids: &[Rapid]) {
         self.corners.clear();
         self.corners.extend(start.iter().chain(rapids));
         self.begun = start.is_some();
     }
 
-    /// Checks that another path follows this path. The other path may stop on this path and pass straight over its
-    /// corners. If `may_round`, it may replace a slanted rapid by two rapids, with the corner at the greater of the two
-    /// heights. Returns how often it does so. The error has the first corners that differ, of this path and of the other.
-    /// A NaN radius is unknown.
+    /// Checks that the path `other` follows this path. `other` may stop on this path and may go straight on over its
+    /// corners. If `may_round`, `other` may replace a slanted rapid by two rapids, with the corner at the greater of
+    /// the two heights. Returns the number of replaced rapids. The error contains the first different corner of this
+    /// path and of `other`. A NaN radius is unknown.
     pub fn is_followed(
         &self,
         other: &RapidPath,
@@ -106,7 +107,7 @@ impl RapidPath {
         }
     }
 
-    /// Whether no rapid moves across at this height or lower.
+    /// Whether all rapids across are above this height.
     pub fn stays_above(&self, height: f64) -> bool {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
         across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))

@@ -1,4 +1,5 @@
-//! Compares the paths between cuts. The program's path may be higher than the job's, but not lower, and it may go nowhere else.
+//! Compares the paths between cuts. The program's path may be higher than the job's path, but not lower, and may not go
+//! to other positions.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
@@ -8,7 +9,7 @@ use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_ho
 use crate::diag::Code;
 use crate::lang::Machine;
 
-/// Whether the rapids to a cut are the same on both sides, one by one, from the same known start.
+/// Whether job and program make the same rapids to a cut, one by one, from the same known start.
 pub(super) fn same_rapids(s: &Sides<'_>) -> bool {
     let tolerance = s.limits.tolerance;
     let (Some(a), Some(b)) = (s.job.start, s.program.passage.start) else { return false };
@@ -85,18 +86,19 @@ fn stays_at_wall(s: &mut Sides<'_>, line: u64) {
 
 fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV011, line, "check the spindle codes of the cycle", || {
-        "while the tool retracts, the spindle (turning, or stopped at an angle) is not in the job's state".to_owned()
+        "while the tool retracts, the spindle does not turn or stop at an angle as in the job".to_owned()
     });
 }
 
-/// Whether the program moves in the frame and with the length register of its last cut.
+/// Whether the program still moves in the coordinate frame of its last cut, and with the length register of that cut.
 pub(super) fn moves_as_before(s: &Sides<'_>) -> bool {
     let (frame, length) = (s.frame_before(), s.before.length);
     frame.tool.is_some()
         && s.program.passage.legs().all(|(leg, _)| leg.frame == frame && leg.lengths.iter().all(|own| *own == length))
 }
 
-/// Checks the frames of a path. Each move must be in a frame of the job, with the offset registers of that frame.
+/// Checks the coordinate frames of a path. Each move must be in a frame of the job, with the offset registers of that
+/// frame.
 pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let tools = s.tools;
     let passage = &s.program.passage;
@@ -146,11 +148,14 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     }
     let Some((code, frame, length)) = wrong else { return };
     let text = |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
-    s.found(code, line, "print the offsets before the first height", || match length {
+    s.found(code, line, "print the offsets before the first move to a height", || match length {
         Some(length) => {
             let length =
                 length.map_or("no tool length offset".to_owned(), |h| format!("tool length offset H{}", number(h)));
-            format!("the tool moves to this cut with {length} in {}", text("work offset ", frame.work))
+            format!(
+                "before this cut the tool moves with {length} in {}, but not in the job",
+                text("work offset ", frame.work)
+            )
         }
         None => {
             let tool = if tools { text("T", frame.tool) } else { "the tool".to_owned() };
@@ -160,7 +165,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     });
 }
 
-/// The axes to check for a move home, as bits. One of them must go home.
+/// The axes to check for a move home, as bits. At least one of these axes must go home.
 pub(super) fn away(machine: Machine) -> u8 {
     match machine {
         Machine::Mill => 1 << DEPTH,
@@ -169,7 +174,7 @@ pub(super) fn away(machine: Machine) -> u8 {
     }
 }
 
-/// Checks that the program goes home where the job does. A new leg of both paths begins there.
+/// Checks that the program goes home where the job goes home. At the home position, a new leg of both paths begins.
 fn goes_home(s: &mut Sides<'_>, line: u64) {
     let away = away(s.machine);
     if s.job.was_sent_home() && !s.program.passage.splits_at_home(away) {
@@ -179,7 +184,7 @@ fn goes_home(s: &mut Sides<'_>, line: u64) {
     }
 }
 
-/// The first position at a known height that is not straight above or below `from`.
+/// The first position that has a known height and is not straight above or below `from`.
 fn crosses(from: Option<&Rapid>, rapids: &[Rapid], tolerance: f64) -> Option<Place> {
     let from = from?;
     let beside = |rapid: &&Rapid| rapid.unknown & 0b111 == 0 && !same(&rapid.to, &from.to, ACROSS, tolerance);
@@ -223,14 +228,15 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     as_job
 }
 
-/// Whether the program's known positions are exactly the job's, before any position that is known only at the machine.
+/// Whether the program goes to exactly the job's positions. Positions after the first one that is known only at the
+/// machine are not compared.
 fn goes_as(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let known = program.iter().take_while(|rapid| rapid.unknown == 0);
     let count = known.clone().count();
     count == job.len() && known.zip(job).all(|(a, b)| same(&a.to, &b.to, ALL, tolerance))
 }
 
-/// Checks the frames between the first and the last one, or with `at_end` all frames after the first. In each frame, no
+/// Checks the frames between the first and the last frame; with `at_end`, all frames after the first. In each frame, no
 /// rapid may be lower than the job's rapids in that frame.
 fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     let tolerance = s.limits.tolerance;
@@ -279,7 +285,7 @@ fn between(s: &mut Sides<'_>, line: u64, at_end: bool) {
     });
 }
 
-/// Compares the path after the last cut, to the end of the program.
+/// Compares the path from the last cut to the end of the program.
 pub(super) fn end(s: &mut Sides<'_>) {
     moved_with(s, 0);
     goes_home(s, 0);

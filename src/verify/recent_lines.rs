@@ -1,4 +1,4 @@
-//! Keeps the texts of a program's last lines, for findings about blocks that were just run.
+//! Keeps the texts of the last lines of a program, because findings show the block that was just run.
 
 /// Number of lines kept.
 const KEPT: usize = 16;
@@ -11,7 +11,7 @@ pub(super) struct Recent {
 }
 
 impl Recent {
-    /// Keeps a line that was run. Swaps its text with that of the oldest line, so that no memory is allocated.
+    /// Keeps a line that was run. Its text is swapped with the text of the oldest line, so no memory is allocated.
     #[inline]
     pub fn keep(&mut self, line: u64, text: &mut Vec<u8>) {
         if self.lines.len() < KEPT {

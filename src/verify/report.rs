@@ -5,7 +5,7 @@ use super::verdict::{Equivalences, Unproven};
 use crate::diag::{Code, Diag};
 use crate::toolpath;
 
-/// How much was compared.
+/// The numbers of cuts and holes that were compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Number of cuts of the job outside holes.
@@ -46,7 +46,8 @@ impl Report {
         !self.findings.is_empty() || self.unproven.is_some()
     }
 
-    /// The reason why the program is not proven. A program is never proven if the comparison did not reach the job's end.
+    /// The reason why the program is not proven. If the comparison did not reach the job's end, the program is not
+    /// proven.
     pub fn unproven(&mut self) -> Option<Unproven> {
         if self.unproven.is_some() || self.finished {
             return self.unproven.take();
@@ -58,7 +59,8 @@ impl Report {
         Some(Unproven { why, help, place: Some(self.place), ..Unproven::default() })
     }
 
-    /// Adds a difference. If one with the same cause is known, only its count increases.
+    /// Adds a difference. If the report has a difference with the same cause, only the count of this difference
+    /// increases.
     pub fn add(&mut self, difference: &Difference<'_>) {
         let known = self.findings.iter_mut();
         let Difference { code, help, line, place, .. } = *difference;

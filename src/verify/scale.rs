@@ -1,4 +1,4 @@
-//! Converts the numbers of a program to those of its job: units, renamed axes, surface speeds.
+//! Converts the numbers of a program to the units and axes of its job, and converts surface speeds.
 
 use super::cut::{Place, UNSAID, place, position};
 use crate::nc::Position;
@@ -7,20 +7,20 @@ use crate::toolpath::Units;
 /// The axes if the form renames none.
 const AS_WRITTEN: [u8; 6] = [0, 1, 2, 3, 4, 5];
 
-/// Conversion of the program's numbers to the job's.
+/// Conversion of the program's numbers to the job's units and axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
     /// Units of the program.
     pub units: Units,
     /// Units of the job, in which positions are compared.
     pub wanted: Units,
-    /// The program's axis for each axis of the job, as the form renames them.
+    /// For each axis of the job, the axis in the program, because a form may rename axes.
     pub axes: [u8; 6],
     /// Whether the machine is a lathe, which has no Y.
     pub lathe: bool,
     /// Whether the form prints no depth axis.
     pub flat: bool,
-    /// For a wire: the third and fourth axes are U and V. The bits are the axes without a value.
+    /// On a wire EDM machine the third and fourth axes are U and V. Each bit marks one of these axes that has no value.
     pub wire: Option<u8>,
 }
 
@@ -62,7 +62,7 @@ impl Scale {
         place(&at)
     }
 
-    /// The end of an arc. For a wire whose guide moves too, the other two values are the position of the guide.
+    /// The end of an arc. If the upper wire guide moves too, the other two values are the position of this guide.
     pub fn end_of_arc(self, to: &Position) -> Position {
         let end = self.place(to);
         let mut at = position(&end);

@@ -1,4 +1,4 @@
-//! The two sides of a comparison, and functions that report differences.
+//! The two sides of a comparison (job and program), and functions that report differences.
 
 use super::cut::{Cut, Place, Rapid, Shared};
 use super::form_values::Own;
@@ -22,23 +22,25 @@ pub(super) struct Limits {
     pub tolerance: f64,
     /// How far short lines may deviate from the arc that they replace.
     pub chord: f64,
-    /// The smallest step that the form can print along a hole. A retract of this size shows that the tool left the bottom.
+    /// The smallest step that the form can print along a hole. A retract by this step shows that the tool left the
+    /// bottom of the hole.
     pub increment: f64,
 }
 
-/// The current hole of the job and the last ones, and the strokes so far in the current hole.
+/// The current hole of the job, the holes before it, and the strokes so far in the current hole.
 #[derive(Debug, Default)]
 pub(super) struct Holes {
-    /// The hole where the job is now. The tool's moves away from the axis of this hole must be as in the job.
+    /// The hole that the job makes now. If the tool moves away from the axis of this hole, the moves must be as in the
+    /// job.
     pub over: Option<Expected>,
     /// The last hole of the current tool.
     pub last: Option<Expected>,
-    /// The last hole of the previous tool, while the current tool has none. Or the hole that was cut last, if the
-    /// operator makes the current one by hand.
+    /// The last hole of the previous tool, while the current tool has made no hole. Or the last hole that was cut, if
+    /// the operator makes the current hole by hand.
     pub before: Option<Expected>,
-    /// The greatest height of the job at this hole and at the holes before it in the cycle.
+    /// The greatest height of the job's tool at the current hole and at the earlier holes of the cycle.
     pub highest: Option<f64>,
-    /// Whether the program has a cut in this hole.
+    /// Whether the program has made a cut in the current hole.
     pub cut: bool,
     /// The job's cuts in a pecked hole.
     pub pecks: Vec<Cut>,
@@ -50,7 +52,8 @@ pub(super) struct Holes {
 }
 
 impl Holes {
-    /// Whether the tool is in a hole at a mark: still in the last hole, or already in the current one.
+    /// Whether the tool is in a hole at a mark (such as a stop): still in the last hole, or already in the current
+    /// hole.
     pub fn holds<T>(&self, passage: &Passage, mark: &Mark<T>, tolerance: f64) -> bool {
         let next = self.over.filter(|hole| !hole.custom).map(|hole| hole.plane);
         self.inside.is_some_and(|plane| passage.below_since(mark, plane - tolerance))
@@ -61,7 +64,7 @@ impl Holes {
 /// The state of a comparison, with the side of the job and the side of the program.
 pub(super) struct Sides<'a> {
     pub program: Program<'a>,
-    /// Everything that the job has done since its last cut.
+    /// The passage of the job: its rapids, stops, dwells and changes since its last cut.
     pub job: Passage,
     pub hole: Holes,
     pub limits: Limits,
@@ -69,28 +72,30 @@ pub(super) struct Sides<'a> {
     pub ways: [RapidPath; 2],
     /// The state at the program's last cut.
     pub before: Shared,
-    /// The last states of job and program that were equal.
+    /// The last modal states of job and program that were equal.
     pub agreed: Option<[Shared; 2]>,
-    /// The ends of the last cuts of job and program, if they differ. If the next cuts begin there, they correspond.
+    /// The ends of the last cuts of job and program, if these ends differ. Next cuts that begin at these ends
+    /// correspond to each other.
     pub slipped: Option<[Place; 2]>,
-    /// The last thread, until another cut follows, and the number of passes that the program made in addition to the job's.
+    /// The last thread, until another cut follows, and the number of passes that the program has in addition to the
+    /// job's passes.
     pub threaded: Option<(Threaded, usize)>,
     /// Number of consecutive cuts whose ends differ.
     pub slips: u32,
     /// Whether the machine loads tools.
     pub tools: bool,
-    /// Whether the machine is a torch or laser. It has no tool change.
+    /// Whether the machine has a torch or laser. Such a machine has no tool change.
     pub switches: bool,
     /// The type of machine.
     pub machine: Machine,
-    /// Feeds and speeds that the form itself defines, in this order.
+    /// The feeds and then the speeds that the form itself defines.
     pub own: [Own; 2],
     pub report: Report,
     pub failure: Option<std::io::Error>,
 }
 
 impl Sides<'_> {
-    /// Reports a difference after which the cuts of both sides still correspond.
+    /// Reports a difference. The next cuts of job and program still correspond, so the comparison continues.
     pub fn found(&mut self, code: Code, line: u64, help: &'static str, message: impl Fn() -> String) {
         let program = &self.program;
         let block = || program.text_of(line);
@@ -98,7 +103,7 @@ impl Sides<'_> {
         self.report.add(&Difference { code, help, message: &message, line, block: &block, place });
     }
 
-    /// Reports a difference that ends the comparison, because the cuts after it no longer correspond.
+    /// Reports a difference and ends the comparison, because the next cuts of job and program do not correspond.
     pub fn differs<T>(&mut self, code: Code, line: u64, message: String, help: &'static str) -> Result<T, Box<Diag>> {
         let diag = Box::new(Diag::new(code, message.clone()).help(help));
         self.found(code, line, help, || message.clone());

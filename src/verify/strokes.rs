@@ -1,27 +1,28 @@
-//! Counts the strokes in a hole, in the same way for the pecks of job and program.
+//! Counts the strokes in a hole by the same rules for the pecks of the job and of the program.
 
 use super::tables::LEFT;
 
-/// The strokes of a hole so far. A stroke ends when the tool leaves the bottom, so it may consist of several blocks.
+/// The strokes of a hole so far. A stroke ends when the tool leaves the bottom of the hole, so a stroke may consist of
+/// several blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Strokes {
     /// The height where the feed begins.
     plane: f64,
     /// The lowest height so far.
     pub deepest: f64,
-    /// The greatest height since the lowest one.
+    /// The greatest height since the tool was at its lowest height.
     highest: f64,
     /// The height where the last stroke began to cut.
     begun: f64,
     /// The depth of the hole when the tool last left it.
     out: f64,
-    /// The number of strokes, and how many of them began after the tool had left the hole.
+    /// The number of all strokes, and the number of strokes that began after the tool had left the hole.
     pub counts: [u64; 2],
-    /// The counts without the last stroke.
+    /// The two numbers in `counts` before the last stroke.
     earlier: [u64; 2],
     /// The longest stroke.
     pub longest: f64,
-    /// The greatest depth that was cut between two retracts out of the hole.
+    /// The longest cut between two retracts out of the hole, measured along the hole.
     pub farthest: f64,
 }
 
@@ -57,7 +58,7 @@ impl Strokes {
         (self.deepest, self.highest) = (to, to);
     }
 
-    /// The counts of strokes. A last stroke that only cuts a small remainder is not counted.
+    /// The counts of strokes. The last stroke is not counted if it cuts only a small remainder.
     pub fn counted(&self, tolerance: f64) -> [u64; 2] {
         let last = self.begun - self.deepest;
         if last > (LEFT * self.longest).max(2.0 * tolerance) { self.counts } else { self.earlier }
@@ -68,7 +69,8 @@ impl Strokes {
 mod tests {
     use super::*;
 
-    /// The strokes of a hole whose feed begins at height 2. Each move has its target height, and `true` for a feed move.
+    /// The strokes of a hole whose feed begins at height 2. Each move is given by its target height, and by `true` for
+    /// a feed move or `false` for a rapid.
     fn strokes(moves: &[(bool, f64)]) -> Strokes {
         let mut strokes = Strokes::over(2.0);
         for &(feeds, to) in moves {

@@ -1,10 +1,10 @@
-//! Subprograms of the job. Their items are kept when they are defined and run again at each call.
+//! Subprograms of the job. The items of each subprogram are kept when it is defined, and are run again at each call.
 
 use super::intent::{Done, unproven};
 use super::tables::Unmodelled;
 use crate::toolpath::{Event, Kept, Place};
 
-/// The largest number of kept items.
+/// The largest number of items that are kept for all subprograms.
 const MOST: usize = 1 << 18;
 
 /// The subprograms defined so far.

@@ -1,8 +1,9 @@
 //! The tolerance of each quantity, and the reasons why a job can't be proven: the tables of docs/verify.md.
 
-/// Tolerance of positions, in inches and millimetres. It is more than the rounding of the printed digits.
+/// Tolerance of positions, in inches and millimetres. The tolerance is greater than the rounding of the printed digits.
 pub(super) const PLACES: [f64; 2] = [1e-4, 2e-3];
-/// Deviation of short lines from their arc that is always allowed, in inches and millimetres. The form's `Tolerance` may allow more.
+/// Deviation that is always allowed if short lines replace an arc, in inches and millimetres. The form's `Tolerance`
+/// may allow a greater deviation.
 pub(super) const CHORDS: [f64; 2] = [0.001, 0.02];
 /// Tolerance of angles, in degrees.
 pub(super) const ANGLE: f64 = 0.001;
@@ -10,19 +11,23 @@ pub(super) const ANGLE: f64 = 0.001;
 pub(super) const ORIENTED: f64 = 0.01;
 /// Tolerance of feeds, speeds and dwells, as a fraction of the value.
 pub(super) const ROUNDED: f64 = 0.01;
-/// Tolerance of the feed and speed of a tap, as a fraction of the value. Both define the pitch of the thread.
+/// Tolerance of the feed and speed of a tap, as a fraction of the value. Feed and speed of a tap define the pitch of
+/// the thread.
 pub(super) const PITCH: f64 = 0.0025;
-/// Tolerance of dwells in seconds. It applies if it is more than the fraction above.
+/// Tolerance of dwells in seconds. This tolerance applies if it is greater than the tolerance as a fraction of the
+/// dwell.
 pub(super) const MOMENT: f64 = 0.001;
-/// Longest dwell in a cut, in seconds, after a spindle, torch or laser was started. We chose this limit: within this
-/// time, a spindle comes to speed and a torch pierces.
+/// Longest dwell in a cut, in seconds, after a spindle, torch or laser was started. We chose this limit, because a
+/// spindle comes to speed and a torch pierces within this time.
 pub(super) const STARTED: f64 = 30.0;
 /// Factor by which a peck of the program may be longer than the longest peck of the job.
 pub(super) const LONGER: f64 = 1.5;
-/// A last peck shorter than this fraction of the longest peck is a remainder, which the program may leave out.
+/// The last peck is a remainder if it is shorter than this fraction of the longest peck. The program may leave out a
+/// remainder.
 pub(super) const LEFT: f64 = 0.05;
 
-/// The smallest step that programs usually print, in inches and millimetres. It is used if no form defines letter formats.
+/// The smallest step that programs usually print, in inches and millimetres. This step is used if no form defines the
+/// formats of letters.
 pub(super) const INCREMENTS: [f64; 2] = [1e-4, 1e-3];
 /// Range of a feed or speed that the form itself defines, as factors of the job's value.
 pub(super) const OWN: [f64; 2] = [0.2, 2.0];
@@ -63,7 +68,7 @@ macro_rules! unmodelled {
         pub(super) enum Unmodelled { $($name),* }
 
         impl Unmodelled {
-            /// The reason why nothing is proven after this part.
+            /// The reason why nothing is proven after this part of the job.
             pub fn why(self) -> &'static str {
                 match self { $(Unmodelled::$name => $why),* }
             }

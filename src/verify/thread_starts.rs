@@ -1,4 +1,4 @@
-//! Plans the threads of a lathe's job, one start at a time.
+//! Plans the threads in the job of a lathe, one thread start at a time.
 
 use super::cut::{DEPTH, RADIUS, What};
 use super::intended::Job;
@@ -8,7 +8,7 @@ use crate::diag::Diag;
 use crate::toolpath::Thread;
 
 impl Job {
-    /// Passes on a thread, one start at a time.
+    /// Passes on a thread to the comparison, one thread start at a time.
     pub(super) fn thread(&mut self, thread: &Thread, to: &mut impl Intent) -> Done {
         let (from, end) = (self.target(&thread.from), self.target(&thread.to));
         let begin = from.values[DEPTH];

@@ -1,5 +1,5 @@
-//! Compares threads of a lathe. The passes may differ from those of the job. They must end at the same depth, and no pass may be
-//! deeper than 1.5 times the deepest pass of the job.
+//! Compares threads of a lathe. The passes in the program may differ from the passes of the job. The last passes must
+//! end at the same depth, and no pass may cut deeper than 1.5 times the job's deepest pass.
 
 use super::begin::unsaid;
 use super::cut::{Cut, DEPTH, RADIUS, Rapid, number, place, same, shown};
@@ -11,7 +11,7 @@ use super::tables::{LONGER, PITCH};
 use crate::diag::Code;
 
 impl Threaded {
-    /// The depth of a cut of the program in this thread; `None`: the cut is not a pass of this thread.
+    /// The depth of one of the program's cuts as a pass of this thread; `None`: the cut is not a pass of this thread.
     fn depth(&self, found: &Cut, tolerance: f64) -> Option<f64> {
         let near = |a: f64, b: f64| (a - b).abs() <= 2.0 * tolerance;
         let to = found.end();
@@ -21,13 +21,13 @@ impl Threaded {
         is_one.then(|| (to[RADIUS] - self.crest) * self.inward)
     }
 
-    /// Whether the other thread is equal and begins at the same Z. The approach may differ.
+    /// Whether the thread `other` is equal and begins at the same Z. The approach moves may differ.
     fn is_again(&self, other: &Threaded) -> bool {
         self.begin[DEPTH] == other.begin[DEPTH] && *self == Threaded { begin: self.begin, ..other.clone() }
     }
 
-    /// Whether a rapid between passes crosses uncut material of the thread. The tool must move along the axis outside
-    /// of the crest, and move to the depth of a pass where the passes begin.
+    /// Whether a rapid between passes crosses uncut material of the thread. Moves along the axis must be outside of the
+    /// crest. The move to the depth of a pass must be at the position where the passes begin.
     fn is_crossed(&self, a: &Rapid, b: &Rapid, tolerance: f64) -> bool {
         let outermost = [self.crest, self.crest + self.taper].map(|crest| crest * self.inward).into_iter();
         let crest = outermost.fold(f64::INFINITY, f64::min);
@@ -120,7 +120,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         thread.passes.iter().fold((0.0, 0.0f64), |(before, longest), pass| (*pass, longest.max(pass - before))).1;
     if coarsest > LONGER * longest + 2.0 * tolerance {
         s.found(Code::PV023, line, help, || {
-            format!("a pass of the thread cuts {}, but at most {} in the job", number(coarsest), number(longest))
+            format!("a pass of the thread cuts {} deep, but at most {} in the job", number(coarsest), number(longest))
         });
     }
     s.report.allowed.threads += u64::from(!as_job || count != thread.passes.len());
@@ -146,17 +146,17 @@ fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });
 }
 
-/// Whether there is more than rapids between two passes.
+/// Whether two passes have a stop, a dwell or a change of frame between them.
 fn is_parted(passage: &Passage) -> bool {
     passage.changed() || !passage.stops.is_empty() || !passage.waits.is_empty()
 }
 
-/// The values required for a pass. Its lead is compared separately.
+/// The values required for a pass. The lead of the pass is compared separately.
 fn cut_of(cut: &Cut, found: &Cut) -> Cut {
     Cut { feed: None, line: found.line, ..cut.clone() }
 }
 
-/// Checks the path between two passes: out of the thread, back along it, and in again.
+/// Checks the path between two passes: out of the thread, back along the thread, and in for the next pass.
 fn between(s: &mut Sides<'_>, thread: &Threaded, to: Rapid, line: u64) -> Done {
     let tolerance = s.limits.tolerance;
     let passage = &s.program.passage;

@@ -1,12 +1,13 @@
-//! Codes after which a program is not proven, because postform does not know what the control does with them.
+//! Codes after which a program is not proven, because postform does not know what the control does at these codes.
 
 use crate::control::{Control, Rules};
 use crate::diag::{Code, Diag};
 
-/// Whether a fault is a limit of postform and not a refusal of the control. This is so if the control's file does not
-/// contain the code, or if postform does not run the code.
+/// Whether a fault is a limit of postform and not a refusal of the control. It is a limit of postform if the control's
+/// file does not contain the code, or if postform does not run the code.
 ///
-/// For LinuxCNC and similar controls all codes are known. A code that is missing in their files is therefore a refusal.
+/// For LinuxCNC and similar controls all codes are known. If a control file of this kind does not contain a code, the
+/// control refuses the code.
 pub(super) fn is_unknown(code: Code, control: &Control) -> bool {
     match code {
         Code::PN003 => control.rules() == Rules::Fanuc,
@@ -15,7 +16,8 @@ pub(super) fn is_unknown(code: Code, control: &Control) -> bool {
     }
 }
 
-/// The reason as text, such as `G201 is unknown for fanuc`, or why postform does not run the code; and the help.
+/// The reason and the help as texts. The reason is, for example, `G201 is unknown for fanuc`, or why postform does not
+/// run the code.
 pub(super) fn unknown_code(diag: &Diag, control: &Control) -> (String, &'static str) {
     let name = control.name();
     let words = diag.message.split(|c: char| !c.is_ascii_alphanumeric() && c != '.');

@@ -1,4 +1,5 @@
-//! Settings that a program must make before it moves, and whether a missing setting was reported.
+//! Settings (units, length offset) that a program must make before its first move, and whether a missing setting was
+//! reported.
 
 use super::expectation::Expectation;
 use crate::control::{Control, ToolLength};
@@ -26,7 +27,7 @@ impl Due {
         self.units = false;
     }
 
-    /// Whether the units must still be set. Returns `true` only once, so that the finding is reported once.
+    /// Whether the units must still be set. Returns `true` only the first time, so that the finding is reported once.
     pub fn units(&mut self) -> bool {
         std::mem::take(&mut self.units)
     }

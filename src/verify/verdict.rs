@@ -8,7 +8,7 @@ use crate::toolpath;
 
 macro_rules! allowed {
     ($($name:ident $one:literal $how:literal $file:literal $about:literal;)*) => {
-        /// Allowed differences (equivalences): how often a program does something differently from its job and equally well.
+        /// Allowed differences (equivalences): how often a program differs from its job with an equally good result.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct Equivalences {
             $(#[doc = concat!($about, " Decided in `src/verify/", $file, "`.")] pub $name: u64),*
@@ -26,7 +26,7 @@ macro_rules! allowed {
                 [$((stringify!($name), self.$name)),*].into_iter()
             }
 
-            /// The name of each equivalence and what it allows, in the order of docs/verify.md.
+            /// The name of each equivalence, and the difference that it allows, in the order of docs/verify.md.
             pub const ABOUT: &'static [(&'static str, &'static str)] = &[$((stringify!($name), $about)),*];
         }
     };
@@ -34,8 +34,8 @@ macro_rules! allowed {
 
 // columns: name, noun, difference, the only file that counts it, description
 allowed! {
-    pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts, and holes that the job drills in one stroke and the program in pecks.";
-    ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order, or at a greater height.";
+    pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts than in the job, and holes that the job drills in one stroke, but the program in pecks.";
+    ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order than the job, or at a greater height.";
     tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions, but nowhere lower than the job's path.";
     idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths to other positions, but nowhere lower than the job's path, if the tool makes no cut or the work offset has no cut.";
     arcs    "arc" "made of parts" "arcs.rs" "Arcs made of several lines or arcs.";
@@ -62,9 +62,9 @@ pub enum Verdict {
     Identical,
     /// The program makes the job's cuts and holes, with allowed differences such as other pecks or other paths.
     Equivalent(Equivalences),
-    /// From some point on, the effect of the job or of the program is unknown.
+    /// From some item of the job or block of the program on, the effect is unknown.
     NotProven(Box<Unproven>),
-    /// The program does something else than its job, or something dangerous.
+    /// The program differs from its job, or the program has a hazard.
     Different(Vec<Finding>),
 }
 
@@ -72,8 +72,8 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UnprovenKind {
-    /// The effect of a block of the program or of an item of the job is unknown. Its location is in [`Unproven::line`]
-    /// or [`Unproven::place`].
+    /// The effect of a block of the program or of an item of the job is unknown. [`Unproven::line`] or
+    /// [`Unproven::place`] gives the location of the block or item.
     #[default]
     Unknown,
     /// Neither the form nor the caller named a control. The program was compared by the rules of an assumed control.
@@ -90,17 +90,18 @@ pub struct Unproven {
     pub kind: UnprovenKind,
     /// The reason, such as `G201 is unknown for fanuc`.
     pub why: String,
-    /// How to remove the reason.
+    /// What the user can do so that the program is proven.
     pub help: String,
-    /// The program's line after which nothing is proven, from 1; 0 if the job is the reason.
+    /// The line number of the program after which nothing is proven, from 1; 0 if the reason is in the job.
     pub line: u64,
     /// Block number as written, such as `N120`; empty if there is none.
     pub block: String,
     /// The item of the job after which nothing is proven.
     pub place: Option<toolpath::Place>,
-    /// The differences under the rules of the assumed control.
+    /// The differences that were found by the rules of the assumed control.
     pub notes: Vec<Finding>,
-    /// Whether the program could be proven from a file. A file can be read again from an earlier position.
+    /// Whether the program could be proven if it were read from a file, because a file can be read again from an
+    /// earlier position.
     pub in_a_file: bool,
 }
 
@@ -116,7 +117,8 @@ impl Unproven {
 }
 
 impl Verdict {
-    /// The verdict under an assumed control. It is never `Different`, because the user may mean another control.
+    /// The verdict under an assumed control. This verdict is never `Different`, because the user may mean another
+    /// control.
     pub fn assumed(self, control: &str) -> Verdict {
         let (notes, would) = match self {
             Verdict::Different(findings) => (findings, "different"),
@@ -145,7 +147,7 @@ impl Verdict {
 
     /// The verdict for a program that was not compared.
     pub(crate) fn not_asked_for() -> Verdict {
-        let (why, help) = ("no proof was requested".into(), "request a proof with the options".into());
+        let (why, help) = ("no proof was requested".into(), "set `proof` in the options".into());
         Verdict::NotProven(Box::new(Unproven { kind: UnprovenKind::NotAsked, why, help, ..Unproven::default() }))
     }
 

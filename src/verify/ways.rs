@@ -3,19 +3,20 @@
 use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, shown};
 use super::rapid_path::{RapidPath, across};
 
-/// The result of comparing the program's path with the job's.
+/// The result of comparing the program's path with the job's path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Compared {
-    /// The program has the job's path. It may have more moves without a length, and straight rapids in several parts.
+    /// The program has the job's path. The program may have additional moves without a length, and may divide straight
+    /// rapids into parts.
     Same,
     /// The path moves the axes in another order, or is higher than the job's path, but is nowhere lower.
-    /// `step_by_step`: each move across corresponds to one of the job.
+    /// `step_by_step`: each move across corresponds to a move across in the job.
     AsGood { step_by_step: bool },
     /// The path is lower than the job's path.
     Lower(Low),
     /// The path moves across to this position, to which the job does not go.
     Elsewhere(Place),
-    /// The path is the job's, but the spindle is in another state.
+    /// The program has the job's path, but the spindle is in another state than the job requires.
     Turning,
 }
 
@@ -48,7 +49,7 @@ impl Low {
     }
 }
 
-/// Up to this length, in tolerances, a rapid across may be a rapid straight up whose ends were rounded.
+/// Greatest length, in tolerances, of a rapid across that may be a rapid straight up with rounded ends.
 const ROUNDED_ACROSS: f64 = 2.0;
 
 /// Whether both paths have the same rapids with the same state of the spindle.
@@ -57,8 +58,8 @@ pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> 
     job.len() == program.len() && job.iter().zip(program).all(|(a, b)| is(a, b))
 }
 
-/// Compares the program's path with the job's, rapid by rapid. If they differ, joins the parts of straight rapids in
-/// both paths and compares the joined paths.
+/// Compares the program's path with the job's path, rapid by rapid. If the paths differ, joins the parts of straight
+/// rapids in both paths and compares the joined paths.
 pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start: bool, tolerance: f64) -> Compared {
     let by_rapids = compare_as_they_are(job, program, known_start, tolerance);
     if !matches!(by_rapids, Compared::Same | Compared::Turning | Compared::AsGood { step_by_step: true }) {
@@ -74,9 +75,9 @@ pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start:
 
 /// Compares the program's path with the job's without joining rapids.
 ///
-/// If both starts are known, the ends of the moves across are compared by their heights. If the job's start is unknown
-/// (after a tool change), the program may come to the job's first position from anywhere, but not lower than that
-/// position.
+/// If the starts of both paths are known, the heights at the ends of the moves across are compared. If the job's start
+/// is unknown (after a tool change), the program may come to the job's first position from anywhere, but not lower than
+/// that position.
 fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, tolerance: f64) -> Compared {
     let Some(first) = job.corners.first().filter(|_| !known_start) else {
         return compare_corners(
@@ -123,19 +124,21 @@ fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, 
     compare_corners(&job.corners, &program.corners[arrived..], true, 0, tolerance)
 }
 
-/// Whether the spindle at a corner of the program is in the state that the job requires. The job may require none.
+/// Whether the spindle at a corner of the program is in the state that the job requires. If the job requires no state,
+/// any state is accepted.
 fn spins(job: &Rapid, program: &Rapid) -> bool {
     job.spin.is_none_or(|wanted| program.spin.is_none_or(|is| is.serves(wanted)))
 }
 
-/// Whether the job requires that the spindle is stopped at an angle at this corner, but the program never stops it at this angle there.
+/// Whether the job requires a spindle that is stopped at an angle at this corner, but the program never stops the
+/// spindle at this angle at the corner.
 fn stands_otherwise(corner: &Rapid, program: &[Rapid], tolerance: f64) -> bool {
     let stands = matches!(corner.spin, Some(Spin::At(_) | Spin::Oriented));
     let mut there = program.iter().filter(|other| same(&other.to, &corner.to, ALL, tolerance)).peekable();
     stands && there.peek().is_some() && !there.any(|other| spins(corner, other))
 }
 
-/// Whether the spindle is not in the required state on the first rapid.
+/// Whether the spindle is in another state than required during the first rapid.
 fn leaves_turning_otherwise(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let (Some(left), [start, first, ..]) = (job.get(1), program) else { return false };
     // if the tool left the hole at feed, it is already out
@@ -148,8 +151,8 @@ fn height(rapid: &Rapid) -> f64 {
     if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
 }
 
-/// Where a position lies on a straight rapid: the fraction of the rapid from 0 to 1, the point there, and the lowest
-/// height there within the rounding of positions. `None`: the position is not on the rapid.
+/// Where a position lies on a straight rapid: the fraction of the rapid from 0 to 1, the point at this fraction, and
+/// the lowest height of the rapid at this point if the positions are rounded. `None`: the position is not on the rapid.
 fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64, Place, f64)> {
     // a rotary axis is at the same position after a full turn
     let turns = |axis: usize| (3..6).contains(&axis);
@@ -164,8 +167,9 @@ fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64
     same(place, &there, ACROSS, tolerance).then_some((part, there, lowest))
 }
 
-/// Whether a rapid across is above rapids of the job everywhere and does not leave their lines. It may pass straight
-/// over their corners. A rapid whose start or end is unknown must be one of the job's rapids.
+/// Whether a rapid across stays above the job's rapids everywhere and follows the lines of the job's rapids. It may
+/// pass straight over corners between the job's rapids. A rapid whose start or end is unknown must be one of the job's
+/// rapids.
 fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
     let is = |a: &Rapid, b: &Rapid| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
     if (a.unknown | b.unknown) & ACROSS != 0 {
@@ -188,7 +192,8 @@ fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
     places.windows(2).all(|piece| across(job, tolerance).any(|rapid| piece.iter().all(|end| over(end, rapid))))
 }
 
-/// Compares two lists of corners. `start`: how many of the program's first corners are the end of its last cut.
+/// Compares two lists of corners. `start`: the number of corners at the start of the program's path that are the end of
+/// the program's last cut.
 fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: usize, tolerance: f64) -> Compared {
     if known_start && job.len() == program.len() {
         let pairs = || job.iter().zip(program);
@@ -250,14 +255,15 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
 }
 
-/// The position with full turns added to or subtracted from its angles, so that they are near those of `like`.
+/// The position with full turns added to or subtracted from its angles, so that the angles are near the angles of
+/// `like`.
 fn unwound(place: &Place, like: &Place) -> Place {
     let turns = |axis: usize| if (3..6).contains(&axis) { ((place[axis] - like[axis]) / 360.0).round() } else { 0.0 };
     std::array::from_fn(|axis| place[axis] - 360.0 * turns(axis))
 }
 
-/// Checks the path out of a hole whose cycle requires states of the spindle. The path must contain these corners of the
-/// job in their order, with the required state of the spindle.
+/// Checks the path out of a hole whose cycle requires a state of the spindle, such as an angle. The path must contain
+/// each corner for which the job requires a state, in the job's order and with this state.
 pub(super) fn leaves_hole(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<Compared> {
     let corners = &program.corners;
     let mut from = 0;
@@ -280,7 +286,8 @@ pub(super) fn leaves_hole(job: &RapidPath, program: &RapidPath, tolerance: f64) 
     None
 }
 
-/// Whether the program enters a hole with the same moves as the job, beginning above the hole. They include moves away from its axis.
+/// Whether the program enters a hole with the same moves as the job, beginning above the hole. Moves away from the axis
+/// of the hole must also be the same.
 pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, tolerance: f64) -> bool {
     let Some(first) = job.corners.iter().position(|corner| same(&corner.to, over, ACROSS, tolerance)) else {
         return false;
@@ -296,7 +303,7 @@ pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, to
 }
 
 /// Checks the program's path after the last cut. No move across may be lower than the job's moves across. The tool may
-/// go down only where the job does.
+/// go down only where the job goes down.
 pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<(Place, f64)> {
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -412,7 +419,8 @@ mod tests {
         ));
     }
 
-    /// The job adds up the turns of an axis, the form subtracts full turns: the path out of the hole is the same.
+    /// The path out of the hole is the same, although the job counts all turns of the rotary axis and the form
+    /// subtracts full turns.
     #[test]
     fn a_hole_is_left_whatever_its_turns_are() {
         let p = |z: f64, a: f64, spin: Option<Spin>| Rapid { to: place(&[1.0, 2.0, z, a, 0.0, 0.0]), unknown: 0, spin };

@@ -1,5 +1,5 @@
-//! A proof that runs in parallel with the renderer, in one pass. Events and text are compared as soon as they are
-//! produced, and neither is kept in memory.
+//! A proof that runs in parallel with the renderer, in one pass. Events and text are compared as soon as the renderer
+//! produces them, and are not kept in memory.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -15,10 +15,10 @@ use crate::nc::RunSettings;
 use crate::render::TraceLine;
 use crate::toolpath::{Event, Kept, Place, Sink};
 
-/// A batch of events that a renderer processed, and the text that it printed for them.
+/// A batch of events that the renderer processed, and the text that it printed for these events.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// Events with their places in the job.
+    /// Events, each with its location in the job.
     pub events: Vec<(Kept, Place)>,
     /// Bytes of the program. A block may extend over two batches.
     pub text: Vec<u8>,
@@ -53,11 +53,12 @@ pub struct Outcome {
     pub warnings: Vec<Diag>,
 }
 
-/// Proves a program while it is printed. `batches` may be the receiving end of a channel. A batch is requested only when
-/// the comparison needs it, and none after the verdict is known. Each batch is dropped after its comparison. Until the
-/// program sets its units, they are the job's if `of_job`, and else those of `settings`.
+/// Proves a program while it is printed. `batches` may be the receiving end of a channel. A batch is requested only
+/// when the comparison needs it. No batch is requested after the verdict is known. Each batch is dropped as soon as it
+/// is compared. Until the program sets its units, it is read in the job's units if `of_job`, otherwise in the units of
+/// `settings`.
 ///
-/// A program that calls or repeats parts of itself is not proven, because reading such parts again needs a file
+/// A program that calls or repeats parts of itself is not proven, because only a file can be read again
 /// ([`Unproven::in_a_file`](super::Unproven::in_a_file)).
 ///
 /// # Errors
@@ -112,10 +113,10 @@ pub fn prove_beside<B: AsRef<Batch>>(
 /// Number of text batches that may wait for the job's next cut.
 const MOST_TEXTS: usize = 4;
 
-/// The largest number of events that wait for their text.
+/// The largest number of events that wait for the text printed for these events.
 const MOST_WAITING: usize = 1 << 16;
 
-/// The error for a program that can be proven only from an input that can seek and has an end.
+/// The error for a program that can be proven only from a file, because the input must have an end and allow seeking.
 fn only_a_file(why: &'static str) -> io::Error {
     io::Error::new(io::ErrorKind::Unsupported, why)
 }
@@ -127,20 +128,21 @@ struct Queue<I: Iterator> {
     events: VecDeque<Rc<I::Item>>,
     /// Batches whose text is still to be run.
     texts: VecDeque<Rc<I::Item>>,
-    /// Batches that contain the origins of lines: the batch that is being run, the batch before it, and those after it.
+    /// Batches with the origins of lines: the batch that is being run, the batch before this one, and all later
+    /// batches.
     traces: VecDeque<Rc<I::Item>>,
     /// Whether the rest of the text is ignored because the control refused a block. The refusal is reported at the job's next cut.
     unread: bool,
 }
 
 impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
-    /// Drops all waiting text, because it is no longer needed.
+    /// Drops all text that waits to be run, because the comparison no longer needs it.
     fn drop_texts(&mut self) {
         self.unread = true;
         self.texts.clear();
     }
 
-    /// Receives the next batch. Returns `false` if there is none.
+    /// Receives the next batch. Returns `false` if there is no further batch.
     fn pull(&mut self) -> bool {
         let Some(batch) = self.batches.next().map(Rc::new) else { return false };
         let Batch { events, text, .. } = (*batch).as_ref();
@@ -174,7 +176,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
         Ok(Some(batch))
     }
 
-    /// The form line and the job's item of a line that was run recently.
+    /// For a line that was run recently: the form line that printed it, and the item of the job.
     fn origin(&self, line: u64) -> Option<TraceLine> {
         let mut traces = self.traces.iter().map(|batch| &(**batch).as_ref().trace);
         let lines = traces.find(|lines| lines.last().is_some_and(|last| last.line >= line))?;
@@ -182,7 +184,7 @@ impl<I: Iterator<Item: AsRef<Batch>>> Queue<I> {
     }
 }
 
-/// The program's text, read as it arrives.
+/// The program's text, read while the renderer prints it.
 struct Text<I: Iterator> {
     queue: Rc<RefCell<Queue<I>>>,
     /// The batch that is being read.

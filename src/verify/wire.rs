@@ -6,7 +6,8 @@ use super::sides::Sides;
 use super::wire_codes::{self, Coded};
 use crate::diag::Code;
 
-/// Compares the program's codes since the last cut with the job's actions and their positions.
+/// Compares the program's codes since the last cut with the job's actions, and compares the positions of codes and
+/// actions.
 pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
     if s.job.does.is_empty() && s.program.passage.does.is_empty() {
         return;

@@ -10,7 +10,7 @@ pub(super) type Coded = (u8, u16);
 /// The codes that the form prints for each action.
 pub(super) type Codes = Vec<(EdmAction, Vec<Coded>)>;
 
-/// Each action with the sequence that prints it and a description.
+/// Each action of the wire, with the sequence that prints the action, and a description.
 const ACTIONS: [(EdmAction, SequenceId, &str); 4] = [
     (EdmAction::Thread, SequenceId::EdmThread, "threads the wire"),
     (EdmAction::Cut, SequenceId::EdmCut, "cuts the wire"),
@@ -18,7 +18,7 @@ const ACTIONS: [(EdmAction, SequenceId, &str); 4] = [
     (EdmAction::Submerge, SequenceId::SubmergeTank, "fills the tank"),
 ];
 
-/// The M codes that the form's sequences print for these actions.
+/// The M codes that the form's sequences print for the actions of the wire.
 pub(super) fn codes_of(program: &Program) -> Codes {
     let literal = |op: &Op| match op {
         Op::Literal { index, .. } => program.literals.get(*index as usize),

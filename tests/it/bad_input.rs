@@ -185,7 +185,7 @@ fn forms() {
         if what == "2000 wrong lines" {
             let message = String::from_utf8_lossy(&output.stderr);
             assert_eq!(message.matches("PF201").count(), 1000);
-            assert!(message.contains(" more findings: fix these first"), "{message}");
+            assert!(message.contains(" more findings: fix the findings above first"), "{message}");
             continue;
         }
         expect(what, &output, status, &wanted);

@@ -324,7 +324,7 @@ fn the_file_of_the_cases_says_day_post_and_proof() {
     }
     folder.write("tests/postform.toml", "[test]\nforms = [\"../none.pf\"]\n");
     let said = err(&folder.run(&["test"]));
-    assert!(said.contains("none.pf") && said.contains("tests/postform.toml names it under [test]"), "{said}");
+    assert!(said.contains("none.pf") && said.contains("tests/postform.toml names this form under [test]"), "{said}");
 }
 
 /// A program that calls itself is proven from a file, as in `render`. A program that is not proven is reported with the

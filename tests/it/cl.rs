@@ -300,11 +300,11 @@ fn whatever_keeps_a_file_from_being_printed_is_said_at_once() {
     assert!(why("GOTO/1,1,1").is_empty());
     assert_eq!(
         why("GOTO/1,1,1,.6,0,.8\nGOTO/1,2,1,.8,0,.6"),
-        ["PR008 no form can print this, because the tool is tilted (2 moves, the first one here)"]
+        ["PR008 no form can print the job, because the tool is tilted (2 moves, the first one here)"]
     );
     assert_eq!(
         why("GOTO/1,1,1\nLOADTL/2\nLOADTL/3\nSPINDL/9,CLW\nRAPID\nGOTO/1,1,9"),
-        ["PR012 no form can print this, because the operation has no move"]
+        ["PR012 no form can print the job, because an operation has no move"]
     );
 }
 

@@ -201,8 +201,8 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
         ),
         ("S2500", "S500", "the speed limit of the spindle is 500, but 2500 in the old program"),
         ("G50 S2500\n", "", "the speed limit of the spindle is none, but 2500 in the old program"),
-        ("G1 Z-20. F2.", "G32 Z-20. F2.", "in one program a cut is synchronized with the spindle, as for a thread"),
-        ("G28 U0 W0", "G58 U0 W0", "in one program a cut goes to an unknown machine position"),
+        ("G1 Z-20. F2.", "G32 Z-20. F2.", "only one program synchronizes a cut with the spindle, as for a thread"),
+        ("G28 U0 W0", "G58 U0 W0", "only one program cuts to an unknown machine position"),
         ("G28 U0 W0", "G28 W0", "the turret turns at home only along Z, but at home in the old program"),
         ("G28 U0 W0", "G28 U0", "the turret turns at home only along X, but at home in the old program"),
     ] {
@@ -247,7 +247,7 @@ fn motions_differ_where_a_position_is_unknown_for_another_reason() {
     );
     assert_eq!(
         differs("G55\nG1 X50.", "G55\nG1 X50. Z-20."),
-        Some("in one program a cut goes to an unknown machine position".to_owned())
+        Some("only one program cuts to an unknown machine position".to_owned())
     );
 }
 
@@ -260,7 +260,7 @@ fn motions_of_taps_differ_in_what_makes_them_rigid() {
     let [old, new] = ["M29 S500\n", ""].map(|ahead| Cursor::new(tap(ahead)));
     let found = compare_motions([(old, settings[0]), (new, settings[1])], Units::Mm, 1e-6).unwrap();
     assert!(
-        found.difference.unwrap().message.starts_with("in one program a tap is synchronized with the spindle (M29)")
+        found.difference.unwrap().message.starts_with("only one program synchronizes a tap with the spindle (M29)")
     );
 }
 

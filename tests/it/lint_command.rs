@@ -421,7 +421,7 @@ fn thousands_of_findings_are_counted() {
     let output = folder.run(&["lint", "f.pf"]);
     let text = out(&output);
     assert_eq!((output.status.code(), text.matches("PF201").count()), (Some(1), 1000));
-    assert!(text.contains("\nand 4004 more findings: fix these first\n5004 errors, 0 warnings"), "{text}");
+    assert!(text.contains("\nand 4004 more findings: fix the findings above first\n5004 errors, 0 warnings"), "{text}");
     let all = out(&folder.run(&["lint", "f.pf", "--format", "github"]));
     assert!(all.matches("PF201").count() >= 5_000);
 }

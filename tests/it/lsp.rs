@@ -82,7 +82,7 @@ fn a_form_is_linted_as_it_is_typed_with_the_levels_of_its_folder() {
     assert_eq!(codes(&desk.findings), ["PF102"]);
     let finding = &desk.findings[0];
     assert_eq!((desk.text_of(&finding["range"]), &finding["severity"]), ("G[work]", &json!(2)));
-    assert!(finding["message"].as_str().unwrap().contains("put one space before it"));
+    assert!(finding["message"].as_str().unwrap().contains("put one space before the word"));
     assert!(desk.editor.change("my.pf", HAAS).is_empty());
     let found = desk.editor.change("my.pf", &HAAS.replacen("X[h]", "X[hh]", 1));
     assert_eq!((codes(&found), &found[0]["severity"]), (vec!["PF202"], &json!(1)));

@@ -100,7 +100,7 @@ fn calls_that_lead_nowhere_or_in_circles_are_errors() {
         program(&mill("", SUBS), &with_subs(&nested, CALL))[6..],
         ["O1", "G0 X0 Y0 Z1.", "M99", "O2", "M98 P1 L2", "M99"]
     );
-    assert!(program(&mill("", ""), &with_subs(&sub(7, MOVE), MOVE))[0].contains("no SubStart"));
+    assert!(program(&mill("", ""), &with_subs(&sub(7, MOVE), MOVE))[0].contains("no sequence SubStart"));
 }
 
 #[test]

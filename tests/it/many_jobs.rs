@@ -320,5 +320,5 @@ fn compressed_jobs_and_programs() {
     assert_eq!(err(&output), "error: can't read cut.nc.gz: the compressed file is cut off\n");
     folder.write("plain.json.gz", folder.read("jobs/plate/job.json"));
     let output = folder.run(&["check", "plain.json.gz"]);
-    assert!(err(&output).contains("it is not a gzip file"), "{}", err(&output));
+    assert!(err(&output).contains("the file is not a gzip file"), "{}", err(&output));
 }

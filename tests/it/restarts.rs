@@ -175,7 +175,10 @@ fn a_cut_is_where_it_was() {
     assert!(way_in(&new, "T2 M6").contains("G54 / M5 / M9 / G0 X50. Y50."), "{new}");
     folder.write("a.nc", program.replace("G0 G53 Z0.", "G0 G53 Z0.\nG53 X-10. Y-10."));
     let said = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap_err();
-    assert!(said.contains("goes down, but its X and Y are given only before the entry"), "{said}");
+    assert!(
+        said.contains("the tool moves down, but the X and Y of the move are given only before the entry"),
+        "{said}"
+    );
     // before a program end, the modal state at the entry is restored
     folder.write("a.nc", "G21 G90 G17 G94\nG0 G56 X0 Y0 S1000 M3\nZ5.\nX10.\nM30\n");
     let (new, _) = restarted(&folder, "grbl", &["--line", "5"]).unwrap();
@@ -211,7 +214,7 @@ fn exactly_goes_down_at_feed() {
     );
     folder.write("a.nc", PROGRAM);
     let refused = restarted(&folder, "fanuc", &["--at", "N13", "--exactly"]).unwrap_err();
-    assert!(refused.contains("under cutter compensation"), "{refused}");
+    assert!(refused.contains("cutter compensation is on in the block"), "{refused}");
     let refused = restarted(&folder, "fanuc", &["--at", "N21", "--exactly"]).unwrap_err();
     assert!(refused.contains("a canned cycle is active"), "{refused}");
 }

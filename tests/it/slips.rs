@@ -109,8 +109,8 @@ fn sequences_that_lose_what_the_job_says() {
 fn slips_in_jobs() {
     let good = job("{\"line\":[1,0,0]}");
     let table = [
-        (good.replacen("\"units\":\"inch\",", "\"units\":\"inch\"\n", 1), "a comma is missing before it"),
-        (good.replacen("[1,0,0]", "[1,0,0],", 1), "take out the comma before it"),
+        (good.replacen("\"units\":\"inch\",", "\"units\":\"inch\"\n", 1), "a comma is missing here"),
+        (good.replacen("[1,0,0]", "[1,0,0],", 1), "take out the comma before this bracket"),
         (good.replace('"', "'"), "double quotes"),
         (format!("// a job\n{good}"), "JSON has no comments"),
         (good.replacen("\"inch\"", "\"metric\"", 1), "write \"mm\""),

@@ -9,7 +9,8 @@ use postform::internals::post::Part;
 use postform::internals::verify::Batch;
 use postform::{Error, Job, Options, Post, Proof, Proven, Rendered};
 
-/// Number of batches that wait for the proof, each about 64 KB of program; if more are ready, the printer waits.
+/// Maximum number of batches that wait for the proof, each about 64 KB of program; the printer waits if it has another
+/// batch.
 const WAITING: usize = 4;
 
 /// A batch that the proof returns after comparison, so that the memory of the batch is used again.
@@ -37,7 +38,7 @@ impl Drop for Lent {
 pub struct Printed {
     /// The result of printing.
     pub rendered: Result<Rendered, Error>,
-    /// The result of the proof, up to the printed end.
+    /// The result of the proof, up to the last printed block.
     pub proven: Result<Proven, Error>,
 }
 

@@ -1,4 +1,4 @@
-//! Finds the form that calls a file. The result also decides whether a file is a form.
+//! Finds the form that calls a file. A file that a form calls is a form, too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use super::files;
 /// Maximum number of forms of a folder that are searched for calls.
 const MOST_FORMS: usize = 200;
 
-/// Is a file a form? It is one by its name, if postform.toml names it, or if a form calls it.
+/// Is a file a form? A file is a form because of its name, because postform.toml names it, or because a form calls it.
 ///
 /// # Errors
 /// A message: postform.toml makes no sense.
@@ -28,7 +28,8 @@ pub fn text(path: &Path) -> String {
     files::read_form(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
 }
 
-/// The form that calls a file, searched in the file's folder and in the folder above; `text` reads the forms. The path is absolute.
+/// The form that calls a file, searched in the file's folder and in the folder above; `text` reads the forms. The
+/// returned path is absolute.
 pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
     let mut forms: Vec<PathBuf> = Vec::new();
     // a called form is in the folder of its caller or in a subfolder

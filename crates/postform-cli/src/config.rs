@@ -55,7 +55,7 @@ pub struct Tests {
 /// The name of the file.
 const NAME: &str = "postform.toml";
 
-/// Maximum size of the file: a larger one is no configuration.
+/// Maximum size of the file: a larger file is no configuration.
 const LARGEST: u64 = 1 << 20;
 
 impl Config {
@@ -74,7 +74,7 @@ impl Config {
             match fs::metadata(&candidate) {
                 Ok(meta) if meta.is_file() => return Config::read(&candidate, meta.len()),
                 Ok(_) => {
-                    let help = "postform.toml must be a file: remove this one, or replace it by a file";
+                    let help = "postform.toml must be a file: remove or replace it";
                     return Err(format!("error: {} is not a file\n  help: {help}", files::name(&candidate)));
                 }
                 // a broken link counts as an existing file, because a configuration was intended
@@ -188,8 +188,8 @@ fn has(properties: &[Property], name: &str) -> bool {
     properties.iter().any(|property| property.name.eq_ignore_ascii_case(name))
 }
 
-/// Is the folder the root, or a folder in which every user may create files, such as /tmp? A postform.toml there is not
-/// the shop's.
+/// Is the folder the root, or a folder in which every user may create files, such as /tmp? A postform.toml in such a
+/// folder does not belong to the shop.
 fn is_common(folder: &Path) -> bool {
     #[cfg(unix)]
     {

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 pub struct Destination {
     /// The last name in the chain of links.
     pub path: PathBuf,
-    /// The target is a device, a pipe or a file that a process has open, such as /dev/stdout. It is written to, and not
-    /// replaced by a file.
+    /// The target is a device, a pipe or a file that a process has open, such as /dev/stdout. postform writes to such a
+    /// target, and does not replace the target by a file.
     pub stays: bool,
 }
 
@@ -36,7 +36,7 @@ pub fn destination(path: &Path) -> io::Result<Destination> {
     }
 }
 
-/// Is it the name of an open file, such as /dev/fd/3 and /proc/self/fd/1?
+/// Is the path the name of an open file, such as /dev/fd/3 and /proc/self/fd/1?
 fn is_open(path: &Path) -> bool {
     let place = folder(path).canonicalize().unwrap_or_default();
     place.ends_with("fd") && (place.starts_with("/proc") || place.starts_with("/dev"))

@@ -179,7 +179,7 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
         }
         // UTF-16 text would be damaged when a fix writes it
         Ok(_) if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") => {
-            Err(format!("error: {} is UTF-16\n  help: save it as UTF-8: forms are plain text", name(path)))
+            Err(format!("error: {} is UTF-16\n  help: save the form as UTF-8: forms are plain text", name(path)))
         }
         Ok(_) => Ok(bytes),
         Err(error) => Err(io_message("read", path, &error)),
@@ -223,9 +223,9 @@ fn job_format(
 struct Only {
     is_given: bool,
     applies_to: &'static [Format],
-    /// The end of the message, before the name of a file in another format.
+    /// The text of the message before the name of a file in another format.
     message: &'static str,
-    /// The end of the message, after the name. Empty: the name is the end.
+    /// The text of the message after the name of the file. Empty: the message ends with the name.
     other: &'static str,
 }
 
@@ -320,7 +320,7 @@ pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
     other.map_or(Ok(()), |only| Err(only.wrong(path)))
 }
 
-/// Checks that each option applies to at least one of several jobs. It is not used for the others.
+/// Checks that each option applies to at least one of several jobs. The option is not used for jobs in other formats.
 pub fn check_formats(paths: &[PathBuf], args: &ReadArgs) -> Result<(), String> {
     let given: Vec<Only> = only(args).into_iter().filter(|only| only.is_given).collect();
     let Some(first) = paths.first().filter(|_| !given.is_empty()) else { return Ok(()) };

@@ -97,7 +97,7 @@ fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
     Ok(Laid::Otherwise)
 }
 
-/// The first line in the file itself that makes no sense.
+/// The error at the first line that makes no sense, in the file itself and not in a called form.
 fn unread(checked: &Checked) -> Option<&Diag> {
     let own = |diag: &&Diag| diag.labels.first().is_some_and(|label| label.span.file == 0);
     checked.diags.iter().filter(own).find(|diag| diag.is_error() && UNREAD.contains(&diag.code))

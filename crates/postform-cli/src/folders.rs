@@ -48,7 +48,7 @@ fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut V
     Ok(())
 }
 
-/// Is it the name of a job? A program is a job only if it is called `job`.
+/// Is the file name the name of a job? A program is a job only if it is called `job`.
 fn is_named_as_job(name: &Path) -> bool {
     match Format::of_name(&name.to_string_lossy()) {
         Some(Format::Nc) => name.file_stem().is_some_and(|stem| stem == "job"),

@@ -45,7 +45,7 @@ impl FormFile {
         Ok(FormFile { post: Some(name.to_owned()), ..self })
     }
 
-    /// A form that is open in an editor. Its text is passed together with the changed texts.
+    /// A form that is open in an editor. The text of the form is passed together with the changed texts.
     pub fn open_in_editor(path: &Path, limits: Limits) -> FormFile {
         let bytes = files::read_form(path).unwrap_or_default();
         FormFile { path: path.to_path_buf(), bytes, post: None, limits, called: RefCell::default() }
@@ -120,7 +120,7 @@ impl Files for FormFile {
 }
 
 /// Reads a form that another form calls. The called file must be in the caller's folder or below, also after links are
-/// followed. The source is named by its path, so that the reader of a message finds the file.
+/// followed. Messages name the called file by its path, so that the reader finds the file.
 fn called(form: &Path, name: &str) -> Result<(PathBuf, Vec<u8>), String> {
     let folder = form.parent().unwrap_or(Path::new(""));
     let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -196,5 +196,5 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
 
 /// Reports a skipped file: a fix must only change files of the folder, and reading a pipe would never end.
 fn left_out(path: &Path, why: &str) {
-    message(&format!("{}: {why}, left out; to check it, give its name", files::name(path)));
+    message(&format!("{}: left out ({why}); to check the file, give its name", files::name(path)));
 }

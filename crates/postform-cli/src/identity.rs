@@ -9,7 +9,7 @@ use super::destination::{destination, folder};
 /// A regular file, or the location of a file that does not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Identity {
-    /// The file; if it does not exist yet, its folder.
+    /// The file, or the folder of a file that does not exist yet.
     node: Node,
     /// The name of a file that does not exist yet.
     name: Option<OsString>,
@@ -23,7 +23,7 @@ type Node = (u64, u64);
 type Node = std::path::PathBuf;
 
 impl Identity {
-    /// The identity of an input. `None`: it is no regular file, so no output can replace it.
+    /// The identity of an input. `None`: the input is no regular file, so no output can replace it.
     pub fn of_input(path: &Path) -> Option<Identity> {
         if path == Path::new("-") {
             return of_stream(&io::stdin());

@@ -10,9 +10,9 @@ use super::identity::Identity;
 static READ: Mutex<Inputs> = Mutex::new(Inputs { names: BTreeSet::new(), files: None });
 
 struct Inputs {
-    /// The paths of the files. They are kept because a rewritten file is another file under the same path.
+    /// The paths of the files. The paths are kept, because a rewritten file is another file with the same path.
     names: BTreeSet<PathBuf>,
-    /// The identities of the files, if there are many and none is rewritten.
+    /// The identities of the files, if the command reads many files and rewrites none of them.
     files: Option<HashSet<Identity>>,
 }
 

@@ -88,7 +88,8 @@ impl From<Ending> for ExitCode {
     }
 }
 
-/// Shows an error in the arguments. If they contain control characters, these are escaped and the error is shown without colour.
+/// Shows an error in the arguments. If the arguments contain control characters, the characters are escaped and the
+/// error is shown without colour.
 fn refused(error: &clap::Error) {
     if !std::env::args_os().any(|arg| arg.to_string_lossy().chars().any(steers)) {
         _ = error.print(); // an error of the terminal does not matter here

@@ -15,7 +15,7 @@ use super::{Ending, files, output};
 /// Maximum number of failed jobs named in the last line.
 const MOST_NAMED: usize = 10;
 
-/// The job in the arguments, if it is a single file.
+/// The job in the arguments, if the arguments name a single file.
 pub fn single(paths: &[PathBuf]) -> Option<&Path> {
     match paths {
         [path] if !path.is_dir() => Some(path),
@@ -52,8 +52,9 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     Ok(jobs)
 }
 
-/// Works on each item, several at a time. The text that `work` returns goes to standard output, and its messages to standard
-/// error, both in the order of the items. A failing item does not stop the others; its `name` is in the last line of the output.
+/// Works on each item, several at a time. The text that `work` returns goes to standard output, and its messages to
+/// standard error, both in the order of the items. A failing item does not stop the others; the last line of the output
+/// contains the `name` of the failing item.
 ///
 /// # Errors
 /// Standard output can't be written.

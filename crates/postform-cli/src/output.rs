@@ -43,7 +43,7 @@ impl Target {
         })
     }
 
-    /// Prepares the output without these checks, for a file that is read and written.
+    /// Prepares the output without a check of the inputs, for a file that is read and written.
     fn place(path: &Path, stream: bool) -> Result<Target, String> {
         let fail = |error: io::Error| io_message("write", path, &error);
         if path == Path::new("-") {
@@ -67,8 +67,8 @@ impl Target {
         Ok(Target::Beside(Unnamed::beside(to, mode).map_err(fail)?))
     }
 
-    /// Prepares an output in a folder; it gets its name when it is complete: see [`Target::named`]. `name` is its final name if
-    /// that is already known; a name that ends with `.gz` means compressed.
+    /// Prepares an output in a folder; the output gets its name when it is complete: see [`Target::named`]. `name` is
+    /// the final name of the output, if already known; if this name ends with `.gz`, the output is compressed.
     ///
     /// # Errors
     /// As [`Target::open`].
@@ -125,7 +125,7 @@ impl Target {
     /// Makes the complete program visible under its name.
     ///
     /// # Errors
-    /// As reported by the system; no part of the program is then under the target's name.
+    /// As reported by the system; after an error, no part of the program is under the target's name.
     pub fn complete(self) -> io::Result<()> {
         match self {
             Target::Beside(unnamed) => unnamed.replace(),

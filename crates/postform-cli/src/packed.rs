@@ -43,7 +43,7 @@ impl<R: Read> Read for Named<R> {
         self.0.read(out).map_err(|error| match error.kind() {
             io::ErrorKind::UnexpectedEof => io::Error::new(error.kind(), "the compressed file is cut off"),
             io::ErrorKind::InvalidInput | io::ErrorKind::InvalidData => {
-                io::Error::new(error.kind(), format!("it is not a gzip file, or it is damaged: {error}"))
+                io::Error::new(error.kind(), format!("the file is not a gzip file, or the file is damaged: {error}"))
             }
             _ => error,
         })
@@ -75,7 +75,7 @@ mod tests {
         let error = unpacked(&file[..file.len() / 2]).read_to_end(&mut Vec::new()).unwrap_err();
         assert_eq!(error.to_string(), "the compressed file is cut off");
         let error = unpacked(&b"G0 X1\nG1 X2 F100\n"[..]).read_to_end(&mut Vec::new()).unwrap_err();
-        assert!(error.to_string().starts_with("it is not a gzip file"), "{error}");
+        assert!(error.to_string().starts_with("the file is not a gzip file"), "{error}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! Checks repeatedly whether one of some files was changed.
+//! Checks several files repeatedly for changes.
 //!
-//! Checking a few files five times per second costs almost nothing and works on network drives. It also detects editors that
-//! write a second file and rename it.
+//! Checking a few files five times per second costs almost nothing and works on network drives. The check also detects
+//! the change if an editor writes a second file and renames it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,8 +40,8 @@ impl Watched {
         self.wait_while(|| true);
     }
 
-    /// Like `wait`, but returns `false` without a change as soon as `watches` returns `false`, because other files must
-    /// be watched.
+    /// Like `wait`, but ends as soon as `watches` returns `false`, because other files must be watched. The result is
+    /// then `false`.
     pub fn wait_while(&self, watches: impl Fn() -> bool) -> bool {
         loop {
             sleep(PAUSE);

@@ -19,7 +19,7 @@ pub struct Prepared {
     pub post: Post,
     /// The options for printing jobs.
     pub options: Options,
-    /// Warnings are errors: no program is printed.
+    /// Whether warnings are errors, so that no program is printed.
     pub denies: bool,
 }
 

@@ -8,15 +8,16 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::say::is_kept;
 
-/// Shorter operations show no progress.
+/// Operations shorter than this time show no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Number of updates of the line per second.
 const DRAWN: u8 = 4;
 
-/// A line on standard error with the progress of the work. It is removed at the end, so that messages begin at the left margin.
+/// A line on standard error with the progress of the work. The line is removed at the end, so that messages begin at
+/// the left margin.
 pub struct Progress {
     bar: ProgressBar,
-    /// The time from which the line is shown; `None`: the line is already shown, or never will be.
+    /// The time from which the line is shown; `None`: the line is already shown, or is never shown.
     begins: Mutex<Option<Instant>>,
 }
 

@@ -37,7 +37,8 @@ fn answer(option: &str, properties: &[Property], options: &mut Options) -> Resul
     number.map(|_| ()).ok_or_else(|| format!("`{value}` is not a number"))
 }
 
-/// Prompts for missing answers if input and output are a terminal; `all`: for properties too. `busy`: standard input is the job.
+/// Prompts for missing answers if input and output are a terminal; `all`: prompts for properties, too. `busy`: the job
+/// is read from standard input.
 pub fn ask(post: &Post, options: &mut Options, all: bool, busy: bool) -> io::Result<()> {
     if busy || !io::stdin().is_terminal() || !io::stderr().is_terminal() {
         return Ok(());

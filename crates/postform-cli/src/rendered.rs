@@ -15,8 +15,8 @@ use super::report::{Reporter, place_in_jobs, stopped};
 use super::say::say;
 use super::spool::Spool;
 
-/// Renders the job into an unnamed temporary file; `trace`: with the origin of each line. The inner `Err`: rendering failed,
-/// and the reason has been shown.
+/// Renders the job into an unnamed temporary file; `trace`: also returns the origin of each line. The inner `Err`:
+/// rendering failed, and the reason has been shown.
 pub fn rendered(
     job: &mut Job<'_>,
     jobs: &[&Path],
@@ -48,7 +48,7 @@ pub fn rendered(
     Ok(Ok((file.into_file().map_err(|error| fail(&error))?, lines)))
 }
 
-/// Shows the warnings of job and renderer if warnings are denied. Returns whether there are any.
+/// Shows the warnings of job and renderer if warnings are denied. Returns whether there are denied warnings.
 pub fn denied(notes: &[Diag], jobs: &[&Path], prepared: &Prepared, reporter: &Reporter) -> bool {
     let warnings = notes.iter().filter(|diag| diag.severity == Severity::Warning);
     let mut notes: Vec<Diag> = warnings.cloned().collect();

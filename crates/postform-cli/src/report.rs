@@ -171,16 +171,16 @@ impl Reporter {
             }
         }
         if diags.len() > MOST_DRAWN {
-            all += &format!("and {}: fix these first\n", count(diags.len() - MOST_DRAWN, "more finding"));
+            all += &format!("and {}: fix the findings above first\n", count(diags.len() - MOST_DRAWN, "more finding"));
         }
         all
     }
 }
 
-/// Maximum number of findings that are drawn. More would be too many to read.
+/// Maximum number of findings that are drawn. More findings would be too many to read.
 const MOST_DRAWN: usize = 1000;
 
-/// The findings that are drawn, in their order. If there are too many, errors are selected first.
+/// The findings that are drawn, in their order. If there are too many findings, errors are selected first.
 fn drawn(diags: &[Diag]) -> impl Iterator<Item = &Diag> {
     let mut errors = diags.iter().filter(|diag| diag.is_error()).count().min(MOST_DRAWN);
     let mut others = MOST_DRAWN - errors;
@@ -231,7 +231,7 @@ pub fn place_in(file: &str, diag: &mut Diag) {
     diag.place.get_or_insert_default().file = Some(file.to_owned());
 }
 
-/// Adds the name of the job, or of the one among joined jobs, to the location of a finding.
+/// Adds the name of the job to the location of a finding; of joined jobs, the name of the job with the finding.
 pub fn place_in_jobs(jobs: &[&Path], diag: &mut Diag) {
     let part = diag.place.as_ref().map_or(0, |place| usize::from(place.part));
     if let Some(job) = jobs.get(part.saturating_sub(1)) {

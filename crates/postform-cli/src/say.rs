@@ -6,7 +6,7 @@ use std::io::{Write, stderr};
 use postform::internals::terminal::escaped_lines;
 
 thread_local! {
-    /// The messages of this thread, while they are kept instead of written.
+    /// The messages of this thread that are kept; `None`: messages are written at once.
     static KEPT: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
@@ -18,12 +18,13 @@ pub fn say(report: &str) {
     });
 }
 
-/// Are messages of this thread kept?
+/// Are messages of this thread kept instead of written?
 pub fn is_kept() -> bool {
     KEPT.with_borrow(Option::is_some)
 }
 
-/// Runs some work and returns the messages of this thread instead of writing them. Messages of several threads are then not mixed.
+/// Runs some work and returns the messages of this thread instead of writing them. In this way, the messages of several
+/// threads are not mixed.
 pub fn kept<R>(work: impl FnOnce() -> R) -> (R, String) {
     KEPT.set(Some(String::new()));
     let done = work();

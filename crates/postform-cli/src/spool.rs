@@ -5,7 +5,7 @@ use std::io::{self, Seek, Write};
 
 use postform::internals::terminal::escaped;
 
-/// A file without a name that is written and then read. Its errors name the folder.
+/// A file without a name that is written and then read. Errors of this file contain the name of its folder.
 pub struct Spool(File);
 
 impl Spool {
@@ -34,7 +34,7 @@ impl Write for Spool {
     }
 }
 
-/// Adds the folder to an error. Its kind stays, because an interrupted call is repeated.
+/// Adds the folder to an error. The kind of the error stays the same, because an interrupted call is repeated.
 fn named(error: io::Error) -> io::Error {
     let folder = escaped(&std::env::temp_dir().to_string_lossy());
     io::Error::new(error.kind(), format!("a temporary file in {folder} (TMPDIR): {error}"))

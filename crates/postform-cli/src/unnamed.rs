@@ -1,4 +1,5 @@
-//! A file without a name until it is complete. If the process ends before that, no part of the file remains.
+//! A file without a name until it is complete. If the process ends before the file is complete, no part of the file
+//! remains.
 
 use std::fs::{File, Permissions};
 use std::io::{self, Seek};
@@ -25,7 +26,7 @@ impl Unnamed {
         let place = folder(&path);
         let name = escaped(&place.to_string_lossy());
         if !place.is_dir() {
-            let message = format!("there is no folder {name}\n  help: make it first");
+            let message = format!("there is no folder {name}\n  help: make the folder first");
             return Err(io::Error::new(io::ErrorKind::NotFound, message));
         }
         let file = tempfile::tempfile_in(place)

@@ -22,7 +22,8 @@ pub struct Sides<'a> {
 }
 
 impl Sides<'_> {
-    /// Shows the warnings of a proof and returns the proof. If it failed, shows the error and returns the end of the command.
+    /// Shows the warnings of a proof and returns the proof. If the proof failed, shows the error and returns the end of
+    /// the command.
     ///
     /// # Errors
     /// A message: job or program can't be read.
@@ -56,7 +57,7 @@ impl Sides<'_> {
         say(&reporter.text(&diags, self.files));
     }
 
-    /// Shows findings in one line each, like those of a form; the rest can be shown with `command`.
+    /// Shows findings in one line each, like the findings of a form; `command` shows the findings that are left out.
     pub fn brief(&self, findings: &[Finding], command: &str) {
         let diags = findings.iter().map(|finding| {
             let mut diag = self.diag(finding, Severity::Note);

@@ -74,7 +74,7 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     )
 }
 
-/// The form for a job's program. An existing program is proven without a form, unless one is given.
+/// The form for a job's program. An existing program is proven with a form only if the command line names a form.
 fn form_of(args: &VerifyArgs, config: &Config) -> Option<PathBuf> {
     args.form.clone().or_else(|| config.form.clone().filter(|_| args.nc.is_none()))
 }
@@ -192,7 +192,7 @@ fn tried(
     Ok((if hidden { String::new() } else { text }, ending))
 }
 
-/// The message of an error while the program is stored.
+/// The message for an error that occurs while the program is stored.
 fn spooled(error: &io::Error) -> String {
     io_message("write", Path::new("the program"), error)
 }

@@ -1,8 +1,8 @@
 //! postform for the playground: it reads a request from standard input and writes a scene to standard output.
 //!
-//! A request is the length of its head (four bytes, little-endian), the head as JSON, and the files that the head names, one
-//! after the other. For each form these are its current text and its saved text. The job, the program to compare with, and the
-//! program of the saved form follow.
+//! A request is the length of its head (four bytes, little-endian), the head as JSON, and the files that the head
+//! names, one after the other. The files of each form are its current text and its saved text. After the forms follow
+//! the job, the program to compare with, and the program of the saved form.
 
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
@@ -21,7 +21,7 @@ struct Head {
     forms: Vec<Form>,
     job: File,
     against: Option<File>,
-    /// The program of the saved forms for the job, if the current texts differ.
+    /// The program of the saved forms for the job, if the current texts of the forms differ from the saved texts.
     before: Option<File>,
     jobs: Vec<String>,
     /// Values of the form's properties.

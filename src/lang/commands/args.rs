@@ -10,11 +10,13 @@ pub enum Args {
     /// Codes such as `G54` or `M19`, or plain numbers. The letter is added to plain numbers. The two numbers are the
     /// least and greatest number of codes.
     Codes(char, u8, u8),
-    /// Codes, with their least and greatest number. The first code moves the tool, so it must be a G code.
+    /// Codes; the two numbers are the least and greatest number of codes. The first code moves the tool, so this code
+    /// must be a G code.
     Motion(u8, u8),
-    /// Letters, with their least and greatest number. They may be separate or joined.
+    /// Letters; the two numbers are the least and greatest number of letters. The letters may be separate words or one
+    /// word.
     Letters(u8, u8),
-    /// Whole numbers, with their least and greatest number.
+    /// Whole numbers; the two values are the least and greatest number of arguments.
     Whole(u8, u8),
     /// A number.
     Number,
@@ -22,9 +24,10 @@ pub enum Args {
     Length,
     /// A length above zero.
     LengthAboveZero,
-    /// One word of this list.
+    /// One word from a list of allowed words.
     Choice(&'static [&'static str]),
-    /// Words that the command reads in its own way, with their least and greatest number and a description.
+    /// Words that the command reads in its own way. The values are the least and greatest number of words, and a
+    /// description.
     Words(u8, u8, &'static str),
 }
 

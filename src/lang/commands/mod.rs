@@ -1,4 +1,4 @@
-//! The commands of forms: their arguments, defaults and effects. Their rows are in `table.rs`.
+//! The commands of forms: their arguments, defaults and effects. The rows of the commands are in `table.rs`.
 
 mod args;
 mod table;
@@ -19,11 +19,11 @@ pub enum Used {
     Always,
     /// In forms that print this variable.
     Printed(V),
-    /// In forms that print this variable, or have a canned cycle that needs it.
+    /// In forms that print this variable, or that have a canned cycle that needs this variable.
     Cycles(V),
     /// In forms with one of these sequences.
     With(&'static [S]),
-    /// In forms with none of these sequences. The text is the reason.
+    /// In forms with none of these sequences. The text gives the reason why the command has no effect in other forms.
     Unless(&'static [S], &'static str),
     /// In forms that generate arcs.
     Arcs,
@@ -33,7 +33,7 @@ pub enum Used {
     Modal,
     /// In forms with the command Thread.
     Threads,
-    /// In forms that print its letters.
+    /// In forms that print the letters that the command names.
     Letter,
 }
 
@@ -102,8 +102,8 @@ impl CommandId {
         self.row().name
     }
 
-    /// Finds a command by its name; upper and lower case are equal. The question mark of a switch may be left out if no
-    /// other command has the name without it.
+    /// Finds a command by its name; upper and lower case are equal. The question mark of a switch may be left out if
+    /// the name without the question mark is not another command.
     pub fn parse(name: &str) -> Option<CommandId> {
         let find = |same: &dyn Fn(&str) -> bool| COMMANDS.iter().find(|c| same(c.name)).map(|c| c.id);
         find(&|own| own.eq_ignore_ascii_case(name))

@@ -1,12 +1,12 @@
-//! The rows of all commands. `lang` generates the vocabulary from them, and `sema` generates the settings.
+//! The rows of all commands. From these rows `lang` generates the vocabulary, and `sema` generates the settings.
 
 /// Passes the rows of the table to the macro `$then`. A row has this form:
 ///
 /// `Id "Name" (arguments) once|many (default) Standing {field of the settings} "meaning";`
 ///
 /// The field is `{name: Type}` for a new field, `{= place}` for a part of an existing field, `{=> method}` for a method
-/// of the settings that stores the arguments, or `{}` for no field. After it, `if (..)` gives where the command is used,
-/// and `eg "arguments"` gives an example if no form of the repository has the command.
+/// of the settings that stores the arguments, or `{}` for no field. After the field, `if (..)` names the forms that use
+/// the command. `eg "arguments"` gives an example if no form of the repository has the command.
 macro_rules! command_rows {
     ($then:ident) => {
         $then! {
@@ -178,9 +178,9 @@ macro_rules! command_rows {
                 many (of("")) Ours {replace: Vec<Replacement>} eg "\"M8 \" \"M88 \""
                 "text replacement in every output block";
             Rename "Rename" (Letters(2, 2)) many (of("")) Ours {rename: Vec<(u8, u8)>} if (Letter)
-                "prints the first letter as the second";
+                "prints the second letter instead of the first letter";
             Dummy "Dummy" (Letters(1, 15)) many (of("")) Ours {dummy: Vec<u8>} if (Letter) eg "Q"
-                "prints the value of these letters without the letter";
+                "prints the values of these letters without the letters";
             Mod "Mod" (Text) many (of("")) Ours {mod_text: Vec<String>}
                 "text printed once at the start (kept for old files)";
             // questions and other forms
@@ -222,10 +222,10 @@ macro_rules! command_rows {
             Thread "Thread" (Motion(1, 1))
                 once (of(""))
                 Doc {thread: Option<Code>}
-                if (Unless(&[S::AutoThread, S::CanThread], "a sequence serves all threads")) eg "G33"
+                if (Unless(&[S::AutoThread, S::CanThread], "AutoThread or CanThread prints all threads")) eg "G33"
                 "print each threading pass with this code";
             ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
-                "with `x`, later passes print only X; with `full`, they print approach, cut, clear and return";
+                "with `x`, the later passes print only X; with `full`, the later passes print approach, cut, clear and return";
             CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
                 "clearance of cycles for which the job gives none";
             CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"

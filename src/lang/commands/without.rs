@@ -1,4 +1,4 @@
-//! Defaults of commands: the effect if a form does not have the command.
+//! Defaults of commands: the default applies if a form does not have the command.
 
 use crate::lang::{Machine, UnitChoice};
 
@@ -26,18 +26,19 @@ impl Without {
         Without { mm: Some(mm), ..self }
     }
 
-    /// Sets the defaults for each unit of the form. For a form with both units, the units of the job apply.
+    /// Sets the defaults for each unit of the form. For a form with both units, the default for the units of the job
+    /// applies.
     pub(super) const fn by_units(self, inch: &'static str, mm: &'static str) -> Without {
         Without { inch: Some(inch), mm: Some(mm), ..self }
     }
 
-    /// Adds a description, for a default that arguments can't express.
+    /// Adds a description of a default that can't be written as arguments.
     pub(super) const fn told(self, told: &'static str) -> Without {
         Without { told, ..self }
     }
 
-    /// The default arguments for a form with this machine and these units; empty if there is no default. If the command
-    /// would occur several times, commas separate its arguments.
+    /// The default arguments for a form with this machine and these units; empty if the command has no default. If the
+    /// default consists of several lines with the command, commas separate the arguments of these lines.
     pub fn arguments(self, machine: Machine, units: UnitChoice) -> &'static str {
         let by_units = match units {
             UnitChoice::Inch => self.inch,
@@ -47,7 +48,7 @@ impl Without {
         self.lathe.filter(|_| machine == Machine::Lathe).or(by_units).unwrap_or(self.usual)
     }
 
-    /// Whether there is no default.
+    /// Whether the command has no default.
     pub fn is_nothing(self) -> bool {
         self.to_string().is_empty()
     }

@@ -34,8 +34,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Whether the block gives a target itself. This is not so for a tool change (which retracts by itself), a macro, a code
-/// of the machine's builder, and a return of all axes to home.
+/// Whether the block gives a target itself. No target is given by a tool change (which retracts by itself), a macro, a
+/// code of the machine's builder, and a return of all axes to home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
         calls(view.settings.codes(), word) || view.meaning(word).is_some_and(Meaning::changes_tool) || says_tool(word)

@@ -1,4 +1,5 @@
-//! PF431: an arc sequence prints neither both centre words nor the radius. It is then not used: arcs are printed as lines.
+//! PF431: an arc sequence prints neither both centre words nor the radius. The sequence is not used, and arcs are
+//! printed as lines.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -21,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let better = format!("{}[ival] {}[jval]", letter(0), letter(1));
         diags.push(
             Diag::new(Code::PF431, format!("{} does not print the whole centre", body.name()))
-                .at(body.span, "so postform prints lines instead of arcs")
+                .at(body.span, "postform prints lines instead of arcs")
                 .help(format!("print `{better}`, or `R[arcrad]`")),
         );
     }

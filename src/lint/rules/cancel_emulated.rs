@@ -1,4 +1,5 @@
-//! PF403: `End Cancel` in an emulated cycle has no effect, because no cycle of the control is active there.
+//! PF403: `End Cancel` in an emulated cycle has no effect, because no cycle of the control is active in an emulated
+//! cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,4 +1,4 @@
-//! PF410: Cancel prints no G80, so it does not end the cycle.
+//! PF410: Cancel prints no G80, so the sequence does not end the cycle.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -25,7 +25,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let typed = body.words().find(|word| view.printed_letter(word) == Some(b'T'));
                 diags.push(
                     Diag::new(Code::PF429, format!("{} does not print the tool number", body.name()))
-                        .at(typed.map_or(body.span, |word| word.span), "the same for every tool of a job")
+                        .at(typed.map_or(body.span, |word| word.span), "prints the same for every tool of a job")
                         .help(
                             "print `T[tool] M6`; for a manual tool change, print the tool in a comment: `(TOOL \
                             [tool])`",

@@ -1,4 +1,4 @@
-//! PF308: arc centres have fewer decimals than positions. The start and end of an arc then have different radii.
+//! PF308: arc centres have fewer decimals than positions, so the start and end of an arc have different radii.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,11 +1,10 @@
-//! PF211: a command has the codes that all controls use for it, but in the wrong order. Missing codes are reported by PF316
-//! and similar rules.
+//! PF211: a command has the right codes, but in the wrong order. Missing codes are reported by PF316 and similar rules.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{Args, CommandId};
 use crate::lint::view::View;
 
-/// Commands that set motion codes. Two of these commands must not set the same code.
+/// Commands that set motion codes. Two commands for motion codes must not set the same code.
 const MOTION: [CommandId; 4] = [CommandId::Rapid, CommandId::Feed, CommandId::CW, CommandId::CCW];
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
@@ -33,7 +32,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let order = if what.is_empty() { String::new() } else { format!(" ({what})") };
             diags.push(
                 Diag::new(Code::PF211, format!("the codes of {} are in the wrong order", row.name))
-                    .at(statement.line.span, "each code would be used for the function of another")
+                    .at(statement.line.span, "each code would be used for the function of another code")
                     .help(format!("write `{} {usual}`{order}", row.name)),
             );
         }

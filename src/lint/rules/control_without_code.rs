@@ -21,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF607, format!("{} does not have this code", control.name()))
                     .at(word.span, "refused")
-                    .help("remove it; without its sequence a cycle is printed as moves"),
+                    .help("remove the code; a cycle without a sequence is printed as moves"),
             );
         }
     }

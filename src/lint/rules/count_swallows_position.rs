@@ -1,5 +1,5 @@
-//! PF408: a cycle prints the lines of its count only at the first hole. If only these lines print the position, all holes have that
-//! position.
+//! PF408: the count of a cycle is the number of lines that print only at the first hole. If only these lines print the
+//! position, all holes are drilled at the position of the first hole.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

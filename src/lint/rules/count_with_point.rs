@@ -1,4 +1,5 @@
-//! PF318: an integer is printed with a decimal point, as `M98 P1.` or `H3.`. Controls refuse it or read another number.
+//! PF318: an integer is printed with a decimal point, as `M98 P1.` or `H3.`. Controls refuse the decimal point or read
+//! another number.
 
 use crate::diag::{Code, Diag};
 use crate::lang::Unit;

@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             Diag::new(Code::PF207, format!("`{kind}` is not a kind of cycle"))
                 .at(
                     sequence.span,
-                    format!("this is printed only for the kind `{}` of a job", sequence.id.name().to_lowercase()),
+                    format!("printed only for the kind `{}` of a job", sequence.id.name().to_lowercase()),
                 )
                 .help(help),
         );

@@ -1,4 +1,4 @@
-//! PF208: a Custom cycle is never used, because its kind has a sequence of its own or an earlier Custom cycle.
+//! PF208: a Custom cycle is never used, because its kind of cycle has a separate sequence or an earlier Custom cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

@@ -1,5 +1,5 @@
-//! PF436: LineCode, an arc sequence, InFeed or OutFeed prints no motion code, or the wrong one. The cut is then made with the
-//! motion of the previous move, in the worst case at rapid.
+//! PF436: LineCode, an arc sequence, InFeed or OutFeed prints no motion code, or the wrong motion code. The cut is made
+//! with the motion of the previous move, in the worst case at rapid.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -60,13 +60,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     built_in(view, diags);
 }
 
-/// Whether the letter also prints counts or codes. A format with decimals would print them with a point too.
+/// Whether the letter also prints counts or codes. A format with decimals would print counts and codes with a point
+/// too.
 fn counts(view: &View, letter: u8) -> bool {
     let whole = |word: &Word| word.printed_var().is_some_and(|var| matches!(var.row().unit, Unit::Count | Unit::Code));
     letter == view.settings.cdc_code || view.words().filter(|word| view.format_letter(word) == Some(letter)).any(whole)
 }
 
-/// Checks letters without a format. Their built-in formats have no decimals if they print counts.
+/// Checks letters without a format. The built-in formats of letters that print counts have no decimals.
 fn built_in(view: &View, diags: &mut Vec<Diag>) {
     let mut told = Vec::new();
     for word in view.words() {

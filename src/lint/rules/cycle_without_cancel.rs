@@ -1,4 +1,4 @@
-//! PF409: a cycle of the control is never cancelled. It stays active, so the next move would drill.
+//! PF409: a cycle of the control is never cancelled. The cycle stays active, so the next move would drill.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};
@@ -19,8 +19,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         let mut diag = Diag::new(Code::PF409, format!("{} leaves {code} active", body.name()))
-            .at(word.span, "the next position would be a hole, too")
-            .help("end it with `End Cancel`, and print G80 in a sequence `Cancel`");
+            .at(word.span, "the control would also drill at the next position")
+            .help("end the cycle with `End Cancel`, and print G80 in a sequence `Cancel`");
         let end = view.node(sequence.span).and_then(|node| node.end.as_ref());
         if let Some(end) =
             end.filter(|end| view.body(SequenceId::Cancel).is_some() && !matches!(end.line.tail, Tail::Lost(_)))

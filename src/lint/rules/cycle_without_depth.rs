@@ -1,4 +1,4 @@
-//! PF407: a cycle does not print the depth. The control then drills to the depth of the previous cycle.
+//! PF407: a cycle does not print the depth, so the control drills to the depth of the previous cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

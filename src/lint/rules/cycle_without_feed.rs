@@ -1,4 +1,4 @@
-//! PF412: a cycle does not print a feed. The control then drills with the last feed.
+//! PF412: a cycle does not print a feed, so the control drills with the last feed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

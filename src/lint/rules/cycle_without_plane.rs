@@ -1,4 +1,4 @@
-//! PF411: a cycle does not print its R plane. The control then goes at rapid to the R plane of the previous cycle.
+//! PF411: a cycle does not print its R plane, so the control goes at rapid to the R plane of the previous cycle.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

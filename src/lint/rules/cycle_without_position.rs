@@ -1,4 +1,4 @@
-//! PF406: a cycle does not print the position. The control then drills every hole at the same position.
+//! PF406: a cycle does not print the position, so the control drills every hole at the same position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -25,7 +25,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             if let (Some((word, code)), false) = (cycle, placed) {
                 diags.push(
                     Diag::new(Code::PF406, format!("{} starts {code} without the position", body.name()))
-                        .at(word.span, "drills at the position of the tool, and the first hole twice")
+                        .at(word.span, "drills at the position of the tool, and drills the first hole twice")
                         .help("print `X[h] Y[v]` in the block of the cycle"),
                 );
             }

@@ -41,14 +41,14 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF416, format!("{} goes down without a position", body.name()))
                     .at(word.span, "the tool goes down at the tool change position")
-                    .help("print `G0 X[h] Y[v]` before it"),
+                    .help("print `G0 X[h] Y[v]` before the depth"),
             );
             continue;
         }
         if let Some(late) = blocks[down + 1..].iter().find(|block| across(block) & !before != 0) {
             let there = late.line.span;
             diags.push(
-                Diag::new(Code::PF416, format!("{} goes down before it is above the position", body.name()))
+                Diag::new(Code::PF416, format!("{} goes down before the tool is above the position", body.name()))
                     .at(word.span, "down here")
                     .at(there, "across here")
                     .help("print `X[h] Y[v]` first, the depth after it"),

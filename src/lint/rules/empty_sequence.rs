@@ -1,5 +1,5 @@
-//! PF012: a sequence has no lines, so it prints nothing. This is probably a mistake. If a sequence is meant to print nothing, it
-//! must contain the word `None`.
+//! PF012: a sequence has no lines, so it prints nothing. A sequence without lines is probably a mistake. If a sequence
+//! is meant to print nothing, it must contain the word `None`.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -24,9 +24,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             Diag::new(Code::PF012, format!("{} has no lines", body.name()))
                 .at(body.span, "nothing is printed for this event")
                 .help(match body.sequence.and_then(without) {
-                    Some(_) => "write its lines, or remove it: then postform prints the block itself",
+                    Some(_) => "write lines, or remove the sequence: then postform prints the block itself",
                     None => {
-                        "write its lines, or remove it: then postform prints the block itself; write `None` to \
+                        "write lines, or remove the sequence: then postform prints the block itself; write `None` to \
                         print nothing"
                     }
                 }),
@@ -34,14 +34,15 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Whether the sequence contains a `@set`. Such a sequence is not empty: it sets a value that another sequence prints.
+/// Whether the sequence contains a `@set`. A sequence with a `@set` is not empty: it sets a value that another sequence
+/// prints.
 fn sets(body: &Body) -> bool {
     let mut sets = false;
     each_step(body.steps.unwrap_or_default(), &mut |step| sets |= matches!(step, Step::Set(..)));
     sets
 }
 
-/// What is lost if this sequence contains only `None`, where this is probably a mistake.
+/// What is lost if this sequence contains only `None`, for sequences in which `None` is probably a mistake.
 fn without(sequence: &Sequence) -> Option<&'static str> {
     Some(match sequence.id {
         SequenceId::OptStop => "the job's optional stop is lost",

@@ -1,4 +1,5 @@
-//! PF417: after the last move of a cycle, the tool is still at the bottom. The move to the next hole then goes through the part.
+//! PF417: after the last move of a cycle, the tool is still at the bottom, so the move to the next hole goes through
+//! the part.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF443, format!("{} ends the program before the job ends", body.name()))
                     .at(word.span, "nothing after this block is run")
-                    .help("remove it; write M0 or M1 for a stop, and put the end into EndCode"),
+                    .help("remove this code; write M0 or M1 for a stop, and put the end into EndCode"),
             );
         }
     }

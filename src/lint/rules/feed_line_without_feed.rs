@@ -1,4 +1,4 @@
-//! PF418: a feed move does not print a feed, so the control uses the last one.
+//! PF418: a feed move does not print a feed, so the control uses the last feed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId, VarSet};

@@ -13,8 +13,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let found = match &piece.kind {
             PieceKind::Note { .. } if open != "(" => Some((
                 format!("comments of this form begin with `{open}`"),
-                "the control reads this as a block",
-                "take it out, or change the `Comment` command",
+                "the control reads this comment as a block",
+                "remove the comment, or change the `Comment` command",
             )),
             PieceKind::Stray(text) if ends_block && text.starts_with(';') => Some((
                 "`;` does not begin a comment on this control".to_owned(),

@@ -1,4 +1,4 @@
-//! PF426: H without G43 activates no length offset. The tool then goes too deep by its length.
+//! PF426: H without G43 activates no length offset, so the tool goes too deep by its length.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};
@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         {
             diags.push(
                 Diag::new(Code::PF426, format!("{} prints a length register without G43", body.name()))
-                    .at(word.span, "the offset stays as it was")
+                    .at(word.span, "the length offset does not change")
                     .help("print `G43` before it"),
             );
         }

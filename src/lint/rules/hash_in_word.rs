@@ -1,4 +1,4 @@
-//! PF106: a `#` inside a word is printed. It begins a comment only if a space precedes it.
+//! PF106: a `#` inside a word is printed. A `#` begins a comment only if a space precedes it.
 
 use crate::diag::{Code, Diag};
 use crate::lint::tokens::looks_like_a_code;
@@ -13,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let start = piece.span.start + at as u32;
         diags.push(
             Diag::new(Code::PF106, format!("`{text}` is printed as text"))
-                .at(Span { start, ..piece.span }, "not a comment: there is no space before it")
+                .at(Span { start, ..piece.span }, "not a comment: there is no space before the `#`")
                 .help("put a space before the `#`")
                 .fix(
                     "put a space before the comment",

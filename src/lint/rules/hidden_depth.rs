@@ -1,4 +1,5 @@
-//! PF503: a cycle prints the depth relative to the hole's top. It is equal for holes at other heights, so it is not printed again.
+//! PF503: a cycle prints the depth relative to the hole's top. The relative depth is equal for holes at other heights,
+//! so the cycle does not print it again.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

@@ -1,4 +1,5 @@
-//! PF317: a format with an implied point is wrong for one of both units: a control counts in 0.0001 inch, but in 0.001 mm.
+//! PF317: a format with an implied point is wrong in inches or in millimetres: a control counts in 0.0001 inch, but in
+//! 0.001 mm.
 
 use crate::control::WithoutPoint;
 use crate::diag::{Code, Diag};
@@ -21,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let name = char::from(letter);
             diags.push(
                 Diag::new(Code::PF317, format!("{name} prints 1 mm as 10000"))
-                    .at(*span, "in millimetres the control counts thousandths: this is 10 mm")
+                    .at(*span, "in millimetres the control counts thousandths: 10000 is 10 mm")
                     .help(format!("print a point, as `{name}->4.>4`; or use 3 decimals and `Units mm`")),
             );
         }

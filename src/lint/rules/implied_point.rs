@@ -1,4 +1,4 @@
-//! PF307: a letter with an implied point prints 12 as 120000. This is correct for a length, but wrong for a count.
+//! PF307: a letter with an implied point prints 12 as 120000, which is correct for a length, but wrong for a count.
 
 use crate::diag::{Code, Diag};
 use crate::lang::Unit;

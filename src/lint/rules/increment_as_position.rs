@@ -1,4 +1,4 @@
-//! PF439: a distance is printed while G90 is active. The control then reads it as a position.
+//! PF439: a distance is printed while G90 is active, so the control reads the distance as a position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some((word, _)) = word {
             diags.push(
                 Diag::new(Code::PF439, format!("{} prints a distance while G90 is on", body.name()))
-                    .at(word.span, "the control reads it as a position")
+                    .at(word.span, "the control reads the distance as a position")
                     .help("print the position, as `X[h]`; or `G91` before it and `G90` after it"),
             );
         }

@@ -19,7 +19,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(word) = last.filter(|word| word.is_code(b'G', &[incremental])) {
             diags.push(
                 Diag::new(Code::PF424, format!("{} leaves G{incremental} on", body.name()))
-                    .at(word.span, "every position after this is taken as an increment")
+                    .at(word.span, "every later position is taken as an increment")
                     .help(format!("print `G{absolute}` after it")),
             );
         }

@@ -21,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                     Code::PF504,
                     format!("{} prints a position, but the other moves are increments", body.name()),
                 )
-                .at(word.span, "the control adds it to the position of the tool")
+                .at(word.span, "the control adds the value to the position of the tool")
                 .help("print distances, as `X[hdist] Y[vdist] Z[ddist]`"),
             );
         }

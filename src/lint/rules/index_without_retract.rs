@@ -35,7 +35,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Reports a tool change that moves the tool down before it prints the angle: the part then turns under the tool.
+/// Reports a tool change that moves the tool down before it prints the angle, so that the part turns under the tool.
 fn down_to_a_turning_part(view: &View, diags: &mut Vec<Diag>) {
     let is_rotary = |word: &&Word| word.letter().is_some_and(|letter| view.is_rotary(letter)) && word.var().is_some();
     let Some(letter) = view.body(SequenceId::Index).and_then(|index| index.words().find(is_rotary)?.letter()) else {

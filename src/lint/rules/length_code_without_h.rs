@@ -1,4 +1,4 @@
-//! PF425: G43 without H activates no length offset, or the last one.
+//! PF425: G43 without H activates no length offset, or the last length offset.
 
 use crate::control::{Meaning, ToolLength};
 use crate::diag::{Code, Diag};

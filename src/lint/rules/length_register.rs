@@ -25,7 +25,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let better = if view.traits().tool_length == ToolLength::Register { "H[lcomp]" } else { "G43 H[lcomp]" };
         diags.push(
             Diag::new(Code::PF437, "the program never turns a tool length offset on")
-                .at(body.span, "without it the spindle nose goes to the position of the tool tip")
+                .at(body.span, "without the offset the spindle nose goes to the position of the tool tip")
                 .help(format!("print `{better}` with the first depth of a tool")),
         );
     }

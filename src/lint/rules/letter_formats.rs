@@ -4,7 +4,7 @@ use crate::diag::{Code, Diag};
 use crate::lint::view::View;
 use crate::sema::WordKind;
 
-/// Letters of codes and counts, which have the same format on all controls. They need no format.
+/// Letters of codes and counts, which have the same format on all controls. These letters need no format.
 const PLAIN: &[u8] = b"GMTNOHDLSP:%";
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {

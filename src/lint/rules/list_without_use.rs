@@ -1,4 +1,4 @@
-//! PF711: the lines of a list use no value of its items, so they are the same for each item.
+//! PF711: the lines of a list use no value of its items, so the lines are the same for each item.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::{Body, View};

@@ -1,4 +1,4 @@
-//! PF101: words after two spaces or a tab look like output, but they are a comment and are not printed.
+//! PF101: words after two spaces or a tab look like output, but these words are a comment and are not printed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::SequenceId;
@@ -73,7 +73,7 @@ fn bracketed(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Reports lines like `#101=5`: the `#` makes them a comment, so they are not printed.
+/// Reports lines like `#101=5`, which are not printed because the `#` begins a comment.
 fn macro_line(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let words = &text[comment.range()];
     let number = words.trim_start_matches('#').split('=').next().unwrap_or("").trim_end();
@@ -104,7 +104,7 @@ fn lost(line: &Line, text: &str, is_word: &dyn Fn(&str) -> bool, diags: &mut Vec
     };
     let joined = [before, words].join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
     let diag = Diag::new(Code::PF101, format!("`{words}` is lost: {prints}"))
-        .at(lost.span, "two spaces or a tab before this make it a comment")
+        .at(lost.span, "two spaces or a tab before this text make it a comment")
         .help(format!("write `{joined}`, or begin the comment with `#`"));
     // a sentence is a comment, even if some of its words look like output
     let fix = if before.trim().is_empty() { "" } else { " " };

@@ -1,4 +1,4 @@
-//! PF102: `Z[d]F[plunge]` prints two words. A space between them shows this to the reader.
+//! PF102: `Z[d]F[plunge]` prints two words. A space between two words shows the reader where the second word begins.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;
@@ -14,7 +14,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF102, "a space is missing between two words")
                     .at(at, "a new word begins here")
-                    .help("put one space before it; the output stays the same")
+                    .help("put one space before the word; the output stays the same")
                     .fix("put a space between the words", true, vec![(Span { end: at.start, ..at }, " ".into())]),
             );
         }

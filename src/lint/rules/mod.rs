@@ -113,7 +113,7 @@ pub struct Rule {
     pub code: Code,
     /// The file of the rule in `src/lint/rules`.
     pub file: &'static str,
-    /// The rule depends on the meaning of codes. It is therefore not applied to a control without G codes.
+    /// The rule depends on the meaning of codes. The rule is not applied to a control without G codes.
     pub of_codes: bool,
     pub(super) check: fn(&View, &mut Vec<Diag>),
 }

@@ -1,4 +1,5 @@
-//! PF502: G4, G28, G53 and G92 act only in their own block. If postform leaves out such a code as unchanged, it has no effect.
+//! PF502: G4, G28, G53 and G92 act only in their own block. If postform leaves out one of these codes because it is
+//! unchanged, the code has no effect.
 
 use crate::control;
 use crate::diag::{Code, Diag};

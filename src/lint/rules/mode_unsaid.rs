@@ -1,4 +1,4 @@
-//! PF507: the start prints neither G90 nor G91. The control is then in the mode of the last program or of manual operation.
+//! PF507: the start prints neither G90 nor G91, so the mode of the last program or of manual operation stays active.
 
 use crate::control::Kept;
 use crate::diag::{Code, Diag};
@@ -22,7 +22,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             if let Some((word, _)) = block.axis_words.iter().find(|(word, _)| place(word.printed_var())) {
                 diags.push(
                     Diag::new(Code::PF507, "the program goes to a position without G90")
-                        .at(word.span, "if the program before left G91 on, this is an increment")
+                        .at(word.span, "if the previous program left G91 on, this position is an increment")
                         .help(format!("print `G{positions}` in StartCode")),
                 );
                 return;

@@ -1,4 +1,4 @@
-//! PF433: a motion sequence does not print all axes. A move along the missing axis is then not made.
+//! PF433: a motion sequence does not print all axes, so a move along the missing axis is not made.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let at = Span { start: remark.span.start, end: remark.span.start, ..remark.span };
             diags.push(
                 Diag::new(Code::PF107, "the comment is too close to the name")
-                    .at(remark.span, "it needs at least three spaces before it")
+                    .at(remark.span, "the comment needs at least three spaces before it")
                     .help("write three spaces: two look like a typing mistake")
                     .fix("put another space before the comment", true, vec![(at, " ".repeat(3 - gap))]),
             );

@@ -11,7 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(inner) = inner {
             diags.push(
                 Diag::new(Code::PF111, "a comment inside a comment")
-                    .at(inner.span, "the first `)` ends both")
+                    .at(inner.span, "the first `)` ends both comments")
                     .help("remove the inner brackets"),
             );
         }

@@ -1,4 +1,5 @@
-//! PF438: a position is printed without a motion code. The control then uses the last motion: rapid, or a feed move with the last feed.
+//! PF438: a position is printed without a motion code, so the control uses the last motion: rapid, or a feed move with
+//! the last feed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -20,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some((word, _)) = word {
             diags.push(
                 Diag::new(Code::PF438, format!("{} goes to a position without a motion code", body.name()))
-                    .at(word.span, "it moves as the block before: at rapid, or at feed")
+                    .at(word.span, "moves at rapid or at feed, like the block before")
                     .help("print `G0` with it"),
             );
         }

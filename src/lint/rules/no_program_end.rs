@@ -1,4 +1,4 @@
-//! PF014: the program prints no end code. The control then continues with the next program in its memory.
+//! PF014: the program prints no end code, so the control continues with the next program in its memory.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -1,4 +1,4 @@
-//! PF505: a block has two codes of one group. The control uses the last one, or alarms.
+//! PF505: a block has two codes of one group. The control uses the last of the two codes, or alarms.
 
 use crate::control::{Group, Meaning};
 use crate::diag::{Code, Diag};

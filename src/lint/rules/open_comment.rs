@@ -26,7 +26,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         let end = Span { start: piece.span.end, ..piece.span };
         let diag = Diag::new(Code::PF105, "the comment is not closed")
-            .at(piece.span, "it ends with the line")
+            .at(piece.span, "the comment ends with the line")
             .help("write `)` at its end; the output stays the same");
         // another form that calls this file may have other comment marks, so only the main file gets the fix
         let own = piece.span.file == 0;

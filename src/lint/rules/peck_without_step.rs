@@ -1,4 +1,4 @@
-//! PF413: a peck cycle does not print its step. The control then drills to the bottom in one stroke.
+//! PF413: a peck cycle does not print its step, so the control drills to the bottom in one stroke.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

@@ -1,4 +1,4 @@
-//! PF423: a position is printed while G91 is active. The control then adds it to the current position.
+//! PF423: a position is printed while G91 is active, so the control adds the position to the current position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;
@@ -21,7 +21,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(word) = found {
             diags.push(
                 Diag::new(Code::PF423, format!("{} prints a position while G91 is on", body.name()))
-                    .at(word.span, "the control adds it to the position of the tool")
+                    .at(word.span, "the control adds the value to the position of the tool")
                     .help("print `G90` before it"),
             );
         }

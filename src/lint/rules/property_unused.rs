@@ -34,7 +34,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF710, format!("the property {} does nothing", property.name))
                 .at(property.span, "no line uses it")
-                .help(format!("use it, as `@if [{}]`, or remove it", property.name)),
+                .help(format!("use the property, as `@if [{}]`, or remove it", property.name)),
         );
     }
 }

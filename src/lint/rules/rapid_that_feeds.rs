@@ -1,4 +1,4 @@
-//! PF435: RapidCode prints G1 or a feed. Every rapid is then made at feed.
+//! PF435: RapidCode prints G1 or a feed, so every rapid is made at feed.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

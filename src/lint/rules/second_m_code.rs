@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 Diag::new(Code::PF609, format!("{} takes one M code in a block", view.settings.control().name()))
                     .at(word.span, "one M code too many")
                     .at(first.span, "the first")
-                    .help("print it on a separate line"),
+                    .help("print one of the M codes on a separate line"),
             );
         }
     }

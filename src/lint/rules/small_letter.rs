@@ -16,7 +16,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let (small, capital) = (char::from(letter), char::from(letter.to_ascii_uppercase()));
         let first = Span { end: word.span.start + 1, ..word.span };
         let diag = Diag::new(Code::PF304, format!("`{small}` is printed as a small letter"))
-            .at(word.span, "the control may refuse it");
+            .at(word.span, "the control may refuse a small letter");
         diags.push(match view.format_letter(word) == Some(letter) {
             // the lower-case letter has its own format; the capital letter would use another one
             true => diag.help(format!("add `Rename {small} {capital}`")),

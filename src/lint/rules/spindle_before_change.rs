@@ -24,7 +24,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             diags.push(
                 Diag::new(Code::PF427, format!("{} starts the spindle and then stops it again", body.name()))
                     .at(word.span, "the tool does not turn in the first cut")
-                    .help("print the spindle after it: `S[speed] M[direct]`"),
+                    .help("print the spindle after the stop: `S[speed] M[direct]`"),
             );
         }
     }
@@ -88,7 +88,7 @@ impl<'a> Walk<'_, 'a> {
     }
 }
 
-/// Combines the states after two branches. One of them may have been taken.
+/// Combines the states after two branches. Either of the two branches may have been taken.
 fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
     Spindle {
         on: a.on.or(b.on),
@@ -98,7 +98,7 @@ fn either<'a>(a: Spindle<'a>, b: Spindle<'a>) -> Spindle<'a> {
     }
 }
 
-/// Whether the word stops the spindle. A program stop counts only if the control stops the spindle then.
+/// Whether the word stops the spindle. A program stop counts only if the control stops the spindle at a program stop.
 fn stops(view: &View, word: &Word) -> bool {
     let keeps = view.traits().spindle_at_stop == Kept::Yes;
     let own = |meaning: Meaning| meaning == Meaning::SpindleOff || meaning.changes_tool();

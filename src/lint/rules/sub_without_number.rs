@@ -1,4 +1,5 @@
-//! PF018: a subprogram call does not print the number of its subprogram, so the control calls another one or none.
+//! PF018: a subprogram call does not print the number of its subprogram, so the control calls another subprogram or
+//! none.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

@@ -1,4 +1,4 @@
-//! PF017: SubEnd prints no return code. The control then continues with the next program.
+//! PF017: SubEnd prints no return code, so the control continues with the next program.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

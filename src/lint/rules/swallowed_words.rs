@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         if let Some(at) = swallowed(parts) {
             diags.push(
                 Diag::new(Code::PF104, "the comment contains words of the block")
-                    .at(at, "from here on they are text")
+                    .at(at, "from here on, the words are text")
                     .at(piece.span, "this comment is not closed")
                     .help("close the comment before the words, or put them on a line of their own"),
             );

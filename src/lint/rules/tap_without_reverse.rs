@@ -1,4 +1,4 @@
-//! PF419: a tap is retracted before the spindle reverses. This tears the thread.
+//! PF419: a tap is retracted before the spindle reverses, which tears the thread.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

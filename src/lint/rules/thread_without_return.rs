@@ -1,4 +1,5 @@
-//! PF442: later passes of a thread print only X. The tool then stays at the end of the thread, unless the control moves it back.
+//! PF442: later passes of a thread print only X, so the tool stays at the end of the thread, unless the control moves
+//! the tool back.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, SequenceId};
@@ -12,7 +13,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             Diag::new(Code::PF442, "later passes of a thread print only X")
                 .at(
                     thread.line.span,
-                    "the tool would plunge at the end of the thread, unless this code returns by itself",
+                    "the tool plunges at the end of the thread if the code does not return the tool by itself",
                 )
                 .help(
                     "write `ThreadPasses full`, which prints approach, cut, clear and return; or `ThreadPasses x`, if \

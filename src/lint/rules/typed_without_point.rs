@@ -43,7 +43,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let end = Span { start: word.span.end, ..word.span };
         diags.push(
             Diag::new(Code::PF309, format!("`{text}` has no point"))
-                .at(word.span, "the control reads it in its smallest unit")
+                .at(word.span, "the control reads the number in its smallest unit")
                 .help(format!("write `{text}.`"))
                 .fix("write the point", false, vec![(end, ".".into())]),
         );

@@ -1,4 +1,4 @@
-//! PF430: a sequence prints a fixed work offset, so every job uses this one.
+//! PF430: a sequence prints a fixed work offset, so every job uses this work offset.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

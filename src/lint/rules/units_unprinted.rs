@@ -1,4 +1,4 @@
-//! PF316: a form accepts jobs in both units, but its programs print no unit code.
+//! PF316: a form accepts jobs in inches and in millimetres, but its programs print no unit code.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{CommandId, UnitChoice, VarId};

@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         diags.push(
             Diag::new(Code::PF608, format!("{code} is unknown for {}", control.name()))
-                .at(word.span, "all positions are printed again after it, and no program is proven from here")
+                .at(word.span, "all positions are printed again after this code, and no program is proven from here on")
                 .help("describe it in a control file, as `\"G201\" = { is = \"harmless\" }`, or allow the finding"),
         );
     }

@@ -52,7 +52,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             Diag::new(Code::PF305, format!("{name} prints positions, but its format has no sign"))
                 .at(*span, "a negative position would be an error")
                 .help(format!("write `{better}`{wider}"))
-                .fix("let it print a minus", false, vec![(*span, better)]),
+                .fix("let the format print a minus", false, vec![(*span, better)]),
         );
     }
 }

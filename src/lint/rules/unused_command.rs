@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF011, format!("{} changes nothing here", id.name()))
                 .at(statement.line.span, why)
-                .help("remove it, or add the sequence or word that uses it"),
+                .help("remove the command, or add the sequence or word that uses it"),
         );
     }
 }

@@ -15,7 +15,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         (S::Between, !view.settings.subs_first, "with `Subs1st? N` the subprograms come last", "take `Subs1st? N` out"),
         (S::SubStart, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
         (S::SubEnd, !has(S::SubCall), "the form has no SubCall", "add the sequence `SubCall`"),
-        (S::CanThread, has(S::AutoThread), "AutoThread serves all threads", "keep one of the two"),
+        (S::CanThread, has(S::AutoThread), "AutoThread prints all threads", "keep AutoThread or CanThread"),
         (
             S::BeginCut,
             no_beam,

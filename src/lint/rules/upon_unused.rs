@@ -40,7 +40,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         }
         diags.push(
             Diag::new(Code::PF210, format!("nothing uses [{}]", var.name()))
-                .at(body.span, "so this is never printed")
+                .at(body.span, "this Upon is never printed")
                 .help(format!(
                     "print [{}] in the sequence before which this Upon must be printed, or remove the Upon",
                     var.name()

@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         diags.push(
             Diag::new(Code::PF203, format!("{} has no effect", id.name()))
                 .at(statement.line.span, "a command of the original desktop product")
-                .help("you may keep or remove it")
+                .help("you may keep or remove the command")
                 .fix("remove the line", true, vec![(Span { end, ..line.span }, String::new())]),
         );
     }

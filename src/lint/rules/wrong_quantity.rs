@@ -69,7 +69,7 @@ fn pitch_per_minute(view: &View, diags: &mut Vec<Diag>) {
             let letter = char::from(view.settings.feed_code);
             diags.push(
                 Diag::new(Code::PF313, format!("{} feeds by the pitch, but feeds are per minute", body.name()))
-                    .at(word.span, "a hundredth of the feed, or less: the tap breaks")
+                    .at(word.span, "the pitch is a hundredth of the feed, or less: the tap breaks")
                     .help(format!(
                         "write `{letter}[frate]`; or print `G{per_turn}` with it, and G{} in Cancel",
                         view.settings.feed_type[0]

@@ -70,7 +70,8 @@ impl State {
         Ok(())
     }
 
-    /// Runs G38. The move goes to its end, as if nothing is touched. The contact position is known only at the machine.
+    /// Runs G38. The probing move goes to its end, as if the probe touches nothing. The contact position is known only
+    /// at the machine.
     fn probe(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (from, to) = (self.place.position, self.target(block)?);
@@ -84,8 +85,8 @@ impl State {
         Ok(())
     }
 
-    /// Runs M0, M2 and M30. Senders may send more blocks after the end of the program. Grbl then continues, with some
-    /// modes reset to their values at power-up.
+    /// Runs M0, M2 and M30. Senders may send more blocks after the end of the program. Grbl runs these blocks, with
+    /// some modes reset to their values at power-up.
     fn grbl_stops(&mut self, block: &Block, out: &mut Out<'_>) {
         for (_, row) in block.m() {
             match row.meaning {

@@ -13,7 +13,7 @@ const UNSIGNED: u32 = letters("FNPST");
 const MOST_TOOL: f64 = 255.0;
 /// The number of digits of a number that Grbl reads.
 const MOST_DIGITS: usize = 8;
-/// If one of these codes has an unknown fraction, Grbl reports an unknown code.
+/// G codes with fractions, such as 38 for G38.2: Grbl reports an unknown fraction as an unknown code.
 const WITH_FRACTIONS: [u16; 8] = [28, 30, 38, 43, 61, 90, 91, 92];
 
 /// Reads a line.
@@ -60,8 +60,8 @@ fn words(block: &mut Block, line: &mut [u8], control: &'static Control) -> Done 
     Ok(())
 }
 
-/// Refuses a line that is too long. `whole` is its length with comments. `kept` is its length without spaces, slashes
-/// and comments, which some controls do not count.
+/// Refuses a line that is too long. `whole` is the length of the line with comments. `kept` is the length of the line
+/// without spaces, slashes and comments, which some controls do not count.
 fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
     let Some(longest) = control.traits().longest_line else { return Ok(()) };
     if control.traits().bare_line {
@@ -72,7 +72,7 @@ fn check_length(whole: usize, kept: usize, control: &'static Control) -> Done {
         return Err(Fault::new(
             crate::diag::Code::PN001,
             message,
-            "break it into several blocks, or shorten its comment",
+            "break the block into several blocks, or shorten its comment",
         ));
     }
     Ok(())
@@ -86,7 +86,8 @@ fn clear(line: &mut [u8]) -> Done<(usize, Option<(usize, usize)>)> {
     for (at, byte) in line[..end].iter_mut().enumerate() {
         match (inside, *byte) {
             (_, b'!' | 0x18) => {
-                let help = "remove it, even from comments: senders pass it to Grbl before the waiting blocks";
+                let help =
+                    "remove the character, even from comments: senders pass it to Grbl before the waiting blocks";
                 return Err(Fault::at(crate::diag::Code::PN001, at, "a character that stops Grbl at once", help));
             }
             (_, b'\r') => {
@@ -156,7 +157,7 @@ fn unknown_fraction(number: f64, control: &'static Control) -> u8 {
     if whole.and_then(|code| control.row(code)).is_some() { 23 } else { 20 }
 }
 
-/// Whether a code uses the axis words of its block. A block may contain only one such code.
+/// Whether a code uses the axis words of its block. A block may contain only one code that uses axis words.
 fn takes_axes(meaning: Meaning) -> bool {
     use Meaning as M;
     matches!(meaning, M::Rapid | M::Line | M::ArcCw | M::ArcCcw | M::Probe)

@@ -5,11 +5,11 @@ use crate::nc::state::State;
 /// State of the machine after a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Behind {
-    /// As bits, the axes that are at a machine position.
+    /// Bit mask of the axes that are at a machine position.
     pub unknown: u8,
     /// The shift that G52 and G92 add to positions, along X, Y and Z.
     pub shift: [f64; 3],
-    /// As bits, the axes whose frame G92 moved while the position of the axis was known only at the machine.
+    /// Bit mask of the axes along which G92 shifted the frame while their position was known only at the machine.
     pub frame: u8,
 }
 

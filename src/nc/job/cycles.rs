@@ -13,10 +13,10 @@ pub(super) fn is_same(a: &Drilling, b: &Drilling) -> bool {
     key(a) == key(b)
 }
 
-/// The cycle of a job for a hole of a program.
+/// Converts a hole of a program to a cycle of a job.
 ///
 /// # Errors
-/// A job can't contain such a cycle.
+/// A job can't contain the cycle of this hole.
 pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSpec, Box<Diag>> {
     let kind = match hole.cycle.motions {
         Motions::Drill if hole.cycle.dwells => CycleKind::Face,
@@ -36,7 +36,7 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
         }
         Motions::Back | Motions::ByHand => {
             let message = format!("a job has no cycle like {}", hole.cycle.code);
-            return unsaid(line, message, "program its moves, or write the job by hand");
+            return unsaid(line, message, "program the moves of the cycle, or write the job by hand");
         }
     };
     let mut spec = CycleSpec::new(kind);
@@ -54,7 +54,7 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     Ok(spec)
 }
 
-/// The hole of a job for a hole of a program. `first` is the first hole of the cycle.
+/// Converts a hole of a program to a hole of a job. `first` is the first hole of the cycle.
 pub(super) fn hole_of(hole: &Drilling, first: &Drilling, axes: u8) -> Hole {
     let mut at = Axes { values: hole.at, given: axes };
     at.set(2, hole.r);

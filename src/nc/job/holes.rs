@@ -9,7 +9,7 @@ use crate::nc::action::{Action, Drilling, Heights, Position, Rotation};
 use crate::toolpath::{Event, First, Plane};
 
 impl Reader<'_> {
-    /// Stores a rapid if it may be a move to the next hole of the cycle. Returns whether it was stored.
+    /// Stores a rapid if it may be a move to the next hole of the cycle. Returns whether the rapid was stored.
     pub(super) fn leads_on(&mut self, to: &Position, machine: u8) -> bool {
         if self.operation || self.turning.is_some() {
             return false;
@@ -23,7 +23,7 @@ impl Reader<'_> {
         true
     }
 
-    /// If stored rapids may be moves to the next hole, an action that switches something ends the cycle.
+    /// Ends the cycle at an action that switches something, if stored rapids may be moves to the next hole.
     pub(super) fn settle_way(&mut self, action: &Action) -> Done {
         let leads = matches!(
             action,
@@ -42,7 +42,7 @@ impl Reader<'_> {
 
     pub(super) fn hole(&mut self, hole: &Drilling) -> Done {
         if hole.plane != Plane::Xy {
-            let help = "program its moves: a job's cycles go along Z";
+            let help = "program the moves of the cycle: a job's cycles go along Z";
             return unsaid(self.place.line, "a canned cycle outside G17", help);
         }
         if hole.heights != Heights::Given {
@@ -50,7 +50,7 @@ impl Reader<'_> {
                 Heights::Unknown => "the heights of a cycle are relative to an unknown machine position",
                 _ => "a cycle returns to an unknown machine height",
             };
-            return unsaid(self.place.line, message, "write a rapid with Z before it, or return to R by G99");
+            return unsaid(self.place.line, message, "write a rapid with Z before the cycle, or return to R by G99");
         }
         self.low_approach(hole)?;
         // in a rigid tapping cycle, the control starts the spindle in the direction of the thread
@@ -83,7 +83,7 @@ impl Reader<'_> {
         // a new tool has already left the reference point at its tool change
         let new_tool = self.operation && self.tool_is_new();
         if let Some(line) = self.home.take().filter(|_| !new_tool) {
-            return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before it");
+            return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before the cycle");
         }
         let spec = spec_of(hole, self.rigid, self.place.line)?;
         self.rigid = false;
@@ -97,7 +97,7 @@ impl Reader<'_> {
     }
 
     /// If the tool is below R, a Fanuc moves across first and then up to R. The cycle of a job moves up first, so this
-    /// adds the move across.
+    /// function adds the move across.
     fn low_approach(&mut self, hole: &Drilling) -> Done {
         let begun = !self.operation && self.home.is_none() && self.known & 0b111 == 0b111;
         let across = self.at[..2] != hole.at[..2];

@@ -1,4 +1,4 @@
-//! Reads an NC program as a job, so that another form can print it. Canned cycles of the program remain cycles.
+//! Reads an NC program as a job, so that another form can print the job. Canned cycles of the program remain cycles.
 
 mod behind;
 mod cycles;
@@ -32,7 +32,7 @@ use turning::Turner;
 /// Reads a program as a job. The program is run twice: the first run checks that the control accepts the program, and
 /// collects data such as the registers of the tools.
 ///
-/// `warnings` gets the findings about parts that the job contains in another way or leaves out.
+/// `warnings` gets the findings about parts of the program that the job changes or leaves out.
 ///
 /// # Errors
 /// The input can't be read, the control refuses the program, or a job can't contain a part of the program.
@@ -57,7 +57,7 @@ pub fn read_program(
     read
 }
 
-/// Merges equal warnings into one with a count.
+/// Merges equal warnings into one warning that contains their number.
 fn counted(warnings: Vec<Diag>) -> Vec<Diag> {
     let mut kinds: Vec<(Diag, u64)> = Vec::new();
     for warning in warnings {

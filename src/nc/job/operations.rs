@@ -1,5 +1,5 @@
-//! The operations of a job. An operation begins with each tool, and where the feed mode changes. The events for
-//! spindle, coolant and work offset inside an operation are also added here.
+//! The operations of a job. A new operation begins at each change of the tool or of the feed mode. This file also adds
+//! the events for spindle, coolant and work offset inside an operation.
 
 use super::fault::{Done, unsaid, warning};
 use super::reader::{Reader, Waiting};
@@ -51,7 +51,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Whether the operation that begins has another tool than the one before.
+    /// Whether the new operation has another tool than the previous operation.
     pub(super) fn tool_is_new(&self) -> bool {
         self.place.operation == 0 || self.changes > 0 && self.said == Switches::default()
     }
@@ -62,7 +62,7 @@ impl Reader<'_> {
             return unsaid(
                 self.place.line,
                 "the tool changes under cutter compensation",
-                "end it with G40 and a move before",
+                "end the compensation with G40 and a move before the tool change",
             );
         }
         self.changes += 1;

@@ -7,7 +7,7 @@ use crate::toolpath::Place;
 pub(super) struct Pattern {
     pub first: Drilling,
     pub last: Drilling,
-    /// Rapids at the return level after the last hole. They may be moves to the next hole.
+    /// Rapids at the return level after the last hole. These rapids may be moves to the next hole.
     pub way: Vec<(Position, Place)>,
 }
 

@@ -20,7 +20,7 @@ pub(super) enum Waiting {
     Stop(StopKind),
 }
 
-/// Maximum number of waiting items. Further comments are left out.
+/// Maximum number of waiting items. Comments above this number are left out.
 pub(super) const MOST_WAITING: usize = 1000;
 
 /// Converts actions of the simulator to events of a job.
@@ -43,9 +43,10 @@ pub(super) struct Reader<'a> {
     pub(super) at: Position,
     /// Position as the simulator calculates it. Axes whose position is known only at the machine are measured from 0.
     counted: Position,
-    /// As bits, the axes whose position in the job is known.
+    /// Bit mask of the axes whose position in the job is known.
     pub(super) known: u8,
-    /// The line in which the tool moved to its reference point. `None` after the next move.
+    /// The line in which the tool moved to its reference point. `None`: the tool is not there, or another move has
+    /// followed.
     pub(super) home: Option<u64>,
     pub(super) cycle: Option<Pattern>,
     pub(super) side: Option<Side>,
@@ -56,17 +57,18 @@ pub(super) struct Reader<'a> {
     pub(super) remark: (u64, String),
     /// The comment in the block of the tool change.
     pub(super) tool_name: Option<String>,
-    /// The shift of G52 and G92 at the first move. `shift` is the change of this shift since then.
+    /// The shift of G52 and G92 at the first move. The field `shift` is the change of this shift since the first move.
     pub(super) frame: [f64; 3],
-    /// As bits, the axes along which the shift of G92 was unknown at the first move.
+    /// Bit mask of the axes along which the shift of G92 was unknown at the first move.
     pub(super) lost: u8,
     pub(super) shift: [f64; 3],
-    /// Items that wait for the next operation, which will contain them.
+    /// Items that the next operation will contain.
     pub(super) waiting: Vec<Waiting>,
 }
 
 impl<'a> Reader<'a> {
-    /// Whether length and radius belong to the tool itself. Programs then name no register.
+    /// Whether length and radius belong to the tool itself. Programs for such a control contain no register for the
+    /// tool.
     fn tool_is_its_own(&self) -> bool {
         self.options.settings.control.traits().tool_length == ToolLength::Tool
     }
@@ -145,7 +147,7 @@ impl<'a> Reader<'a> {
                 unsaid(item.line, "an increment from an unknown machine position", help)
             }
             Action::Feed { lead: Some(_), .. } => {
-                unsaid(item.line, "a thread that is synchronized with the spindle", "the job of a mill has no such move")
+                unsaid(item.line, "a thread that is synchronized with the spindle", "the job of a mill has no threading")
             }
             Action::Feed { home: 1.., .. } => {
                 let help = "write G0 with G53; the position of a probe touch is known only at the machine";
@@ -247,7 +249,7 @@ impl<'a> Reader<'a> {
         self.start()?;
         if self.waiting.iter().any(|waiting| matches!(waiting, Waiting::Stop(_))) {
             let message = "a stop after the last tool change, without later moves, is left out";
-            self.warnings.push(warning(self.place.line, message, "print it in the form's EndCode"));
+            self.warnings.push(warning(self.place.line, message, "print the stop in the sequence EndCode"));
         }
         self.push(Event::Finish)
     }
@@ -269,7 +271,7 @@ impl<'a> Reader<'a> {
         Axes { values: *to, given: 0b111 | rotary }
     }
 
-    /// Adds the events before a move: the beginning of an operation, and what was switched.
+    /// Adds the events before a move: the beginning of an operation, and the changed switches of the machine.
     pub(super) fn move_begins(&mut self, first: First) -> Done {
         self.start()?;
         if std::mem::take(&mut self.operation) {
@@ -307,7 +309,7 @@ impl<'a> Reader<'a> {
         self.moves(axes, None)
     }
 
-    /// Adds a straight move. Without a feed, it is a rapid. The first move after G41, G42 or G40 also turns
+    /// Adds a straight move. A move without a feed is a rapid. The first move after G41, G42 or G40 also turns
     /// compensation on or off.
     fn moves(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
@@ -322,7 +324,7 @@ impl<'a> Reader<'a> {
     /// Replaces a move to the reference point, in the middle of an operation, by a rapid to the highest Z of the program.
     fn homeward(&mut self, line: u64, to: Position) -> Done {
         let message = "a job can't contain a move to the reference point";
-        let help = "it becomes a rapid to the highest Z of the program: check that this clears the clamps";
+        let help = "the move becomes a rapid to the highest Z of the program: check that this height clears the clamps";
         if !self.warnings.iter().any(|w| w.message == message) {
             self.warnings.push(warning(line, message, help));
         }
@@ -344,7 +346,7 @@ impl<'a> Reader<'a> {
             if let Some(start) = self.options.start {
                 return self.cut_from(start);
             }
-            let help = "write a rapid with X, Y and Z before it, or give the position of the tool with \
+            let help = "write a rapid with X, Y and Z before the cut, or give the position of the tool with \
                 `--assume-start X,Y,Z`";
             return unsaid(self.place.line, "a cut begins at an unknown machine position", help);
         }
@@ -373,8 +375,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Corrects a position for axes that the program has not positioned since the assumed start position. These axes
-    /// are measured from that start position.
+    /// Corrects a position for axes that the program has not positioned since the assumed start position. The axes
+    /// without a position are measured from the assumed start position.
     fn counted_from_start(&self, to: &Position, unknown: u8) -> Position {
         let mut to = *to;
         if self.options.start.is_some() {
@@ -390,7 +392,7 @@ impl<'a> Reader<'a> {
         let center = std::array::from_fn(|axis| turn.center[axis] + self.at[axis] - self.counted[axis]);
         let turn = &Turn { to: self.counted_from_start(&turn.to, unknown), center, ..*turn };
         if self.turning.take().is_some() {
-            let help = "turn it on and off by straight moves";
+            let help = "turn the compensation on and off by straight moves";
             return unsaid(self.place.line, "cutter compensation is switched on an arc", help);
         }
         let arc = Arc {

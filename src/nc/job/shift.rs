@@ -13,7 +13,7 @@ impl Reader<'_> {
             (self.frame, self.lost) = (behind.shift, behind.frame);
             if !std::mem::replace(&mut self.framed, true) {
                 let message = "the program sets its work offsets (G10, G52 or G92): a job can't contain this";
-                let help = "set them at the machine: the positions of the program are unchanged";
+                let help = "set the work offsets at the machine: the positions of the program are unchanged";
                 self.warnings.push(warning(self.place.line, message, help));
             }
             return Ok(());

@@ -1,4 +1,5 @@
-//! The first run of a program that is read as a job. It collects the data that the second run needs before the first move.
+//! The first run of a program that is read as a job. The first run collects the data that the second run needs before
+//! the first move.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ pub(super) struct Survey {
     pub units: Option<Units>,
     /// The registers for each tool change. The first entry is for moves before the first tool change.
     pub registers: Vec<Registers>,
-    /// As bits, the rotary axes that move.
+    /// Bit mask of the rotary axes that move.
     pub rotary: u8,
     /// The highest Z in the program, in work coordinates and in the units at the beginning of the program.
     pub top: f64,
@@ -170,11 +171,11 @@ pub(super) fn survey(
         let name = code.map_or("block delete".to_owned(), |code| code.to_string());
         let times = if count > 1 { format!(", {count} times") } else { String::new() };
         let message = format!("{name}{times} is left out: a job can't contain it");
-        warnings.push(warning(line, message, "if the machine needs it, let the form print it"));
+        warnings.push(warning(line, message, "if the machine needs this code, let the form print it"));
     }
     if simulator.begins_again() {
-        let message = "the program ends with M99 and begins again, but a job ends";
-        warnings.push(warning(simulator.line(), message, "print M99 in EndCode"));
+        let message = "the program ends with M99 and begins again, but a job runs only once";
+        warnings.push(warning(simulator.line(), message, "print M99 in the sequence EndCode"));
     }
     survey.program = simulator.program();
     survey.units = units;
@@ -193,7 +194,11 @@ fn one(
     match which(tool).replace(value) {
         Some(before) if before != value => {
             let message = format!("one tool uses two {name}{before} and {value}");
-            unsaid(line, message, "in a job a tool has only one: use one register, or change the tool between them")
+            unsaid(
+                line,
+                message,
+                "in a job a tool has one offset of each kind: use one register, or change the tool between the offsets",
+            )
         }
         _ => Ok(()),
     }

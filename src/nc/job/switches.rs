@@ -1,4 +1,4 @@
-//! The switches of a machine: spindle, coolant, work offset. In a job, they are set by events before the next move.
+//! The switches of a machine: spindle, coolant, work offset. In a job, events before the next move set these switches.
 
 use crate::nc::action::{Cooling, Rotation};
 use crate::toolpath::{Coolant, Event, Spindle, SpindleTurn};
@@ -16,8 +16,8 @@ pub(super) struct Switches {
 }
 
 impl Switches {
-    /// Handles a coolant code. Returns `false` if both flood and mist would be on: a job can have only one of them, and
-    /// gets the later one.
+    /// Handles a coolant code. Returns `false` if both flood and mist would be on. A job can have only one of the two,
+    /// and gets the later one.
     pub fn cool(&mut self, cooling: Cooling) -> bool {
         let wanted = match cooling {
             Cooling::Flood => Coolant::FLOOD,

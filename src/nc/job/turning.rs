@@ -14,7 +14,7 @@ use crate::toolpath::{
 
 /// The axes X and Z of the machine, as bits.
 const AXES: u8 = 0b101;
-/// Divisor that splits a T word into the station and the offset, which is the last two digits.
+/// Divisor that splits a T word into the station and the offset. The offset is the last two digits.
 const STATION: f64 = 100.0;
 
 /// Converts actions of the simulator to events of a job.
@@ -39,7 +39,8 @@ pub(super) struct Turner<'a> {
     without: bool,
     /// Whether the tool is at the reference point and has not moved since it went there.
     home: bool,
-    /// Whether the tool went to the reference point along X or Z only. A job can't contain such a move.
+    /// Whether the tool went to the reference point along X or Z only. A job can't contain a move home along only one
+    /// axis.
     half_home: bool,
     /// Two sides of compensation: the side that is programmed now, and the side after the last move.
     side: [Option<Side>; 2],
@@ -94,7 +95,7 @@ impl<'a> Turner<'a> {
         self.in_thread = false;
         match &item.action {
             Action::Rapid { to, .. } | Action::Feed { to, .. } | Action::Arc(Turn { to, .. }) if to[1] != 0.0 => {
-                unsaid(line, "a move along Y", "remove it: the job of a lathe has only Z and X")
+                unsaid(line, "a move along Y", "remove the move: the job of a lathe has only Z and X")
             }
             Action::Rapid { astray, .. } if astray & AXES != 0 => {
                 let help = "write the position by X and Z, or go there by G53";
@@ -203,7 +204,11 @@ impl<'a> Turner<'a> {
             return Ok(());
         }
         if self.side != [None; 2] {
-            return unsaid(self.place.line, "the tool changes under compensation", "end it with G40 and a move before");
+            return unsaid(
+                self.place.line,
+                "the tool changes under compensation",
+                "end the compensation with G40 and a move before the tool change",
+            );
         }
         (self.tool, self.operation) = (Some(word), true);
         (self.home, self.half_home) = (false, false);
@@ -211,7 +216,8 @@ impl<'a> Turner<'a> {
         Ok(())
     }
 
-    /// Adds the events before a move: the beginning of an operation, the move home, and what was switched.
+    /// Adds the events before a move: the beginning of an operation, the move home, and the changed switches of the
+    /// machine.
     fn move_begins(&mut self, first: First) -> Done {
         if self.half_home {
             let help = "send it home along both axes (G28 U0 W0), or write its position in X and Z";
@@ -302,7 +308,7 @@ impl<'a> Turner<'a> {
         !stays
     }
 
-    /// Adds a straight move. Without a feed, it is a rapid. The first move after G41, G42 or G40 also turns
+    /// Adds a straight move. A move without a feed is a rapid. The first move after G41, G42 or G40 also turns
     /// compensation on or off.
     fn straight(&mut self, to: Axes, feed: Option<f64>) -> Done {
         let rapid = feed.is_none();
@@ -312,7 +318,7 @@ impl<'a> Turner<'a> {
             (None, Some(side), _) => self.push(Event::Infeed { infeed: &Infeed { to, side, rapid }, feed }),
             (Some(_), None, _) => self.push(Event::Outfeed { to, feed, rapid }),
             (Some(on), Some(side), _) if on != side => {
-                let help = "end it with G40 and a move before";
+                let help = "end the compensation with G40 and a move before this block";
                 unsaid(self.place.line, "compensation changes its side", help)
             }
             (.., Some(_)) => self.push(Event::Line { to, feed }),
@@ -323,7 +329,7 @@ impl<'a> Turner<'a> {
     /// Begins a cut. The program must have set the position of the tool.
     fn cut_begins(&mut self) -> Done {
         if self.at.given != 0b11 || self.home {
-            let help = "write a rapid with X and Z before it";
+            let help = "write a rapid with X and Z before the cut";
             return unsaid(self.place.line, "a cut begins at an unknown machine position", help);
         }
         self.move_begins(First::Cut)
@@ -332,7 +338,7 @@ impl<'a> Turner<'a> {
     fn arc(&mut self, turn: &Turn) -> Done {
         self.cut_begins()?;
         if self.side[0] != self.side[1] {
-            let help = "turn it on and off by straight moves";
+            let help = "turn the compensation on and off by straight moves";
             return unsaid(self.place.line, "compensation is switched on an arc", help);
         }
         self.at = axes(&turn.to, AXES);
@@ -350,7 +356,7 @@ impl<'a> Turner<'a> {
 
     fn thread(&mut self, passes: &Passes) -> Done {
         if self.at.given != 0b11 || self.home {
-            let help = "write a rapid with X and Z before it";
+            let help = "write a rapid with X and Z before the thread";
             return unsaid(self.place.line, "a thread begins at an unknown machine position", help);
         }
         self.move_begins(First::Nothing)?;

@@ -1,4 +1,4 @@
-//! Makes the holes of cycles that are called.
+//! Makes the holes of cycle calls.
 
 use crate::diag::Code;
 use crate::nc::action::{Action, Drilling, Rotation};
@@ -28,11 +28,11 @@ impl State {
     /// Makes the hole of a call at the current position of the tool.
     pub(in crate::nc) fn call_cycle(&mut self, call: &Call, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
-            let help = "end the compensation in a block before it";
+            let help = "end the compensation in a block before the cycle";
             return refuse(Code::PN013, "a cycle under cutter compensation", help);
         }
         if self.modes.feed_mode == FeedMode::InverseTime {
-            return refuse(Code::PN013, "a cycle under G93", "write G94 and a feed before it");
+            return refuse(Code::PN013, "a cycle under G93", "write G94 and a feed before the cycle");
         }
         match call.plan(&self.stand())? {
             Some(canned) => self.make_canned(&canned, out),
@@ -40,7 +40,8 @@ impl State {
         }
     }
 
-    /// Moves to the next holes of a pattern and makes them. If the output is full, the rest is made by the next call.
+    /// Moves to the next holes of a pattern and makes them. If the output is full, the next call makes the remaining
+    /// holes.
     pub(in crate::nc) fn make_pattern(&mut self, out: &mut Out<'_>) -> Done {
         while let Some(mut pattern) = self.holes.pattern.take() {
             let Some([first, second]) = pattern.at.pop_front() else { return Ok(()) };
@@ -89,7 +90,7 @@ impl State {
                     let to = to_height(self, height);
                     self.place.feed_to(to, feed, None, out);
                 }
-                Step::Feed(..) => return refuse(Code::PN008, "a cycle without a feed", "write F before it"),
+                Step::Feed(..) => return refuse(Code::PN008, "a cycle without a feed", "write F before the cycle"),
                 Step::Dwell(seconds) => out.push(Action::Dwell(seconds)),
                 Step::Turn(rotation, speed) => {
                     self.drive.spindle = rotation;

@@ -56,7 +56,7 @@ impl<'a> Cursor<'a> {
         self.at >= self.text.len()
     }
 
-    /// Takes these bytes if they come next. Returns whether they do.
+    /// Takes these bytes if they come next. Returns whether these bytes come next.
     pub fn takes(&mut self, bytes: &[u8]) -> bool {
         let is_next = self.rest().starts_with(bytes);
         if is_next {
@@ -100,8 +100,8 @@ impl<'a> Cursor<'a> {
         self.goes_to(self.at + length);
     }
 
-    /// Takes a word of one letter and a number, such as `X12.5`. The letter is returned in upper case. It takes no word
-    /// with `=` or a parameter, such as `X=5`, `X1=5` and `X+Q5`.
+    /// Takes a word of one letter and a number, such as `X12.5`. The letter is returned in upper case. Words with `=`
+    /// or a parameter, such as `X=5`, `X1=5` and `X+Q5`, are not taken.
     pub fn word(&mut self) -> Option<(u8, f64)> {
         let [letter, next, ..] = *self.rest() else { return None };
         if !letter.is_ascii_alphabetic() || next.is_ascii_alphabetic() {
@@ -117,8 +117,8 @@ impl<'a> Cursor<'a> {
         Some((letter.to_ascii_uppercase(), number.value))
     }
 
-    /// Whether the rest of the block consists only of words with one letter, of which the first is G or an axis. Such a
-    /// block has no label, sets no variable and calls nothing.
+    /// Whether the rest of the block consists only of words with one letter, of which the first is G or an axis. A
+    /// block of only these words has no label, sets no variable and calls nothing.
     pub fn is_words(&self) -> bool {
         let [letter, next, ..] = *self.rest() else { return false };
         matches!(letter, b'G' | b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')
@@ -145,7 +145,7 @@ impl<'a> Cursor<'a> {
         Some(number.value)
     }
 
-    /// Takes a text in quotes. Returns it without the quotes.
+    /// Takes a text in quotes. Returns the text without the quotes.
     pub fn quoted(&mut self) -> Option<&'a [u8]> {
         let rest = self.rest().strip_prefix(b"\"")?;
         let length = rest.iter().position(|byte| *byte == b'"')?;
@@ -175,7 +175,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A word in upper case. If it already is, as in most programs, it is not copied.
+/// A word in upper case. A word that is already in upper case, as in most programs, is not copied.
 pub fn capitals(word: &[u8]) -> Cow<'_, str> {
     match str::from_utf8(word) {
         Ok(text) if !word.iter().any(u8::is_ascii_lowercase) => Cow::Borrowed(text),

@@ -131,7 +131,7 @@ fn binary(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: 
 fn unary(cursor: &mut Cursor<'_>, values: &Values<'_>, depth: u32) -> Done<f64> {
     if depth > DEEPEST {
         let message = format!("brackets and signs more than {DEEPEST} deep");
-        return Err(Fault::at(Code::PN014, cursor.at(), message, "calculate it in several blocks"));
+        return Err(Fault::at(Code::PN014, cursor.at(), message, "calculate the value in several blocks"));
     }
     if cursor.takes(b"-") {
         return Ok(-unary(cursor, values, depth + 1)?);
@@ -173,7 +173,7 @@ fn unary(cursor: &mut Cursor<'_>, values: &Values<'_>, depth: u32) -> Done<f64> 
     if let Some(value) = values(&name) {
         return Ok(value);
     }
-    let help = "set it earlier in the program: its value in the machine is unknown";
+    let help = "set the variable earlier in the program: its value in the machine is unknown";
     Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
 }
 

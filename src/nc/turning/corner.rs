@@ -2,8 +2,8 @@
 //! must continue along the other axis.
 //!
 //! Sources: Fanuc's operator's manual of the 0i-T (chamfering and corner R), Haas's lathe operator's manual (G1). The
-//! sign of the word is the direction of the next block. The next block is measured from the corner point, which the
-//! tool does not reach, and must be at least as long as the chamfer.
+//! sign of the word is the direction of the next block. The next block is measured from the corner point, although the
+//! tool does not reach this point. The next block must be at least as long as the chamfer.
 
 use crate::control::Meaning;
 use crate::diag::Code;
@@ -31,7 +31,8 @@ const SAME: f64 = 1e-7;
 const NEXT: &str = "write a G1 along the other axis in the next block, or write the corner as moves";
 
 impl State {
-    /// Checks that a block continues from the previous corner as required. It is called for every block that is not empty.
+    /// Checks that a block continues from the previous corner as required. This function is called for every block that
+    /// is not empty.
     pub(in crate::nc) fn check_after_corner(&self, motion: Motion, block: &Block) -> Done {
         let Some(due) = self.turning.corner else { return Ok(()) };
         let [own, other] = if due.axis == 0 { ["XU", "ZW"] } else { ["ZW", "XU"] };
@@ -68,7 +69,7 @@ impl State {
         };
         if self.place.at_machine & 0b101 != 0 {
             let message = "a chamfer or rounded corner from an unknown machine position";
-            return refuse(Code::PN007, message, "write a move with X and Z before it");
+            return refuse(Code::PN007, message, "write a move with X and Z before this block");
         }
         let length = to[along] - from[along];
         if length.abs() < size.abs() - SAME {
@@ -107,7 +108,7 @@ impl State {
     }
 }
 
-/// Reads the words I, K and R. Each is a length on the radius.
+/// Reads the words I, K and R. Each of these words is a length on the radius.
 fn asked(block: &Block) -> Done<Option<Asked>> {
     let words = [b'I', b'K', b'R'].map(|letter| block.get(letter).map(|value| (letter, value)));
     let mut words = words.into_iter().flatten();

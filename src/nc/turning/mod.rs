@@ -2,8 +2,8 @@
 //! and G90 and G94.
 //!
 //! Sources: Fanuc's operator's manuals of the 0i-T and 31i (canned and multiple repetitive cycles), Haas's lathe
-//! operator's manual (G70 to G75). Where these manuals refer to parameters and settings, comments in the code state
-//! what is done here.
+//! operator's manual (G70 to G75). Where these manuals refer to parameters and settings of the machine, comments in the
+//! code state how postform behaves.
 
 mod corner;
 mod passes;
@@ -24,7 +24,7 @@ use crate::toolpath::Units;
 const MOST: f64 = 10_000.0;
 
 impl State {
-    /// Runs a cycle of several passes. If the cycle follows a profile, it is returned: the caller finds the profile and
+    /// Runs a cycle of several passes. A cycle that follows a profile is returned: the caller finds the profile and
     /// then makes the passes.
     pub(super) fn turning_cycle(&mut self, block: &Block, out: &mut super::out::Out<'_>) -> Done<Option<Profiled>> {
         let Some(row) = block.row(Group::Once) else { return Ok(None) };
@@ -34,7 +34,7 @@ impl State {
                     return self.first_of(row, block).map(|()| None);
                 };
                 if block.get(b'R').is_some_and(|second| second != 0.0) {
-                    let message = format!("{} with R, for profiles with pockets", row.code);
+                    let message = format!("{} with R, for profiles with pockets, is not simulated", row.code);
                     return refuse(Code::PN016, message, "cut the pocket with a separate cycle, or write its moves");
                 }
                 self.begins_in_the_program(row.code)?;
@@ -52,7 +52,7 @@ impl State {
             return Ok(());
         }
         let message = format!("{code} begins at an unknown machine position: the positions of its passes are unknown");
-        refuse(Code::PN007, message, "write a rapid with X and Z before it")
+        refuse(Code::PN007, message, "write a rapid with X and Z before the cycle")
     }
 
     /// Reads the first block of a cycle with two blocks.
@@ -87,7 +87,7 @@ impl State {
                 let letter = char::from(letter);
                 refuse(
                     Code::PN018,
-                    format!("{letter}{size} is negative, but it is a size"),
+                    format!("{letter}{size} is negative, but a size can't be negative"),
                     format!("write {letter} without the minus"),
                 )
             }
@@ -106,7 +106,8 @@ impl State {
                 let x = block.get(b'I').or(x).unwrap_or(0.0);
                 let z = block.get(b'K').or(z).unwrap_or(0.0);
                 let Some(count) = block.get(b'D').or(count).filter(|count| (1.0..=MOST).contains(count)) else {
-                    let help = "write G73 U.. W.. R(number of passes) before it; on a Haas write D in its block";
+                    let help =
+                        "write G73 U.. W.. R(number of passes) before this block; on a Haas write D in this block";
                     return refuse(Code::PN007, "G73 without its number of passes", help);
                 };
                 if count == 1.0 && [x, z] != [0.0; 2] {
@@ -123,7 +124,8 @@ impl State {
                 let Some(depth) = block.get(b'D').or(depth).filter(|depth| *depth > 0.0) else {
                     let message =
                         format!("{code} without the depth of a pass: the control takes it from its own parameter");
-                    let help = format!("write {code} {letter}2. R1. before it; on a Haas write D in its block");
+                    let help =
+                        format!("write {code} {letter}2. R1. before this block; on a Haas write D in this block");
                     return refuse(Code::PN007, message, help);
                 };
                 // on a Haas, the block of the cycle does not contain the retract
@@ -131,14 +133,15 @@ impl State {
                 let Some(back) = back.or_else(|| one_block.then(|| self.usual_back())) else {
                     let message =
                         format!("{code} without the retract of a pass: the control takes it from its own parameter");
-                    return refuse(Code::PN007, message, format!("write {code} {letter}2. R1. before it"));
+                    return refuse(Code::PN007, message, format!("write {code} {letter}2. R1. before this block"));
                 };
                 How::Passes { across, depth, back, left }
             }
         })
     }
 
-    /// The retract after a pass if it is not programmed: 0.05 inch, the factory value of settings 22 and 73 of a Haas.
+    /// The retract after a pass if the program does not set one: 0.05 inch, the factory value of settings 22 and 73 of
+    /// a Haas.
     fn usual_back(&self) -> f64 {
         if self.modes.units == Units::Inch { 0.05 } else { 1.27 }
     }

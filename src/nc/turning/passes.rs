@@ -7,7 +7,7 @@ use crate::nc::out::Out;
 use crate::nc::state::State;
 
 impl State {
-    /// Makes a pass. Each of the next blocks makes another pass if it contains another position.
+    /// Makes a pass. Each following block with a new position makes another pass.
     pub(in crate::nc) fn turning_pass(&mut self, does: Meaning, block: &Block, out: &mut Out<'_>) -> Done {
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let (begin, unsaid) = (self.place.position, self.place.at_machine);

@@ -24,7 +24,7 @@ impl State {
         let relief = block.get(if one_block { b'D' } else { b'R' }).unwrap_or(0.0);
         if relief != 0.0 {
             let message = format!("{code} with a relief at the bottom: no manual clearly defines its side");
-            return refuse(Code::PN016, message, "write its moves, or leave the relief out");
+            return refuse(Code::PN016, message, "write the moves of the cycle, or leave the relief out");
         }
         let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
         let [along, across] = if row.meaning == Meaning::FacePecks { [2, 0] } else { [0, 2] };
@@ -47,7 +47,7 @@ impl State {
             None if one_block => self.usual_back(),
             None if peck.is_none() => 0.0,
             None => {
-                let help = format!("write {code} R1. before it");
+                let help = format!("write {code} R1. before this block");
                 return refuse(Code::PN007, format!("{code} without the retract after a peck"), help);
             }
         };
@@ -61,8 +61,8 @@ impl State {
             return refuse(Code::PN018, format!("{code} of more than {MOST} pecks"), "write larger P and Q");
         }
         if width != 0.0 && step.is_none() {
-            let message = format!("{code} goes to another position without a step");
-            return refuse(Code::PN007, message, format!("write {} with it", char::from(letter_of(across))));
+            let message = format!("{code} has several positions, but their step is missing");
+            return refuse(Code::PN007, message, format!("write {} in this block", char::from(letter_of(across))));
         }
         let mut to = begin;
         let mut side = 0.0;

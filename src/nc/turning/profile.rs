@@ -1,4 +1,5 @@
-//! The profiles of turning cycles. A profile is found by block numbers, read by a trial run, and run once more as the finish.
+//! The profiles of turning cycles. A cycle finds its profile by block numbers and reads it in a trial run. The finish
+//! runs the profile again.
 
 use super::rough::{Move, Piece, Point, Profile, moves};
 use crate::diag::Code;
@@ -25,7 +26,7 @@ pub(in crate::nc) struct Found {
 }
 
 impl Simulator<'_> {
-    /// Makes a cycle that follows a profile. To be called at the block of the cycle.
+    /// Makes a cycle that follows a profile. Call this function at the block of the cycle.
     pub(in crate::nc) fn follow_profile(&mut self, asked: Profiled, items: &mut Vec<Item>) -> Result<(), RunError> {
         let (back, text) = (self.at, self.line.clone());
         let start = *self.state.position();
@@ -90,7 +91,7 @@ impl Simulator<'_> {
         Some(back)
     }
 
-    /// Finds a profile: a profile that an earlier cycle has followed, otherwise one after this block.
+    /// Finds a profile: a profile that an earlier cycle has followed, or otherwise the profile after this block.
     fn profile(&mut self, asked: Profiled, after: Spot) -> Result<Found, RunError> {
         let numbers = [asked.first, asked.last];
         if asked.how == How::Finish
@@ -118,9 +119,9 @@ impl Simulator<'_> {
             let message = format!("the profile's block N{which} does not follow this block");
             let help = match asked.how {
                 How::Finish => {
-                    "the profile of a finishing cycle follows it, or follows an earlier cycle with the same P and Q"
+                    "the profile of a finishing cycle comes after this cycle or an earlier cycle with the same P and Q"
                 }
-                _ => "write the block numbers of its first and its last block: P10 Q20",
+                _ => "write the block numbers of the first and the last block of the profile: P10 Q20",
             };
             let fault = Fault::new(Code::PN018, message, help);
             return Err(self.refused(fault));
@@ -139,24 +140,28 @@ impl Simulator<'_> {
             let begins = reading.profile.is_none() && in_passes;
             let read = read.and_then(|()| if begins { is_first_kind(&self.block) } else { Ok(()) });
             let run = read.and_then(|()| match self.block.flow.take() {
-                Some(_) => refuse(Code::PN016, "a jump or a call in a profile", "write its moves"),
+                Some(_) => refuse(Code::PN016, "a jump or a call in a profile", "write the moves into the profile"),
                 None => match aside.run(&mut self.block, self.at.line, &mut items)? {
                     Next::On => Ok(()),
-                    _ => refuse(Code::PN016, "a profile may contain only moves", "write this block before its cycle"),
+                    _ => refuse(
+                        Code::PN016,
+                        "a profile may contain only moves",
+                        "write this block before the turning cycle",
+                    ),
                 },
             });
             let taken = run.and_then(|()| items.drain(..).try_for_each(|item| reading.take(&item)));
             taken.map_err(|fault| self.refused(fault))?;
         }
         let Some(profile) = reading.profile else {
-            let help = "P and Q are the block numbers of its first and its last block";
+            let help = "P and Q are the block numbers of the first and the last block of the profile";
             return Err(self.refused(Fault::new(Code::PN018, "the profile has no move", help)));
         };
         Ok(profile)
     }
 }
 
-/// Refuses a profile whose first block moves along X and Z. Such a profile is of type II, for pockets.
+/// Refuses a profile whose first block moves along X and Z. A profile with this first block is of type II, for pockets.
 fn is_first_kind(block: &Block) -> Done {
     if [letters("XU"), letters("ZW")].iter().all(|words| block.has(*words)) {
         let message = "the first block of the profile moves along X and Z: the cycle then cuts pockets, and each \
@@ -179,7 +184,7 @@ fn number_of(line: &[u8]) -> Option<f64> {
 #[derive(Debug, Default)]
 struct Reading {
     profile: Option<Profile>,
-    /// Whether a rapid has already left the profile. A cut must not follow.
+    /// Whether a rapid has already left the profile. No cut may follow this rapid.
     is_over: bool,
 }
 
@@ -200,11 +205,17 @@ impl Reading {
             | Action::Spindle(..)
             | Action::SurfaceSpeed(_)
             | Action::FeedMode(_) => return Ok(()),
-            _ => return refuse(Code::PN016, "a profile may contain only moves", "write this block before its cycle"),
+            _ => {
+                return refuse(
+                    Code::PN016,
+                    "a profile may contain only moves",
+                    "write this block before the turning cycle",
+                );
+            }
         };
         match &mut self.profile {
             None if arc.is_none() => self.profile = Some(Profile { rapid, begin: to, pieces: Vec::new() }),
-            None => return refuse(Code::PN016, "a profile begins with an arc", "begin it with G0 or G1"),
+            None => return refuse(Code::PN016, "a profile begins with an arc", "begin the profile with G0 or G1"),
             Some(_) if rapid => self.is_over = true,
             Some(_) if self.is_over => {
                 return refuse(Code::PN016, "a cut after a rapid inside a profile", "write G1 instead of the rapid");

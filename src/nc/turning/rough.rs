@@ -1,4 +1,5 @@
-//! Calculates the passes that remove the stock outside a profile. The functions here only convert a profile to moves.
+//! Calculates the passes that remove the stock outside a profile. The functions of this file only convert a profile to
+//! moves.
 
 use super::MOST;
 use crate::diag::Code;
@@ -94,8 +95,9 @@ fn pattern(profile: &Profile, start: Point, outside: Point, count: u32, left: Po
     list
 }
 
-/// G71 and G72: passes along the second coordinate, each deeper along the first one. The last pass follows the profile,
-/// with the allowance for the finish. Only profiles of type I are run: a profile whose direction reverses is refused.
+/// G71 and G72: passes along the second coordinate, each deeper along the first coordinate. The last pass follows the
+/// profile, with the allowance for the finish. Only profiles of type I are run: a profile whose direction reverses is
+/// refused.
 fn passes(profile: &Profile, start: Point, depth: f64, back: f64, left: Point, across: bool) -> Done<Vec<Move>> {
     let inwards = (profile.begin[0] - start[0]).signum();
     let last = profile.pieces.last().map_or(profile.begin, |piece| piece.to);
@@ -181,8 +183,8 @@ fn bulges(from: Point, piece: &Piece, axis: usize, sense: f64) -> f64 {
     if ahead < sweep { centre[axis] * sense + radius - most } else { 0.0 }
 }
 
-/// The second coordinate at which a pass at this level meets the profile. If it does not meet the profile, the last
-/// coordinate of the profile.
+/// The second coordinate at which a pass at this level meets the profile. If the pass does not meet the profile, the
+/// result is the last coordinate of the profile.
 fn crossing(begin: Point, pieces: &[Piece], level: f64, inwards: f64) -> f64 {
     let mut from = begin;
     for piece in pieces {

@@ -21,7 +21,7 @@ impl Body<'_> {
         let List { each, routine } = &self.writer.shape.program.lists[index];
         let Some(survey) = self.writer.shape.options.survey.clone() else {
             let message = format!("the list of {}s of the job is unknown", each.name());
-            return fault(Code::PR052, message, "give the job as a file, without `--stream`: it must be read twice");
+            return fault(Code::PR052, message, "the job must be read twice: give it as a file, without `--stream`");
         };
         for item in ahead::items(*each, self.writer.want.item, &survey) {
             let want = ahead::of_item(item, &survey, self.writer.shape, self.writer.want);
@@ -42,14 +42,18 @@ impl Body<'_> {
                 self.value_of(var, b' ')?;
                 // without a value, skipping `@set` would keep the old value of the variable
                 let message = format!("[{}] has no value here, but @set needs one", var.name());
-                return fault(Code::PR001, message, format!("set it only if there is a value: `@if [{}]`", var.name()));
+                return fault(
+                    Code::PR001,
+                    message,
+                    format!("use `@set` only if there is a value: `@if [{}]`", var.name()),
+                );
             }
         };
         self.writer.said.kept.set(target, value);
         Ok(())
     }
 
-    /// A calculated value; `None` if it contains a variable that has no value and whose word is optional.
+    /// A calculated value; `None` if one of its variables has no value and the word is optional.
     pub(super) fn calculated(&self, index: u32, letter: u8) -> Done<Option<f64>> {
         match self.writer.shape.program.formulas[index as usize].number(&self.now(letter)) {
             Ok(value) => Ok(Some(value)),
@@ -58,8 +62,8 @@ impl Body<'_> {
         }
     }
 
-    /// The only variable of the value if that is a condition of the control, such as the work offset; and the job's
-    /// value for it.
+    /// If the calculated value has only one variable, and this variable is a condition of the control (such as the work
+    /// offset): this variable and the job's value for it.
     fn condition_of(&self, vars: VarSet, letter: u8) -> Done<Option<(VarId, f64)>> {
         match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
             Some(var) => Ok(self.value_of(var, letter)?.map(|own| (var, own))),
@@ -67,7 +71,7 @@ impl Body<'_> {
         }
     }
 
-    /// Prints a calculated value without a letter. After a text it may also set a condition of the control.
+    /// Prints a calculated value without a letter. After a text, such a value may also set a condition of the control.
     pub(super) fn bare_formula(&mut self, index: u32, glued: bool) -> Done {
         let Some(value) = self.calculated(index, b' ')? else { return Ok(()) };
         let condition = self.condition_of(self.writer.shape.program.formulas[index as usize].vars(), b' ')?;
@@ -81,9 +85,9 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Prints a letter and a calculated value. A calculated axis position is treated like a typed one: it may be in
-    /// another frame. A value that is calculated from one condition alone, as `H[work-53]`, counts as printing that
-    /// condition, so the job's value is not printed again.
+    /// Prints a letter and a calculated value. A calculated axis position is treated like a typed position: it may be
+    /// in another coordinate frame. A word calculated from one condition alone, such as `H[work-53]`, counts as a print
+    /// of that condition. The job's value for the condition is then not printed again.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
         let shape = self.writer.shape;
         let info = &shape.letters[letter];
@@ -112,7 +116,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Prints a value in a comment; a value that is unknown prints as `-`.
+    /// Prints a value in a comment; an unknown value is printed as `-`.
     pub(super) fn remark(&mut self, value: Done<Option<f64>>, glued: bool) -> Done {
         match value {
             Ok(Some(value)) => self.writer.out.bare(value, &self.writer.shape.letters.bare, glued),

@@ -24,25 +24,26 @@ use crate::diag::{Code, Diag};
 use crate::lang::{TextId, VarId, VarSet};
 use crate::number::quantise;
 
-/// Which words of a line print.
+/// Which words of a line are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Every word: used for ordinary sequences and for the first hole of a machine cycle.
     All,
-    /// Motion sequence: codes and variables print only if they changed.
+    /// For a motion sequence: codes and variables are printed only if they changed.
     Motion,
-    /// Sequence of an arc: like a motion sequence, but centre words always print.
+    /// For an arc sequence: like a motion sequence, but centre words are always printed.
     ArcMotion,
-    /// Later hole of a machine cycle: prints the variables that changed, or both position words.
+    /// For a later hole of a machine cycle: variables are printed if they changed. If none changed, both position words
+    /// are printed.
     NextHole {
-        /// Prints the position because no word changed.
+        /// Whether both position words are printed, because no word changed.
         position: bool,
     },
-    /// Hole of an emulated or advanced cycle.
+    /// For a hole of an emulated or advanced cycle.
     Hole,
 }
 
-/// Variables that are never modal: no control keeps them from one arc to the next.
+/// Variables that are never modal: no control keeps their values from one arc to the next.
 const ARC_WORDS: VarSet = VarSet::of(&[
     VarId::Ival,
     VarId::Jval,
@@ -58,7 +59,8 @@ const ARC_WORDS: VarSet = VarSet::of(&[
 /// Variables that hold the distance an axis moves.
 const INCREMENTS: VarSet = VarSet::of(&MOVED);
 
-/// Variables that hold a position of the axis that prints them. Dwells and distances are not positions.
+/// Variables that hold an axis position and are printed with the letter of that axis. Dwells and distances are not
+/// positions.
 const POSITIONS: VarSet = VarSet::of(&[
     VarId::H,
     VarId::V,
@@ -143,7 +145,7 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
     Ok(())
 }
 
-/// Executes the `@set` directives before the lines that a cycle repeats: they apply at every hole.
+/// Executes the `@set` directives that precede the repeated lines of a cycle: these directives apply at every hole.
 pub fn run_sets(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let (line, mode) = (routine.ops.start, Mode::Hole);
@@ -165,7 +167,7 @@ struct Body<'r> {
     line: usize,
     /// The operation that is being executed.
     at: usize,
-    /// The sequence is a cycle and may drop unchanged words of this line.
+    /// Whether the sequence is a cycle that may leave out unchanged words of this line.
     drops: bool,
     /// Text and values without a letter that the line printed since its last word with a letter.
     text: Vec<u8>,
@@ -185,8 +187,8 @@ impl Body<'_> {
         }
     }
 
-    /// The line whose words are printed. For a block that is already too long this is [`Line::NONE`]: the block is an error
-    /// anyway.
+    /// The line whose words are printed. For a block that is already too long, the line is [`Line::NONE`], because such
+    /// a block is an error anyway.
     fn line(&self) -> Line {
         if self.writer.out.is_too_long() { Line::NONE } else { Line::at(self.line) }
     }
@@ -313,8 +315,8 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// If a word selects another work offset, the axis positions after it are in that offset, so the known positions become
-    /// invalid.
+    /// If a word selects another work offset, later axis positions refer to that offset. The known positions then
+    /// become invalid.
     fn counts_from(&mut self, letter: u8, var: VarId, value: f64) {
         if var == VarId::Work
             && self.writer.shape.program.work.says(self.at)
@@ -325,15 +327,16 @@ impl Body<'_> {
         }
     }
 
-    /// Records that a word with this variable was printed. Only some words that print `[work]` select the work offset.
+    /// Records that a word with this variable was printed. Among the words that print `[work]`, only some select the
+    /// work offset.
     fn condition_word(&mut self, letter: u8, var: VarId, value: f64) {
         if var != VarId::Work || self.writer.shape.program.work.says(self.at) {
             self.writer.said.condition_word(letter, var, value, self.line(), self.writer.want, self.writer.shape);
         }
     }
 
-    /// Prints a word and records its value as the control's. For axis words the caller does this, because it depends on their
-    /// frame.
+    /// Prints a word and records its value as known to the control. The value of an axis word is recorded by the
+    /// caller, because the frame of the word must be considered.
     fn print(&mut self, letter: u8, value: f64, units: i64, glued: bool) -> Done {
         let info = &self.writer.shape.letters[letter];
         self.writer.out.letter(info, units, glued)?;
@@ -377,7 +380,7 @@ impl Body<'_> {
         }
     }
 
-    /// A word of packed parameters: the form's digits, or the job's value with the same number of digits.
+    /// Prints a word of packed parameters: the form's digits, or the job's value with the same number of digits.
     fn packed_word(&mut self, info: &Letter, digits: &str, glued: bool) -> Done {
         let text = match self.writer.want.get(VarId::Tparams) {
             Some(value) => format!("{value:0width$}", width = digits.len()),
@@ -385,7 +388,7 @@ impl Body<'_> {
         };
         if text.len() != digits.len() || !text.bytes().all(|digit| digit.is_ascii_digit()) {
             let message = format!("[tparams] is {text}, but its word has {} digits", digits.len());
-            return fault(Code::PR002, message, "give a whole number of that many digits");
+            return fault(Code::PR002, message, "give a whole number with as many digits as the word");
         }
         let word = self.writer.out.word(glued);
         word.push(info.printed);
@@ -393,7 +396,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// The value of a variable; `None` if the variable has none and its word is optional.
+    /// The value of a variable; `None` if the variable has no value and its word is optional.
     fn value_of(&self, var: VarId, letter: u8) -> Done<Option<f64>> {
         if let Some(value) = self.now(letter).get(var) {
             return Ok(Some(value));
@@ -417,13 +420,13 @@ impl Body<'_> {
             return fault(
                 Code::PR052,
                 message,
-                "print it inside `@for work`, for each work offset, or test it first: `@if [hmin]`",
+                "print the value inside `@for work`, for each work offset, or test it first: `@if [hmin]`",
             );
         }
         no_value(var)
     }
 
-    /// The values of variables for a word of this letter.
+    /// The current values of the variables, for a word with this letter.
     fn now(&self, letter: u8) -> Now<'_, '_> {
         let block = Some(self.writer.out.number());
         Now {
@@ -487,6 +490,6 @@ impl Body<'_> {
         }
         let message =
             format!("{}[{}] is a position, but the control is in G{increments}", char::from(letter), var.name());
-        fault(Code::PR040, message, "print G90 before it, or print the increment, as [hdist]")
+        fault(Code::PR040, message, "print G90 before the position, or print the increment, as [hdist]")
     }
 }

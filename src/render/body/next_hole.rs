@@ -1,4 +1,4 @@
-//! Later holes of a machine cycle that print nothing but their position.
+//! Holes of a machine cycle, after its first hole, that print only their position.
 
 use super::{Body, Mode};
 use crate::compile::{LetterKind, Op, Routine};
@@ -10,13 +10,13 @@ use crate::render::numbers::quantised;
 /// A position word of a cycle.
 #[derive(Clone, Copy, Debug)]
 struct Word {
-    /// 0 for `[h]`, 1 for `[v]`.
+    /// The axis of the word: 0 for `[h]`, 1 for `[v]`.
     axis: usize,
     letter: u8,
     glued: bool,
-    /// Its operation.
+    /// The operation that prints the word.
     at: usize,
-    /// The operation that begins its line.
+    /// The operation that begins the line of the word.
     line: usize,
 }
 
@@ -25,8 +25,8 @@ struct Word {
 pub struct PositionWords([Word; 2]);
 
 impl PositionWords {
-    /// The position words of this sequence. `None`: the next hole may print other words too, because the control lacks their values
-    /// or they depend on the position.
+    /// The position words of this sequence. `None`: the next hole may print other words too, because the control lacks
+    /// the values of these words, or the values depend on the position.
     pub fn of(routine: &Routine, writer: &mut Writer<'_>) -> Option<PositionWords> {
         let shape = writer.shape;
         let settings = &shape.program.settings;
@@ -72,7 +72,8 @@ impl PositionWords {
         (one_block && is_own(&first) && is_own(&second)).then_some(PositionWords([first, second]))
     }
 
-    /// Prints the block of the next hole: the words that changed, or both if none did. `at`: the values of `[h]` and `[v]`.
+    /// Prints the block of the next hole: the position words that changed, or both position words if none changed.
+    /// `at`: the values of `[h]` and `[v]`.
     #[inline]
     pub fn print(&self, at: [f64; 2], writer: &mut Writer<'_>) -> Done {
         let Writer { shape, said, out, .. } = writer;

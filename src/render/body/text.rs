@@ -1,4 +1,4 @@
-//! Output of a line other than words with letters: text, values in it, comments.
+//! Output of a line besides its words with letters: text, values inside text, comments.
 
 use super::Body;
 use crate::lang::VarId;
@@ -7,7 +7,7 @@ use crate::render::texts;
 use crate::render::values::property_text;
 
 impl Body<'_> {
-    /// Are all texts in the comment at this operation empty in this job?
+    /// In this job, are all texts of the comment at this operation empty?
     pub(super) fn comment_is_empty(&self, at: usize, words: usize) -> bool {
         texts::are_empty(&self.writer.shape.program.ops[at + 1..][..words], &self.writer.want.texts, &|row| {
             property_text(row, self.writer.want, self.writer.said).is_empty()
@@ -22,7 +22,7 @@ impl Body<'_> {
         }
     }
 
-    /// A value without a letter, which the control reads.
+    /// Prints a value that has no letter and that the control reads.
     pub(super) fn bare_word(&mut self, var: VarId, glued: bool) -> Done {
         let Some(value) = self.value_of(var, b' ')? else { return Ok(()) };
         self.counts_from(b' ', var, value);

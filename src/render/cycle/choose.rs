@@ -13,7 +13,8 @@ use crate::render::shape::Shape;
 use crate::sema::kind_of_remark;
 use crate::toolpath::{CycleKind, CycleSpec, Peck};
 
-/// The kinds of cycle that can print this one, best first. As in GENER, some cycles are printed by the sequence of another kind.
+/// The kinds of cycle whose sequences can print this cycle, best first. As in GENER, some cycles are printed by the
+/// sequence of another kind of cycle.
 fn made_as(spec: &CycleSpec) -> [Option<CycleKind>; 3] {
     use CycleKind as K;
     let dwells = spec.dwell.or(spec.revs).is_some_and(|time| time > 0.0);
@@ -86,7 +87,7 @@ fn candidate(spec: &CycleSpec, shape: &Shape) -> Option<SequenceId> {
     made_as(spec).into_iter().flatten().find_map(serves)
 }
 
-/// The first request of a cycle that its sequence does not print.
+/// The first value that the cycle requests and that its sequence does not print.
 pub fn cannot_say(spec: &CycleSpec, routine: &Routine, shape: &Shape) -> Option<&'static str> {
     if routine.style == CycleStyle::Generated {
         return None;

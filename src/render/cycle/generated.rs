@@ -15,7 +15,7 @@ use crate::render::settle::settle;
 use crate::render::targets::set_targets;
 use crate::render::words::{code_word, parameter_word, speed_word, value_code};
 
-/// A hole as single moves.
+/// Prints one hole as single moves.
 pub fn generated_hole(hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     let Some(cycle) = &drill.open else { return Ok(()) };
@@ -92,7 +92,7 @@ fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drill
     left_hole(&hole.target, Some((exit, true)), shape, cx.said, drill)
 }
 
-/// Prints a spindle direction; with `times` also the spindle speed multiplied by it.
+/// Prints a spindle direction. If `times` is given, also prints the spindle speed multiplied by `times`.
 fn spindle_block(code: f64, times: Option<f64>, writer: &mut Writer<'_>) -> Done {
     if let Some(times) = times {
         let Some(speed) = writer.want.get(VarId::Speed) else {

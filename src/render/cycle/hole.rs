@@ -29,11 +29,11 @@ fn no_height<T>() -> Done<T> {
     fault(
         Code::PR006,
         "the first point of the cycle has no height",
-        "give its third coordinate, the top of the hole, as [1, 1, 0]",
+        "give the third coordinate of the point, the top of the hole, as [1, 1, 0]",
     )
 }
 
-/// Handles a hole of the open cycle. It is held back until the next event if the form uses `[lasthole]`.
+/// Handles a hole of the open cycle. If the form uses `[lasthole]`, the hole is held back until the next event.
 pub fn hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     if let Some(words) = plain_words(hole, cx, drill) {
@@ -154,14 +154,15 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     Ok(())
 }
 
-/// The selected branches of a sequence must print everything that the cycle requests.
+/// Checks that the selected branches of a sequence print everything that the cycle requests.
 fn says_the_hole(way: &Routine, drill: &Drilling, shape: &Shape) -> Done {
     let Some(what) = drill.open.as_ref().and_then(|cycle| cannot_say(&cycle.spec, way, shape)) else { return Ok(()) };
     let message = format!("a branch of the sequence does not print {what}");
-    fault_at(Code::PR017, message, "print it in every branch", Some(way.span))
+    fault_at(Code::PR017, message, "print the value in every branch", Some(way.span))
 }
 
-/// Does the hole need a position across the tool that its sequence does not print, as on a lathe?
+/// Does the hole need a position perpendicular to the tool axis that its sequence does not print? An example is a hole
+/// on a lathe.
 fn sequence_loses(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> bool {
     let mut across = (0..2).filter(|&axis| axis != shape.depth);
     across.any(|axis| target.get(axis) != said.stand.position.get(axis) && !prints_axis(routine, axis, shape))
@@ -173,7 +174,8 @@ fn planes_at(spec: &CycleSpec, hole: &Hole, shape: &Shape, want: &Want) -> Done<
     Ok(Plan::of(spec, depth, &shape.defaults, want.get(VarId::Speed))?)
 }
 
-/// The tool position before the first hole of a cycle: over the hole, at the return plane. Used by tool changes.
+/// The tool position before the first hole of a cycle: over the hole, at the return plane. Tool changes use this
+/// position.
 pub fn hole_position(spec: &CycleSpec, hole: &Hole, shape: &Shape, want: &Want, said: &Said) -> Done<Axes> {
     let spec = scaled(spec, shape);
     let planes = planes_at(&spec, hole, shape, want)?;

@@ -24,7 +24,7 @@ use open::{ActiveCycle, Drilling, Setup, is_rigid, leave_cycle, turning};
 use plain::NextHole;
 use remarks::warn_of;
 
-/// Begins a cycle. It prints nothing before its first hole.
+/// Begins a cycle. A cycle prints nothing before its first hole.
 pub fn cycle_begin(spec: &CycleSpec, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     if shape.program.settings.machine == Machine::Edm {
@@ -66,8 +66,9 @@ pub fn cycle_begin(spec: &CycleSpec, cx: &mut Cx<'_>, drill: &mut Drilling) -> D
     Ok(())
 }
 
-/// Sets the spindle direction for a tap. With a floating holder the spindle must turn in the tap's direction; for a rigid tap the
-/// control turns it. Returns the direction to restore after the cycle, if it differs.
+/// Sets the spindle direction for a tap. For a tap in a floating holder, the spindle must turn in the tap's direction;
+/// for a rigid tap, the control turns the spindle. If the tap changes the spindle direction, returns the direction to
+/// restore after the cycle.
 fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Said) -> Done<Option<f64>> {
     let [cw, ccw, off] = shape.program.settings.spindle;
     let inwards = match spec.kind.inwards() {
@@ -91,7 +92,11 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
     }
     if !rigid && shape.program.switches_spindle {
         let message = "the tap needs the opposite spindle direction, but sequences of the form turn the spindle";
-        return fault(Code::PR006, message, "give the direction of the spindle in the job, or use the other tap");
+        return fault(
+            Code::PR006,
+            message,
+            "give the direction of the spindle in the job, or use the tap for the other direction",
+        );
     }
     want.set(VarId::Direct, inwards);
     if rigid {
@@ -101,7 +106,8 @@ fn turn_for_tap(spec: &CycleSpec, shape: &Shape, want: &mut Want, said: &mut Sai
     Ok(before)
 }
 
-/// Ends the open cycle, if any: prints a hole that is held back and Cancel, and updates the known state.
+/// Ends the open cycle, if any: prints a hole that is held back, prints the Cancel sequence, and updates the known
+/// state.
 pub fn close_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     let Some(cycle) = &mut drill.open else { return Ok(()) };

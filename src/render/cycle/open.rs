@@ -1,4 +1,4 @@
-//! The open cycle, from its begin to its end, and the exit of the control from it.
+//! The open cycle from its begin to its end, and how the control leaves the cycle.
 
 use super::plain::NextHole;
 use crate::compile::Sources;
@@ -20,39 +20,39 @@ use crate::toolpath::{Axes, CycleSpec, Hole, Place};
 
 /// The open cycle.
 pub struct ActiveCycle {
-    /// Request of the job, in program units.
+    /// The cycle as the job requests it, in program units.
     pub spec: CycleSpec,
     /// Sequence that prints the cycle; `None` if the cycle becomes single moves.
     pub sequence: Option<SequenceId>,
-    /// Number of holes so far.
+    /// Number of holes of the cycle so far.
     pub holes: u64,
-    /// Whether the cycle is active on the control. Cancel must then be printed after the last hole.
+    /// Whether the cycle is active on the control. An active cycle requires the Cancel sequence after its last hole.
     pub in_force: bool,
-    /// Branches of the sequence with which the control entered the cycle.
+    /// The branches of the sequence that were printed when the control entered the cycle.
     pub branches: u128,
-    /// Values when the cycle was last started.
+    /// Values of the job and of the form at the last start of the cycle.
     pub setup: Setup,
     /// Position of the last hole, with the height of the tool after it.
     pub last: Option<Axes>,
-    /// The height of the tool after the last hole is certain.
+    /// Whether the height of the tool after the last hole is certain.
     pub exit_known: bool,
-    /// Depth position of the last point.
+    /// Position of the cycle's last point on the depth axis.
     pub point: Option<f64>,
-    /// Return plane of the first point.
+    /// Return plane at the cycle's first point.
     pub return_plane: Option<f64>,
     /// Level to which the control returns: the tool's height when the cycle was started.
     pub initial_level: f64,
-    /// A hole that is held back: the next event shows whether it is the last one.
+    /// A hole that is not printed yet, because the next event shows whether it is the last hole.
     pub held: Option<(Hole, Place)>,
     /// Feed to restore after the cycle.
     pub feed: Option<f64>,
     /// The height at which the job leaves the last hole.
     pub left: Option<f64>,
-    /// Spindle direction to restore after a tap that changed it.
+    /// Spindle direction to restore after a tap that changed the direction.
     pub turned: Option<f64>,
     /// The depth that the job gives with the last hole.
     pub depth: Option<f64>,
-    /// What the next hole prints if it is as deep.
+    /// What the next hole prints if it is as deep as the last hole.
     pub next: NextHole,
 }
 
@@ -69,7 +69,7 @@ impl Setup {
         Setup { vars: want.values().clone(), kept: said.kept.clone() }
     }
 
-    /// Does any of these values differ now?
+    /// Do the current values differ from these values?
     pub fn differs(&self, sources: Sources, want: &Want, said: &Said) -> bool {
         let other = |target| {
             self.kept.of(target) != said.kept.of(target) || self.kept.text_of(target) != said.kept.text_of(target)
@@ -79,7 +79,7 @@ impl Setup {
     }
 }
 
-/// The open cycle and the steps of its holes. Both are reused so that a hole needs no allocation.
+/// The open cycle and the steps of its holes. Their memory is reused, so that printing a hole allocates nothing.
 #[derive(Default)]
 pub struct Drilling {
     /// The open cycle.
@@ -88,7 +88,7 @@ pub struct Drilling {
     pub steps: Steps,
 }
 
-/// Leaves the cycle: prints Cancel and updates the known axis positions after the last hole.
+/// Leaves the cycle: prints the Cancel sequence and updates the known axis positions after the last hole.
 pub fn leave_cycle(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     cancel(cx, drill)?;
@@ -132,8 +132,8 @@ pub fn cancel(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     Ok(())
 }
 
-/// Is this a rigid tap, where the feed is synchronised with the spindle in and out? A tap that does not reverse is printed as a
-/// face or drill cycle.
+/// Is the cycle a rigid tap, with the feed synchronised to the spindle on the way in and out? A tap without a reversal
+/// of the spindle is printed as a face or drill cycle.
 pub fn is_rigid(spec: &CycleSpec, shape: &Shape) -> bool {
     let reverses = spec.kind.is_tap() && !spec.norevr && !spec.rapout;
     reverses && spec.rigid.unwrap_or(shape.program.settings.rigid_tap)
@@ -147,8 +147,8 @@ pub fn turning(direct: Option<f64>, shape: &Shape) -> Done<f64> {
     }
 }
 
-/// Records the tool position after a hole. `exit`: height after the cycle, if the sequence does not print it, and whether it is
-/// certain.
+/// Records the tool position after a hole. `exit`: if the sequence does not print the height after the cycle: this
+/// height, and whether it is certain.
 pub fn left_hole(
     target: &Axes,
     exit: Option<(f64, bool)>,

@@ -1,6 +1,6 @@
-//! The usual hole: a later one of a machine cycle, as deep as the hole before it, that prints only its position. Most holes of
-//! long jobs are of this kind. It is printed without planning the cycle again. The general path of [`super::hole`] prints the same
-//! block for it.
+//! The usual hole of a machine cycle: not the first hole, as deep as the hole before it, and printed only by its
+//! position. Most holes of long jobs are usual holes. A usual hole is printed without planning the cycle again. For a
+//! usual hole, the general code of [`super::hole`] prints the same block.
 
 use super::open::{ActiveCycle, Drilling};
 use crate::compile::{CycleStyle, Routine};
@@ -14,18 +14,19 @@ use crate::toolpath::Hole;
 /// The variables that differ between two usual holes.
 const CHANGES: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::Block]);
 
-/// What the next hole prints if it is as deep as the one before it.
+/// What the next hole prints if it is as deep as the previous hole.
 #[derive(Clone, Copy, Debug)]
 pub enum NextHole {
-    /// Not determined since the last hole of the general path.
+    /// Not determined yet: the general code of [`super::hole`] printed the last hole.
     Unknown,
-    /// Only these words.
+    /// The next hole prints only these words.
     Position(PositionWords),
-    /// It needs the general path, as all holes after it. No event between two holes can change what they print.
+    /// The next hole and all holes after it need the general code. No event between two holes can change what the holes
+    /// print.
     Other,
 }
 
-/// The words of this hole, if it is usual.
+/// The words of this hole, if the hole is usual.
 #[inline]
 pub fn plain_words(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Option<PositionWords> {
     let shape = cx.shape;
@@ -74,7 +75,7 @@ pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &m
     words.print(at, &mut cx.writer())
 }
 
-/// Does this sequence print only the words of its lines for a hole, at any position of the hole?
+/// For a hole at any position, does this sequence print only the words of its own lines?
 #[cold]
 fn prints_no_more(routine: &Routine, cycle: &ActiveCycle, cx: &Cx<'_>) -> bool {
     let (shape, program) = (cx.shape, cx.shape.program);

@@ -9,13 +9,13 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::toolpath::{Axes, CycleKind, FeedMode};
 
-/// Heights that differ by less count as equal.
+/// Two heights that differ by less than this value count as equal.
 pub const SAME: f64 = 1e-9;
 
 /// Heights of the hole as positions of the depth axis.
 #[derive(Clone, Copy)]
 pub struct Heights {
-    /// The point of the job: the top of the hole.
+    /// The top of the hole, which is the point that the job gives.
     pub point: f64,
     /// The clearance, or R plane.
     pub clear: f64,
@@ -26,8 +26,8 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// Heights for one start of a thread. Each further start begins a fraction of the lead lower, because the spindle has turned
-    /// on by then.
+    /// Heights for one start of a thread with several starts. Each further start begins lower by a fraction of the
+    /// lead, because the spindle has turned further by that time.
     pub fn of_start(self, start: u32, starts: u32, planes: &Plan) -> Done<Heights> {
         if start == 0 {
             return Ok(self);
@@ -52,7 +52,7 @@ pub struct Planned {
     pub heights: Heights,
 }
 
-/// Variables of a cycle at a hole.
+/// Sets the variables of a cycle for one hole.
 pub fn hole_variables(hole: &Planned, shape: &Shape, want: &mut Want, drill: &Drilling) {
     let rigid = drill.open.as_ref().is_some_and(|cycle| is_rigid(&cycle.spec, shape));
     let Some(cycle) = &drill.open else { return };

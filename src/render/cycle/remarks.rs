@@ -1,4 +1,4 @@
-//! Warnings about missing or contradictory values of a cycle that are no errors.
+//! Warnings about cycle values that are missing or contradictory, but are not errors.
 
 use super::planned::SAME;
 use crate::diag::Code;
@@ -8,7 +8,7 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::toolpath::{CycleKind, CycleSpec};
 
-/// Warns of missing or contradictory values of a cycle that are no errors.
+/// Warns of cycle values that are missing or contradictory, but are not errors.
 pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, want: &Want, out: &mut Printer) {
     let pecks = matches!(spec.kind, CycleKind::Deep | CycleKind::Chipbreak);
     if pecks && spec.step.or(shape.defaults.step).is_none() && spec.pecks.is_empty() {
@@ -26,7 +26,11 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     if spec.kind.is_tap() && want.get(VarId::Direct).is_some_and(|code| code != needed && [cw, ccw].contains(&code)) {
         let (name, turns) = (spec.kind.name(), cw + ccw - needed);
         let message = format!("a `{name}` with the spindle in M{turns}: the direction is reversed for the tap");
-        out.note(Code::PC054, message, "give the direction of the spindle in the job, or use the other tap");
+        out.note(
+            Code::PC054,
+            message,
+            "give the direction of the spindle in the job, or use the tap for the other direction",
+        );
     }
     if spec.back.is_some()
         && sequence
@@ -34,7 +38,7 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
             .is_some_and(|routine| !routine.vars.has(VarId::Sclear) && !routine.vars.has(VarId::Vleave))
     {
         let message = "the control uses its own setting instead of `back`, the retract between pecks";
-        out.note(Code::PR021, message.into(), "set it at the control, or print [vleave] in the cycle");
+        out.note(Code::PR021, message.into(), "set the retract at the control, or print [vleave] in the cycle");
     }
     let printed =
         sequence.and_then(|id| shape.program.routine(id)).is_some_and(|routine| routine.vars.has(VarId::Vbite));
@@ -52,16 +56,16 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
     }
     if spec.min_step.is_some() && spec.decr.is_none() && shape.program.settings.cycle_min_step == 0.0 {
         let message = "`min_step` has no effect, because the steps do not shrink";
-        out.note(Code::PC055, message.into(), "remove it, or give `decr`");
+        out.note(Code::PC055, message.into(), "remove `min_step`, or give `decr`");
     }
     let floats = spec.kind.is_tap() && spec.rigid == Some(false) && !spec.norevr && !spec.rapout;
     let asks = |id| shape.program.routine(id).is_some_and(|routine| routine.asks(VarId::Rigid, shape.program));
     if floats && shape.program.settings.rigid_tap && sequence.is_some_and(|id| !asks(id)) {
-        let help = "if this tap may be rigid, do nothing; if not, print other words for rigid taps, in `@if [rigid]`";
+        let help = "if this tap must not be rigid, print other words for rigid taps, in `@if [rigid]`";
         out.note(Code::PR021, "a floating tap, but the form's tap is rigid".into(), help);
     }
     if let (Some(mode), true) = (spec.mode, sequence.is_some()) {
         let message = format!("the kind of pecks of the tap, here `{}`, is a setting of the control", mode.name());
-        out.note(Code::PR021, message, "set it at the control: no word of a form selects it");
+        out.note(Code::PR021, message, "set the kind of pecks at the control: no word of a form selects it");
     }
 }

@@ -83,7 +83,8 @@ pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: 
     left_hole(&hole.target, Some(exit), shape, cx.said, drill)
 }
 
-/// Prints a hole by a sequence that prints its own moves, or by a cycle that ends in the sequence itself.
+/// Prints a hole by an emulated cycle: a sequence that prints the moves itself, or that starts and ends the control's
+/// cycle itself.
 fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     raise_to(&hole.target, cx, drill)?;
@@ -119,8 +120,8 @@ fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Dri
     (exit, known)
 }
 
-/// Is the tool certainly at the clearance after an emulated sequence? It is if G99 is active and no axis word follows
-/// the control's cycle.
+/// Is the tool certainly at the clearance after an emulated sequence? The tool is at the clearance if G99 is active and
+/// no axis word follows the control's cycle.
 fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
     let number = shape.program.settings.return_plane[0];
     let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
@@ -138,7 +139,7 @@ fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> boo
     !prints_axis_words(&Routine { ops: end..routine.ops.end, ..routine.clone() }, false, shape)
 }
 
-/// Runs an Upon for the hole's bottom, unless that Upon would move the tool to the bottom.
+/// Runs the Upon sequence for the hole's bottom. An Upon sequence that would move the tool to the bottom is not run.
 fn upon_bottom(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     const BOTTOM: VarSet = VarSet::of(&[VarId::D]);
@@ -155,7 +156,8 @@ fn upon_bottom(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut D
     upons(BOTTOM, cx)
 }
 
-/// Prints a rapid code for the approach of an emulated cycle if its first block with axis words has no motion code.
+/// Prints a rapid code for the approach move of an emulated cycle, if the cycle's first block with axis words has no
+/// motion code.
 fn way_to_hole(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let program = shape.program;
@@ -177,7 +179,7 @@ fn way_to_hole(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Do the first lines of a counted cycle drill a hole themselves? With K0 or L0 they do not.
+/// In a cycle with `[count]`, do the first lines drill a hole themselves? Lines with K0 or L0 drill no hole.
 fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
     let typed = |asked: &dyn Fn(&Literal) -> bool| {
         routine.steps_in(routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
@@ -190,8 +192,8 @@ fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
 }
 
 /// Prints waiting changes before a hole. While the control is in its cycle, the changes wait for Cancel, because a
-/// block between the holes would be read as a hole. The only differences then are those of the sequence itself, as
-/// `G95` for a tap.
+/// block between the holes would be read as a hole. In a cycle, only codes of the sequence itself make the state differ
+/// from the job's request, such as `G95` for a tap.
 fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
     let shape = cx.shape;
     if !cx.said.is_unsettled(cx.want) {
@@ -206,7 +208,7 @@ fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> D
     }
 }
 
-/// Prints waiting changes after the control left its cycle, then sets the hole's values again.
+/// Prints waiting changes after the control left its cycle, then sets the variables of the hole again.
 fn settle_between_holes(hole: &Planned, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
     let shape = cx.shape;
     set_targets(&hole.target, shape, cx.want, cx.said)?;
@@ -280,7 +282,8 @@ fn raise_to(target: &Axes, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
 
 fn warn_of_return(routine: &Routine, heights: Heights, out: &mut Printer) {
     if heights.return_plane > heights.clear + SAME && !routine.returns {
-        let message = format!("the job returns to {}, but the cycle stays at {}", heights.return_plane, heights.clear);
+        let message =
+            format!("the job requires a return to {}, but the cycle stays at {}", heights.return_plane, heights.clear);
         out.note(Code::PR013, message, "print `G[retplane]` in the cycle, to set the return level");
     }
 }

@@ -1,4 +1,4 @@
-//! Arcs, as far as the form can print them.
+//! Prints arcs; an arc that the form can't print becomes lines.
 
 use crate::control;
 use crate::render::cx::Cx;
@@ -21,7 +21,8 @@ use crate::render::targets::{check_limits, set_targets};
 use crate::sema::ArcCentre;
 use crate::toolpath::{Arc, Axes, Direction, Plane, PlaneArc, Units};
 
-/// The axes of a plane in the order for which counter-clockwise is positive, the axis across the plane, and the plane's code.
+/// The two axes of a plane, in the order in which counter-clockwise angles are positive; the axis perpendicular to the
+/// plane; the plane's code.
 fn plane_axes(plane: Plane) -> ([usize; 2], usize, control::Code) {
     let (axes, across) = plane.axes();
     let code = match plane {
@@ -38,7 +39,7 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
     let mut target = begin_cut(&arc.to, Some(feed), cx)?;
     let (axes, across, code) = plane_axes(arc.plane);
     if cx.want.compensated && arc.plane != Plane::Xy && shape.program.settings.machine == Machine::Mill {
-        let help = "end the compensation with an `outfeed` before it";
+        let help = "end the compensation with an `outfeed` before the arc";
         return fault(Code::PR030, "an arc in another plane under cutter compensation", help);
     }
     let Some(from) = in_plane(&cx.said.stand.position, axes) else {
@@ -46,7 +47,7 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
         return fault(Code::PR005, "the arc begins at an unknown position", help);
     };
     let Some(to) = in_plane(&target, axes) else {
-        return fault(Code::PR005, "the arc ends at an unknown position", "give both coordinates of its plane");
+        return fault(Code::PR005, "the arc ends at an unknown position", "give both coordinates of the arc's plane");
     };
     let ccw = arc.direction == Direction::Ccw;
     let centre = centre_of(arc, axes, from, to, ccw, shape)?;
@@ -114,7 +115,7 @@ fn in_plane(position: &Axes, axes: [usize; 2]) -> Option<[f64; 2]> {
     Some([position.get(axes[0])?, position.get(axes[1])?])
 }
 
-/// Does the target move along this axis?
+/// Does the target differ from the tool's position along this axis?
 fn differs_by(target: &Axes, axis: usize, said: &Said) -> bool {
     target.get(axis).is_some() && target.get(axis) != said.stand.position.get(axis)
 }
@@ -137,8 +138,9 @@ fn centre_of(arc: &Arc, axes: [usize; 2], from: [f64; 2], to: [f64; 2], ccw: boo
     }
 }
 
-/// Checks the radii at start and end: controls alarm or cut another path if they differ. Radii that differ in the job are an
-/// error. If only the rounding of the form makes them differ, returns the difference: the arc then becomes lines.
+/// Checks that an arc has equal radii at its start and end. If these radii differ, controls stop with an alarm or cut
+/// another path. Radii that differ in the job are an error. If the radii differ only because the form rounds, returns
+/// the difference: the arc then becomes lines.
 fn check_radii(axes: [usize; 2], from: [f64; 2], to: [f64; 2], centre: [f64; 2], shape: &Shape) -> Done<Option<f64>> {
     let allowed = if shape.units == Units::Mm { 0.01 } else { 0.0005 } + 1e-9;
     let radius = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
@@ -171,7 +173,7 @@ fn has_centre_words(axes: [usize; 2], ccw: bool, shape: &Shape) -> bool {
     }
 }
 
-/// Reports once that an arc sequence lacks the centre words for an arc, which therefore becomes lines.
+/// Reports once that an arc becomes lines because the form's arc sequence has no centre words for it.
 fn note_lines(axes: [usize; 2], ccw: bool, shape: &Shape, out: &mut Printer) {
     let id = if ccw { SequenceId::CcwCode } else { SequenceId::CwCode };
     if shape.program.routine(id).is_some() && !out.notes().iter().any(|note| note.code == Code::PR024) {

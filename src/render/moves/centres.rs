@@ -43,8 +43,8 @@ pub fn centre_letter(letters: &[u8], axis: usize, shape: &Shape) -> Option<u8> {
     if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
 }
 
-/// Divides an arc whose radius word is too coarse. Near half a turn the last digit of the radius moves the centre far; several
-/// shorter parts describe the same arc within the form's digits.
+/// Divides an arc whose radius word is too coarse. Near half a turn, the last digit of the radius moves the centre far.
+/// Several shorter arcs describe the same arc within the form's digits.
 pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, shape: &Shape, said: &Said) -> Done {
     const MOST_PARTS: usize = 8; // for each piece that the form would print
     let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);
@@ -100,7 +100,7 @@ fn radius_letter(piece: &Piece, ccw: bool, shape: &Shape) -> Option<u8> {
     }
 }
 
-/// Checks that the control interprets centre words as the form does: relative to the arc's start, or as positions.
+/// Checks that the control reads centre words as the form prints them: relative to the arc's start, or as positions.
 pub fn check_centres(shape: &Shape, said: &Said) -> Done {
     match said.centres_misread_by(shape) {
         None => Ok(()),
@@ -111,8 +111,8 @@ pub fn check_centres(shape: &Shape, said: &Said) -> Done {
     }
 }
 
-/// Checks `RevSigns`: reversing one axis also requires reversing its centre word and exchanging the arc codes, in generated
-/// blocks and in the form's own.
+/// Checks `RevSigns`: a form that reverses one axis must also reverse the centre word of that axis and exchange the arc
+/// codes. Generated blocks and blocks of sequences are checked.
 pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, ccw: bool, shape: &Shape) -> Done {
     const VALUES: [VarId; 3] = [VarId::Ival, VarId::Jval, VarId::Kval];
     let settings = &shape.program.settings;
@@ -131,7 +131,7 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     if others == 1 || others == 2 && !settings.centre_incremental {
         let axis = piece.axes.into_iter().find(other).map_or(' ', |axis| char::from(shape.axes[axis]));
         let message = format!("the signs of {axis} and of its centre word differ");
-        return fault(Code::PR036, message, "reverse both, as `RevSigns X I`, or neither");
+        return fault(Code::PR036, message, "reverse both signs, as `RevSigns X I`, or none");
     }
     let mirrored = reversed(piece.axes[0]) != reversed(piece.axes[1]);
     let own = if ccw != mirrored { 3.0 } else { 2.0 };
@@ -158,7 +158,7 @@ pub fn check_signs(piece: &Piece, routine: Option<&Routine>, code: &sema::Code, 
     Ok(())
 }
 
-/// The centre as the form requires it: relative to the printed start, or absolute.
+/// The arc's centre in the way that the form requires: relative to the printed start of the arc, or absolute.
 pub fn centre_values(piece: &Piece, shape: &Shape, said: &Said) -> Done<[f64; 2]> {
     let mut values = piece.arc.centre;
     let mirrored = |axis: usize| shape.scales[axis] < 0.0;
@@ -197,7 +197,7 @@ pub fn centre_words(piece: &Piece, centre: &[f64; 2], shape: &Shape, out: &mut P
     }
 }
 
-/// Prints a centre word. It is always printed and never stored in a register.
+/// Prints a centre word. A centre word is always printed and never stored in a register.
 pub fn arc_word(letter: u8, value: f64, shape: &Shape, out: &mut Printer) -> Done {
     let info = &shape.letters[letter];
     let units = quantised(info, value)?;
@@ -226,7 +226,7 @@ pub fn set_arc_variables(piece: &Piece, centre: &[f64; 2], shape: &Shape, want: 
     want.set(VarId::Sweep, sweep.to_degrees());
 }
 
-/// The centre format of the form for an arc of this sweep.
+/// The form's centre format for an arc with this sweep angle.
 fn centre_by(settings: &Settings, sweep: f64) -> &ArcCentre {
     let over = sweep > PI + 1e-9;
     let full = sweep > 2.0 * PI - 1e-9;

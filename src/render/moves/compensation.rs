@@ -44,18 +44,19 @@ pub fn outfeed(to: &Axes, feed: Option<f64>, rapid: bool, cx: &mut Cx<'_>) -> Do
     Ok(())
 }
 
-/// How compensation is turned on or off.
+/// How a move turns cutter compensation on or off.
 struct Switch {
     id: SequenceId,
     code: f64,
-    /// The block also prints the offset register.
+    /// Whether the block also prints the offset register.
     offset: bool,
     feed: Option<f64>,
-    /// The job requests a rapid. A sequence of the form may print a feed move instead, which is slower but correct.
+    /// Whether the job requests a rapid. A sequence of the form may print a feed move instead, which is slower but
+    /// correct.
     rapid: bool,
 }
 
-/// Prints the move of an infeed or an outfeed.
+/// Prints the move that turns cutter compensation on (infeed) or off (outfeed).
 fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
@@ -85,7 +86,7 @@ fn compensate(to: &Axes, switch: &Switch, cx: &mut Cx<'_>) -> Done {
             && cx.said.differs_from(&target, shape.depth_bit(), shape)
         {
             let message = format!("the height is unknown here, and {} does not print it", id.name());
-            let help = "put a rapid before it, or print [d] in the sequence";
+            let help = "put a rapid before this move, or print [d] in the sequence";
             return fault_at(Code::PR017, message, help, Some(routine.span));
         }
         plane_block(control::Code::g(17), routine, &mut cx.writer())?;

@@ -7,13 +7,13 @@ use crate::toolpath::{Axes, PlaneArc};
 
 /// An arc or a part of it, ready to print.
 pub struct Piece<'a> {
-    /// The axes of the plane, in the order that makes counter-clockwise positive.
+    /// The two axes of the plane, in the order in which counter-clockwise angles are positive.
     pub axes: [usize; 2],
     /// The code of the plane.
     pub plane: &'a sema::Code,
-    /// The piece of the arc, in its plane.
+    /// The arc of this piece, in the coordinates of the plane.
     pub arc: PlaneArc,
-    /// Where the piece ends.
+    /// Position at which the piece ends.
     pub target: Axes,
 }
 

@@ -1,11 +1,11 @@
-//! Lengths and times of moves, for forms that print them.
+//! Lengths and times of moves, for forms that print these totals.
 
 use crate::lang::VarId;
 use crate::render::said::Said;
 use crate::render::want::Want;
 use crate::toolpath::{Axes, FeedMode};
 
-/// Adds the length and time of a move, for forms that print them.
+/// Adds the length and time of a move to the totals, for forms that print these totals.
 #[cold]
 pub fn measure(target: &Axes, cuts: bool, want: &mut Want, said: &Said) {
     let mut square = 0.0;

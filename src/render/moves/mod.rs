@@ -1,4 +1,4 @@
-//! Moves of the path, one kind a file.
+//! Moves of the path, with one file for each kind of move.
 
 pub mod arc;
 mod centres;

@@ -73,14 +73,14 @@ pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64
     Ok(())
 }
 
-/// With inverse time feeds, each part of a move takes its share of the move's time.
+/// With inverse time feeds, each part of a divided move gets a share of the move's time.
 fn share_of_time(whole: Option<f64>, part: f64, shape: &Shape, want: &mut Want) {
     if want.inverse_time() {
         want.keep_feed(whole.map(|feed| feed / part), shape);
     }
 }
 
-/// Prints one arc as a block or by the form's sequence.
+/// Prints one arc as a generated block, or by the form's arc sequence.
 fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
@@ -135,7 +135,8 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Do both ends print as the same position? If so, the control would read a short arc as a full circle.
+/// Do start and end of the arc print as the same position? With equal printed ends, the control would read a short arc
+/// as a full circle.
 pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) -> bool {
     axes.iter().all(|&axis| {
         let printed = |value: f64| as_printed_back(axis, value, shape).ok();
@@ -143,14 +144,19 @@ pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) ->
     })
 }
 
-/// Checks that an arc sequence prints its own arc code. If the code were printed in a block before it, that block would be an
-/// arc without an end.
+/// Checks that an arc sequence prints its own arc code. If an earlier block printed the arc code, that earlier block
+/// would be an arc without an end.
 fn check_arc_code(routine: &Routine, code: &sema::Code, shape: &Shape, said: &Said) -> Done {
     if !shape.program.speaks_g || said.motion_in_force(code) || prints_own_motion(routine, shape) {
         return Ok(());
     }
     let message = format!("the sequence does not print G{}, but another motion code is active", code.value());
-    fault_at(Code::PR017, message, format!("begin its block with G{}", code.value()), Some(routine.span))
+    fault_at(
+        Code::PR017,
+        message,
+        format!("begin the block of the sequence with G{}", code.value()),
+        Some(routine.span),
+    )
 }
 
 /// Prints a generated block: plane, motion code, axes, centre, direction, feed.
@@ -182,7 +188,7 @@ fn arc_block(piece: &Piece, (code, ccw): (&sema::Code, bool), centre: &[f64; 2],
     Ok(())
 }
 
-/// Prints an arc as lines within the form's tolerance, for an arc that the form can't print.
+/// Prints lines within the form's tolerance in place of an arc that the form can't print.
 pub fn chords((arc, axes): (&PlaneArc, [usize; 2]), target: &Axes, cx: &mut Cx<'_>, parts: &mut Vec<f64>) -> Done {
     let shape = cx.shape;
     let mut from = cx.said.stand.position;

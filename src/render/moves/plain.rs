@@ -1,6 +1,7 @@
-//! Prints the usual cut: a straight cut after another one, with positions in words, and with nothing else to print or
-//! check. Most moves of long jobs are of this kind. The cut is printed in one pass, without checks whose results the
-//! form and the state already determine. For such a cut, the general code of [`super::line`] prints the same block.
+//! Prints the usual cut: a straight cut after another straight cut, which prints only position words and needs no other
+//! checks. Most moves of long jobs are usual cuts. The cut is printed in one pass. Checks are left out if the form and
+//! the known state already determine their results. For a usual cut, the general code of [`super::line`] prints the
+//! same block.
 
 use crate::number::nearest;
 use crate::render::cx::Cx;
@@ -12,7 +13,7 @@ use crate::render::want::Want;
 use crate::render::words::feed_word;
 use crate::toolpath::Axes;
 
-/// The factors for a cut to this position, if the cut is usual.
+/// If a cut to this position is usual: the factor of each axis from the position to the printed units.
 #[inline]
 pub fn is_plain(to: &Axes, shape: &Shape, want: &Want, said: &Said) -> Option<[f64; 3]> {
     let stand = &said.stand;

@@ -14,7 +14,8 @@ use crate::render::upon::upons;
 use crate::render::vars::MOVE_VARS;
 use crate::toolpath::Axes;
 
-/// The target of an item within the machine's travel. `free`: the tool is out of the part. An open cycle has ended before.
+/// The target of a job item, with rotary angles within the machine's travel. `free`: the tool is out of the part. Call
+/// this function only after the end of an open cycle.
 #[inline]
 pub fn reach(to: &Axes, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
@@ -28,8 +29,8 @@ pub fn reach(to: &Axes, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
     if to.given & ROTARY_BITS != 0 { in_travel(&target, to.given, free, cx) } else { Ok(target) }
 }
 
-/// Moves the tool to the height of the job after a cycle that left it at another one. This happens before a cut, and before a
-/// rapid across, which may also lead to the next cycle.
+/// Moves the tool to the job's height after a cycle that left the tool at another height. The move is printed before a
+/// cut, and before a rapid across. Such a rapid may also lead to the next cycle.
 #[cold]
 pub fn stand_as_left(target: &Axes, free: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
@@ -58,8 +59,9 @@ pub fn stand_as_left(target: &Axes, free: bool, cx: &mut Cx<'_>) -> Done {
     split_rapid(&to, cx)
 }
 
-/// First half of the preparation of a cut: its target and feed. Steps in order: height after a cycle, target within the travel,
-/// known start, feed. `feed`: the job's feed; the outer `None` means a rapid.
+/// First half of the preparation of a cut: finds its target and sets its feed. Steps in order: correct the height after
+/// a cycle, bring the target into the travel, check that the start is known, set the feed. `feed`: the job's feed; an
+/// outer `None` means a rapid.
 #[inline]
 pub fn begin_cut(to: &Axes, feed: Option<Option<f64>>, cx: &mut Cx<'_>) -> Done<Axes> {
     let target = reach(to, false, cx)?;
@@ -72,8 +74,9 @@ pub fn begin_cut(to: &Axes, feed: Option<Option<f64>>, cx: &mut Cx<'_>) -> Done<
     Ok(target)
 }
 
-/// Second half of the preparation of a cut. Steps in order: waiting changes, check that the tool is at the start of the cut,
-/// position variables, their Upon sequences. `targets`: the cut's own sequence uses the position variables.
+/// Second half of the preparation of a cut. Steps in order: print waiting changes, check that the tool is at the start
+/// of the cut, set the position variables, run the Upon sequences of these variables. `targets`: whether the form's
+/// sequence for the cut uses the position variables.
 #[inline]
 pub fn cut_goes_to(target: &Axes, targets: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
@@ -105,5 +108,5 @@ fn begins_somewhere(target: &Axes, shape: &Shape, said: &mut Said) -> Done {
     let unsaid = unsaid.collect::<Vec<_>>().join(" and ");
     let message =
         format!("the operation begins with a cut, but {unsaid} is unknown since the tool change or the move home");
-    fault(Code::PR012, message, "begin it with a rapid to the start of its first cut")
+    fault(Code::PR012, message, "begin the operation with a rapid to the start of its first cut")
 }

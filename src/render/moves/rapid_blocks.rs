@@ -15,7 +15,7 @@ use crate::render::words::move_block;
 use crate::sema;
 use crate::toolpath::Axes;
 
-/// Prints a rapid to a target in program units: as one block, or split if the form has VRapid.
+/// Prints a rapid to a target in program units: as one block, or as two blocks if the form has the `VRapid` command.
 pub fn rapid_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if shape.program.settings.depth_rapid.is_some()
@@ -27,7 +27,7 @@ pub fn rapid_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     rapid_block(target, None, cx)
 }
 
-/// Prints a rapid that goes up first or down last: between holes, and with VRapid.
+/// Prints a rapid that goes up first or down last: for rapids between holes, and for forms with the `VRapid` command.
 pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let code = shape.program.settings.depth_rapid.clone();
@@ -48,7 +48,7 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Is the tool below a target, from its last known height? If the height is unknown, the tool counts as above.
+/// Is the tool's last known height below the target? A tool at an unknown height counts as above the target.
 pub fn is_below(target: &Axes, shape: &Shape, said: &Said) -> bool {
     let from = said.stand.position.get(shape.depth).or(said.stand.left_at);
     from.is_some_and(|from| target.values[shape.depth] > from)

@@ -13,7 +13,7 @@ use crate::render::said::Said;
 use crate::render::shape::Shape;
 use crate::toolpath::Axes;
 
-/// Prints a rapid that turns the part: by Index if the form has it.
+/// Prints a rapid that turns the part. If the form has an Index sequence, this sequence prints the rapid.
 pub fn turn_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let Some(routine) = shape.routine(SequenceId::Index, cx.want, cx.said) else {
@@ -21,7 +21,7 @@ pub fn turn_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     };
     if let Some(axis) = cx.said.turned_axes(target, shape).find(|&axis| !prints_angle(routine, axis, shape)) {
         let letter = char::from(shape.axes[axis]);
-        let message = format!("{letter} turns to {}, but Index does not print it", target.values[axis]);
+        let message = format!("{letter} turns to {}, but the sequence Index does not print it", target.values[axis]);
         return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(routine.span));
     }
     // an Index that does not raise the tool itself would turn the part under it
@@ -42,13 +42,14 @@ pub fn turn_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Checks that a sequence that moves down also prints all other axes of the target.
+/// Checks a sequence that moves the tool down: it must also print all other axes of the target.
 fn sequence_goes_down(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> Done {
     if routine.vars.has(VarId::D) { check_prints(routine, target, shape, said) } else { Ok(()) }
 }
 
-/// The target of a tool change. It contains rotary axes only if the sequence has words for them. A tool change that moves down
-/// must have these words, else the part would turn into the tool.
+/// The target of a tool change. The target contains a rotary axis only if the tool change sequence has a word for this
+/// axis. A tool change that moves down must have words for the rotary axes; otherwise the part would turn into the
+/// tool.
 pub fn change_turns(routine: &Routine, target: &Axes, given: u8, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
     let down = routine.steps().find(|&i| matches!(shape.program.ops[i], Op::Var { var: VarId::D, .. }));
@@ -68,7 +69,8 @@ pub fn change_turns(routine: &Routine, target: &Axes, given: u8, cx: &mut Cx<'_>
     in_travel(&target, given & !unsaid, true, cx)
 }
 
-/// Handles a tilted tool axis: an error, because a form has words for rotary axes but not for the kinematics of a vector.
+/// Handles a tilted tool axis, which is an error: a form has words for rotary angles, but can't calculate these angles
+/// from a tool axis vector.
 pub fn tilt(axis: [f64; 3]) -> Done {
     if axis == [0.0, 0.0, 1.0] {
         return Ok(());

@@ -21,11 +21,11 @@ use crate::toolpath::{Axes, Thread};
 
 /// A thread in program units. Radii are real radii, not diameters.
 struct Cut {
-    /// End along the axis.
+    /// Position of the thread's end along its axis.
     end: f64,
-    /// Radius of the crest at the end.
+    /// Radius of the crest at the thread's end.
     crest: f64,
-    /// Direction of the passes: -1 towards the centre, 1 away from it.
+    /// Direction of the passes: -1 towards the spindle axis, 1 away from the spindle axis.
     inward: f64,
     passes: Vec<f64>,
     lead: f64,
@@ -40,7 +40,8 @@ impl Cut {
     }
 }
 
-/// Prints a thread of the path: by AutoThread if the form has it, else by CanThread, else by generated passes.
+/// Prints a thread of the path. The sequence AutoThread has priority, then the sequence CanThread. A form with neither
+/// of them gets generated passes.
 pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     check_state(shape, cx.want, cx.out)?;
@@ -54,7 +55,7 @@ pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
     if let Some(routine) = cycle {
         check_thread_words(thread, &cut, routine, shape, cx.want)?;
     } else if thread.chamfer.is_some_and(|length| length != 0.0) {
-        let help = "leave the chamfer out, or give the form an AutoThread that prints [chams]";
+        let help = "leave the chamfer out, or give the form a sequence AutoThread that prints [chams]";
         return fault(Code::PR031, "passes made of single moves have no chamfer", help);
     }
     for start in 0..starts as u32 {
@@ -105,14 +106,14 @@ fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
         return fault(Code::PR032, "the spindle does not turn", "give the operation a spindle with a direction");
     }
     if want.compensated {
-        let help = "end the compensation with an `outfeed` before";
+        let help = "end the compensation with an `outfeed` first";
         return fault(Code::PR030, "a thread under cutter compensation", help);
     }
     if want.get(VarId::Speedtype) == Some(settings.speed_type[0]) {
         let message =
             "a thread at constant surface speed: the passes have different speeds and different starting angles"
                 .to_owned();
-        out.note(Code::PR029, message, "give its operation a spindle with \"mode\": \"rpm\"");
+        out.note(Code::PR029, message, "give the operation of the thread a spindle with \"mode\": \"rpm\"");
     }
     if settings.incremental {
         let help = "use a form that prints positions";
@@ -124,7 +125,7 @@ fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
 /// Checks that the tool is beside the thread, on the side from which it is cut.
 fn check_beside(thread: &Thread, cut: &Cut, shape: &Shape, said: &Said) -> Done {
     let Some(beside) = said.stand.position.get(1) else {
-        let help = "begin with a rapid to a position next to the thread that gives the distance from the axis";
+        let help = "begin with a rapid to a position next to the thread, with the distance from the axis";
         return fault(Code::PR001, "the radius at which the passes of the thread begin is unknown", help);
     };
     let from = said.stand.target(&thread.from, shape).values[1];
@@ -155,7 +156,7 @@ fn planned(thread: &Thread, shape: &Shape, said: &Said) -> Done<Cut> {
     let falls = start - crest;
     if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
         let message = format!("the ends of the thread differ by {falls} in radius, but its `taper` is {taper}");
-        return fault(Code::PR031, message, "give x of `to`, or `taper`, or equal values for both");
+        return fault(Code::PR031, message, "give only x of `to` or only `taper`; both together must be equal");
     }
     let depth = thread.depth.abs() * shape.scale;
     let first = thread.first_depth.map(|d| d * shape.scale);
@@ -187,7 +188,7 @@ fn thread_variables(thread: &Thread, cut: &Cut, shape: &Shape, want: &mut Want) 
     want.set(VarId::Startang, angle / 2.0);
 }
 
-/// Checks that the words of the cycle, or its packed parameters, contain everything that the thread requests.
+/// Checks that the cycle's words, or its packed parameters, print everything that the thread requests.
 fn check_thread_words(thread: &Thread, cut: &Cut, routine: &Routine, shape: &Shape, want: &Want) -> Done {
     let packed = packed_parameters(routine, shape, want);
     let in_packed = |digits: std::ops::Range<usize>, value: f64| {
@@ -246,7 +247,7 @@ fn pass_variables(cut: &Cut, depth: f64, shape: &Shape, want: &mut Want, said: &
     Ok(end)
 }
 
-/// Prints CanThread: its first lines once, the others for every pass.
+/// Prints the sequence CanThread: its first lines once, and its other lines for every pass.
 fn canned_passes(routine: &Routine, cut: &Cut, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     upons(routine.vars, cx)?;
@@ -298,7 +299,7 @@ fn own_passes(cut: &Cut, here: &Axes, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Code, radius, length, taper, lead.
+/// Prints the block of a pass: code, radius, length, taper, lead.
 fn thread_block(code: &sema::Code, (here, end): (&Axes, &Axes), cut: &Cut, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     code_word(code, writer)?;

@@ -12,9 +12,10 @@ use crate::render::targets::set_targets;
 use crate::render::upon::run_with_upons;
 use crate::toolpath::Axes;
 
-/// Brings the rotary angles of a target into the travel of their axes. If an axis would leave its travel, the tool is taken out,
-/// the axis is unwound, and angles then count from the new zero. `given`: the axes in the job's own item. `free`: the tool is out
-/// of the part, so that angles that differ by whole turns are equivalent.
+/// Brings the rotary angles of a target into the travel of their axes. If an axis would leave its travel, the tool is
+/// retracted and the axis is unwound. Later angles are measured from the new zero. `given`: the axes for which the
+/// job's item gives a value. `free`: the tool is out of the part. Angles that differ by whole turns are then
+/// equivalent.
 pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
     let mut inside = *target;
@@ -62,7 +63,7 @@ pub fn in_travel(target: &Axes, given: u8, free: bool, cx: &mut Cx<'_>) -> Done<
     Ok(inside)
 }
 
-/// The target minus the whole turns that were removed by unwinding.
+/// The target of a move, minus the whole turns that unwinding removed from its rotary axes.
 pub fn unwound(target: &Axes, given: u8, shape: &Shape, said: &Said) -> Axes {
     let mut inside = *target;
     for axis in shape.rotary().filter(|axis| given & 1 << axis != 0) {
@@ -71,21 +72,26 @@ pub fn unwound(target: &Axes, given: u8, shape: &Shape, said: &Said) -> Axes {
     inside
 }
 
-/// Prints Unwind. Afterwards the tool is at its previous position, and the angle is reduced modulo 360.
+/// Prints the Unwind sequence. Afterwards the tool is at its previous position, and the angle of the axis is reduced
+/// modulo 360.
 pub fn unwind(axis: usize, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
     let letter = char::from(shape.axes[axis]);
     let Some(routine) = program.routine(SequenceId::Unwind) else {
-        let message = format!("{letter} reaches the end of its travel, but the form has no Unwind");
-        return fault(Code::PR007, message, "add Unwind: it retracts the tool, turns the axis back and continues");
+        let message = format!("{letter} reaches the end of its travel, but the form has no sequence Unwind");
+        return fault(
+            Code::PR007,
+            message,
+            "add the sequence Unwind: it retracts the tool, turns the axis back and continues",
+        );
     };
     if cx.want.compensated {
-        let help = "end the compensation with an `outfeed` before";
+        let help = "end the compensation with an `outfeed` first";
         return fault(Code::PR030, "a rotary axis is unwound under cutter compensation", help);
     }
     if !prints_angle(routine, axis, shape) {
-        let message = format!("{letter} must be unwound, but Unwind does not print its angle");
+        let message = format!("{letter} must be unwound, but the sequence Unwind does not print its angle");
         return fault_at(Code::PR017, message, format!("print `{letter}[lastrotangle]`"), Some(routine.span));
     }
     let mut here = cx.said.stand.position;
@@ -102,7 +108,8 @@ pub fn unwind(axis: usize, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Runs a sequence that may leave the path and return. Afterwards only the values that it printed are known.
+/// Runs a sequence that may move the tool away from the path and back. Afterwards only the values that the sequence
+/// printed are known.
 pub fn run_elsewhere(routine: &Routine, cx: &mut Cx<'_>) -> Done {
     cx.said.forget_words();
     cx.said.stand.placed = 0;

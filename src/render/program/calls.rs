@@ -23,10 +23,14 @@ use crate::render::work::work_before;
 use crate::toolpath::{Axes, Call, FeedMode, Place};
 
 fn undefined<T>(number: f64) -> Done<T> {
-    fault(Code::PR034, format!("the job has no subprogram {number}"), "add it to `subprograms`, before the operations")
+    fault(
+        Code::PR034,
+        format!("the job has no subprogram {number}"),
+        "add the subprogram to `subprograms`, before the operations",
+    )
 }
 
-/// Sets another location for a fault.
+/// Replaces the location of a fault.
 fn at<T>(place: Place, done: Done<T>) -> Done<T> {
     done.map_err(|mut diag: Box<Diag>| {
         diag.place = Some(place.into());
@@ -34,7 +38,7 @@ fn at<T>(place: Place, done: Done<T>) -> Done<T> {
     })
 }
 
-/// Prints a call. The subprogram moves the tool, so the known state is discarded before and after it.
+/// Prints a call. A subprogram moves the tool, so the known state is discarded before and after the call.
 pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     let shape = cx.shape;
     let from = subs.open;
@@ -48,7 +52,7 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
         subs.calls.push(Called { from, to: call.sub, place: cx.out.place, unknown, turned_back });
     }
     let Some(base) = shape.program.routine(SequenceId::SubCall) else {
-        return fault(Code::PR008, "the form has no SubCall", "add SubCall to the form");
+        return fault(Code::PR008, "the form has no sequence SubCall", "add the sequence SubCall to the form");
     };
     let called = subs.index(call.sub);
     check_call(call, called, cx.want, cx.said, subs)?;
@@ -93,10 +97,11 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     Ok(())
 }
 
-/// Refuses a call whose subprogram would behave differently here.
+/// Refuses a call at which the subprogram would behave differently from its definition, for example with another feed
+/// mode.
 fn check_call(call: &Call, called: Option<usize>, want: &Want, said: &Said, subs: &Subprograms) -> Done {
     if want.feed_mode() != FeedMode::PerMinute {
-        let help = "call it from an operation with feeds per minute";
+        let help = "call the subprogram from an operation with feeds per minute";
         return fault(
             Code::PR033,
             "the feeds of a subprogram are per minute, but the feeds of its caller are not",
@@ -126,7 +131,7 @@ fn check_call(call: &Call, called: Option<usize>, want: &Want, said: &Said, subs
     Ok(())
 }
 
-/// The number of the called subprogram as printed, and the number of its first block if that is known.
+/// The printed number of the called subprogram and, if known, the number of the subprogram's first block.
 fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Subprograms) -> Done<(f64, Option<f64>)> {
     let inside = subs.open.is_some();
     match called.map(|i| &subs.defined[i]) {
@@ -134,15 +139,15 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
         // inside a subprogram, a later one may be called; the end of the job checks that it exists
         None if inside && !shape.program.settings.renumber_subs => Ok((call.sub, None)),
         None if inside => {
-            let help = "put the called subprogram before this one, or set `RenumSubs? N`";
+            let help = "put the called subprogram before the calling one, or set `RenumSubs? N`";
             fault(Code::PR034, format!("subprogram {} is not known yet", call.sub), help)
         }
         None => undefined(call.sub),
     }
 }
 
-/// Returns the start position of each run after the first, if every run of a call is printed as a separate call. This
-/// position is the end position of the run before.
+/// For a call whose runs are printed as separate calls: returns the start position of each run after the first. Each of
+/// these runs starts at the end position of the previous run.
 fn next_begins(
     place: &Axes,
     routine: &Routine,
@@ -179,8 +184,8 @@ fn taps_back<T>(sub: f64) -> Done<T> {
     fault(Code::PR033, message, "give the direction of the spindle in the subprogram before its tap")
 }
 
-/// Prints what a call needs before it: changes that its sequence does not print, and the move to the position of the call.
-/// Returns that position.
+/// Prints everything that must precede a call: changes that the call's sequence does not print, and the move to the
+/// call's position. Returns the call's position.
 fn go_to_call(call: &Call, routine: &Routine, cx: &mut Cx<'_>) -> Done<Axes> {
     let shape = cx.shape;
     plain_cutting(&mut cx.writer())?;
@@ -233,7 +238,7 @@ fn after_call(called: Option<usize>, want: &mut Want, said: &mut Said, subs: &mu
     }
 }
 
-/// Checks that every called subprogram exists and that none calls itself.
+/// Checks that every called subprogram exists and that no subprogram calls itself.
 pub fn check_calls(subs: &Subprograms) -> Done {
     let ends = subs.ending();
     for call in &subs.calls {

@@ -24,7 +24,8 @@ fn wrapped(text: &str, most: usize) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Prints a comment with the form's CommentLine, if it has one, in as many blocks as the line length of the control requires.
+/// Prints a comment, with the CommentLine sequence if the form has one. A comment that exceeds the control's line
+/// length is divided into several blocks.
 pub fn comment_block(text: &str, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let marks: usize = shape.program.settings.comment.iter().map(String::len).sum();
@@ -32,7 +33,7 @@ pub fn comment_block(text: &str, cx: &mut Cx<'_>) -> Done {
     for (i, line) in wrapped(&plain(text), room).enumerate() {
         if i == 1 {
             let message = "a comment is longer than a line of the control, and continues in the next block";
-            cx.out.note(Code::PR026, message.into(), "shorten it to keep it in one block");
+            cx.out.note(Code::PR026, message.into(), "shorten the comment to keep it in one block");
         }
         match shape.program.routine(SequenceId::CommentLine) {
             Some(routine) => {

@@ -20,13 +20,13 @@ use crate::render::unnumbered::is_closing;
 use crate::render::upon::{run_with_upons, upons};
 use crate::toolpath::Section;
 
-/// Prints the end of the job: EndCode.
+/// Prints the end of the job: the EndCode sequence.
 pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> Done {
     let shape = cx.shape;
     check_sections_closed(sections)?;
     if cx.want.compensated {
         let message = "cutter compensation is still on at the end of the program";
-        cx.out.note(Code::PR023, message.into(), "end it with an `outfeed`");
+        cx.out.note(Code::PR023, message.into(), "end the compensation with an `outfeed`");
     }
     if let Some(order) = &cx.want.tool_order
         && cx.want.tool_changes != order.len()
@@ -53,7 +53,7 @@ pub fn finish(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) -> 
     go_on(routine, percent..routine.ops.end, Mode::All, &mut cx.writer())
 }
 
-/// The line of EndCode that ends the text; the end of EndCode if there is no such line.
+/// The last line of the EndCode sequence, if this line ends the program text; otherwise the end of EndCode.
 fn closing_line(routine: &Routine, shape: &Shape) -> usize {
     let mut lines = routine.steps().rev().filter(|&i| matches!(shape.program.ops[i], Op::Line { .. }));
     lines.next().filter(|&line| is_closing(line, shape)).unwrap_or(routine.ops.end)

@@ -8,11 +8,12 @@ use crate::render::fault::{Done, fault};
 use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
 
-/// Prints the form's MoveHome. Only the form defines the home position, so the tool's position is unknown afterwards.
+/// Prints the form's MoveHome sequence. Only the form defines the home position, so the tool's position is unknown
+/// afterwards.
 pub fn home(cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if cx.want.compensated {
-        let help = "end the compensation with an `outfeed` before";
+        let help = "end the compensation with an `outfeed` first";
         return fault(Code::PR030, "the tool goes home under cutter compensation", help);
     }
     if shape.program.routine(SequenceId::MoveHome).is_none() {

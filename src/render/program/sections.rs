@@ -12,7 +12,7 @@ use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
 use crate::toolpath::{EdmAction, Section};
 
-/// The sequences at the begin and end of each part.
+/// The sequences that print the begin and the end of a part of the path.
 fn sequences(section: Section) -> (SequenceId, SequenceId) {
     use SequenceId as S;
     match section {
@@ -49,7 +49,7 @@ pub fn begin_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Secti
     run_section(begin, cx)
 }
 
-/// Ends the part that began last.
+/// Ends the part of the path that began last.
 pub fn end_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section>) -> Done {
     let shape = cx.shape;
     let (begin, end) = sequences(section);
@@ -64,7 +64,7 @@ pub fn end_section(section: Section, cx: &mut Cx<'_>, sections: &mut Vec<Section
         None => fault(
             Code::PJ011,
             format!("the end of a {} that did not begin", part(section)),
-            "begin it first, or remove the end",
+            "begin the part first, or remove the end",
         ),
     }
 }
@@ -95,21 +95,21 @@ fn check_section(id: SequenceId, shape: &Shape) -> Done {
     if id.row().machines.has(machine) {
         return Ok(());
     }
-    let message = format!("a {} has no such part of a path", machine.name());
+    let message = format!("the path of a {} can't contain this part", machine.name());
     fault(Code::PR008, message, format!("{} is for {}", id.name(), id.row().machines))
 }
 
-/// Checks that all parts are closed at the end of an operation.
+/// Checks that all parts of the path are closed at the end of an operation.
 pub fn check_sections_closed(sections: &[Section]) -> Done {
     match sections.last() {
         None => Ok(()),
         Some(&open) => {
-            fault(Code::PJ011, format!("a {} is still open here", part(open)), "end it before the operation ends")
+            fault(Code::PJ011, format!("a {} is still open here", part(open)), "end the part before the operation ends")
         }
     }
 }
 
-/// Prints an action of a wire EDM machine between moves. The form must have a sequence for it.
+/// Prints an action of a wire EDM machine between moves. The form must have a sequence for this action.
 pub fn edm(action: EdmAction, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let machine = shape.program.settings.machine;

@@ -18,7 +18,7 @@ use crate::render::vars::PLACE;
 use crate::render::want::Want;
 use crate::toolpath::{Start, Units};
 
-/// Prints the job's head: units, checks, Mod text and StartCode.
+/// Prints the beginning of the job: units, checks, the Mod text and the StartCode sequence.
 pub fn start(
     start: &Start,
     shape: &mut Shape,
@@ -69,7 +69,7 @@ pub fn start(
     Ok(())
 }
 
-/// Stores values from the job and the caller. Every prompt needs a value.
+/// Stores values from the job and the caller. Every prompt of the form needs a value.
 pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer) -> Done {
     for (name, value) in &start.set {
         set_named(name, value, shape, want, out)?;
@@ -95,8 +95,8 @@ pub fn answers(start: &Start, shape: &Shape, want: &mut Want, out: &mut Printer)
     Ok(())
 }
 
-/// If subprograms come first, only the leading `%` line of StartCode is printed before them. Returns the first operation of the
-/// rest of StartCode.
+/// If subprograms precede the main program, only the leading `%` line of the StartCode sequence is printed before the
+/// subprograms. Returns the first operation of the rest of StartCode.
 fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
     let ops = &shape.program.ops;
     let mut lines = routine.steps().filter(|&i| matches!(ops[i], Op::Line { .. }));
@@ -106,7 +106,7 @@ fn start_code_rest(routine: &Routine, shape: &Shape) -> usize {
     }
 }
 
-/// Begins the main program: prints Between and the rest of StartCode.
+/// Begins the main program: prints the Between sequence and the rest of the StartCode sequence.
 pub fn begin_main(cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     let shape = cx.shape;
     if !std::mem::take(&mut subs.start_waits) {

@@ -32,12 +32,16 @@ pub fn sub_start(number: f64, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
         );
     }
     let Some(routine) = shape.program.routine(SequenceId::SubStart) else {
-        return fault(Code::PR008, "the form has no SubStart", "add SubStart, SubEnd and SubCall to the form");
+        return fault(
+            Code::PR008,
+            "the form has no sequence SubStart",
+            "add the sequences SubStart, SubEnd and SubCall to the form",
+        );
     };
     let program = cx.want.get(VarId::Program);
     if !settings.renumber_subs && program == Some(number) {
         let message = format!("the subprogram {number} has the number of the program itself");
-        return fault(Code::PJ010, message, "give one of them another number");
+        return fault(Code::PJ010, message, "give the program or the subprogram another number");
     }
     let last = subs.defined.last().map_or(0.0, |sub| sub.printed);
     let next = if program == Some(last + 1.0) { last + 2.0 } else { last + 1.0 };
@@ -56,7 +60,8 @@ pub fn sub_start(number: f64, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     run_with_upons(shape.way(routine, cx.want, cx.said), cx)
 }
 
-/// Saves the known state of the main program and discards it: a subprogram may rely only on its own words.
+/// Saves the known state of the main program. The state is then discarded, because a subprogram may rely only on its
+/// own words.
 fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     let nothing_served = nothing_served(shape);
     subs.main = Some(Box::new(State {
@@ -73,13 +78,14 @@ fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subpro
     want.keep_feed(None, shape);
 }
 
-/// Initial values for the Upon sequences of conditions in a subprogram: every value counts as a change, because the callers may
-/// have set any value.
+/// Initial values for a subprogram's Upon sequences of conditions. Every value counts as a change, because the callers
+/// of the subprogram may have set any value.
 fn nothing_served(shape: &Shape) -> Vec<Option<f64>> {
     shape.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
 }
 
-/// Restores the state of the main program after a subprogram, because the subprogram runs only when it is called.
+/// Restores the state of the main program after the text of a subprogram, because a subprogram runs only when it is
+/// called.
 fn back_to_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subprograms) {
     let turned = said.stand.angles.is_known();
     let position = said.stand.position;
@@ -111,7 +117,7 @@ pub fn sub_end(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) ->
     }
     match shape.routine(SequenceId::SubEnd, cx.want, cx.said) {
         Some(routine) => run_with_upons(routine, cx)?,
-        None => return fault(Code::PR008, "the form has no SubEnd", "add SubEnd to the form"),
+        None => return fault(Code::PR008, "the form has no sequence SubEnd", "add the sequence SubEnd to the form"),
     }
     if !shape.program.settings.subs_first {
         aside(cx.out, subs);
@@ -120,16 +126,17 @@ pub fn sub_end(cx: &mut Cx<'_>, subs: &mut Subprograms, sections: &[Section]) ->
     Ok(())
 }
 
-/// Checks that cutter compensation is off, and selects the XY plane. Both are required at the begin and end of subprograms.
+/// Checks that cutter compensation is off, and selects the XY plane. A subprogram must begin and end with compensation
+/// off and in the XY plane.
 pub fn plain_cutting(writer: &mut Writer<'_>) -> Done {
     if writer.want.compensated {
-        let help = "end the compensation with an `outfeed` before";
+        let help = "end the compensation with an `outfeed` first";
         return fault(Code::PR030, "cutter compensation is on at the beginning or end of a subprogram", help);
     }
     enter_plane(control::Code::g(17), writer)
 }
 
-/// Swaps the program with the stored text.
+/// Swaps the text of the program with the stored text of subprograms.
 pub fn aside(out: &mut Printer, subs: &mut Subprograms) {
     out.turn_to(&mut subs.waiting);
 }

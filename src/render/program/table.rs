@@ -12,7 +12,7 @@ use crate::toolpath::{Axes, Place, key};
 #[derive(Debug, Default)]
 pub struct Subprograms {
     pub defined: Vec<Defined>,
-    /// Index in `defined` for each number.
+    /// For each subprogram number: the index in `defined`.
     pub by_number: HashMap<u64, usize>,
     /// The calls inside subprograms.
     pub calls: Vec<Called>,
@@ -20,19 +20,19 @@ pub struct Subprograms {
     pub open: Option<usize>,
     /// Stored subprograms that are printed after the main program.
     pub waiting: Page,
-    /// The rest of StartCode is not printed yet, because subprograms come first.
+    /// Whether the rest of the StartCode sequence still has to be printed, because subprograms are printed before it.
     pub start_waits: bool,
     /// Saved state of the main program while a subprogram is written.
     pub main: Option<Box<State>>,
 }
 
 impl Subprograms {
-    /// The subprogram of a number, as an index of `defined`.
+    /// The subprogram with this number, as an index of `defined`.
     pub fn index(&self, number: f64) -> Option<usize> {
         self.by_number.get(&key(number)).copied()
     }
 
-    /// Does a subprogram, or one that it calls, tap without setting the spindle direction first?
+    /// Does a subprogram tap without setting the spindle direction first? The subprograms that it calls are included.
     pub fn taps(&self, sub: usize) -> bool {
         let mut seen = vec![false; self.defined.len()];
         let mut open = vec![sub];
@@ -49,8 +49,8 @@ impl Subprograms {
         false
     }
 
-    /// Which subprograms end? A subprogram ends if all its calls do. Each of the others is part of a cycle of calls, or leads
-    /// into one.
+    /// Which subprograms end? A subprogram ends if all subprograms that it calls end. A subprogram that does not end is
+    /// part of a cycle of calls, or calls a subprogram in such a cycle.
     pub fn ending(&self) -> Vec<bool> {
         let mut open = vec![0_usize; self.defined.len()];
         let mut callers = vec![Vec::new(); self.defined.len()];
@@ -91,17 +91,18 @@ pub struct State {
 pub struct Left {
     pub conditions: Conditions,
     pub upon_used: Vec<Option<f64>>,
-    /// A rotary axis turned.
+    /// Whether the subprogram turned a rotary axis.
     pub turned: bool,
     pub spins: Spins,
-    /// Height of the tool at the end.
+    /// Height of the tool at the end of the subprogram.
     pub height: Option<f64>,
-    /// Position of the tool at the end, as far as the subprogram itself defines it.
+    /// Position of the tool at the end of the subprogram, as far as the subprogram itself defines this position.
     pub position: Axes,
 }
 
 impl Left {
-    /// Is the next run of the subprogram independent of the state that this run leaves?
+    /// Does the subprogram set no condition and contain no stop? A second run then begins in the same state as the
+    /// first run.
     pub fn is_nothing(&self) -> bool {
         self.conditions.known().is_empty() && !self.spins.stops
     }
@@ -112,7 +113,7 @@ pub struct Defined {
     pub printed: f64,
     pub first_block: Option<f64>,
     pub left: Left,
-    /// The subprogram calls a later one, whose effects are not known yet.
+    /// Whether the subprogram calls a subprogram that is defined later and whose effects are therefore not known yet.
     pub calls_ahead: bool,
 }
 
@@ -122,8 +123,8 @@ pub struct Called {
     pub from: usize,
     pub to: f64,
     pub place: Place,
-    /// Spindle, coolant and work offset values that are unknown in the caller, so that they can't be restored.
+    /// Values of spindle, coolant and work offset that are unknown in the caller and therefore can't be restored.
     pub unknown: VarSet,
-    /// The caller turns the spindle counterclockwise.
+    /// Whether the caller turns the spindle counterclockwise.
     pub turned_back: bool,
 }

@@ -11,8 +11,8 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 use crate::terminal::steers;
 
-/// Prints a block of text unchanged. The codes in it become the values that the job requests. Letters and positions are unknown
-/// afterwards.
+/// Prints a block of text unchanged. The codes in the text become values that the job requests. After the text, the
+/// values of letters and the positions are unknown.
 pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     if let Some(c) = text.chars().find(|&c| steers(c) && c != '\t') {
@@ -21,7 +21,7 @@ pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
     }
     if text.trim() == "%" {
         let message = "the text is a single `%`, which ends the program on a control";
-        return fault(diag::Code::PR035, message, "remove it: StartCode and EndCode print it");
+        return fault(diag::Code::PR035, message, "remove the `%`: the sequences StartCode and EndCode print it");
     }
     let words = words_of(text.as_bytes()).unwrap_or_default();
     let is_length = |word: &&TextWord| b"XYZUVWIJKRQF".contains(&word.letter) && word.value != 0.0;
@@ -60,7 +60,7 @@ pub fn verbatim(text: &str, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Stores the code of a text as the value that the job requests. Feed modes are not stored.
+/// Stores a code in the job's text as a value that the job requests. Feed modes are not stored.
 fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     let var = match shape.group_of(code) {
         Some(Group::Spindle) => VarId::Direct,
@@ -83,7 +83,7 @@ fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     want.set(var, code.value());
 }
 
-/// Does the code select other units than those of the program?
+/// Does the code select units that differ from the program's units?
 fn changes_units(code: Code, shape: &Shape, want: &Want) -> bool {
     shape.group_of(code) == Some(Group::Units) && want.get(VarId::Unitmode) != Some(code.value())
 }

@@ -1,4 +1,4 @@
-//! Operations: tool changes, and the changes of a new operation with the same tool.
+//! Operations: tool changes, and the changes at a new operation that keeps the tool.
 
 use super::comments::comment_block;
 use super::sections::check_sections_closed;
@@ -46,7 +46,7 @@ pub fn tool_change(
     let number = change.tool.as_ref().map(|tool| tool.number);
     let changes = number.is_some() && number != want.tool;
     if number.is_none() && want.tool.is_none() && shape.program.settings.machine != Machine::Edm {
-        let help = "load a tool before the first motion, or give a CL file one with `--assume-tool`";
+        let help = "load a tool before the first motion; for a CL file, give the tool with `--assume-tool`";
         return fault(Code::PJ006, "the operation has no tool", help);
     }
     want.standing_told = false;
@@ -63,7 +63,7 @@ pub fn tool_change(
     run_here(SequenceId::Operation, &mut Cx { shape, want, said, out })
 }
 
-/// Prints the operation's comment, unless the tool change or Operation prints it.
+/// Prints the operation's comment if neither the tool change sequence nor the Operation sequence prints it.
 fn operation_comment(change: &ToolChange, routine: Option<&Routine>, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let says = |routine: &Routine| routine.texts.has(TextId::Optext);
@@ -82,7 +82,7 @@ pub fn end_operation(cx: &mut Cx<'_>) -> Done {
     run_here(SequenceId::EndOperation, cx)
 }
 
-/// Prints a sequence at the current position, if the form has it.
+/// If the form has this sequence, prints it at the current position of the tool.
 fn run_here(id: SequenceId, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let Some(routine) = shape.program.routine(id) else { return Ok(()) };
@@ -95,12 +95,12 @@ fn run_here(id: SequenceId, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// The sequence of the next tool change.
+/// The sequence that prints the next tool change.
 fn change_of(want: &Want) -> SequenceId {
     if want.tool.is_none() { SequenceId::FirstToolChange } else { SequenceId::ToolChange }
 }
 
-/// Checks that the tool in the spindle keeps its offset registers, because no sequence would print new ones.
+/// Checks that the tool in the spindle keeps its offset registers, because no sequence would print new registers.
 fn same_registers(tool: &Tool, want: &Want) -> Done {
     let registers = [(VarId::Lcomp, tool.length_offset, "length"), (VarId::Dcomp, tool.diameter_offset, "diameter")];
     for (var, register, name) in registers {
@@ -169,7 +169,7 @@ fn change_tool(
 ) -> Done {
     let (program, first) = (shape.program, &change.first);
     if want.compensated {
-        let help = "end the compensation with an `outfeed` before";
+        let help = "end the compensation with an `outfeed` first";
         return fault(Code::PR030, "the tool changes under cutter compensation", help);
     }
     let id = change_of(want);
@@ -212,7 +212,9 @@ fn change_tool(
                         "the operation begins with a cut: the tool change would make a rapid to the end of this cut";
                     fault_at(Code::PR012, message, help, at)
                 }
-                _ => fault_at(Code::PR012, "the operation has no move for the tool change to print", help, at),
+                _ => {
+                    fault_at(Code::PR012, "the tool change prints a position, but the operation has no move", help, at)
+                }
             };
         }
         None => {}

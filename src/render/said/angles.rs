@@ -1,4 +1,4 @@
-//! Known angles of the rotary axes. At the start all of them are 0.
+//! Known angles of the rotary axes. At the start, all angles are 0.
 
 use crate::lang::VarId;
 use crate::render::shape::ROTARY;
@@ -25,7 +25,7 @@ impl Default for Angles {
 }
 
 impl Angles {
-    /// Discards the known angles. Removed turns are kept.
+    /// Discards the known angles. The turns that Unwind removed are kept.
     pub fn forget(&mut self) {
         (self.stands, self.now, self.last) = ([None; 3], [None; 3], [None; 3]);
     }
@@ -42,17 +42,17 @@ impl Angles {
         self.now.iter().any(Option::is_some)
     }
 
-    /// Have turns been removed?
+    /// Has Unwind removed turns from any axis?
     pub fn is_wound(&self) -> bool {
         self.wound != [0.0; 3]
     }
 
-    /// Have the same turns been removed as in the other state?
+    /// Are the turns that Unwind removed equal in both states?
     pub fn wound_as(&self, other: &Angles) -> bool {
         self.wound == other.wound
     }
 
-    /// The turns that were removed from an axis, in degrees.
+    /// The turns that Unwind removed from an axis, in degrees.
     pub fn wound(&self, axis: usize) -> f64 {
         self.wound[axis - ROTARY.start]
     }

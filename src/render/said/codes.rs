@@ -56,7 +56,7 @@ impl Said {
         self.condition_code(group, code.value(), line, want, shape);
     }
 
-    /// Handles a code that stops, starts or calls.
+    /// Handles a code that switches spindle or coolant, stops the program, changes the tool, or calls a subprogram.
     fn switching_code(&mut self, code: Code, row: Option<&Row>, line: Line, want: &Want, shape: &Shape) {
         let meaning = row.map(|row| row.meaning);
         self.spindle_code(meaning, line, want, shape);
@@ -72,8 +72,8 @@ impl Said {
         }
     }
 
-    /// Handles a code that stops the spindle at an angle, or starts it with coolant. The effect is that of `[direct]` and
-    /// `[cool]`.
+    /// Handles a code that stops the spindle at an angle, or starts it with coolant. Such a code has the effect of the
+    /// variables `[direct]` and `[cool]`.
     fn spindle_code(&mut self, meaning: Option<Meaning>, line: Line, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let (direct, cool) = match meaning {
@@ -89,7 +89,7 @@ impl Said {
         self.switched = true;
     }
 
-    /// Handles a code of the form's kinds of coolant, regardless of its meaning on the control.
+    /// Handles a code that the form defines for a kind of coolant, whatever this code means on the control.
     fn coolant_code(&mut self, code: f64, line: Line, want: &Want, shape: &Shape) {
         let kinds = &shape.program.settings.coolant_kinds;
         let begins = kinds.iter().any(|kind| kind.on == code);
@@ -143,7 +143,7 @@ impl Said {
         }
     }
 
-    /// If the axis words of this code's block are data, they are not positions of the job.
+    /// If the axis words in the block of this code are data, records that these words are not positions of the job.
     fn axis_words_are_data(&mut self, meaning: Option<Meaning>) {
         if meaning.is_some_and(|meaning| meaning.axes() == AxisWords::Data) {
             self.shift = self.shift.max_of(Shift::Block);
@@ -151,8 +151,9 @@ impl Said {
     }
 }
 
-/// Do known positions stay valid after a G code without a modal group? They do if the form's control defines the code, if the
-/// form's commands name it, and in a cycle, because its end discards them anyway.
+/// Do known positions stay valid after a G code without a modal group? The positions stay valid if the form's control
+/// defines the code, or if the form's commands name the code. In a cycle they also stay valid, because the end of the
+/// cycle discards the positions anyway.
 fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());

@@ -14,12 +14,12 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// Each condition with its printed value.
+    /// Each condition with its last printed value.
     pub fn each(&self) -> impl Iterator<Item = (VarId, Option<f64>)> {
         CONDITIONS.into_iter().zip(self.values)
     }
 
-    /// The value that was printed.
+    /// The last printed value of a condition.
     pub fn get(&self, var: VarId) -> Option<f64> {
         index(var).and_then(|at| self.values[at])
     }
@@ -33,12 +33,12 @@ impl Conditions {
         at.is_some()
     }
 
-    /// Is this the value that was printed?
+    /// Is this value the last printed value of the condition?
     pub fn holds(&self, var: VarId, value: f64) -> bool {
         self.get(var) == Some(value)
     }
 
-    /// The conditions that were printed.
+    /// The conditions whose printed values are known.
     pub fn known(&self) -> VarSet {
         let mut known = VarSet::default();
         for (var, _) in self.each().filter(|(_, value)| value.is_some()) {
@@ -47,7 +47,7 @@ impl Conditions {
         known
     }
 
-    /// The conditions after a subprogram that printed `later`.
+    /// The conditions after a call of a subprogram that printed the conditions `later`.
     pub fn then(&self, later: &Conditions) -> Conditions {
         let mut values = self.values;
         for (value, later) in values.iter_mut().zip(later.values) {

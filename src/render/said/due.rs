@@ -1,4 +1,5 @@
-//! Conditions that must be active at the next move: the job's values, or the form's own where the job has none.
+//! Conditions that must be active at the next move: the job's values, or the form's own values for conditions that the
+//! job does not set.
 
 use super::conditions::Conditions;
 use super::line::Line;
@@ -9,7 +10,7 @@ use crate::render::want::Want;
 use crate::span::Span;
 
 impl Said {
-    /// The value that must be active at the next move: the job's, or the form's own if the job has none.
+    /// The value that must be active at the next move: the job's value, or the form's own value if the job has none.
     pub fn due(&self, var: VarId, want: &Want) -> Option<f64> {
         let own = match var {
             VarId::Cool => self.own.cool.filter(|_| !want.coolant_is_said),
@@ -26,7 +27,8 @@ impl Said {
         self.typed(VarId::Cool, code, line, want, shape);
     }
 
-    /// Records that a line set a condition, if its value differs from the job's. An "off" value never counts as a difference.
+    /// Records that a line of the form set a condition, if the value differs from the job's value. An "off" value never
+    /// counts as a difference.
     pub(super) fn typed(&mut self, var: VarId, value: f64, line: Line, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let off = match var {
@@ -40,13 +42,13 @@ impl Said {
         self.own.line = at.or(self.own.line);
     }
 
-    /// A word printed the job's speed, which replaces the form's own.
+    /// Records that a word printed the job's speed, which replaces the form's own speed.
     pub(super) fn speed_is_the_jobs(&mut self) {
         self.own.speed = None;
     }
 
-    /// Keeps the speed that the tool change printed until the job gives another one. Only on mills: on a lathe a typed S may be a
-    /// limit.
+    /// Keeps the speed that the tool change printed until the job gives another speed. The speed is kept only on mills,
+    /// because on a lathe a typed S may be a speed limit.
     pub fn keep_speed_of_change(&mut self, want: &Want, shape: &Shape) {
         let printed = self.conditions.get(VarId::Speed).filter(|own| *own > 0.0);
         let mill = shape.program.settings.machine == Machine::Mill;
@@ -57,14 +59,15 @@ impl Said {
         }
     }
 
-    /// Takes the value that a line set differently from the job, with its location.
+    /// Takes the value of a condition that a line set to another value than the job, with the location of the line.
     pub fn take_typed(&mut self, var: VarId) -> Option<(f64, Option<Span>)> {
         let typed = self.own.typed.get(var)?;
         self.own.typed.put(var, None);
         Some((typed, self.own.line))
     }
 
-    /// Called after all conditions were checked: if the job sets the coolant itself, the form's own value is dropped.
+    /// Called after all conditions were checked. If the job sets the coolant itself, the form's own coolant value is
+    /// dropped.
     pub fn conditions_are_settled(&mut self, want: &Want) {
         self.own.typed = Conditions::default();
         if want.coolant_is_said {

@@ -1,4 +1,4 @@
-//! Printed conditions, and conditions that the control lacks.
+//! Records of printed conditions, and the conditions that the control still lacks.
 
 use super::line::Line;
 use super::state::Said;
@@ -39,7 +39,7 @@ impl Said {
         }
     }
 
-    /// Records a printed word; it is the speed if it has the speed's letter.
+    /// Records a printed word. A word with the speed's letter counts as the speed.
     #[inline]
     pub fn speed_word(&mut self, letter: u8, value: f64, line: Line, want: &Want, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
@@ -49,8 +49,8 @@ impl Said {
         }
     }
 
-    /// Records a word that was a parameter of a code. If its letter is that of the speed, the speed is unknown and is
-    /// printed again before the next move.
+    /// Records a word that was a parameter of a code. If the word has the speed's letter, the speed becomes unknown and
+    /// is printed again before the next move.
     pub fn parameter_of_code(&mut self, letter: u8, shape: &Shape) {
         if letter == shape.program.settings.speed_code {
             self.conditions.put(VarId::Speed, None);
@@ -90,8 +90,8 @@ impl Said {
         }
     }
 
-    /// Records a program stop or optional stop, from whatever source. Many controls stop spindle and coolant with it, so both are
-    /// printed again before the next cut or rapid.
+    /// Records a program stop or optional stop, from any source. At a stop, many controls turn off spindle and coolant;
+    /// both are therefore printed again before the next cut or rapid.
     pub fn stopped(&mut self, want: &Want, shape: &Shape) {
         let settings = &shape.program.settings;
         let off = [settings.spindle[2], settings.coolant[1]];

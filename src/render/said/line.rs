@@ -17,7 +17,7 @@ pub enum Shift {
 }
 
 impl Shift {
-    /// The wider of two shifts.
+    /// Of two shifts, the shift that covers more axis words.
     pub fn max_of(self, other: Shift) -> Shift {
         if self == Shift::Body { self } else { other }
     }
@@ -39,7 +39,8 @@ impl Line {
         Line { begin: Some(op + 1) }
     }
 
-    /// Does the line have a word for which `asked` is true? Its arguments are the letter, and the variable if there is one.
+    /// Does the line have a word for which `asked` is true? The arguments of `asked` are the word's letter and, if the
+    /// word has one, its variable.
     pub fn prints(self, shape: &Shape, asked: impl Fn(u8, Option<VarId>) -> bool) -> bool {
         let Some(begin) = self.begin else { return false };
         let ops = &shape.program.ops[begin..];

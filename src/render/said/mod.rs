@@ -1,5 +1,5 @@
-//! The state of the control, as known from the printed program: letters, modal groups, conditions, the frame of axis words, and
-//! the tool's position. Anything that may have changed the machine in another way makes it unknown.
+//! The state of the control, as known from the printed program: letters, modal groups, conditions, the frame of axis
+//! words, and the tool's position. Anything else that may have changed the machine makes the state unknown.
 
 mod angles;
 mod codes;

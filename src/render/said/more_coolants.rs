@@ -1,4 +1,4 @@
-//! Further kinds of coolant that are on besides the first.
+//! Additional kinds of coolant that are on, besides the first kind.
 
 use super::state::Said;
 use crate::lang::Coolant;
@@ -6,12 +6,12 @@ use crate::render::coolant::codes;
 use crate::render::shape::Shape;
 use crate::render::want::Want;
 
-/// Further kinds of coolant, as printed by the program.
+/// Additional kinds of coolant, as known from the printed program.
 #[derive(Clone, Copy, Debug)]
 pub struct Beside {
-    /// Kinds that may be on: they were turned on, and it is not certain that they were turned off.
+    /// Kinds of coolant that may be on: they were turned on and possibly not turned off later.
     may: Coolant,
-    /// Kinds that are certainly on: nothing may have turned them off since.
+    /// Kinds of coolant that are certainly on: they were turned on and certainly not turned off later.
     sure: Coolant,
 }
 
@@ -19,40 +19,41 @@ impl Beside {
     /// None.
     pub const OFF: Beside = Beside { may: Coolant::OFF, sure: Coolant::OFF };
 
-    /// Records that a kind is on.
+    /// Records that a kind of coolant is on.
     pub fn begin(&mut self, kind: Coolant) {
         *self = Beside { may: self.may.and(kind), sure: self.sure.and(kind) };
     }
 
-    /// Records that a kind is off, or is the first kind now.
+    /// Records that a kind of coolant is off, or has become the first kind.
     pub fn end(&mut self, kind: Coolant) {
         *self = Beside { may: self.may.without(kind), sure: self.sure.without(kind) };
     }
 
-    /// Records a stop or subprogram, after which all kinds may be off.
+    /// Records a stop or subprogram, after which all kinds of coolant may be off.
     pub fn doubt(&mut self) {
         self.sure = Coolant::OFF;
     }
 
-    /// Is a kind on for certain?
+    /// Is a kind of coolant certainly on?
     pub fn holds(self, kind: Coolant) -> bool {
         self.sure.holds(kind)
     }
 
-    /// A kind that may be on and is not in `keeps`.
+    /// A kind of coolant that may be on and is not in `keeps`.
     pub fn other_than(self, keeps: Coolant) -> Option<Coolant> {
         self.may.without(keeps).each().next()
     }
 }
 
 impl Said {
-    /// Do the further kinds that the job requests differ from those that are on?
+    /// Do the additional kinds of coolant that the job requests differ from the additional kinds that are on?
     pub(super) fn lacks_beside(&self, want: &Want) -> bool {
         let others = want.coolant.without(want.coolant.first());
         self.beside.other_than(others).is_some() || others.without(self.beside.sure) != Coolant::OFF
     }
 
-    /// Records a code that switches a further kind. Returns `false` if the code is not only for further kinds.
+    /// Records a code that switches an additional kind of coolant. Returns `false` if the code is not for additional
+    /// kinds only.
     pub(super) fn beside_code(&mut self, code: f64, want: &Want, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
         if self.beside.may == Coolant::OFF && want.coolant == want.coolant.first() {

@@ -8,28 +8,29 @@ use crate::toolpath::Axes;
 /// The position of the tool.
 #[derive(Clone, Debug, Default)]
 pub struct Stand {
-    /// Position in program units, as meant by the job. Axes that are not given are unknown.
+    /// Position in program units, as the job means it. The position of an axis that is not given is unknown.
     pub position: Axes,
     /// Angles of the rotary axes.
     pub angles: Angles,
-    /// Axes that the current sequence moved to a position of the job and that nothing has moved since; cleared before each
+    /// Axes that the current sequence moved to a position of the job and did not move later. Cleared before each
     /// sequence.
     pub placed: u8,
     /// Axes that moved since the last target was set, so that their increments are unknown.
     pub(super) astray: u8,
-    /// Height at the end of the subprogram that was called last, while no other height is known.
+    /// Height of the tool at the end of the last called subprogram, as long as no other height is known.
     pub left_at: Option<f64>,
-    /// Height at which the control left a cycle, and the height of the job if it differs. The next cut begins at the job's height.
+    /// If the control left a cycle at a height that differs from the job's height: the position after the cycle, and
+    /// the job's height. The next cut begins at the job's height.
     pub left_hole: Option<(Axes, f64)>,
-    /// The sequence that moved the tool to typed positions. A rapid brings the tool back.
+    /// The sequence that moved the tool to typed positions. A rapid returns the tool to the job's positions.
     pub moved_by: Option<Span>,
-    /// The axes along which the previous tool had a known position. They are kept from a tool change to the first cut by a line or
-    /// an arc, because this cut needs a known start along these axes too.
+    /// The axes along which the previous tool had a known position. The axes are kept from a tool change to the first
+    /// cut by a line or an arc, because this cut also needs a known start along these axes.
     pub fresh_tool: Option<u8>,
 }
 
 impl Stand {
-    /// The target of an item in program units; axes that the item does not give keep their position.
+    /// The target of a job item in program units. An axis without a value in the item keeps its position.
     #[inline]
     pub fn target(&self, to: &Axes, shape: &Shape) -> Axes {
         let mut target = self.position;
@@ -43,7 +44,7 @@ impl Stand {
         target
     }
 
-    /// Moves the known position to the target. Axes that the target does not give keep theirs.
+    /// Moves the known position to the target. An axis without a value in the target keeps its position.
     #[inline]
     pub fn move_to(&mut self, target: &Axes) {
         for axis in 0..6 {
@@ -54,7 +55,7 @@ impl Stand {
         self.position.given |= target.given;
     }
 
-    /// Records that a target was set along these axes: increments are relative to it.
+    /// Records that a target was set along these axes: later increments are relative to this target.
     #[inline]
     pub fn aims(&mut self, axes: u8) {
         self.astray &= !axes;
@@ -65,7 +66,7 @@ impl Stand {
         self.astray & 1 << axis != 0
     }
 
-    /// Discards the position of the linear axes. The angles stay known.
+    /// Discards the position of the linear axes. The angles of the rotary axes stay known.
     pub fn forget_position(&mut self) {
         self.position = Axes::default();
         self.left_at = None;

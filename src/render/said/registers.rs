@@ -6,7 +6,8 @@ use crate::control::{Code, GROUPS, Group};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 struct Register {
     units: i64,
-    /// Decimals of `units` plus one; 0: unknown. Two formats of one letter (`Rename`) therefore never compare equal by accident.
+    /// Number of decimals of `units`, plus one; 0: the value is unknown. Values in two formats of one letter (`Rename`)
+    /// are therefore never equal by accident.
     scale: u8,
 }
 
@@ -30,7 +31,7 @@ impl Registers {
         *self = Registers::default();
     }
 
-    /// Forgets all letters; keeps codes.
+    /// Forgets the values of all letters, but keeps the known codes.
     pub fn forget_letters(&mut self) {
         self.letters = [Register::default(); 128];
     }
@@ -65,7 +66,7 @@ impl Registers {
         self.groups[group as usize]
     }
 
-    /// Is this code the last one of its group?
+    /// Is this code the last printed code of its group?
     #[inline]
     pub fn holds_code(&self, code: Code) -> bool {
         self.groups.contains(&Some(code))

@@ -38,11 +38,11 @@ pub struct Said {
     pub(super) registers: Registers,
     /// Work offset, spindle, coolant, feed mode.
     pub conditions: Conditions,
-    /// Values that the form set by its own words.
+    /// Values that words of the form set in place of the job's values.
     pub own: Own,
-    /// Code that turned off a kind of coolant, until another code turns one on.
+    /// Code that turned off a kind of coolant; forgotten when another code turns a kind of coolant on.
     pub coolant_ended: Option<f64>,
-    /// Further kinds of coolant that are on besides the first.
+    /// Additional kinds of coolant that are on, besides the first kind.
     pub beside: Beside,
     /// Position of the tool.
     pub stand: Stand,
@@ -50,37 +50,38 @@ pub struct Said {
     pub kept: Kept,
     /// Tool names that were printed as words.
     pub names: Names,
-    /// Value of each Upon's variable when it was last used.
+    /// For each Upon sequence: the value of its variable when the sequence was last used.
     pub upon_used: Vec<Option<f64>>,
-    /// Current plane of the control, as last printed. A tool change does not reset it. `None`: unknown.
+    /// Current plane of the control, as last printed. A tool change does not reset the plane. `None`: unknown.
     pub(super) plane: Option<Code>,
-    /// Current distance mode of the control, as last printed. A tool change does not reset it.
+    /// Current distance mode of the control, as last printed. A tool change does not reset the distance mode.
     pub(super) distance: Option<Code>,
-    /// Current motion of the control. It is kept when the next move must print its code again.
+    /// Current motion of the control. The motion is kept even if the next move must print the motion code again.
     pub(super) motion: Option<Code>,
     /// Kind of the last printed move.
     pub last_move: LastMove,
     /// Frame of the axis words in the current sequence.
     pub(super) shift: Shift,
-    /// The open block changed the frame of the depth axis.
+    /// Whether the open block changed the frame of the depth axis.
     pub(super) depth_moved: bool,
-    /// The open block runs external code, as a macro.
+    /// Whether the open block runs external code, such as a macro.
     pub(super) calls: bool,
-    /// A code or value was printed that switches something, and its check against the job's request is still due.
+    /// Whether a printed code or value switched something that was not compared with the job's request yet.
     pub(super) switched: bool,
-    /// The state of the control may differ from the job's request: the next move must check it.
+    /// Whether the control's state may differ from the job's request, so that the next move must check the state.
     pub differs: bool,
     /// Effects of the open subprogram on the spindle. `None`: in the main program.
     pub sub: Option<Spins>,
 }
 
-/// Effects of a subprogram on a spindle that only its caller sets.
+/// Effects of a subprogram on the spindle, if only the caller of the subprogram sets the spindle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spins {
-    /// The subprogram stops, or calls one that does: spindle and coolant may be off afterwards.
+    /// Whether the subprogram, or a subprogram that it calls, contains a stop. After a stop, spindle and coolant may be
+    /// off.
     pub stops: bool,
-    /// The subprogram taps right-hand threads itself. A floating holder needs the spindle clockwise for them; a rigid tap leaves
-    /// it clockwise or stopped.
+    /// Whether the subprogram itself taps right-hand threads. For right-hand threads, a floating holder needs a
+    /// clockwise spindle. A rigid tap leaves the spindle clockwise or stopped.
     pub taps: bool,
 }
 
@@ -129,7 +130,8 @@ impl Said {
         self.registers.get(info.printed)
     }
 
-    /// Does the control already have this value of a letter? For a code: is it active in its modal group?
+    /// Does the control already have this value of a letter? If letter and value are a code: is the code active in its
+    /// modal group?
     pub fn holds_value(&self, info: &Letter, units: i64, value: f64) -> bool {
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
@@ -151,12 +153,12 @@ impl Said {
         self.registers.group(Group::Motion) == Some(code.code)
     }
 
-    /// Is the control in this motion, even if the next move must print the code again?
+    /// Is this motion code active on the control? True even if the next move must print the code again.
     pub fn is_in_motion(&self, code: &sema::Code) -> bool {
         self.motion == Some(code.code)
     }
 
-    /// Is the control in this plane?
+    /// Is this plane active on the control?
     pub fn is_in_plane(&self, plane: Code) -> bool {
         self.plane == Some(plane)
     }
@@ -173,8 +175,8 @@ impl Said {
         self.is_in_distance(wrong) && settings.machine != Machine::Lathe
     }
 
-    /// The active code that makes the control read generated positions or feeds in other units, or as diameters; `None` if there
-    /// is none.
+    /// The active code that makes the control misread generated positions or feeds: in other units, or as diameters.
+    /// `None`: no such code is active.
     pub fn misread_by(&self, shape: &Shape, want: &Want) -> Option<Code> {
         let settings = &shape.program.settings;
         let inch = want.get(VarId::Unitmode) == Some(settings.inch_mm[0]);
@@ -193,7 +195,8 @@ impl Said {
         self.distance_is_wrong(shape) || self.misread_by(shape, want).is_some()
     }
 
-    /// The active code that makes the control misread the centre words of generated arcs; `None` if there is none.
+    /// The active code that makes the control misread the centre words of generated arcs. `None`: no such code is
+    /// active.
     pub fn centres_misread_by(&self, shape: &Shape) -> Option<Code> {
         let wrong = if shape.program.settings.centre_incremental {
             Meaning::CentresAbsolute
@@ -203,7 +206,7 @@ impl Said {
         self.registers.group(Group::ArcDistance).filter(|&code| shape.meaning_of(code) == Some(wrong))
     }
 
-    /// Does a target differ on one of these axes from the printed value?
+    /// Along any of these axes, does the target differ from the last printed value?
     pub fn differs_from(&self, target: &Axes, axes: u8, shape: &Shape) -> bool {
         (0..6).any(|axis| {
             let bit = 1 << axis;
@@ -231,24 +234,24 @@ impl Said {
         self.registers.forget(info.printed);
     }
 
-    /// Forgets the letters of `Force`, so that they print again.
+    /// Forgets the values of the letters in `Force`, so that words with these letters are printed again.
     pub fn force(&mut self, shape: &Shape) {
         for &letter in &shape.program.settings.force {
             self.forget(&shape.letters[letter]);
         }
     }
 
-    /// Forgets the letter of the depth axis, so that its next position prints again.
+    /// Forgets the last value of the depth axis, so that the next depth position is printed even if it is equal.
     pub fn forget_depth(&mut self, shape: &Shape) {
         self.forget(&shape.letters[shape.axes[shape.depth]]);
     }
 
-    /// Forgets all letters; keeps codes.
+    /// Forgets the values of all letters, but keeps the known codes.
     pub fn forget_letters(&mut self) {
         self.registers.forget_letters();
     }
 
-    /// Forgets all letters and modal groups.
+    /// Forgets the values of all letters, and the codes of all modal groups.
     pub fn forget_words(&mut self) {
         self.registers.forget_all();
     }
@@ -264,8 +267,8 @@ impl Said {
         self.motion = None;
     }
 
-    /// Records that the tool moved on these axes by other words. The job's positions stay valid, but increments have no known
-    /// start any more.
+    /// Records that words other than the job's positions moved the tool along these axes. The job's positions stay
+    /// valid, but the start of increments is now unknown.
     pub fn displaced(&mut self, axes: u8, shape: &Shape) {
         self.stand.placed &= !axes;
         if shape.program.settings.incremental {
@@ -289,7 +292,8 @@ impl Said {
         self.last_move = LastMove::None;
     }
 
-    /// Forgets letters, modal groups, and the positions of tool and part, as at the begin or end of a subprogram.
+    /// Forgets the values of letters, the codes of modal groups, and the positions of tool and part, as at the begin or
+    /// end of a subprogram.
     pub fn forget_where(&mut self) {
         self.forget_words();
         self.stand.angles.forget();
@@ -326,7 +330,7 @@ impl Said {
         }
     }
 
-    /// Sets whether the frame of the depth axis changed in the open block without a new position after it.
+    /// Sets whether the open block changed the frame of the depth axis and printed no depth position after the change.
     pub fn set_depth_moved(&mut self, moved: bool) {
         self.depth_moved = moved;
     }

@@ -1,4 +1,5 @@
-//! Text that is printed unchanged, from backquotes of a form or from a job. Its words affect the known state like typed words.
+//! Text that is printed unchanged, from backquotes of a form or from a job. Words in such a text affect the known state
+//! like the typed words of a form.
 
 use super::line::Line;
 use super::state::Said;
@@ -19,9 +20,9 @@ pub struct TextWord {
     pub value: f64,
 }
 
-/// The words of a text outside comments, as the scanner of programs reads them. `None`: the text contains more than words, as an
-/// expression, a name or a call by name, so that its effect is unknown. An assignment to a program variable, as `#500=1`, has no
-/// words and does not change the known state.
+/// The words of a text outside comments, as the scanner of programs reads them. `None`: the text contains something
+/// other than words, such as an expression, a name or a call by name. The effect of the text is then unknown. An
+/// assignment to a program variable, such as `#500=1`, has no words and does not change the known state.
 pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
     let mut words = Vec::new();
     let tokens = tokens(text).filter(|token| {
@@ -42,10 +43,12 @@ pub fn words_of(text: &[u8]) -> Option<Vec<TextWord>> {
     Some(words)
 }
 
-/// Addresses that other languages write with `=` and that describe the arc of their block, as Siemens' `I=AC(10)`, `CR=5`.
+/// Addresses that describe the arc of a block and that other languages write with `=`, such as `I=AC(10)` and `CR=5` of
+/// Siemens.
 const OF_ARCS: [&str; 9] = ["I", "J", "K", "CR", "AR", "TURN", "I1", "J1", "K1"];
 
-/// True if the text next to axis words has only these addresses or parts of them. Such addresses change only the move.
+/// True if the text next to axis words contains only addresses of arcs, or parts of these addresses. Addresses of arcs
+/// change only the move.
 fn is_argument(text: &[u8]) -> bool {
     let mut parts = text.split(u8::is_ascii_whitespace).filter(|part| !part.is_empty());
     parts.all(is_of_arc)
@@ -63,7 +66,8 @@ fn is_of_arc(part: &[u8]) -> bool {
     }
 }
 
-/// Is a text that begins with `#` an assignment to a variable of the program, not to one of the control?
+/// Is a text that begins with `#` an assignment to a variable of the program? Assignments to variables of the control
+/// do not count.
 fn sets_variable(text: &[u8]) -> bool {
     let mut tokens = tokens(text).filter(|token| token.kind != Kind::Blank).skip(1);
     let own = match tokens.next().map(|token| token.kind) {
@@ -75,9 +79,9 @@ fn sets_variable(text: &[u8]) -> bool {
 }
 
 impl Said {
-    /// Records a printed text. The effect of plain words is known; the effect of any other text is not. In a form without a
-    /// control, any other text invalidates only positions and modal words, because its language is unknown too. In a cycle the
-    /// text belongs to the cycle, whose end invalidates positions.
+    /// Records a printed text. The effect of plain words is known; the effect of any other text is unknown. In a form
+    /// without a control, any other text invalidates only positions and modal words, because the language of the text
+    /// is unknown too. A text inside a cycle belongs to the cycle; the end of the cycle invalidates positions.
     #[cold]
     pub fn text(&mut self, text: &[u8], line: Line, want: &Want, shape: &Shape) {
         let program = shape.program;
@@ -128,7 +132,7 @@ impl Said {
         self.speed_word(letter, value, line, want, shape);
     }
 
-    /// Records a word after the slash of block delete. The control may skip it, so that its effect is unknown.
+    /// Records a word after the slash of block delete. The control may skip such a word, so its effect is unknown.
     fn skipped_word(&mut self, word: TextWord, line: Line, want: &Want, shape: &Shape) {
         let TextWord { letter, value } = word;
         self.speed_word(letter, value, line, want, shape);
@@ -142,8 +146,8 @@ impl Said {
         self.registers.forget(letter);
     }
 
-    /// Records a run of external code, as a macro: everything that it may have changed is unknown. In a cycle the external code
-    /// makes the holes.
+    /// Records a run of external code, such as a macro: everything that the external code may have changed becomes
+    /// unknown. In a cycle the external code makes the holes.
     pub(super) fn called(&mut self, want: &Want, shape: &Shape) {
         self.forget_motions(shape);
         if want.cycle.is_some() {

@@ -4,11 +4,11 @@ use super::piece::{NORMAL, PERIOD, Piece, TANGENTIAL, Vector};
 use crate::times::corner::PathMode;
 use crate::times::rates::{AxisRates, Rates, size};
 
-/// A kink between two moves may use this share of the acceleration. Below it, the moves count as tangent.
+/// A kink between two moves may use this share of the acceleration. Below this share, the moves count as tangent.
 const KINK: f64 = 0.1;
-/// If two directions are within two degrees of opposite, in radians, the tool reverses.
+/// Angle in radians: the tool reverses if two directions are within two degrees of opposite.
 const BACK: f64 = 2.0 * std::f64::consts::PI / 180.0;
-/// If the rest of a move takes fewer servo periods than this, it becomes part of the blend.
+/// If the rest of a move takes fewer servo periods than this, the rest becomes part of the blend.
 const LEAST_PERIODS: f64 = 4.0;
 
 /// The transition between two moves.

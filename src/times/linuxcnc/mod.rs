@@ -20,7 +20,7 @@ const MOST_JOINED: usize = 100;
 #[derive(Clone, Debug)]
 pub(super) struct Linuxcnc {
     mode: PathMode,
-    /// The last move. Its end depends on the next move.
+    /// The last move. The end of the last move depends on the next move.
     last: Option<Piece>,
     /// The square of the greatest speed at the beginning of the last move.
     most_entry: f64,
@@ -89,7 +89,8 @@ impl Linuxcnc {
         }
     }
 
-    /// Whether this cut can be joined to the waiting cuts. All points between them must be near the line to the end of this cut.
+    /// Whether this cut can be joined to the waiting cuts. All points of the waiting cuts must be near the line to the
+    /// end of this cut.
     fn joins(&self, way: &Way, tolerance: f64) -> bool {
         let chain = &self.chain.1;
         let add = |at: [f64; 3], way: &Way| std::array::from_fn(|axis| at[axis] + way[axis]);

@@ -42,7 +42,8 @@ pub(super) struct Piece {
     /// The row of the move in the times of blocks.
     pub row: usize,
     pub end: End,
-    /// Whether no move follows. The acceleration for the end of the move then does not reduce the speed on an arc.
+    /// Whether no move follows. Without a next move, the acceleration for the end of the move does not reduce the speed
+    /// on an arc.
     pub is_last: bool,
     /// Whether the move begins in an overlap with the move before it.
     pub begins_in_overlap: bool,
@@ -165,7 +166,7 @@ impl Piece {
         self.wanted.min(self.fastest())
     }
 
-    /// The greatest speed of the move. On an arc it depends on the share of the acceleration across the path.
+    /// The greatest speed of the move. On an arc this speed depends on the share of the acceleration across the path.
     fn fastest(&self) -> f64 {
         let most = self.most.min(self.length / PERIOD);
         match self.round {
@@ -192,7 +193,7 @@ impl Piece {
         }
     }
 
-    /// Converts the move to a leg. `most_entry` is the square of the greatest speed at its beginning.
+    /// Converts the move to a leg. `most_entry` is the square of the greatest speed at the beginning of the move.
     pub fn leg(&self, most_entry: f64) -> Leg {
         let speed = self.speed();
         Leg {

@@ -1,4 +1,4 @@
-//! Converts the objects of a job to events. Makes the checks that need more than one key.
+//! Converts the objects of a job to events. Checks the rules that concern more than one key.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,16 +15,16 @@ type Done = Result<(), Stop>;
 /// The largest number of tools that a message lists.
 const MOST_NAMED: usize = 20;
 
-/// Receives the parts of a job in their order and pushes the events for them.
+/// Receives the parts of a job in the order of the job and pushes the events of each part.
 pub struct Builder<'s> {
     hold: Hold<'s>,
-    /// The location of the next event. Readers set its line and column.
+    /// The location of the next event. Readers set the line and column of this location.
     pub place: Place,
     /// The tools in the order of the job.
     tools: Vec<Tool>,
     /// For each tool number, the index of the first tool with this number.
     by_number: HashMap<u64, usize>,
-    /// Tool numbers, each with its turret position. Each pair may occur only once.
+    /// Tool numbers, each with its turret position. Each pair of number and turret position may occur only once.
     listed: HashSet<(u64, Option<u64>)>,
     tool_needed: bool,
     tool: Option<f64>,
@@ -63,7 +63,7 @@ impl<'s> Builder<'s> {
             let tool = tool_of(tool)?;
             if !self.listed.insert((key(tool.number), tool.turret.map(key))) {
                 let message = format!("two tools have the number {}", tool.number);
-                return fault(Code::PJ010, message, "give each tool a number of its own");
+                return fault(Code::PJ010, message, "give each tool a different number");
             }
             self.by_number.entry(key(tool.number)).or_insert(self.tools.len());
             self.tools.push(tool);
@@ -90,7 +90,7 @@ impl<'s> Builder<'s> {
     pub fn subprogram(&mut self, head: SubprogramHead) -> Done {
         self.leave_cycle("a subprogram")?;
         if self.in_subprogram || self.place.operation > 0 {
-            let help = "end it first; write the subprograms one after the other, before the operations";
+            let help = "end the other part first; write the subprograms one after the other, before the operations";
             return fault(Code::PJ011, "a subprogram inside another part of the job", help);
         }
         let Some(number) = head.number else {
@@ -125,7 +125,7 @@ impl<'s> Builder<'s> {
         let number = head.tool.map(|n| n.0).or(self.tool);
         let tool = match number {
             None if self.tool_needed => {
-                return fault(Code::PJ006, "the operation has no tool", "give its number, as \"tool\": 1");
+                return fault(Code::PJ006, "the operation has no tool", "give the tool's number, as \"tool\": 1");
             }
             None => None,
             Some(number) => match self.by_number.get(&key(number)) {
@@ -135,7 +135,7 @@ impl<'s> Builder<'s> {
                     let more = if self.tools.len() > MOST_NAMED { " and others" } else { "" };
                     let help = match known.len() {
                         0 => "list the tools under \"tools\", before the operations".to_owned(),
-                        _ => format!("add it to \"tools\", or use one of {}{more}", known.join(", ")),
+                        _ => format!("add the tool to \"tools\", or use one of {}{more}", known.join(", ")),
                     };
                     return fault(Code::PJ006, format!("tool {number} is not among the job's tools"), help);
                 }
@@ -205,7 +205,7 @@ impl<'s> Builder<'s> {
         }
         if let Some(home) = item.home {
             if !home {
-                return fault(Code::PJ003, "`home` is false, so the item does nothing", "remove it, or write true");
+                return fault(Code::PJ003, "`home` is false, so the item does nothing", "remove `home`, or write true");
             }
             return self.push(Event::Home);
         }
@@ -239,7 +239,7 @@ impl<'s> Builder<'s> {
         Ok(())
     }
 
-    /// Pushes a rapid or a line without creating an item object first. Most items of a job are of these two kinds.
+    /// Pushes a rapid or a line without creating an item object first. Most items of a job are rapids or lines.
     #[inline]
     pub fn simple_move(&mut self, to: Axes, feed: Option<f64>, rapid: bool) -> Done {
         if self.in_cycle || (self.place.operation == 0 && !self.in_subprogram) {
@@ -278,7 +278,11 @@ impl<'s> Builder<'s> {
             return fault(Code::PJ011, "the end of a cycle that did not begin", "take it out");
         }
         if self.place.point == 0 {
-            return fault(Code::PJ004, "the cycle has no points", "give its points, as \"points\": [[1, 1, 0]]");
+            return fault(
+                Code::PJ004,
+                "the cycle has no points",
+                "give the cycle's points, as \"points\": [[1, 1, 0]]",
+            );
         }
         self.in_cycle = false;
         self.place.point = 0;
@@ -356,6 +360,6 @@ fn check_one(item: &ItemObject) -> Done {
             let help = format!("give one of {}", ItemObject::KEYS.join(", "));
             fault(Code::PJ004, "the path item is empty", help)
         }
-        _ => fault(Code::PJ005, "the path item contains more than one action", "make a separate item of each"),
+        _ => fault(Code::PJ005, "the path item contains more than one action", "make a separate item of each action"),
     }
 }

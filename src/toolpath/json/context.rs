@@ -1,4 +1,4 @@
-//! The current location of a reader in the document, and the failure that stopped it.
+//! The current location of a reader in the document, and the failure that stopped the reader.
 
 use std::cell::{Cell, RefCell};
 use std::fmt::Write;
@@ -21,7 +21,7 @@ pub enum Step {
 /// Data that the readers of one job share: the path to the current value, and the failure that stopped reading.
 #[derive(Default)]
 pub struct Context {
-    /// Line and column of the last byte read. Only the reader of documents counts them.
+    /// Line and column of the last byte read. Only the reader of documents counts lines and columns.
     pub at: Cell<(u64, u32)>,
     /// Line and column where the last point of a cycle began.
     pub point_at: Cell<(u64, u32)>,
@@ -35,7 +35,8 @@ impl Context {
         self.path.borrow_mut().push(step);
     }
 
-    /// Leaves one step of the path. It is not called after an error, so the path then shows the location of the error.
+    /// Leaves one step of the path. Readers don't call this function after an error, so the path still shows the
+    /// location of the error.
     pub fn leave(&self) {
         self.path.borrow_mut().pop();
     }
@@ -50,7 +51,7 @@ impl Context {
         });
     }
 
-    /// Keeps a finding and returns an error for serde. `Context::explain` replaces this error by the finding.
+    /// Keeps a finding and returns an error for serde. `Context::explain` replaces the serde error by the finding.
     pub fn fail<E: de::Error>(&self, diag: Diag) -> E {
         self.fail_with(diag.into())
     }
@@ -61,7 +62,7 @@ impl Context {
         E::custom("stopped")
     }
 
-    /// Keeps a finding that ends the input and returns an error for a reader of bytes.
+    /// Keeps a finding that stops reading, and returns an error for the reader of bytes.
     pub fn fail_reading(&self, diag: Diag) -> std::io::Error {
         *self.failure.borrow_mut() = Some(diag.into());
         std::io::Error::other("stopped")
@@ -80,7 +81,7 @@ impl Context {
         text
     }
 
-    /// The failure behind an error of serde. `line` and `column` are the location of that error.
+    /// The failure that caused an error of serde. `line` and `column` are the location of the serde error.
     pub fn explain(&self, error: serde_json::Error, line: u64, column: u32) -> ReadError {
         let failure = self.failure.borrow_mut().take();
         if failure.is_none() && error.is_io() {
@@ -91,14 +92,14 @@ impl Context {
     }
 }
 
-/// The finding for a text that is not UTF-8, as far as its first bytes show this.
+/// The finding if the first bytes of a text show that the text is not UTF-8.
 pub fn not_utf_8(start: &[u8]) -> Option<Diag> {
     let marked = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
     // UTF-16 without a byte order mark: every second byte is zero
     let bare = matches!(start, [0, b'{', ..] | [b'{', 0, ..]);
     (marked || bare).then(|| {
         Diag::new(Code::PJ001, "the job is UTF-16")
-            .help("save it as UTF-8; in PowerShell with `| Out-File -Encoding utf8 job.json` instead of `>`")
+            .help("save the job as UTF-8; in PowerShell with `| Out-File -Encoding utf8 job.json` instead of `>`")
     })
 }
 
@@ -122,7 +123,7 @@ fn of_serde(error: &serde_json::Error) -> Diag {
         }
         _ if text.contains("recursion limit") => Diag::new(Code::PJ001, "nested too deep"),
         _ if text.contains("invalid unicode code point") => {
-            Diag::new(Code::PJ001, "the job is not UTF-8").help("save it as UTF-8")
+            Diag::new(Code::PJ001, "the job is not UTF-8").help("save the job as UTF-8")
         }
         _ => {
             let mut diag = Diag::new(Code::PJ001, format!("this is not JSON: {text}"));
@@ -164,8 +165,8 @@ fn meant(text: &str) -> Option<String> {
 /// The correction for a common mistake in JSON.
 fn instead(text: &str) -> Option<&'static str> {
     const KNOWN: [(&str, &str); 5] = [
-        ("expected `,`", "a comma is missing before it, perhaps at the end of the line above"),
-        ("trailing comma", "take out the comma before it"),
+        ("expected `,`", "a comma is missing here, or at the end of the line above"),
+        ("trailing comma", "take out the comma before this bracket"),
         ("key must be a string", "put keys and texts in double quotes: `\"units\": \"mm\"`"),
         ("expected `:`", "put a colon between a key and its value: `\"units\": \"mm\"`"),
         ("expected value", "write a value here: a number, a text in double quotes, [..] or {..}; JSON has no comments"),

@@ -19,8 +19,8 @@ use super::window::{AsItStands, Counting, Text, Window};
 use crate::diag::{Code, Diag, Location};
 use crate::toolpath::{ReadError, Sink, Stop};
 
-/// The largest number of points of a cycle that wait for keys after the points. If a cycle has more points, they are
-/// passed on without waiting.
+/// The largest number of points of one cycle that are kept until the keys after the points are read. If a cycle has
+/// more points, the reader passes them on at once.
 const MOST_WAITING: usize = 4096;
 
 /// Reads a job document and pushes its events. Memory does not grow with the job.
@@ -34,7 +34,7 @@ pub fn read_document(input: impl Read, sink: &mut dyn Sink) -> Result<(), ReadEr
 /// Reads a job document from an input that can seek. The keys of its objects may then be in any order.
 ///
 /// # Errors
-/// As [`read_document`].
+/// The same errors as for [`read_document`].
 pub fn read_document_again(mut input: impl Read + Seek, sink: &mut dyn Sink) -> Result<(), ReadError> {
     let found = order(&mut input).map_err(ReadError::Io)?;
     input.rewind().map_err(ReadError::Io)?;
@@ -90,7 +90,7 @@ struct Job<'a, 's> {
     context: &'a Context,
     window: &'a Window,
     builder: RefCell<Builder<'s>>,
-    /// Number of plain items that were passed on by the last call of `plain_items`, without the last one.
+    /// Number of items that the last call of `plain_items` passed on, minus one.
     passed: Cell<u64>,
 }
 
@@ -106,9 +106,9 @@ impl<'s> Job<'_, 's> {
         )))
     }
 
-    /// Passes on plain items from the buffered text, as long as one directly follows another. serde_json has already read
-    /// the opening brace of the first item. The closing brace of the last item stays in the buffer, so serde_json reads an
-    /// empty object. Returns `false` if there is no plain item.
+    /// Passes on plain items from the buffered text, up to the first item that is not plain. serde_json has already
+    /// read the opening brace of the first item. The closing brace of the last plain item stays in the buffer, so
+    /// serde_json reads an empty object. Returns `false` if there is no plain item.
     fn plain_items<E: serde::de::Error>(&self) -> Result<bool, E> {
         let (buffer, start, to) = (self.window.buffer.borrow(), self.window.from.get(), self.window.to.get());
         if start == 0 || buffer[start - 1] != b'{' {
@@ -148,9 +148,9 @@ impl<'s> Job<'_, 's> {
     }
 }
 
-/// An object whose last key is a list. The elements of the list are passed on while they are read.
+/// An object whose last key is a list. Each element of the list is passed on as soon as it is read.
 trait Streamed: Object {
-    /// The name of that key, as a list with one element.
+    /// The name of the last key, as a list with one element.
     const LIST: &'static [&'static str];
 }
 impl Streamed for OperationHead {
@@ -262,8 +262,8 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
             Part::Subprogram => {
                 let head = |head| job.build(|b| b.subprogram(head));
                 if !streamed::<SubprogramHead, A>(job, map, head, Part::Path)? {
-                    let diag =
-                        Diag::new(Code::PJ004, "a subprogram without `path`").help("give its moves as \"path\": []");
+                    let diag = Diag::new(Code::PJ004, "a subprogram without `path`")
+                        .help("give the subprogram's moves as \"path\": []");
                     return Err(job.context.fail(diag));
                 }
                 job.build(|b| b.subprogram_end())?;
@@ -271,8 +271,8 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
             Part::Operation => {
                 let head = |head| job.build(|b| b.operation(head));
                 if !streamed::<OperationHead, A>(job, map, head, Part::Path)? {
-                    let diag =
-                        Diag::new(Code::PJ004, "an operation without `path`").help("give its moves as \"path\": []");
+                    let diag = Diag::new(Code::PJ004, "an operation without `path`")
+                        .help("give the operation's moves as \"path\": []");
                     return Err(job.context.fail(diag));
                 }
             }
@@ -283,7 +283,8 @@ impl<'de> Visitor<'de> for JobSeed<'_, '_, '_> {
     }
 }
 
-/// Reads the job: its head, then its subprograms, then its operations. Elements of the lists are passed on while they are read.
+/// Reads the job: its head, then its subprograms, then its operations. It passes on each list element as soon as the
+/// element is read.
 fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const LISTS: &[&str] = &["subprograms", "operations"];
     let (mut head, mut seen, mut done) = (Some(JobHead::default()), 0, "");
@@ -315,7 +316,8 @@ fn job<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     }
 }
 
-/// Reads an item of a path. A cycle is passed on while it is read, and the item must have no other key.
+/// Reads an item of a path. If the item is a cycle, the cycle is passed on while it is read, and the item must have no
+/// other key.
 fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const CYCLE: &[&str] = &["cycle"];
     job.builder.borrow_mut().place.item += 1;
@@ -336,7 +338,7 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     if cycle {
         if seen.count_ones() > 1 {
             let diag = Diag::new(Code::PJ005, "the path item contains more than one action")
-                .help("make a separate item of each");
+                .help("make a separate item of each action");
             return Err(job.context.fail(diag));
         }
         return Ok(());
@@ -344,7 +346,8 @@ fn item<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     job.build(|b| b.item(&item))
 }
 
-/// Reads a cycle. Up to a limit, its points wait until the keys after them are read. Above the limit they are passed on at once.
+/// Reads a cycle. Up to [`MOST_WAITING`] points are kept until all keys of the cycle are read. If the cycle has more
+/// points, they are passed on without waiting for these keys.
 fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> {
     const POINTS: &[&str] = &["points"];
     let (mut object, mut seen) = (CycleObject::default(), 0);
@@ -382,7 +385,7 @@ fn pass_on<E: serde::de::Error>(job: &Job, waiting: &mut Vec<(Point, (u64, u32))
     Ok(())
 }
 
-/// Reads the points of a cycle. The result is whether they were passed on.
+/// Reads the points of a cycle. The result is `true` if the points were passed on.
 struct Points<'w, 'j, 'a, 's> {
     job: &'j Job<'a, 's>,
     object: &'w CycleObject,

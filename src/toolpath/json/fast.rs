@@ -1,11 +1,11 @@
 //! A fast reader for the three most frequent kinds of lines in a JSON Lines job: `{"line":[1.5,2,-0.1],"feed":300}`,
-//! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. serde reads all other lines, including wrong ones, so all errors come
-//! from one reader. A property test checks that both readers read the same values.
+//! `{"rapid":[1,2,3]}` and `{"point":[1,2,3]}`. serde reads all other lines, including lines with errors, so all error
+//! messages come from serde's reader. A property test checks that the fast reader and serde read the same values.
 
 use crate::number::decimal;
 use crate::toolpath::Axes;
 
-/// The kind of a plain line. A plain line is one that the fast reader can read.
+/// The kind of a plain line. A plain line is a line that the fast reader can read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A feed move.

@@ -1,4 +1,4 @@
-//! JSON Lines: one object on each line. Such a job can be written and read as a stream.
+//! JSON Lines: one object on each line. A job in JSON Lines can be written and read as a stream.
 
 use std::fmt;
 use std::io::Read;
@@ -87,7 +87,7 @@ struct Lines<'c, 's> {
 }
 
 impl Lines<'_, '_> {
-    /// Whether the job has started and not ended.
+    /// Whether the job has started and has not ended yet.
     fn is_open(&self) -> bool {
         self.started && !self.ended
     }
@@ -266,7 +266,7 @@ impl<'de> Visitor<'de> for LineSeed<'_> {
         match line {
             Some(_) if seen.count_ones() > 1 => {
                 let diag = Diag::new(Code::PJ005, "the line contains more than one action")
-                    .help("make a separate line of each");
+                    .help("make a separate line of each action");
                 Err(context.fail(diag))
             }
             Some(line) => Ok(line),
@@ -275,7 +275,7 @@ impl<'de> Visitor<'de> for LineSeed<'_> {
     }
 }
 
-/// A cycle. Its points may be on the same line or on later lines.
+/// A cycle. The points of the cycle may be on the line of the cycle or on later lines.
 struct CycleLine {
     cycle: CycleObject,
     points: Option<Vec<Point>>,

@@ -1,5 +1,5 @@
-//! Reads job files: `job.json` is one document, `.jsonl` has one object on each line. Both are read as streams, so the
-//! path is not kept in memory.
+//! Reads job files: `job.json` is one document, `.jsonl` has one object on each line. Both kinds of file are read as
+//! streams, so the path of the tool is not kept in memory.
 
 mod build;
 mod context;

@@ -1,4 +1,5 @@
-//! The objects of a job. Each is defined by a table of its keys, from which its reader and its schema are generated.
+//! The objects of a job. A table of keys defines each object; the reader and the schema of the object are generated
+//! from this table.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -54,7 +55,7 @@ impl<T: super::values::Words> Value for Word<T> {
     }
 }
 
-/// Values that are other objects or lists of them.
+/// Values that are objects or lists of objects.
 macro_rules! nested {
     ($($type:ty)*) => { $(
         impl Value for $type {
@@ -100,7 +101,7 @@ macro_rules! objects {
 }
 
 objects! {
-    /// The head of a job, without what follows as a stream.
+    /// The head of a job, without its subprograms and operations, which are read as streams.
     JobHead "a job" {
         "postform" version Number, "version of this format: 1";
         "program" program Number, "program number";
@@ -127,27 +128,27 @@ objects! {
         "comment" comment String, "what it is";
         "data" data Values, "further data of the tool: numbers or texts with any names";
     }
-    /// Spindle of an operation, or a change of it.
+    /// The spindle data of an operation, or a change of the spindle data.
     SpindleObject "a spindle" {
         "speed" speed Number, "revolutions per minute, or surface speed";
         "direction" direction Word<SpindleTurn>, "its direction";
         "mode" mode Word<SpeedMode>, "the unit of the speed";
         "max" max Number, "speed limit at constant surface speed";
     }
-    /// An operation without its path.
+    /// The data of an operation without its path.
     OperationHead "an operation" {
         "name" name String, "the operation's name";
-        "tool" tool Number, "its tool; if left out, the tool of the operation before";
+        "tool" tool Number, "the operation's tool; if left out, the tool of the operation before";
         "work" work Number, "work offset: a fixture number below 50, or a code";
         "spindle" spindle SpindleObject, "its spindle";
-        "coolant" coolant Kinds, "its coolant: a kind, or a list of the kinds that are on together";
+        "coolant" coolant Kinds, "the operation's coolant: a kind, or a list of the kinds that are on together";
         "feed" feed Number, "feed of moves without their own feed";
         "plunge" plunge Number, "feed of plunges";
         "feed_mode" feed_mode Word<FeedMode>, "the unit of feeds (per_minute)";
         "comment" comment String, "a comment to print";
-        "set" set Values, "values for variables of the form, from its tool change on";
+        "set" set Values, "values for variables of the form, from the operation's tool change on";
     }
-    /// One item of a path: exactly one of its keys, with those that go with it.
+    /// One item of a path: exactly one main key, and the keys that belong to this main key.
     ItemObject "a path item" {
         "rapid" rapid Position, "rapid to a position";
         "line" line Position, "feed to a position";
@@ -165,19 +166,19 @@ objects! {
         "stop" stop Word<StopKind>, "a stop";
         "comment" comment String, "a comment to print";
         "text" text String, "a block that is printed unchanged";
-        "feed" feed Number, "feed of this move and those after it";
+        "feed" feed Number, "feed of this move and of the moves after it";
         "work" work Number, "change of the work offset";
         "spindle" spindle SpindleObject, "change of the spindle";
         "coolant" coolant Kinds, "change of the coolant";
         "set" set Values, "values for variables of the form";
     }
-    /// A subprogram without its path.
+    /// The data of a subprogram without its path.
     SubprogramHead "a subprogram" {
         "number" number Number, "its number";
     }
     /// A thread on a lathe; x is a radius.
     ThreadObject "a thread" {
-        "from" from Position, "its start: z, and the radius of the crest";
+        "from" from Position, "the start of the thread: z, and the radius of the crest";
         "to" to Position, "its end";
         "pitch" pitch Number, "distance from crest to crest";
         "depth" depth Number, "height on the radius; negative for an inner thread";
@@ -200,8 +201,8 @@ objects! {
     ArcObject "an arc" {
         "to" to Position, "its end";
         "center" center Position, "its centre";
-        "radius" radius Number, "its radius, instead of the centre; negative for the longer arc";
-        "direction" direction Word<Direction>, "its direction, seen from the positive third axis of the plane";
+        "radius" radius Number, "the radius of the arc, instead of the centre; negative for the longer arc";
+        "direction" direction Word<Direction>, "the direction of the arc, seen from the positive third axis of the plane";
         "plane" plane Word<Plane>, "its plane (xy)";
         "turns" turns Number, "additional full turns before the end (0)";
     }
@@ -215,7 +216,7 @@ objects! {
         "plunge" plunge Number, "plunge feed (default: the feed)";
         "step" step Number, "peck, measured from the clearance plane";
         "first_step" first_step Number, "first peck";
-        "back" back Number, "secondary clearance: the feed begins again this distance above the last depth";
+        "back" back Number, "secondary clearance: distance above the last depth, at which the feed begins again";
         "dwell" dwell Number, "dwell at the bottom in seconds";
         "revs" revs Number, "dwell at the bottom in revolutions";
         "rapto" rapto Number, "extra rapid below the clearance plane";
@@ -225,7 +226,7 @@ objects! {
         "starts" starts Number, "starts of a tapped thread";
         "rigid" rigid bool, "a rigid tap";
         "times" times Number, "chip breaks between full retracts";
-        "decr" decr Number, "decrease of each peck from the one before";
+        "decr" decr Number, "decrease of each peck from the peck before";
         "min_step" min_step Number, "least peck";
         "diameter" diameter Number, "diameter of a countersink";
         "angle" angle Number, "angle of a countersink";
@@ -237,7 +238,7 @@ objects! {
         "emulate" emulate bool, "print single moves, even if the form has the cycle";
         "pecks" pecks Few<PeckObject>, "absolute steps";
         "norevr" norevr bool, "a tap that does not reverse";
-        "rapout" rapout bool, "a tap that rapids out";
+        "rapout" rapout bool, "a tap that retracts with a rapid";
         "jog" jog Number, "lift of the tool after the jog of a boring cycle";
     }
     /// An absolute step.
@@ -258,7 +259,7 @@ impl Value for super::values::Point {
 /// The value of `end`: the name of a section, such as `"leadin"`, or `true` at the end of a JSON Lines job.
 #[derive(Clone, Copy, Debug)]
 pub enum EndWord {
-    /// A part of the path ends.
+    /// A section of the path ends.
     Section(Section),
     /// The job ends.
     Job,
@@ -308,7 +309,7 @@ impl schemars::JsonSchema for EndWord {
     }
 }
 
-/// Values of variables and properties by name, in their order, such as `{"val1": 2.5, "through": "high"}`.
+/// Values of variables and properties, each with its name, in the order of the job: `{"val1": 2.5, "through": "high"}`.
 #[derive(Debug, Default, PartialEq)]
 pub struct Values(pub Vec<(String, Given)>);
 
@@ -383,7 +384,7 @@ impl Visitor<'_> for KeySeed<'_> {
     }
 }
 
-/// Records that a key occurred. If it occurs a second time, returns an error.
+/// Records that a key occurred. Returns an error if the key occurs a second time.
 pub fn once<E: serde::de::Error>(seen: &mut u64, key: usize, name: &str, context: &Context) -> Result<(), E> {
     if *seen & 1 << key != 0 {
         return Err(context.fail(Diag::new(Code::PJ010, format!("the key `{name}` is given twice")).help("keep one")));
@@ -446,7 +447,7 @@ impl<'c, T> ListSeed<'c, T> {
 
 /// The error for a list that is too long.
 fn too_many<E: serde::de::Error>(most: usize) -> E {
-    E::custom(format!("a list of more than {most}: is a decimal point missing?"))
+    E::custom(format!("a list of more than {most} values: is a decimal point missing?"))
 }
 
 impl<'de, T: Object> DeserializeSeed<'de> for ListSeed<'_, T> {

@@ -1,5 +1,5 @@
-//! Allows the keys of a job's objects in any order, as JSON does. The reader needs lists after all other keys. If a list
-//! comes earlier, the text is read in parts, with the list last.
+//! Allows the keys of a job's objects in any order, as JSON does. The reader needs the lists of an object after all its
+//! other keys. If a list comes before another key, the text is read in parts, with the list last.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
@@ -12,16 +12,17 @@ pub enum Part {
     Sign(u8),
 }
 
-/// Number of bytes at the end and at the beginning of the text that are examined first.
+/// Number of bytes that are examined first: at the end of the text, and at its beginning.
 const TAIL: u64 = 512;
 const HEAD: u64 = 16 << 10;
 
 /// How the keys of a job are ordered in its text.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Order {
-    /// The text is read from start to end. Either its keys are in the usual order, or it is not a job document.
+    /// The text is read from start to end. Either the text has its keys in the usual order, or the text is not a job
+    /// document.
     Usual,
-    /// Lists come before other keys. The text is read in these parts.
+    /// Lists come before other keys. The reader reads the parts of the text in the order of this list.
     Late(Vec<Part>),
     /// Lists come before other keys, but the text is not a complete JSON document or has invalid lists.
     Broken,
@@ -54,8 +55,8 @@ pub fn order(input: &mut (impl Read + Seek)) -> io::Result<Order> {
     })
 }
 
-/// Whether the text ends like a job in the usual order: the operations are its last list, and the path is the last key of the last
-/// operation.
+/// Whether the text ends like a job in the usual order: `operations` is the last key of the job, and `path` is the last
+/// key of the last operation.
 fn ends_as_usual(tail: &[u8]) -> bool {
     let mut signs = tail.iter().rev().filter(|byte| !byte.is_ascii_whitespace());
     let mut next = || signs.next().copied();
@@ -147,7 +148,7 @@ impl<R: Read> Scan<R> {
         Ok(())
     }
 
-    /// Skips spaces and then this byte. Returns `false` if the next byte is another one.
+    /// Skips spaces and then the byte `sign`. Returns `false` if the byte after the spaces is not `sign`.
     fn takes(&mut self, sign: u8) -> io::Result<bool> {
         self.blanks()?;
         let is_next = self.next == Some(sign);
@@ -218,8 +219,8 @@ impl<R: Read> Scan<R> {
         Part::Text { from, to: self.at, line, column }
     }
 
-    /// Adds the parts of an object, with its lists last. Returns whether a list comes before another key, here or in an
-    /// object inside. `None`: there is no object.
+    /// Adds the parts of an object, with its lists last. Returns whether a list comes before another key, in this
+    /// object or in an object inside it. `None`: there is no object.
     fn object(&mut self, parts: &mut Vec<Part>, lists: &[&str], is_job: bool) -> io::Result<Option<bool>> {
         let start = {
             self.blanks()?;
@@ -279,7 +280,7 @@ impl<R: Read> Scan<R> {
         Ok(Some(true))
     }
 
-    /// Adds the parts of a list of objects and of its key.
+    /// Adds the parts of a list of objects, including the key of the list.
     fn list(&mut self, begin: (u64, u64, u32), parts: &mut Vec<Part>) -> io::Result<Option<bool>> {
         self.takes(b'[')?;
         parts.push(self.text(begin));
@@ -316,8 +317,8 @@ impl<'p, R: Read + Seek> InParts<'p, R> {
         InParts { input, parts: parts.iter(), left: 0 }
     }
 
-    /// Reads bytes, but not beyond the end of a part. If they are the first of a part, also returns the line and column
-    /// of the first byte.
+    /// Reads bytes, but not beyond the end of a part. At the beginning of a part, also returns the line and column of
+    /// the first byte.
     pub fn read_part(&mut self, out: &mut [u8]) -> io::Result<(usize, Option<(u64, u32)>)> {
         let mut begins = None;
         if self.left == 0 {

@@ -1,11 +1,12 @@
-//! The JSON Schema of a job document. It is generated from the tables of the reader.
+//! The JSON Schema of a job document. The schema is generated from the reader's tables of keys.
 
 use serde_json::{Value, json};
 
 use super::objects::{CycleObject, ItemObject, JobHead, OperationHead, SubprogramHead};
 use super::values::{Point, Position};
 
-/// The schema as a document. This function adds the lists that are read as streams, because they are not in the tables.
+/// The schema as a document. This function adds the lists that are read as streams, because the tables of keys do not
+/// contain these lists.
 pub fn schema() -> Value {
     let mut generator = schemars::SchemaGenerator::default();
     let list =

@@ -2,10 +2,10 @@
 
 use crate::diag::{Code, Diag};
 
-/// The longest string, in bytes as written.
+/// The greatest length of a string, in bytes as written in the job.
 pub const LONGEST: usize = 1 << 20;
 
-/// Follows a JSON text and measures its strings.
+/// Scans a JSON text and measures the length of its strings.
 #[derive(Default)]
 pub struct Strings {
     /// Number of bytes of the current string so far; `None` outside strings.
@@ -50,7 +50,8 @@ impl Strings {
 
 /// The finding for a string that is too long.
 pub fn too_long() -> Diag {
-    Diag::new(Code::PJ003, "a string of more than 1 MB").help("shorten it: names and comments are printed on one line")
+    Diag::new(Code::PJ003, "a string of more than 1 MB")
+        .help("shorten the string: names and comments are printed on one line")
 }
 
 #[cfg(test)]

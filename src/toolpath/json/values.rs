@@ -9,7 +9,7 @@ use crate::lang::Machine;
 use crate::toolpath::{Axes, Coolant, Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind};
 use crate::toolpath::{CycleKind, EdmAction, Hole, Units};
 
-/// A number. JSON can't write one that is not finite, so it is finite.
+/// A finite number, because JSON can't write infinity or NaN.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(inline))]
@@ -68,7 +68,7 @@ impl<'de> Deserialize<'de> for Given {
 
 /// A value that is written as one word of a fixed list.
 pub trait Words: Copy + 'static {
-    /// The words and their values.
+    /// The words of the list, each with its value.
     const WORDS: &'static [(&'static str, Self)];
 }
 
@@ -209,7 +209,7 @@ pub enum PeckMode {
     Chipbreak,
 }
 
-/// From where the steps of a peck cycle are counted.
+/// The height from which the steps of a peck cycle are measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum StepFrom {
@@ -217,7 +217,7 @@ pub enum StepFrom {
     Point,
 }
 
-/// A list that postform keeps in memory for a hole. It has at most `MOST_PECKS` entries.
+/// A list that postform keeps in memory for a hole. The list has at most `MOST_PECKS` entries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Few<T>(pub Vec<T>);
 
@@ -235,7 +235,7 @@ impl<T: schemars::JsonSchema> schemars::JsonSchema for Few<T> {
     }
 }
 
-/// A position of up to six numbers. For `null`, the axis keeps its position.
+/// A position of up to six numbers. If a number is `null`, the axis keeps its position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position(pub Axes);
 

@@ -1,4 +1,4 @@
-//! Buffers the text of a document: a window into the text, with the line and column where it begins.
+//! Buffers a part of a document's text (the window), with the line and column where this part begins.
 
 use std::cell::{Cell, RefCell};
 use std::io::{Read, Seek};
@@ -9,8 +9,8 @@ use super::strings::{Strings, too_long};
 
 /// A text that may be read in parts.
 pub(super) trait Text {
-    /// Reads the next bytes. If they do not follow the previous bytes in the file, also returns the line and column of
-    /// the first byte.
+    /// Reads the next bytes. If the bytes do not follow the previous bytes in the file, also returns the line and
+    /// column of the first byte.
     fn read_on(&mut self, out: &mut [u8]) -> std::io::Result<(usize, Option<(u64, u32)>)>;
 
     /// Whether reading begins at the start of the file, where a byte order mark may be.
@@ -40,7 +40,7 @@ impl<R: Read + Seek> Text for InParts<'_, R> {
 /// The part of the text that is buffered and not yet consumed.
 pub(super) struct Window {
     pub buffer: RefCell<Box<[u8; 64 * 1024]>>,
-    /// The beginning and end of this part in the buffer.
+    /// The beginning and end of the unconsumed part in the buffer.
     pub from: Cell<usize>,
     pub to: Cell<usize>,
 }
@@ -60,7 +60,7 @@ pub(super) struct Counting<'a, R> {
 }
 
 impl<'a, R: Text> Counting<'a, R> {
-    /// A reader of a text. The bytes that it has read and not passed on are in the window.
+    /// A reader of a text. The window holds the bytes that the reader has read but not yet passed on.
     pub fn new(input: R, context: &'a Context, window: &'a Window) -> Counting<'a, R> {
         Counting { input, context, strings: Strings::default(), window }
     }

@@ -6,7 +6,7 @@ use crate::diag::Code;
 use crate::lang::Beam;
 use crate::nc::{Position, Rotation};
 
-/// The torch or laser of a program, and what was found about its heights.
+/// The state of the torch or laser in a program, and the heights of cuts and rapids so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switched {
     beam: Beam,
@@ -14,11 +14,11 @@ pub(super) struct Switched {
     is_off_in_rapids: bool,
     /// Height of the last cut, if the height is known.
     cut: Option<f64>,
-    /// Whether a rapid has gone higher than the last cut since then, or home.
+    /// Whether, since the last cut, a rapid has gone home or higher than this cut.
     is_up: bool,
-    /// Whether some rapid across was higher than the cut before it.
+    /// Whether at least one rapid across was higher than the cut before the rapid.
     lifts: bool,
-    /// Line of the first rapid across that was not higher than the cut before it.
+    /// Line of the first rapid across that was not higher than the cut before the rapid.
     low: Option<u64>,
 }
 
@@ -30,7 +30,7 @@ impl Switched {
 }
 
 impl Program<'_> {
-    /// Whether the torch or laser is on; `None`: the machine has neither.
+    /// Whether the torch or laser is on; `None`: the machine has no torch and no laser.
     pub(super) fn beam_is_on(&self) -> Option<bool> {
         self.beam.map(|switched| self.is_on(switched.beam))
     }
@@ -50,7 +50,7 @@ impl Program<'_> {
         let is_lit = beam != Beam::Torch || self.state.rotation != Some(Rotation::Ccw);
         if !self.is_on(beam) || !is_lit {
             let message = format!("the {} is off in this cut", beam.name());
-            let help = "switch it on in BeginCut: `M3`, and for a laser the power by S";
+            let help = "print `M3` in BeginCut, and for a laser the power with S";
             self.hazard(Code::PV026, line, &message, help);
         }
     }
@@ -74,11 +74,11 @@ impl Program<'_> {
                 "the {} moves across at cutting height, although the form lifts it at other moves",
                 beam.name()
             );
-            self.hazard(Code::PV028, low, &message, "lift it in EndCut, before the rapid");
+            self.hazard(Code::PV028, low, &message, "lift the tool in EndCut, before the rapid");
         }
         if !is_off && self.is_on(beam) {
             let message = format!("the {} is on in a rapid", beam.name());
-            self.hazard(Code::PV027, line, &message, "switch it off in EndCut: `M5`, or for a laser `S0`");
+            self.hazard(Code::PV027, line, &message, "print `M5` in EndCut, or `S0` for a laser");
         }
     }
 }

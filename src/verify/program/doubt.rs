@@ -14,7 +14,7 @@ pub enum Doubt {
 }
 
 impl Doubt {
-    /// The reason, the correction, and the program's line; 0 if there is no line.
+    /// The reason, the correction, and the line number in the program; 0 if no line is the reason.
     pub fn told(self) -> (&'static str, &'static str, u64) {
         match self {
             Doubt::TooLong => (TOO_LONG, "split the job", 0),

@@ -1,4 +1,5 @@
-//! Finds hazards of a program that no control refuses. They are found while the program runs, without the job.
+//! Finds hazards in a program: dangerous blocks that no control refuses. Hazards are found while the program runs,
+//! without the job.
 
 use super::Program;
 use crate::control::Rules;
@@ -11,7 +12,7 @@ impl Program<'_> {
     pub(super) fn check_frame(&mut self, unknown: u8, line: u64) {
         if self.scale.axes(self.simulator.state().frame_unknown()) & !unknown != 0 {
             let message = "the program moves in a frame that G92 set at an unknown machine position";
-            self.hazard(Code::PV021, line, message, "remove G92, or write the positions of its axes before it");
+            self.hazard(Code::PV021, line, message, "remove G92, or write the positions of its axes before G92");
         }
     }
 
@@ -42,7 +43,12 @@ impl Program<'_> {
     pub fn ended(&mut self) {
         let line = self.simulator.line();
         if self.simulator.begins_again() {
-            self.hazard(Code::PV016, line, "the program ends with M99, which starts it again", "end it with M30 or M2");
+            self.hazard(
+                Code::PV016,
+                line,
+                "the program ends with M99, which starts it again",
+                "end the program with M30 or M2",
+            );
         } else if !self.ended && self.control.rules() == Rules::Fanuc {
             self.hazard(Code::PV016, line, "the program has no end", "print M30 or M2 in EndCode");
         } else if !self.ended && self.state.rotation != Some(Rotation::Stop) {

@@ -1,4 +1,5 @@
-//! The program's side of the comparison: its cuts, each with everything before it.
+//! The program's side of the comparison: the program's cuts, each with everything between the previous cut and this
+//! cut.
 
 mod beam;
 mod doubt;
@@ -36,7 +37,7 @@ pub(super) struct Program<'a> {
     /// Position of the tool.
     at: Place,
     unknown: u8,
-    /// The axes among `unknown` whose machine position is given in the program.
+    /// Of the axes in `unknown`, the axes whose machine position is given in the program.
     placed: u8,
     state: Shared,
     spin: Spin,
@@ -52,14 +53,14 @@ pub(super) struct Program<'a> {
     pub wire: Codes,
     /// Coolant codes of the form: on, off, mist.
     coolant: [f64; 3],
-    /// Everything between the last cut and the next one.
+    /// Everything between the last cut and the next cut.
     pub passage: Passage,
     cuts: bool,
     /// The reason why the current cut can't be compared.
     doubt: Option<Doubt>,
     /// Whether a code ended the program.
     ended: bool,
-    /// An error while running ahead. The next request for a cut returns it.
+    /// An error while running ahead. The error is returned when the next cut is requested.
     failed: Option<RunError>,
     cut: Option<Cut>,
     /// Hazards found so far.
@@ -67,7 +68,7 @@ pub(super) struct Program<'a> {
 }
 
 impl<'a> Program<'a> {
-    /// A program that runs with these settings. The form defines the meaning of some of its words.
+    /// A program that runs with these settings. The form defines the meaning of some words of the program.
     pub fn new(input: impl Read + Seek + 'a, settings: RunSettings, expectation: &Expectation) -> Program<'a> {
         let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..settings };
         // the state after power-on
@@ -119,18 +120,18 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Sets the units that are in force until the program sets its own.
+    /// Sets the units that apply until the program sets its own units.
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
         self.scale.units = units;
     }
 
-    /// Sets the number of subprograms before the main program. Each of them begins with an O word.
+    /// Sets the number of subprograms before the main program. Each subprogram begins with an O word.
     pub fn begin_behind(&mut self, subprograms: usize) {
         self.simulator.begin_behind(subprograms);
     }
 
-    /// Runs the program as a lathe program. Call this before the first block.
+    /// Runs the program as a lathe program. Call this function before the first block is run.
     pub fn is_of_lathe(&mut self, by_diameter: bool) {
         self.scale.lathe = true;
         self.simulator.is_of_lathe(by_diameter);
@@ -139,7 +140,7 @@ impl<'a> Program<'a> {
         self.begins(0b101);
     }
 
-    /// Runs the program as a wire EDM program. Call this before the first block.
+    /// Runs the program as a wire EDM program. Call this function before the first block is run.
     pub fn is_of_wire(&mut self) {
         self.scale.wire = Some(0b1100);
         self.simulator.is_of_wire();
@@ -147,7 +148,8 @@ impl<'a> Program<'a> {
         self.begins(0b011);
     }
 
-    /// Sets the start of the program to a position that is known only at the machine. `unknown`: its unknown axes.
+    /// Sets the start of the program to a position that is known only at the machine. `unknown`: the axes whose
+    /// position is unknown.
     fn begins(&mut self, unknown: u8) {
         self.unknown = unknown;
         let start = Rapid { to: place(&[0.0; 6]), unknown, spin: None };
@@ -159,13 +161,13 @@ impl<'a> Program<'a> {
         self.scale.wanted = units;
     }
 
-    /// The cut that the program has reached and that is not yet taken.
+    /// The cut that the program has reached and that has not been ended yet.
     pub fn cut(&self) -> Option<&Cut> {
         self.cut.as_ref()
     }
 
-    /// Runs the program to its next cut. The cut stays current until it is taken. `None`: the program has ended, or the
-    /// passage before the cut is too long ([`Doubt::TooLong`]).
+    /// Runs the program to its next cut. The cut stays the current cut until [`Program::take`] ends it. `None`: the
+    /// program has ended, or the passage before the cut is too long ([`Doubt::TooLong`]).
     ///
     /// # Errors
     /// The program can't be read, or its control refuses a block.
@@ -183,8 +185,8 @@ impl<'a> Program<'a> {
         self.doubt
     }
 
-    /// Runs the program ahead, up to its next cut, while more text waits. The job's events before its own next cut have
-    /// no influence on this part.
+    /// Runs the program ahead, up to its next cut, while more text waits. This part of the program does not depend on
+    /// the job's events before the job's next cut.
     pub fn run_on(&mut self, waits: &dyn Fn() -> bool) {
         while self.failed.is_none() && waits() {
             match self.goes_on() {
@@ -195,13 +197,13 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Whether running ahead has failed.
+    /// Whether an error occurred while the program ran ahead of the job.
     pub fn has_failed(&self) -> bool {
         self.failed.is_some()
     }
 
-    /// Processes the actions of the last block up to its next cut. If it has no cut, runs the next block. Returns
-    /// `false` at a cut, at the end, or if the passage is too long.
+    /// Processes the actions of the last block up to its next cut. If the last block has no cut, runs the next block.
+    /// Returns `false` at a cut, at the end of the program, or if the passage is too long.
     #[inline]
     fn goes_on(&mut self) -> Result<bool, RunError> {
         if self.next < self.items.len() {
@@ -442,7 +444,8 @@ impl<'a> Program<'a> {
         self.unknown |= 0b100;
     }
 
-    /// Handles a code that is not simulated. It may be a coolant code of the form or the code that makes the next tap rigid.
+    /// Handles a code that is not simulated. The code may be a coolant code of the form, or the code that makes the
+    /// next tap rigid.
     fn left_out(&mut self, code: control::Code, meaning: Meaning) {
         self.passage.codes.push((code.letter, code.tenths));
         if meaning == Meaning::RigidAhead && self.state.rigid.is_some() {

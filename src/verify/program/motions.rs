@@ -1,4 +1,4 @@
-//! The rapids and cuts of the program, and the checks before them.
+//! The rapids and cuts of the program, and the checks before each rapid or cut.
 
 use super::{Doubt, Program};
 use crate::nc::{Action, Item, Position};

@@ -1,5 +1,5 @@
-//! The most frequent cut of a program: straight, directly after another cut and with the same state. It is compared without
-//! creating a [`Cut`](super::Cut), because most cuts of long programs are of this kind.
+//! The most frequent cut of a program: straight, directly after another cut and with the same state. This kind of cut
+//! is compared without creating a [`Cut`](super::Cut), because most cuts of long programs are of this kind.
 
 use super::Program;
 use crate::nc::{Action, Item, RunError};
@@ -16,7 +16,8 @@ pub(in super::super) struct Plain {
 }
 
 impl Program<'_> {
-    /// The position and the state at which a cut of this kind would begin. `None`: the next cut is of another kind.
+    /// The position and the state at which a cut of the most frequent kind would begin. `None`: the next cut is of
+    /// another kind.
     #[inline]
     pub fn before_plain(&self) -> Option<(&Place, FeedMode, &Shared)> {
         let is_usual = self.cut.is_none()
@@ -35,8 +36,8 @@ impl Program<'_> {
         is_usual.then_some((&self.at, self.mode, &self.state))
     }
 
-    /// Runs the next block after [`Program::before_plain`]. Returns its cut if it is of this kind. Then call
-    /// [`Program::take_plain`]; otherwise [`Program::run_to_cut`] reaches the cut.
+    /// Runs the next block after [`Program::before_plain`]. If the block makes a cut of the most frequent kind, returns
+    /// the cut; call [`Program::take_plain`] after it. If not, call [`Program::run_to_cut`] to reach the next cut.
     #[inline]
     pub fn next_plain(&mut self) -> Option<Plain> {
         if let Err(error) = self.run_block() {
@@ -64,7 +65,7 @@ impl Program<'_> {
         self.ends_cut(cut.to);
     }
 
-    /// Runs the next block. Its actions are processed later.
+    /// Runs the next block. The actions of the block are processed later.
     #[inline]
     pub(super) fn run_block(&mut self) -> Result<(), RunError> {
         self.items.clear();

@@ -21,9 +21,9 @@ const MOST_NAMED: usize = 20;
 /// Programs with changes in the same words.
 #[derive(Default)]
 struct Kind {
-    /// The indices of their jobs.
+    /// The indices of the jobs of these programs.
     jobs: Vec<usize>,
-    /// The first of these jobs, and the differences in its program.
+    /// The first job in `jobs`, and the differences in its program.
     example: Option<(usize, String)>,
 }
 
@@ -91,7 +91,7 @@ pub fn run(
     Ok(if ending == Ending::Clean && differs.into_inner() { Ending::Findings } else { ending })
 }
 
-/// All kinds as text, the most common first, and the share of the compared programs that change.
+/// All kinds of differences as text, the most common first, and the share of changed programs among the compared ones.
 fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf], compared: usize) -> String {
     let mut kinds: Vec<(String, Kind)> = kinds.into_iter().collect();
     for (_, kind) in &mut kinds {

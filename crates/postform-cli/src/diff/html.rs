@@ -26,7 +26,7 @@ td.origin{color:#57606a;background:#f6f8fa;text-align:right;font-size:12px}
 td.old{background:#49202499}td.new{background:#12361f}td.moved{background:#12304d}mark{background:#8e3a36}td.new mark{background:#1f6f35}}
 ";
 
-/// The paths of both programs, the old one below the new one; empty if there is nothing to draw.
+/// The tool paths of both programs, with the old path below the new path; empty if there is nothing to draw.
 pub fn path(programs: [&Program; 2], settings: [RunSettings; 2]) -> String {
     let [old, new] = [0, 1].map(|side| draw(Cursor::new(programs[side].bytes()), settings[side]).ok());
     let (Some(old), Some(new)) = (old, new) else { return String::new() };
@@ -94,7 +94,7 @@ fn table(old: &Side, new: &Side, hunks: &[Hunk], context: usize, options: &Optio
     out.push_str("</table>\n");
 }
 
-/// Prints rows of equal lines. If one side has more lines, its first ones are left out.
+/// Prints rows of equal lines. If one side has more lines, the first lines of this side are left out.
 fn unchanged(old: &Side, new: &Side, before: Range<usize>, after: Range<usize>, out: &mut String) {
     // ignored lines may make one side longer: both sides are aligned at their last lines
     let both = before.len().min(after.len());

@@ -51,7 +51,7 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
 /// The differences between two programs.
 struct Difference {
     shown: Shown,
-    /// The kind of the difference. It is equal for programs that differ in the same words; empty: no difference.
+    /// The kind of the difference. Programs that differ in the same words have the same kind; empty: no difference.
     kind: String,
 }
 

@@ -22,7 +22,7 @@ pub struct Side {
     pub name: String,
     /// The text of the program.
     pub program: Program,
-    /// The control of the form that printed it.
+    /// The control of the form that printed the program.
     pub control: Option<&'static Control>,
     /// The origin of the program's lines, and the form's text.
     pub trace: Option<(Trace, Vec<Source>)>,
@@ -53,7 +53,7 @@ impl Side {
     }
 }
 
-/// Both programs of a comparison. `None`: one can't be rendered; the reason has been shown.
+/// Both programs of a comparison. `None`: one program can't be rendered; the reason has been shown.
 pub fn sides(args: &DiffArgs, reporter: &Reporter) -> Result<Option<[Side; 2]>, String> {
     match (&args.form, &args.against, args.files.as_slice()) {
         (Some(form), Some(old), [job]) => {
@@ -108,7 +108,7 @@ fn printed<const N: usize, P: AsRef<Path>>(
     printed_by(&made, job, args, reporter)
 }
 
-/// The job printed by prepared forms. `None`: one can't print it; the reason has been shown.
+/// The job printed by prepared forms. `None`: one form can't print the job; the reason has been shown.
 pub fn printed_by<const N: usize>(
     forms: &[(&Path, Prepared); N],
     job: &Path,

@@ -93,7 +93,7 @@ pub fn side_by_side(
 /// In hunks with more edits than this, only the lines are printed, without marks for the changed words.
 const MOST_MARKED: usize = 1_000;
 
-/// Groups hunks whose contexts meet.
+/// Groups hunks whose unchanged context lines meet.
 pub fn grouped(hunks: &[Hunk], context: usize) -> impl Iterator<Item = &[Hunk]> {
     hunks.chunk_by(move |a, b| b.old.start.saturating_sub(a.old.end) <= 2 * context)
 }
@@ -248,7 +248,7 @@ pub fn sentence(summary: &Summary) -> String {
     format!("{}{kinds}\n", blocks.join(", "))
 }
 
-/// The kinds of changes without numbers: equal for all programs that one change of a form affects.
+/// The kinds of changes as text without numbers, which is equal for all programs that one change of a form affects.
 pub fn kind(summary: &Summary) -> String {
     let mut kinds: Vec<String> = Vec::new();
     kinds.extend(summary.letters.keys().map(|letter| format!("other {}", escaped(&letter.to_string()))));
@@ -269,10 +269,10 @@ pub fn kind(summary: &Summary) -> String {
     if kinds.is_empty() { "other blocks".to_owned() } else { kinds.join(", ") }
 }
 
-/// Differences of motions that were found but not judged; empty if there are none.
+/// Differences of motions that were found but not judged; empty if there are no such differences.
 fn left_out(found: &Motions) -> String {
     let list = [
-        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old ones"),
+        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old rapids"),
         (found.codes, "cut", "after different codes that are not simulated"),
     ];
     let seen = list.iter().filter(|(n, ..)| *n > 0);
@@ -289,7 +289,7 @@ pub fn verdict(old: &Side, new: &Side, found: &Motions) -> String {
     let counted = [
         (found.pecks, "hole", "with other pecks"),
         (found.feeds, "feed", "rounded"),
-        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old ones"),
+        (found.ways, "path", "between cuts with other rapids, nowhere lower than the old rapids"),
     ];
     let counted = counted.iter().filter(|(n, ..)| *n > 0);
     let list: Vec<String> = counted.map(|(n, what, how)| format!("{} {how}", count(*n as usize, what))).collect();

@@ -46,7 +46,7 @@ pub fn run(file: &FormFile, levels: &Levels, args: &LintArgs) -> Result<Linted, 
     Ok(Linted { story, fixed: fixed.made.len(), ..Linted::new(fixed.checked, fixed.findings) })
 }
 
-/// All fixes, or only the safe ones if the effect of the others can't be shown; and a text about them.
+/// All fixes, or only the safe fixes if the effect of the unsafe fixes can't be shown; and a text about the fixes.
 fn chosen(original: &Checked, safe: Fixed, all: Fixed, args: &LintArgs) -> Result<(Fixed, String), String> {
     let unseen: Vec<&Diag> = all.made.iter().filter(|diag| diag.fix.as_ref().is_some_and(|fix| !fix.safe)).collect();
     if unseen.is_empty() {

@@ -22,7 +22,7 @@ use super::{Ending, output};
 
 /// The findings of lint in a form, and the fixes that were applied.
 pub struct Linted {
-    /// The findings. If there are none, they do not contain the form's text.
+    /// The findings. Without a finding, the value does not contain the form's text.
     findings: Findings,
     /// The changes of the form's files, in words.
     story: String,
@@ -35,7 +35,7 @@ pub fn run(args: &LintArgs, colour: Colour) -> Result<Ending, String> {
     if args.watch { poll::repeat(|| inputs(args), || report(args, colour)) } else { report(args, colour) }
 }
 
-/// The files and folders to watch: the forms, folders in which others may appear, called forms, and postform.toml.
+/// The files and folders to watch: the forms, folders in which other forms may appear, called forms, and postform.toml.
 fn inputs(args: &LintArgs) -> Vec<PathBuf> {
     let mut paths = args.forms.clone();
     for form in forms::named(&args.forms).unwrap_or_default() {
@@ -142,10 +142,10 @@ fn summary(linted: &[Linted], unread: usize, args: &LintArgs) -> String {
     let safe = fixes().filter(|fix| fix.safe).count();
     let others = fixes().count() - safe;
     if safe > 0 && !args.fix {
-        text += &format!("--fix can fix {safe} of them without changing a program\n");
+        text += &format!("--fix can fix {safe} of the findings without changing a program\n");
     }
     if others > 0 && !args.unsafe_fixes {
-        text += &format!("--unsafe-fixes shows how the fixes of {others} of them would change a program\n");
+        text += &format!("--unsafe-fixes shows how the fixes of {others} of the findings would change a program\n");
     }
     text
 }

@@ -4,7 +4,7 @@ use std::io::{BufRead, Read, Write};
 
 use lsp_server::Message;
 
-/// Largest message: a longer one is an error, and no memory is allocated for it.
+/// Largest message: a longer message is an error, and no memory is allocated for it.
 const LARGEST: usize = 64 << 20;
 /// Longest line of a header.
 const LONGEST_HEADER: u64 = 4096;

@@ -9,7 +9,7 @@ use super::server::Server;
 use super::texts::{Kind, Text};
 use super::view::View;
 
-/// Forms with more lines show hints only with the setting `on`.
+/// Forms with more lines than this number show hints only with the setting `on`.
 const MOST_LINES: usize = 500;
 
 /// The text that the words in a range print in the current job.

@@ -37,7 +37,7 @@ use server::{Client, Server};
 /// Number of messages that wait in memory; further messages wait in the pipe.
 const WAITING: usize = 256;
 
-/// The step after a message.
+/// The next step after a message is handled.
 enum Next {
     /// Continue with the next message.
     Go,
@@ -90,7 +90,7 @@ enum State {
     Over,
 }
 
-/// The reason for an early end.
+/// The reason for an early end of the session.
 enum Stop {
     Out(io::Error),
     In(String),

@@ -64,7 +64,7 @@ pub struct ProgramParams {
     /// The job of the form, counted from 0; the default is the current job.
     #[serde(default)]
     job: Option<usize>,
-    /// A text of the form in place of the open one, such as the committed text.
+    /// A text that replaces the open text of the form, such as the committed text.
     #[serde(default)]
     text: Option<String>,
 }

@@ -20,16 +20,16 @@ use crate::files;
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub struct Settings {
-    /// The control of programs that name none, if no postform.toml does: a name or a file.
+    /// The control of programs if neither the program nor a postform.toml names a control: a name or a file.
     pub control: Option<String>,
-    /// The path of the current job of forms. It ranks before the jobs in postform.toml.
+    /// The path of the current job of forms. This job ranks before the jobs in postform.toml.
     pub job: Option<PathBuf>,
     /// Hints after words: `on`, `off`, or `auto`, which is off in files over 500 lines.
     pub inlay_hints: Option<String>,
 }
 
 impl Settings {
-    /// Takes over the values that are set; the others stay.
+    /// Takes over the values that are set; all other values stay unchanged.
     pub fn take(&mut self, said: Settings) {
         self.control = said.control.or(self.control.take());
         self.job = said.job.or(self.job.take());
@@ -66,12 +66,13 @@ pub struct Server {
     pub folders: Vec<PathBuf>,
     /// Texts whose findings must be sent.
     pub stale: BTreeSet<String>,
-    /// Something changed outside the viewed form, so its hints and lenses may have changed too.
+    /// Whether something changed outside the viewed form, so that hints and lenses of the form may have changed, too.
     pub beside: bool,
     /// Programs that were written as files for the editor.
     pub programs: RefCell<Programs>,
     views: RefCell<HashMap<String, Rc<View>>>,
-    /// The results from the last time that a form printed a program; a form with an incomplete word prints none.
+    /// The results from the last time that a form printed a program; they are kept, because a form with an incomplete
+    /// word prints no program.
     last: RefCell<HashMap<String, Rc<View>>>,
     roots: RefCell<HashMap<PathBuf, PathBuf>>,
 }

@@ -115,7 +115,7 @@ fn token_type(kind: TokenKind) -> &'static str {
     }
 }
 
-/// Marks words that are ignored after two spaces.
+/// The mark of ignored words, which follow two spaces in a line.
 pub const TOKEN_MODIFIERS: [&str; 1] = ["deprecated"];
 
 /// The words of a form with their kinds.

@@ -18,7 +18,7 @@ pub enum Kind {
     Program,
     /// postform.toml.
     Settings,
-    /// Anything else: perhaps a job.
+    /// Any other text, perhaps a job.
     Other,
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use gen_lsp_types::Uri;
 
-/// The file of a URI; `None`: it is no file of this machine, such as `untitled:Untitled-1`.
+/// The file of a URI; `None`: the URI names no file of this machine, such as `untitled:Untitled-1`.
 pub fn path(uri: &Uri) -> Option<PathBuf> {
     let rest = uri.as_ref().strip_prefix("file://")?;
     let rest = rest.strip_prefix("localhost").unwrap_or(rest);

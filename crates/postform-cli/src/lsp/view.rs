@@ -34,7 +34,7 @@ pub struct JobText {
 
 /// The results for an open form.
 pub struct View {
-    /// The form, with the forms that it calls. If the open file is a called form, this is its caller.
+    /// The form, with the forms that it calls. If the open file is a called form, the document is the calling form.
     pub document: Document,
     /// The file of the document that is open.
     pub file: u32,
@@ -51,7 +51,8 @@ pub struct View {
 }
 
 impl View {
-    /// Checks an open form. `root` is the form that calls it, usually itself; `job` is the job in the editor's settings.
+    /// Checks an open form. `root` is the form that calls the open form, usually the open form itself; `job` is the job
+    /// in the editor's settings.
     pub fn new(text: &Text, root: Option<&Path>, texts: &Texts, job: Option<&Path>) -> View {
         let Some(root) = root else { return View::without_file(text) };
         let (config, trouble) = match Config::near(root) {
@@ -113,8 +114,8 @@ impl View {
         Some(self.form.as_ref()?.place(&source.name))
     }
 
-    /// A job printed with the form; jobs are counted from 0, and the number after the last one is the built-in job. `None`: the
-    /// form has errors, or the job can't be read.
+    /// A job printed with the form; jobs are counted from 0, and the number after the last job means the built-in job.
+    /// `None`: the form has errors, or the job can't be read.
     pub fn printed(&self, job: usize) -> Option<&Current> {
         let Some(text) = self.jobs.get(job) else {
             return self.sample.get_or_init(|| self.document.print_sample()).as_ref();
@@ -202,7 +203,7 @@ fn job_name(path: &Path) -> String {
     postform::internals::terminal::escaped(&if stem == "job" { folder.unwrap_or(stem) } else { stem })
 }
 
-/// The form of a folder that calls this file, directly or through another form; the file itself if none does.
+/// The form of a folder that calls this file, directly or through another form; the file itself if no form calls it.
 pub fn root_of(path: &Path, texts: &Texts) -> PathBuf {
     let mut root = path.to_path_buf();
     // the maximum depth of calls

@@ -22,7 +22,7 @@ use super::{Ready, form_of};
 struct Planned {
     job: PathBuf,
     part: Option<Part>,
-    /// The number of the program; `None`: from the job.
+    /// The number of the program; `None`: the number comes from the job.
     number: Option<u32>,
     /// The number that the program prints, if it is known.
     printed: Option<u32>,
@@ -125,7 +125,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
 /// The forms of the jobs; each is prepared once.
 #[derive(Default)]
 struct Forms {
-    /// Indices by the form and the postform.toml of the job.
+    /// Indices of forms, by the path of the form and of the postform.toml of a job.
     rows: HashMap<(PathBuf, Option<PathBuf>), usize>,
     ready: Vec<Ready>,
 }

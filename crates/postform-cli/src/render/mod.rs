@@ -52,7 +52,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     }
 }
 
-/// The jobs to join; folders are replaced by the jobs in them. One of them may be standard input.
+/// The jobs to join; folders are replaced by the jobs in them. One of the jobs may be standard input.
 fn joined(args: &RenderArgs) -> Result<Vec<PathBuf>, String> {
     let is_input = |job: &PathBuf| job.as_path() == Path::new("-");
     if args.jobs.iter().filter(|job| is_input(job)).count() > 1 {
@@ -78,7 +78,7 @@ fn inputs(jobs: &[&Path], args: &RenderArgs) -> Vec<PathBuf> {
     paths
 }
 
-/// Renders one job, or joined jobs. Form and machine are those of the first one.
+/// Renders one job, or joined jobs. The form and the machine of the first job are used.
 fn one(jobs: &[&Path], args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let reporter = Reporter::new(colour);
     let Some(job) = jobs.first() else { return Err("error: there is no job".into()) };
@@ -130,7 +130,7 @@ impl Ready {
     }
 }
 
-/// Checks that no output replaces the other.
+/// Checks that the program and the source map are different files.
 fn distinct(args: &RenderArgs) -> Result<(), String> {
     let outputs = [Some(&args.output), args.trace.as_ref()].map(|path| Some((path?, Identity::of_output(path?)?)));
     if let [Some((program, a)), Some((trace, b))] = &outputs

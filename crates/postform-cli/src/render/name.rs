@@ -105,7 +105,7 @@ impl Pattern {
                         let help = match field {
                             "number" => "give --program, or use another field in --name",
                             "part" => "give --split",
-                            _ => "a field needs --split of the same name",
+                            _ => "the field needs --split with the name of the field",
                         };
                         format!("error: --name: {{{field}}} has no value here\n  help: {help}")
                     })?;

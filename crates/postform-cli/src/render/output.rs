@@ -12,7 +12,7 @@ use super::super::files::{self, io_message};
 use super::super::output::Target;
 use super::super::say::message;
 
-/// Is the output a folder? The program then gets its name from the form and the job.
+/// Is the output a folder? In a folder, the program gets its name from the form and the job.
 fn is_folder(output: &Path) -> bool {
     output.is_dir() || output.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR])
 }
@@ -40,7 +40,7 @@ pub struct Output<'p> {
     files: &'p [Source],
     /// The job, or the joined jobs.
     jobs: &'p [&'p Path],
-    /// The write error is that of the source map, not of the program.
+    /// Whether the write error occurred in the source map, and not in the program.
     trace_failed: bool,
 }
 
@@ -61,7 +61,7 @@ impl<'p> Output<'p> {
         Ok(Output { path: path.to_path_buf(), target, trace, files, jobs, trace_failed: false })
     }
 
-    /// Sets the name of a program in a folder, and returns its path. `None`: it already has a name.
+    /// Sets the name of a program in a folder, and returns its path. `None`: the program already has a name.
     ///
     /// # Errors
     /// A message: the existing file with this name must not be replaced.
@@ -116,7 +116,7 @@ impl<'p> Output<'p> {
     }
 }
 
-/// One line of the source map. The file of a job is named only among joined jobs.
+/// One line of the source map. The line names the file of the job only if jobs are joined.
 fn trace_line(line: &TraceLine, files: &[Source], jobs: &[&Path], out: &mut Vec<u8>) {
     let form = line.form.and_then(|span| {
         let source = files.get(span.file as usize)?;

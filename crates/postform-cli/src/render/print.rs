@@ -29,13 +29,13 @@ pub struct Task<'a> {
     pub jobs: &'a [&'a Path],
     /// The output of the program: a file, a folder, or `-`.
     pub output: &'a Path,
-    /// The file name in that folder. `None`: the name from the form.
+    /// The file name in the output folder. `None`: the form determines the name.
     pub name: Option<&'a str>,
     /// The name of the program in messages.
     pub called: &'a str,
     /// The part of the job to print. `None`: the selection in the options.
     pub part: Option<Part>,
-    /// The program number. `None`: from the command line, else from the job.
+    /// The program number. `None`: the number comes from the command line, else from the job.
     pub number: Option<u32>,
 }
 

@@ -123,7 +123,7 @@ impl Backwards {
         }
     }
 
-    /// The axes at a machine position. Called before the position, because the line is written backwards.
+    /// The axes at a machine position. The axes are written before the position, because the line is written backwards.
     fn in_machine(&mut self, bits: u8, axes: &Axes) {
         self.text(b" in machine coordinates)");
         let named = (0..6).rev().filter(|axis| bits & 1 << axis != 0);

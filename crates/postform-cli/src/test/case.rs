@@ -51,7 +51,7 @@ pub enum Wanted {
     Program,
     /// An error, by its code.
     Refusal,
-    /// Unknown: the result is written as the expected one.
+    /// The expected result is unknown: the result of this run is written as the expected one.
     Nothing,
 }
 
@@ -63,7 +63,7 @@ pub struct Program {
     verdict: Verdict,
 }
 
-/// The reason why there is no program, or why it differs from its job.
+/// The reason why there is no program, or why the program differs from its job.
 pub struct Refused {
     /// The errors, or the differences from the job.
     pub diags: Vec<Diag>,
@@ -128,7 +128,8 @@ impl Case {
         Case { job, form: 0, expected, cycles, wanted, ignore, tolerance, clock, require_proof: false }
     }
 
-    /// Prints the case and compares it. `update`: a different result is written as the expected one.
+    /// Prints the program of the case and compares it with the expected result. `update`: a different result is written
+    /// as the expected one.
     pub fn tried(self, posts: &Posts, reporter: &Reporter, update: bool, colour: bool) -> Tried {
         let entry = posts.get(self.form);
         let ready = match &entry.ready {
@@ -308,7 +309,8 @@ impl Case {
     }
 }
 
-/// Can this error be an expected result? Not if the job can't be read or the program differs from its job.
+/// Can this error be an expected result? The answer is no if the job can't be read, or if the program differs from its
+/// job.
 pub fn may_be_expected(code: &str) -> bool {
     !["PJ", "PV", "PX"].iter().any(|family| code.starts_with(family))
 }

@@ -11,7 +11,7 @@ use super::posts::Posts;
 pub struct Covered {
     /// The form's name.
     pub form: String,
-    /// The number of its lines that can print.
+    /// The number of the form's lines that can print.
     pub lines: usize,
     /// The lines that no case printed: file, line from 1, text.
     pub missing: Vec<(String, u32, String)>,

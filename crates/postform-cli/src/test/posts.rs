@@ -33,14 +33,14 @@ pub struct Ready {
     pub options: Options,
     /// The settings for proofs.
     pub proof: Proof,
-    /// The analysis of its files.
+    /// The analysis of the form's files.
     pub checked: Checked,
 }
 
 /// Forms, each once.
 pub struct Posts {
     entries: Vec<Entry>,
-    /// The forms of the command line, which replace those of postform.toml.
+    /// The forms of the command line, which replace the forms of postform.toml.
     named: Option<Vec<usize>>,
     /// The forms that are given one by one, not by their folder.
     pub single: Vec<usize>,
@@ -75,7 +75,9 @@ impl Posts {
         let of_shop = config.form.iter().filter(|_| config.test.forms.is_empty());
         let paths: Vec<PathBuf> = config.test.forms.iter().chain(of_shop).cloned().collect();
         self.of_paths(&paths, config.test.post.as_deref()).map_err(|error| match &config.path {
-            Some(path) => format!("{error}\n  help: {} names it under [test]", files::name(&shortened(path.clone()))),
+            Some(path) => {
+                format!("{error}\n  help: {} names this form under [test]", files::name(&shortened(path.clone())))
+            }
             None => error,
         })
     }

@@ -103,7 +103,7 @@ fn in_units(job: &str, printed: UnitChoice) -> Cow<'_, str> {
     job.replacen(from, to, 1).into()
 }
 
-/// Writes a file if it does not exist yet. `false`: it exists and stays.
+/// Writes a file if it does not exist yet. `false`: the file exists and stays unchanged.
 fn new(path: &Path, bytes: &[u8]) -> Result<bool, String> {
     match write_new(path, bytes) {
         Ok(()) => Ok(true),

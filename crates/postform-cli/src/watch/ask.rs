@@ -46,7 +46,7 @@ pub struct Save {
     pub name: String,
     /// The text to save.
     pub text: String,
-    /// The text on the disk when it was read.
+    /// The text of the file on the disk when the page got the file.
     pub was: String,
 }
 

@@ -20,7 +20,7 @@ struct State {
 enum End {
     /// The text is the whole program.
     Whole,
-    /// The program is not needed, or can't be printed.
+    /// The text is incomplete: the program is not needed, or can't be printed.
     Dropped,
 }
 
@@ -34,7 +34,7 @@ pub struct Reader<'a> {
 }
 
 impl Growing {
-    /// The writer of the text. There is only one for each text.
+    /// The writer of the text. Each text has only one writer.
     pub fn writer(&self) -> Writer<'_> {
         Writer(self)
     }

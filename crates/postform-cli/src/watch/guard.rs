@@ -1,8 +1,8 @@
 //! Admits requests only from the page that this program served, and only from this machine.
 //!
-//! Any web site that is open in a browser can send requests to ports of its machine, but it does not have the token. If the
-//! host name of a foreign site leads to this machine, the `Host` field contains that name. A request with a body must come from the
-//! page's own origin.
+//! Any web site that is open in a browser can send requests to ports of the browser's machine, but the site does not
+//! have the token. If the host name of a foreign site leads to this machine, the `Host` field contains that name. A
+//! request with a body must come from the page's own origin.
 
 use super::http::{Answer, Asked};
 
@@ -12,9 +12,9 @@ const TOKEN: usize = 16;
 /// The data for checking requests.
 #[derive(Debug)]
 pub struct Guard {
-    /// The first part of the path, between two slashes.
+    /// The token of the page: the first part of the path, between two slashes.
     pub token: String,
-    /// Such as 127.0.0.1:8080 and localhost:8080.
+    /// The allowed values of the `Host` field, such as 127.0.0.1:8080 and localhost:8080.
     hosts: [String; 2],
 }
 
@@ -72,7 +72,7 @@ impl Guard {
     }
 }
 
-/// Compares two values; the time does not depend on the first difference.
+/// Compares two values in a time that does not depend on the position of the first difference.
 fn same(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |differs, (a, b)| differs | (a ^ b)) == 0
 }

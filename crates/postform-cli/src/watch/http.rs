@@ -13,7 +13,7 @@ pub const LARGEST_BODY: usize = 8 << 20;
 pub const LARGEST_JOB: usize = 512 << 20;
 /// Maximum number of fields in a head.
 const MOST_FIELDS: usize = 64;
-/// A request that takes longer is refused.
+/// A request that takes longer than this time is refused.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A request.
@@ -23,7 +23,7 @@ pub struct Asked {
     pub method: String,
     /// The path as sent.
     pub path: String,
-    /// Names in lower case, and values.
+    /// The fields of the head: names in lower case, and values.
     pub fields: Vec<(String, String)>,
 }
 
@@ -45,7 +45,7 @@ pub struct Answer {
     pub kind: &'static str,
     /// The content after the head.
     pub body: Vec<u8>,
-    /// Further fields of its head.
+    /// Further fields of the head of the answer.
     pub fields: Vec<(&'static str, String)>,
 }
 
@@ -147,12 +147,13 @@ fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, most: usize, until: Instant
     }
 }
 
-/// Fields of every answer: it must not be stored, its type must not be guessed, and other pages must not embed or read it.
+/// Fields of every answer: browsers must not store the answer or guess its type, and other pages must not embed or read
+/// it.
 const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
     Referrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
     X-Frame-Options: DENY\r\n";
 
-/// Writes an answer. If the client has gone, the answer is dropped.
+/// Writes an answer. If the client has closed the connection, the answer is dropped.
 pub fn write(stream: &mut TcpStream, answer: &Answer) {
     let mut head = format!(
         "HTTP/1.1 {} {}\r\n{ALWAYS}Content-Type: {}\r\nContent-Length: {}\r\n",
@@ -174,7 +175,7 @@ pub fn write(stream: &mut TcpStream, answer: &Answer) {
 /// Writes the head of an answer that ends with the connection.
 ///
 /// # Errors
-/// The client has gone.
+/// The client has closed the connection.
 pub fn begin(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
     stream.set_write_timeout(Some(PATIENCE))?;
     // parts are sent at once, however small they are

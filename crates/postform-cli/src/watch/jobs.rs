@@ -29,16 +29,17 @@ struct Events {
 }
 
 impl Events {
-    /// Are these the events of this job, read when its file was in this state?
+    /// Do the events belong to this job, and was its file in this state when the events were read?
     fn is_of(&self, job: &Opened, stamp: Option<Stamp>) -> bool {
         self.content == job.content && self.stamp == stamp
     }
 }
 
-/// If the last change of a file is more recent than this, the file may change again without a new time stamp.
+/// A file whose last change is more recent than this duration may change again without a new time stamp.
 const SETTLED: Duration = Duration::from_secs(1);
 
-/// The events of a longer job are not kept, but read again each time: 300,000 events take 35 MB.
+/// Maximum number of events of a job that are kept: 300,000 events take 35 MB. The events of a longer job are read
+/// again each time.
 const MOST_KEPT: usize = 300_000;
 
 /// A job.
@@ -68,7 +69,7 @@ impl Opened {
         }
     }
 
-    /// Is it the sample job?
+    /// Is this job the sample job?
     pub fn is_sample(&self) -> bool {
         matches!(self.content, Content::Sample)
     }
@@ -109,7 +110,7 @@ impl Jobs {
     /// The job of a tab.
     ///
     /// # Errors
-    /// A message: there is no such tab; another page may have closed it.
+    /// A message: the tab does not exist; another page may have closed the tab.
     pub fn at(&self, tab: usize) -> Result<Opened, String> {
         let list = self.list();
         match list.get(tab) {
@@ -159,8 +160,8 @@ impl Jobs {
         }
     }
 
-    /// Adds a job with the content of a file. A job of the same name that was added before is replaced. Returns its tab, and
-    /// whether it replaced a job.
+    /// Adds a job with the content of a file. A job of the same name that was added before is replaced. Returns the tab
+    /// of the job, and whether the job replaced another one.
     ///
     /// # Errors
     /// A message: the content is not a job.

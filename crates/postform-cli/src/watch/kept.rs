@@ -1,7 +1,9 @@
-//! The stored port and token of a form's page. With them, an open page connects again after a restart of the program.
+//! The stored port and token of a form's page. With the port and the token, an open page connects again after a restart
+//! of postform.
 //!
-//! They are stored in a file that only this user can read, in the system's folder for such files. This is `XDG_RUNTIME_DIR` on
-//! Linux, and the user's folder for temporary files on macOS and Windows. Without such a folder, nothing is stored.
+//! The port and the token are stored in a file that only this user can read, in the system's folder for private files
+//! of a user. The folder is `XDG_RUNTIME_DIR` on Linux, and the user's folder for temporary files on macOS and Windows.
+//! If the folder does not exist, nothing is stored.
 
 use std::ffi::OsString;
 use std::fs::{self, DirBuilder, OpenOptions};
@@ -33,7 +35,7 @@ impl Kept {
         Some((port.parse().ok().filter(|&port| port > 0)?, is_token.then(|| token.to_owned())?))
     }
 
-    /// Stores port and token. If this fails, the next start has another address.
+    /// Stores port and token. If port and token can't be stored, the page has another address after the next start.
     pub fn write(&self, port: u16, token: &str) {
         let (mut folder, mut file) = (DirBuilder::new(), OpenOptions::new());
         #[cfg(unix)]

@@ -1,4 +1,5 @@
-//! The contents of a page: a form, jobs, and a program to compare with. They are read from their files each time.
+//! The contents of a page: a form, jobs, and a program to compare with. Form, jobs and program are read from their
+//! files each time.
 
 use std::collections::HashMap;
 use std::fs;
@@ -31,7 +32,7 @@ use super::ask::{Ask, AskHelp, Close, Save};
 use super::growing::Growing;
 use super::jobs::{Jobs, Opened};
 
-/// A program with fewer bytes is proven so fast that its picture can wait for the verdict.
+/// A program with fewer bytes than this number is proven so fast that its picture can wait for the verdict.
 const SMALL: usize = 256 << 10;
 
 /// The reason why a form was not saved.
@@ -52,12 +53,13 @@ pub struct Session {
     options: Options,
     proof: Proof,
     config: Option<PathBuf>,
-    /// The machine's file from the command line, and the one from postform.toml; the form's own machine ranks between them.
+    /// The machine file from the command line, and the machine file from postform.toml; the form's own machine ranks
+    /// between them.
     machine: [Option<PathBuf>; 2],
     /// Number of changes of the files.
     generation: AtomicU64,
     saved: Mutex<Option<Saved>>,
-    /// Held while a form is compared and written.
+    /// Locked while a form is compared with its file and written.
     saving: Mutex<()>,
     /// The files of the form that was shown last, including unsaved texts.
     shown: Mutex<Vec<PathBuf>>,
@@ -80,7 +82,7 @@ struct Saved {
     job: Opened,
     /// The properties that were set.
     properties: Vec<(String, String)>,
-    /// The number of file changes at that time.
+    /// The number of file changes at the time of printing.
     generation: u64,
     program: Arc<str>,
 }
@@ -170,7 +172,7 @@ impl Session {
     /// scenes if the program is long, because they take longer than the picture.
     ///
     /// # Errors
-    /// A message: a file can't be read. Nothing was sent then.
+    /// A message: a file can't be read, so nothing was sent.
     pub fn show(&self, ask: &Ask, send: &mut dyn FnMut(Scene)) -> Result<(), String> {
         let generation = self.generation.load(Ordering::Acquire);
         let form = self.read_form()?;
@@ -233,8 +235,8 @@ impl Session {
         Ok(())
     }
 
-    /// Verifies the program and then compares it, on another thread, because the page waits for the verdict most of all. The
-    /// results are scenes, in the order in which they are ready.
+    /// Verifies the program first, because the page needs the verdict most, and then compares it; both on another
+    /// thread. The results are scenes, in the order in which they are ready.
     fn judge<'s>(&'s self, scope: &'s Scope<'s, '_>, shown: &'s Shown<'_>) -> Receiver<Scene> {
         let Shown { ask, job, form, generation, printed, against } = shown;
         let (sender, results) = channel();
@@ -321,15 +323,15 @@ impl Session {
         Some(machine::read(&path).map_err(plain))
     }
 
-    /// The text of the sample job, if this is the sample job.
+    /// The text of the sample job, if `job` is the sample job.
     fn sample(&self, job: &Opened, form: &FormFile, texts: &HashMap<String, String>) -> Option<&'static str> {
         job.is_sample().then(|| sample_job(&form.analyse(texts).form.settings))
     }
 
-    /// Opens another job. Returns its tab, and whether it replaced a job.
+    /// Opens another job. Returns the tab of the job, and whether the job replaced another one.
     ///
     /// # Errors
-    /// A message: it is not a job.
+    /// A message: the content is not a job.
     pub fn add(&self, name: &str, bytes: Vec<u8>) -> Result<(usize, bool), String> {
         let added = self.jobs.add(name, bytes)?;
         self.forget();
@@ -342,7 +344,7 @@ impl Session {
         self.forget();
     }
 
-    /// Files were changed: results from the old files are dropped.
+    /// Drops the results from the old files after a change of files.
     pub fn forget(&self) {
         self.generation.fetch_add(1, Ordering::AcqRel);
     }

@@ -14,7 +14,7 @@ use crate::toolpath::Side;
 
 const FEED_WANTED: &str = "write F or FMAX in the block; the feed after a cycle is unknown";
 
-/// The words of a polar position: the name, whether it is the angle, and whether it is an increment.
+/// The words of a polar position: the name, whether the word is the angle, and whether the word is an increment.
 const POLAR: [(&[u8], bool, bool); 4] =
     [(b"PR", false, false), (b"PA", true, false), (b"IPR", false, true), (b"IPA", true, true)];
 
@@ -71,7 +71,7 @@ impl Words<'_> {
         match self.own.value(&name) {
             Some(value) => Ok(sign * value),
             None => {
-                let help = "set it earlier in the program: its value in the machine is unknown";
+                let help = "set the parameter earlier in the program: its value in the machine is unknown";
                 Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
             }
         }
@@ -155,7 +155,11 @@ impl Words<'_> {
             }
         }
         if is_astray(path, polar) {
-            return refuse(Code::PN007, "a polar position without its words", "write PR and PA, or PA for an arc");
+            return refuse(
+                Code::PN007,
+                "the words of a polar position are missing",
+                "write PR and PA, or PA for an arc",
+            );
         }
         let goes = moves || matches!(path, Path::Polar | Path::PolarArc | Path::Arc);
         if goes {
@@ -189,7 +193,7 @@ impl Words<'_> {
                 return refuse(
                     Code::PN016,
                     "a rounding or chamfer next to an arc is not supported",
-                    "program it as moves",
+                    "program the corner as moves",
                 );
             }
         }
@@ -210,11 +214,11 @@ impl Words<'_> {
     fn center(&self) -> Done<[f64; 2]> {
         match self.own.center {
             Some(center) => Ok(center),
-            None => refuse(Code::PN009, "the centre is missing: there is no CC", "write CC X.. Y.. before it"),
+            None => refuse(Code::PN009, "the centre is missing: there is no CC", "write CC X.. Y.. before the block"),
         }
     }
 
-    /// The position that polar words give, about the centre. The angle is measured from +X.
+    /// The position that the polar words and the centre define. The angle is measured from +X.
     fn polar(&mut self, at: [f64; 6], words: [Option<(f64, bool)>; 2], keeps: bool) -> Done<[f64; 2]> {
         let center = self.center()?;
         let now = [at[0] - center[0], at[1] - center[1]];
@@ -259,7 +263,7 @@ impl Words<'_> {
             if let Some((by, true)) = polar[1] {
                 if (by > 0.0) != left {
                     let message = format!("IPA {by} and DR have opposite directions");
-                    return refuse(Code::PN009, message, "give both the same sign");
+                    return refuse(Code::PN009, message, "give IPA and DR the same sign");
                 }
                 let turns = by.abs() / 360.0;
                 if turns > 1e6 {
@@ -300,7 +304,7 @@ impl Words<'_> {
         Ok(false)
     }
 
-    /// Reads an M code such as `M3`. Returns whether it calls the cycle.
+    /// Reads an M code such as `M3`. Returns whether the M code calls the cycle.
     fn switch(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
         let begin = cursor.at();
         *cursor = cursor.from(begin + 1);
@@ -335,7 +339,7 @@ impl Words<'_> {
 
     fn call(&mut self) -> Done {
         let Some(call) = &self.own.cycle else {
-            return refuse(Code::PN006, "no cycle is defined that could be called", "write CYCL DEF before it");
+            return refuse(Code::PN006, "no cycle is defined for this call", "write CYCL DEF before the call");
         };
         self.block.call = Some(call.clone());
         self.block.is_empty = false;
@@ -378,7 +382,7 @@ impl Words<'_> {
                 return refuse(
                     Code::PN016,
                     "a rounding or chamfer next to an arc is not supported",
-                    "program it as moves",
+                    "program the corner as moves",
                 );
             }
             while let Some((axis, value, by)) = words.axis(&mut cursor)? {
@@ -387,8 +391,8 @@ impl Words<'_> {
                     _ => {
                         return refuse(
                             Code::PN016,
-                            "a rounding or chamfer outside its plane is not supported",
-                            "program it as moves",
+                            "a rounding or chamfer is supported only between lines in X and Y",
+                            "program the corner as moves",
                         );
                     }
                 }
@@ -398,8 +402,8 @@ impl Words<'_> {
         if [b'Z', b'A', b'B', b'C'].iter().any(|letter| self.block.get(*letter).is_some()) {
             return refuse(
                 Code::PN016,
-                "a rounding or chamfer outside its plane is not supported",
-                "program it as moves",
+                "a rounding or chamfer is supported only between lines in X and Y",
+                "program the corner as moves",
             );
         }
         let mut corner = [at[0], at[1]];
@@ -423,10 +427,14 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Runs `RND R3 F200` or `CHF 2`. The line before it has calculated the corner.
+    /// Runs `RND R3 F200` or `CHF 2`. The line before this block has calculated the corner.
     pub fn rounding(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let Some(corner) = self.own.corner.take() else {
-            return refuse(Code::PN009, "a rounding or chamfer without a line before it", "write it between two lines");
+            return refuse(
+                Code::PN009,
+                "a rounding or chamfer without a line before it",
+                "write RND or CHF between two lines",
+            );
         };
         cursor.takes(b"R");
         self.number(cursor)?;
@@ -472,7 +480,7 @@ impl Words<'_> {
     }
 }
 
-/// Whether a block with a polar path does not have the words that it needs.
+/// Whether a block with a polar path lacks required words.
 fn is_astray(path: Path, words: [Option<(f64, bool)>; 2]) -> bool {
     match path {
         Path::Polar => words == [None; 2],

@@ -32,7 +32,7 @@ impl Corner {
             return refuse(
                 Code::PN009,
                 "a rounding or chamfer without a corner",
-                "write it between two lines that meet at an angle",
+                "write RND or CHF between two lines that meet at an angle",
             );
         }
         let cut = if rounds { size * (cross.atan2(dot) / 2.0).tan().abs() } else { size };

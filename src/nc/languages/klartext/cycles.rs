@@ -1,5 +1,5 @@
-//! The drilling cycles of Klartext: 200 to 203, 205 to 207, 209 and 240. They are made as the section "cycle run" of
-//! each cycle in the manuals of TNC 320, 620 and 640 describes.
+//! The drilling cycles of Klartext: 200 to 203, 205 to 207, 209 and 240. The moves of each cycle follow its section
+//! "cycle run" in the manuals of TNC 320, 620 and 640.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::nc::call::{Canned, Plan, Stand, Step};
 use crate::nc::fault::{Done, refuse};
 use crate::toolpath::Units;
 
-/// For each cycle, its number, the required parameters, and the optional ones.
+/// For each cycle: its number, the required parameters, and the optional parameters.
 const CYCLES: [(u16, &[u16], &[u16]); 9] = [
     (200, &[200, 201, 206, 202, 203, 204], &[210, 211, 395]),
     (201, &[200, 201, 206, 203, 204], &[211, 208]),
@@ -53,12 +53,12 @@ impl Cycle {
             let is_run = needs.contains(word) || takes.contains(word) && !matches!(word, 379 | 395);
             if !is_run && *value != 0.0 {
                 let message = format!("Q{word}={value} in CYCL DEF {number} is not supported");
-                return refuse(Code::PN016, message, "write 0, or leave it out");
+                return refuse(Code::PN016, message, "write 0, or leave the parameter out");
             }
         }
         if self.get(201) > 0.0 {
             let message = format!("the depth Q201={} is above the surface", self.get(201));
-            return refuse(Code::PN011, message, "write it with a minus: it is measured from Q203");
+            return refuse(Code::PN011, message, "write Q201 with a minus: the depth is measured from Q203");
         }
         if self.number == 240 && self.get(343) != 0.0 {
             let help = "write the depth Q201, with Q343=0";
@@ -201,7 +201,7 @@ impl Cycle {
                 };
                 if inwards == Rotation::Stop || speed <= 0.0 {
                     let message = format!("CYCL DEF {} with the spindle stopped", self.number);
-                    return refuse(Code::PN012, message, "write M3 and S in TOOL CALL before it");
+                    return refuse(Code::PN012, message, "write M3, and S in TOOL CALL, before the cycle");
                 }
                 if rigid && pitch == 0.0 {
                     return refuse(Code::PN018, "a pitch of 0", "write the pitch in Q239");
@@ -261,7 +261,7 @@ impl Cycle {
         Ok(Some(Canned { hole, steps }))
     }
 
-    /// The length of the next stroke: the length of the last one minus Q212, but at least Q205.
+    /// The length of the next stroke: the length of the last stroke minus Q212, but at least Q205.
     fn shorter(&self) -> impl Fn(f64, f64) -> f64 + use<> {
         let (less, least) = (self.get(212), self.get(205));
         move |stroke, _| if less > 0.0 { (stroke - less).max(least) } else { stroke }

@@ -80,7 +80,12 @@ impl Words<'_> {
         let (cycle, part) = (number.trunc() as u16, (number.fract() * 10.0).round() as u16);
         let unknown = |what: &str| {
             let message = format!("CYCL DEF {number} is not supported{what}");
-            Err(Fault::at(Code::PN016, begin, message, "run the program without it, or write it as moves"))
+            Err(Fault::at(
+                Code::PN016,
+                begin,
+                message,
+                "run the program without the cycle, or write the cycle as moves",
+            ))
         };
         if Cycle::is_known(cycle) {
             let cycle = Cycle { number: cycle, words: self.parameters(cursor)? };

@@ -57,7 +57,7 @@ fn name(cursor: &mut Cursor<'_>) -> Option<String> {
 }
 
 impl Simulator<'_> {
-    /// Reads the lines of a block: a line that ends with `~` continues on the next one. Also checks whether a rounding
+    /// Reads the lines of a block: a line that ends with `~` continues on the next line. Also checks whether a rounding
     /// or chamfer follows.
     pub(in crate::nc) fn read_klartext_lines(&mut self) -> Result<bool, RunError> {
         self.klartext.begin = self.at;
@@ -128,7 +128,7 @@ impl Simulator<'_> {
         self.rewind(back)
     }
 
-    /// Goes back to an earlier position in the input. This does not count as a jump of the program.
+    /// Goes back to an earlier position in the input. Going back does not count as a jump of the program.
     fn rewind(&mut self, back: Spot) -> Result<(), RunError> {
         let offset = i128::from(back.byte) - i128::from(self.at.byte);
         self.input.seek_relative(i64::try_from(offset).unwrap_or(0))?;
@@ -136,7 +136,7 @@ impl Simulator<'_> {
         Ok(())
     }
 
-    /// Reads the line into the block. Returns a jump if there is nothing to run.
+    /// Reads the line into the block. If the line contains nothing to run, returns where the program continues.
     pub(in crate::nc) fn read_klartext(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         let line = std::mem::take(&mut self.line);
@@ -187,7 +187,11 @@ impl Simulator<'_> {
                 words.own.begun = true;
                 let unit = cursor.rest().trim_ascii_end().to_ascii_uppercase();
                 if !unit.ends_with(b" MM") && !unit.ends_with(b" INCH") {
-                    return refuse(Code::PN007, "BEGIN PGM without MM or INCH", "write the units at its end");
+                    return refuse(
+                        Code::PN007,
+                        "BEGIN PGM without MM or INCH",
+                        "write MM or INCH at the end of the line",
+                    );
                 }
                 words.units(unit.ends_with(b" INCH"))?;
             }
@@ -260,7 +264,12 @@ impl Simulator<'_> {
             }
             _ => {
                 let message = format!("`{word}` is unknown");
-                return Err(Fault::at(Code::PN016, begin, message, "run the program without it, or write it as moves"));
+                return Err(Fault::at(
+                    Code::PN016,
+                    begin,
+                    message,
+                    "run the program without the word, or write moves instead",
+                ));
             }
         }
         self.block.is_empty = false;
@@ -415,7 +424,7 @@ fn parameter(cursor: &mut Cursor<'_>) -> Done<String> {
     }
 }
 
-/// Whether the rest of the block is that of `PLANE RESET`, or of `PLANE SPATIAL` with three angles of zero.
+/// Whether the block is `PLANE RESET`, or `PLANE SPATIAL` with three angles of zero.
 fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
     if cursor.takes_word("RESET") {
         return true;

@@ -18,7 +18,7 @@ use crate::nc::way::Spot;
 pub struct Klartext {
     /// The values of the parameters Q, QL and QR, by name.
     values: HashMap<String, f64>,
-    /// The drilling cycle in the last definition.
+    /// The drilling cycle that the program has defined last.
     cycle: Option<Call>,
     /// Whether the cycle is called after every positioning block: M89.
     calls_always: bool,
@@ -39,7 +39,7 @@ pub struct Klartext {
     ahead: Option<[Vec<u8>; 2]>,
     /// The corner that the previous line has calculated.
     corner: Option<corner::Corner>,
-    /// Names of the tools in the order of their first use. Their index, from 1, is the number of the tool.
+    /// Names of the tools in the order of their first use. The index of a name, from 1, is the number of the tool.
     tools: Vec<Vec<u8>>,
     /// Labels with their positions in the input; `None`: the input has not been searched yet.
     labels: Option<HashMap<String, Spot>>,
@@ -54,7 +54,7 @@ impl Klartext {
     }
 }
 
-/// Whether a name is that of a parameter: `Q5`, `QL1`, `QR2`.
+/// Whether a name is the name of a parameter: `Q5`, `QL1`, `QR2`.
 fn is_parameter(name: &str) -> bool {
     let number = ["QL", "QR", "Q"].iter().find_map(|start| name.strip_prefix(start));
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))

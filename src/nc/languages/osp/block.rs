@@ -35,7 +35,7 @@ pub struct Said {
     pub no_move: bool,
     /// The feed out of the hole: FA.
     pub feed_out: Option<f64>,
-    /// G15 selects an offset until the next G15, G16 only for this block.
+    /// G15 selects a work offset until the next G15. G16 selects a work offset only for this block.
     pub offset: Option<Meaning>,
     /// Whether the block sets the level to which cycles return: G71.
     pub level: bool,
@@ -82,7 +82,7 @@ impl Words<'_> {
                         Code::PN016,
                         column,
                         message,
-                        "run the program without it, or write its moves",
+                        "run the program without this word, or write its moves",
                     ));
                 }
             }
@@ -123,7 +123,7 @@ impl Words<'_> {
                 self.block.is_empty = false;
                 if self.said.cycle.replace(row.map_or(Name::default(), |row| row.code)).is_some() {
                     let message = "two cycles in one block";
-                    return Err(Fault::at(Code::PN004, column, message, "write them in two blocks"));
+                    return Err(Fault::at(Code::PN004, column, message, "write the cycles in two blocks"));
                 }
                 Ok(())
             }
@@ -146,7 +146,12 @@ impl Words<'_> {
             Some(Meaning::ToLevel) => {
                 let Some(level) = self.own.level else {
                     let message = "a return to the level of G71, but G71 is missing";
-                    return Err(Fault::at(Code::PN007, column, message, "write G71 Z and its height before it"));
+                    return Err(Fault::at(
+                        Code::PN007,
+                        column,
+                        message,
+                        "write G71 Z and its height before this block",
+                    ));
                 };
                 self.own.back = Some(Back::Level(level));
             }
@@ -163,7 +168,7 @@ impl Words<'_> {
         }
         if self.said.level {
             let Some(level) = self.block.get(b'Z') else {
-                return refuse(Code::PN007, "a level of cycles without its Z", "write G71 Z50");
+                return refuse(Code::PN007, "G71, the return level of cycles, without its Z", "write G71 Z50");
             };
             self.own.level = Some(level);
             self.block.given &= !bit(b'Z');
@@ -186,7 +191,7 @@ impl Words<'_> {
     fn offset(&mut self, meaning: Meaning) -> Done {
         let said = self.block.get(b'H').filter(|number| number.fract() == 0.0 && (0.0..=105.0).contains(number));
         let Some(number) = said else {
-            return refuse(Code::PN007, "a work offset without its number", "write H1 with it");
+            return refuse(Code::PN007, "a work offset without its number", "write H1 in this block");
         };
         self.block.given &= !bit(b'H');
         match (meaning, number == 0.0) {
@@ -208,13 +213,17 @@ impl Words<'_> {
     fn cycle(&mut self) -> Done {
         if self.said.ends {
             if self.said.cycle.is_some() {
-                return refuse(Code::PN004, "a motion code and a cycle in one block", "write them in two blocks");
+                return refuse(
+                    Code::PN004,
+                    "a motion code and a cycle in one block",
+                    "write the code and the cycle in two blocks",
+                );
             }
             let cancels = self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd);
             if let Some(cycle) = self.own.cycle.filter(|_| !cancels) {
                 let message =
                     format!("a motion code while {} is active: whether it ends the cycle is unknown", cycle.code);
-                return refuse(Code::PN016, message, "write G80 in a block before it");
+                return refuse(Code::PN016, message, "write G80 in a block before this block");
             }
             self.own.cycle = None;
             if cancels {
@@ -225,7 +234,7 @@ impl Words<'_> {
         let begins = self.said.cycle.is_some();
         if let Some(code) = self.said.cycle {
             let Some(motions) = self.state.settings.control.row(code).and_then(|row| row.runs.motions) else {
-                return refuse(Code::PN016, format!("{code} is not supported"), "program its moves");
+                return refuse(Code::PN016, format!("{code} is not supported"), "program the moves of the cycle");
             };
             let back = self.own.back;
             let (depth, r, step) = (None, None, None);
@@ -241,7 +250,7 @@ impl Words<'_> {
         }
         if let Some(dwell) = block.get(b'P').filter(|dwell| *dwell != 0.0) {
             let message = format!("P{dwell} of {}: its unit is unknown, seconds or milliseconds", cycle.code);
-            return refuse(Code::PN016, message, "write P0, and write the dwell as a block of its own");
+            return refuse(Code::PN016, message, "write P0, and write the dwell in a separate block");
         }
         if block.has(letters("EK")) {
             return refuse(Code::PN016, format!("E and K of {} are not supported", cycle.code), "leave them out");

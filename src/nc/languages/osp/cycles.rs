@@ -1,4 +1,5 @@
-//! The drilling cycles G73 to G89, G274 and G284. Their heights are absolute. M52, M53 and M54 select the return level.
+//! The drilling cycles G73 to G89, G274 and G284. The heights of these cycles are absolute. M52, M53 and M54 select the
+//! return level.
 
 use super::super::strokes::depths;
 use crate::control::{Code as Name, Motions};
@@ -68,7 +69,7 @@ impl Cycle {
         let (feed, turning, speed) = (stand.feed, stand.turning, stand.speed);
         let turns = || match turning {
             Rotation::Stop => {
-                refuse(Code::PN012, format!("{name} with the spindle stopped"), "write M3 or M4 before it")
+                refuse(Code::PN012, format!("{name} with the spindle stopped"), "write M3 or M4 before the cycle")
             }
             turning => Ok(turning),
         };
@@ -147,7 +148,7 @@ impl Cycle {
                 steps.push(Step::Turn(turning, speed));
             }
             Motions::Back | Motions::ByHand => {
-                return refuse(Code::PN016, format!("{name} is not supported"), "program its moves");
+                return refuse(Code::PN016, format!("{name} is not supported"), "program the moves of the cycle");
             }
         }
         let came = steps.iter().rev().find_map(|step| match step {

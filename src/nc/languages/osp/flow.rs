@@ -72,7 +72,7 @@ fn pass_block_name<'l>(cursor: &mut Cursor<'l>) -> Option<&'l [u8]> {
 }
 
 impl Simulator<'_> {
-    /// Reads the line into the block. Returns a jump if there is nothing to run.
+    /// Reads the line into the block. If the line contains nothing to run, returns where the program continues.
     pub(in crate::nc) fn read_osp(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.osp.at_depth(self.frames.len());
@@ -90,7 +90,9 @@ impl Simulator<'_> {
     fn osp_line(&mut self, line: &[u8], items: &mut Vec<Item>) -> Done<Option<Jump>> {
         if program(line).is_some() {
             return match self.frames.last() {
-                Some(Frame::Call { .. }) => refuse(Code::PN015, "the subprogram has no end", "end it with RTS"),
+                Some(Frame::Call { .. }) => {
+                    refuse(Code::PN015, "the subprogram has no end", "end the subprogram with RTS")
+                }
                 _ => Ok(Some(Jump::On)),
             };
         }
@@ -140,7 +142,7 @@ impl Simulator<'_> {
             }
             "RTS" => {
                 if !matches!(self.frames.last(), Some(Frame::Call { .. })) {
-                    return refuse(Code::PN015, "RTS in a main program", "end it with M2 or M30");
+                    return refuse(Code::PN015, "RTS in a main program", "end the main program with M2 or M30");
                 }
                 return self.return_from("RTS").map(Some);
             }
@@ -173,7 +175,7 @@ impl Simulator<'_> {
                         Code::PN016,
                         begin,
                         message,
-                        "positions after it are unknown: run the program without it",
+                        "positions after this block are unknown: run the program without the variable",
                     ));
                 }
                 cursor.takes(b"=");
@@ -190,7 +192,7 @@ impl Simulator<'_> {
                     Code::PN016,
                     begin,
                     message,
-                    "positions after it are unknown: run the program without it",
+                    "positions after this block are unknown: run the program without the variable",
                 ));
             }
             _ => {
@@ -251,7 +253,11 @@ impl Simulator<'_> {
         };
         let Some(start) = spot else {
             let code = if matches!(search, Search::Label(..)) { Code::PN015 } else { Code::PN016 };
-            return Err(self.refused(Fault::new(code, missing, "check the spelling, or add it to the file")));
+            return Err(self.refused(Fault::new(
+                code,
+                missing,
+                "check the spelling, or add the block or subprogram to the file",
+            )));
         };
         if let Search::Call(label, _, times) = search {
             let frame = Frame::Call { label, back: self.at, start, times, arguments: false };
@@ -263,7 +269,7 @@ impl Simulator<'_> {
     }
 }
 
-/// Whether a name is one of the letters G, M, N and O with a number, not a variable.
+/// Whether a name is not a variable, but one of the letters G, M, N and O with a number.
 fn is_word(name: &str) -> bool {
     let bytes = name.as_bytes();
     matches!(bytes[0], b'G' | b'M' | b'N' | b'O') && bytes[1..].iter().all(u8::is_ascii_digit)

@@ -22,7 +22,7 @@ pub struct Osp {
     arguments: HashMap<String, f64>,
     /// The active cycle, with its words.
     cycle: Option<Cycle>,
-    /// The return level of cycles; `None`: no M52, M53 or M54 has followed the last G80.
+    /// The return level of cycles; `None`: the program contains no M52, M53 or M54 after the last G80.
     back: Option<Back>,
     /// The level that `G71 Z` has set.
     level: Option<f64>,

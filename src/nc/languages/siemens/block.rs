@@ -15,7 +15,7 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
 use crate::toolpath::Units;
 
-/// Words for path control and look-ahead. They have no effect on anything that is compared.
+/// Words for path control and look-ahead. These words have no effect on anything that postform compares.
 const HARMLESS: [&str; 27] = [
     // these turn off features that are refused when a program turns them on
     "TRAFOOF",
@@ -47,7 +47,7 @@ const HARMLESS: [&str; 27] = [
     "RTLIOF",
 ];
 
-/// Words of features that are not run, each with a name of the feature for messages.
+/// Words of features that the simulator does not run, each with the name of its feature for messages.
 const NOT_RUN: [(&str, &str); 22] = [
     ("TRAORI", "a transformation of five axes"),
     ("TRANSMIT", "polar coordinate interpolation"),
@@ -73,7 +73,7 @@ const NOT_RUN: [(&str, &str); 22] = [
     ("WHENEVER", "a synchronised action"),
 ];
 
-/// The name of the feature that a word belongs to, if the feature is not run.
+/// The name of the feature of a word, if the simulator does not run this feature.
 pub(super) fn not_run(name: &str) -> Option<&'static str> {
     NOT_RUN.iter().find(|(word, _)| *word == name).map(|(_, what)| *what)
 }
@@ -82,7 +82,7 @@ pub(super) fn not_run(name: &str) -> Option<&'static str> {
 pub struct Words<'s> {
     pub own: &'s mut Siemens,
     pub state: &'s State,
-    /// The block. Axis words are marked as absolute (`AC`) or incremental (`IC`) in it.
+    /// The block. Its axis words are marked as absolute (`AC`) or incremental (`IC`).
     pub block: &'s mut Block,
 }
 
@@ -128,7 +128,7 @@ impl Words<'_> {
                     }
                     _ => {
                         let message = format!("`{}{value}` is unknown", char::from(letter));
-                        Err(Fault::at(Code::PN016, column, message, "run the program without it"))
+                        Err(Fault::at(Code::PN016, column, message, "run the program without this word"))
                     }
                 };
             }
@@ -162,7 +162,7 @@ impl Words<'_> {
                     Some(what) => format!("`{name}`, {what}, is not supported"),
                     None => format!("`{name}` is unknown"),
                 };
-                let help = "run the program without it, or write it as moves";
+                let help = "run the program without this word, or write moves instead of it";
                 Err(Fault::at(Code::PN016, column, message, help))
             }
         }
@@ -221,7 +221,7 @@ impl Words<'_> {
             b'M' => self.block.m_word(value, column, control),
             b'R' | b'L' | b'P' | b'E' | b'O' | b'Q' | b'H' | b'U' | b'V' | b'W' => {
                 let message = format!("the word {} is unknown here", char::from(letter));
-                Err(Fault::at(Code::PN016, column, message, "run the program without it"))
+                Err(Fault::at(Code::PN016, column, message, "run the program without this word"))
             }
             _ => self.block.word(letter, value, false, column, control),
         }
@@ -321,7 +321,11 @@ impl Words<'_> {
         let arguments = self.arguments(cursor)?;
         let name = if circle { "HOLES2" } else { "HOLES1" };
         let Some(call) = self.own.modal.clone() else {
-            return refuse(Code::PN006, format!("{name} without a cycle"), "write MCALL and the cycle before it");
+            return refuse(
+                Code::PN006,
+                format!("{name} without a cycle"),
+                "write MCALL and the cycle before this block",
+            );
         };
         let value = |at: usize| arguments.get(at).copied().flatten().unwrap_or(0.0);
         let count = value(5);
@@ -355,10 +359,10 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// Reads `TRANS`, which sets the shift of the frame, or `ATRANS`, which adds to it.
+    /// Reads `TRANS`, which sets the shift of the frame, or `ATRANS`, which adds to this shift.
     pub fn translate(&mut self, adds: bool, cursor: &mut Cursor<'_>) -> Done {
         let Some(row) = self.state.control.first(Meaning::Frame) else {
-            return refuse(Code::PN016, "a moved frame is not supported", "run the program without it");
+            return refuse(Code::PN016, "a moved frame is not supported", "run the program without the frame");
         };
         self.block.put_g(row, Group::Once, true);
         let mut by = if adds { *self.state.shift() } else { [0.0; 6] };
@@ -391,7 +395,8 @@ impl Words<'_> {
 }
 
 impl Siemens {
-    /// Records the units that a block sets. G70 and G71 do not change the unit of feeds, which is that of the machine.
+    /// Records the units that a block sets. G70 and G71 do not change the unit of feeds: feeds are in the unit of the
+    /// machine.
     fn units(&mut self, inch: bool, with_feed: bool) -> Done {
         let units = if inch { Units::Inch } else { Units::Mm };
         let before = self.units.replace(units);
@@ -403,7 +408,7 @@ impl Siemens {
     }
 }
 
-/// Whether a word has no effect on anything that is compared.
+/// Whether a word has no effect on anything that postform compares.
 pub fn is_harmless(name: &str) -> bool {
     HARMLESS.contains(&name)
 }

@@ -80,7 +80,7 @@ impl Cycle {
     fn levels(&self) -> Done<Levels> {
         let name = format!("CYCLE{}", self.number);
         let (Some(back), Some(reference)) = (self.said(0), self.said(1)) else {
-            let help = "write RTP and RFP, its first two arguments";
+            let help = "write RTP and RFP, the first two arguments of the cycle";
             return refuse(Code::PN007, format!("{name} without its retract or reference plane"), help);
         };
         let bottom = match (self.said(3), self.said(4)) {
@@ -90,10 +90,18 @@ impl Cycle {
             (Some(depth), Some(below)) => {
                 let message =
                     format!("{name} has two depths: DP {depth}, and DPR {below}, which is {}", reference - below.abs());
-                return refuse(Code::PN016, message, "write only one: controls differ in which one they use");
+                return refuse(
+                    Code::PN016,
+                    message,
+                    "write only DP or only DPR: which of them is used depends on the control",
+                );
             }
             (None, None) => {
-                return refuse(Code::PN007, format!("{name} without its depth"), "write DP, its fourth argument");
+                return refuse(
+                    Code::PN007,
+                    format!("{name} without its depth"),
+                    "write DP, the fourth argument of the cycle",
+                );
             }
         };
         let clearance = self.get(2).abs();
@@ -146,7 +154,7 @@ impl Cycle {
                     return refuse(
                         Code::PN007,
                         "CYCLE85 without its feeds",
-                        "write FFR and RFF, its last two arguments",
+                        "write FFR and RFF, the last two arguments of the cycle",
                     );
                 }
                 hole_feed = into;
@@ -269,7 +277,7 @@ impl Cycle {
         Ok(first)
     }
 
-    /// The pitch of a tap in the program's units. It is negative for a left-hand thread.
+    /// The pitch of a tap in the program's units. The pitch of a left-hand thread is negative.
     fn pitch(&self, size: usize, pitch: usize, table: usize, stand: &Stand) -> Done<f64> {
         let mm = if stand.units == Units::Inch { 1.0 / 25.4 } else { 1.0 };
         let by_size = match self.get(size) {
@@ -300,7 +308,8 @@ impl Cycle {
         }
     }
 
-    /// Adds the steps of CYCLE84 or CYCLE840: into the hole, reversal, and out. Returns the motions and the feed.
+    /// Adds the steps of CYCLE84 or CYCLE840: the feed into the hole, the reversal of the spindle, and the feed out.
+    /// Returns the motions and the feed.
     fn tap(
         &self,
         levels: &Levels,
@@ -315,7 +324,7 @@ impl Cycle {
         if !rigid {
             let inwards = stand.turning;
             if inwards == Rotation::Stop {
-                return refuse(Code::PN012, "CYCLE840 with the spindle stopped", "write M3 or M4 before it");
+                return refuse(Code::PN012, "CYCLE840 with the spindle stopped", "write M3 or M4 before CYCLE840");
             }
             let outwards = match self.get(6) as i32 {
                 3 => Rotation::Cw,
@@ -332,7 +341,7 @@ impl Cycle {
         let pitch = self.pitch(7, 8, 13, stand)?;
         let speed = self.get(10);
         if speed <= 0.0 {
-            return refuse(Code::PN007, "CYCLE84 without its speed", "write SST, its eleventh argument");
+            return refuse(Code::PN007, "CYCLE84 without its speed", "write SST, the eleventh argument of the cycle");
         }
         let out_speed = Some(self.get(11)).filter(|speed| *speed > 0.0).unwrap_or(speed);
         let (inwards, motions) =
@@ -346,8 +355,8 @@ impl Cycle {
             1 | 2 => {
                 return refuse(
                     Code::PN007,
-                    "CYCLE84 with pecks, but without their depth",
-                    "write DAM, its 17th argument",
+                    "CYCLE84 with pecks, but without the depth of a peck",
+                    "write DAM, the 17th argument of the cycle",
                 );
             }
             other => {

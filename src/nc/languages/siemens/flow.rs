@@ -11,7 +11,7 @@ use crate::nc::simulator::Simulator;
 use crate::nc::way::{Jump, Search};
 
 impl Simulator<'_> {
-    /// Reads the line into the block. Returns a jump if there is nothing to run.
+    /// Reads the line into the block. If the line contains nothing to run, returns where the program continues.
     pub(in crate::nc) fn read_siemens(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.siemens.at_depth(self.frames.len());
@@ -31,7 +31,8 @@ impl Simulator<'_> {
         Ok(jump)
     }
 
-    /// Runs the first line of a section. If the previous section runs into this one, it ends here; a main program must not do so.
+    /// Runs the first line of a section. A subprogram that runs into this section ends here. A main program must not
+    /// run into this section.
     fn section_begins(&mut self) -> Done<Option<Jump>> {
         let is_proc = !self.line.trim_ascii_start().starts_with(b"%");
         if let (true, Some(arguments)) = (is_proc, self.siemens.arguments.take()) {
@@ -42,7 +43,7 @@ impl Simulator<'_> {
         }
         if self.frames.is_empty() {
             let help = "a program ends with M30, M2 or M17";
-            return refuse(Code::PN010, "the program runs into the next one: its end is missing", help);
+            return refuse(Code::PN010, "the end of the program is missing, so it runs into the next program", help);
         }
         self.return_from("a subprogram").map(Some)
     }
@@ -74,7 +75,11 @@ impl Simulator<'_> {
         }
         match arguments.next() {
             None => Ok(()),
-            Some(_) => refuse(Code::PN018, "a call with more arguments than its PROC takes", "leave the others out"),
+            Some(_) => refuse(
+                Code::PN018,
+                "a call has more arguments than the PROC line of the program",
+                "leave the additional arguments out",
+            ),
         }
     }
 
@@ -132,7 +137,12 @@ impl Simulator<'_> {
                 None if name == "CYCLE832" => _ = words.arguments(&mut cursor)?,
                 None => {
                     let message = format!("{name} is not supported");
-                    return Err(Fault::at(Code::PN016, at, message, "run the program without it, or write its moves"));
+                    return Err(Fault::at(
+                        Code::PN016,
+                        at,
+                        message,
+                        "run the program without the cycle, or write the moves of the cycle",
+                    ));
                 }
             },
             "HOLES1" | "HOLES2" if !modal => words.pattern(name == "HOLES2", &mut cursor)?,
@@ -172,7 +182,7 @@ impl Simulator<'_> {
                     return Ok(Some(Jump::On));
                 }
                 let Some(to) = words.own.ends.get(&self.at.line).copied() else {
-                    let help = "go to the line that opens it";
+                    let help = "jump to the line where the loop or condition begins";
                     return refuse(Code::PN015, format!("{} has no beginning", head.word), help);
                 };
                 if head.word == "ENDFOR" {
@@ -199,7 +209,11 @@ impl Simulator<'_> {
                 let goes_on = words.own.next_round.take() == Some(self.at.line);
                 let value = if goes_on { words.own.value(&name).unwrap_or(first) + 1.0 } else { first };
                 if !words.own.set(&name, value) {
-                    return refuse(Code::PN014, format!("`{name}` is not defined"), "define it: DEF INT before it");
+                    return refuse(
+                        Code::PN014,
+                        format!("`{name}` is not defined"),
+                        "write DEF INT for the variable before the loop",
+                    );
                 }
                 self.opens(value <= last)
             }
@@ -249,8 +263,8 @@ impl Simulator<'_> {
                     if !words.own.set(&name, value) {
                         return refuse(
                             Code::PN016,
-                            format!("`{name}` next to a parameter is unknown"),
-                            "write it in a separate block",
+                            format!("`{name}` is unknown in a block that sets a variable"),
+                            "write the word in a separate block",
                         );
                     }
                 }
@@ -345,7 +359,8 @@ fn is_variable(name: &str, own: &Siemens) -> bool {
     own.value(name).is_some() || name.strip_prefix('R').is_some_and(|number| number.parse::<u32>().is_ok())
 }
 
-/// Whether a name can be that of a subprogram: it begins with two letters, such as `POCKET`, or it is L with a number.
+/// Whether a name can be the name of a subprogram: it begins with two letters, such as `POCKET`, or it is L with a
+/// number.
 fn line_name(name: &str) -> bool {
     let is_numbered =
         name.strip_prefix('L').is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()));
@@ -362,7 +377,7 @@ fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
     is_name && alone && !is_known && !own.iter().any(|known| name.starts_with(known))
 }
 
-/// The number of calls, which may follow a call as `P3`.
+/// Reads the number of calls of a subprogram, such as `P3` after the call.
 fn calls(cursor: &mut Cursor<'_>) -> f64 {
     if cursor.takes(b"P") || cursor.takes(b"p") { cursor.unsigned().unwrap_or(-1.0) } else { 1.0 }
 }

@@ -1,4 +1,5 @@
-//! The native language of Siemens 840D and 828D mills. Their ISO mode is read as Fanuc.
+//! The native language of Siemens 840D and 828D mills. Programs in the ISO mode of these controls are read as Fanuc
+//! programs.
 //!
 //! Sources: SINUMERIK 840D/810D Programming Guide (fundamentals, job planning, cycles), and public programs.
 

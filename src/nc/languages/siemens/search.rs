@@ -138,7 +138,7 @@ impl Simulator<'_> {
         })?;
         let (Some((after, end_line)), None) = (end, stray) else {
             let message = format!("{} has no {}", own.word, PARTS[kind].1);
-            return Ok(refuse(Code::PN015, message, "end each part with its own word"));
+            return Ok(refuse(Code::PN015, message, "end each branch or loop with its own word"));
         };
         let opening = Spot { byte: back.byte - text.len() as u64, line: line - 1 };
         // records where the run continues after the line in the middle of the part, and after its last line
@@ -167,7 +167,8 @@ impl Simulator<'_> {
         let section =
             self.siemens.sections.as_deref().unwrap_or_default().iter().find(|section| section.name == name).cloned();
         let Some(section) = section else {
-            let help = "subprograms in other files are not simulated: add it after the main program, as %_N_NAME_SPF";
+            let help = "subprograms in other files are not simulated: add the subprogram after the main program, as \
+                %_N_NAME_SPF";
             return Ok(refuse(Code::PN016, format!("there is no subprogram {name} in this file"), help));
         };
         // the header of the section is skipped
@@ -188,7 +189,7 @@ impl Simulator<'_> {
             return Ok(refuse(
                 Code::PN018,
                 format!("{name} takes no arguments"),
-                "write PROC with them at its beginning",
+                "write PROC with its arguments at the beginning of the subprogram",
             ));
         }
         if has_proc && times > 1 {

@@ -16,17 +16,17 @@ pub struct Siemens {
     pub(super) variables: Vec<HashMap<String, f64>>,
     /// The cycle that `MCALL` has made modal.
     pub(super) modal: Option<Call>,
-    /// Names of the tools in the order of their first use. Their index, from 1, is the number of the tool.
+    /// Names of the tools in the order of their first use. The index of a name, from 1, is the number of the tool.
     tools: Vec<Vec<u8>>,
     /// The units that the program has last set.
     pub(super) units: Option<Units>,
-    /// The arguments of a call. They are stored until the `PROC` line of the subprogram is read.
+    /// The arguments of a call. The arguments are stored until the `PROC` line of the subprogram is read.
     pub(super) arguments: Option<Vec<Option<f64>>>,
     /// The programs of the input in their order; `None`: the input has not been searched yet.
     pub(super) sections: Option<Vec<Section>>,
     /// The parts of structured blocks, by the line that opens each part.
     pub(super) parts: HashMap<u64, Part>,
-    /// The targets of lines that end a part, by line.
+    /// For each line that ends a part: the position to which the line jumps.
     pub(super) ends: HashMap<u64, Spot>,
     /// The positions of each label, by section and name.
     pub(super) labels: HashMap<(usize, String), Vec<Spot>>,
@@ -59,7 +59,7 @@ impl Siemens {
         self.variables.last().and_then(|own| own.get(name)).or_else(|| self.parameters.get(name)).copied()
     }
 
-    /// Sets a variable or parameter. Returns `false` if none has this name.
+    /// Sets a variable or parameter. Returns `false` if no variable or parameter has this name.
     pub(super) fn set(&mut self, name: &str, value: f64) -> bool {
         if let Some(own) = self.variables.last_mut().and_then(|own| own.get_mut(name)) {
             *own = value;
@@ -80,7 +80,8 @@ impl Siemens {
         self.variables.resize_with(depth + 1, HashMap::new);
     }
 
-    /// The number of a tool. If the name is a number, it is this number, otherwise the index among the tool names of the program.
+    /// The number of a tool. A name that is a number is itself the tool number. Any other name gets its index among the
+    /// tool names of the program.
     pub(super) fn tool(&mut self, name: &[u8]) -> f64 {
         let number = std::str::from_utf8(name).ok().and_then(|name| name.parse::<u32>().ok());
         if let Some(number) = number {

@@ -45,7 +45,7 @@ impl WorkWords {
         self.ways.is_empty() || self.ways.iter().any(|way| way.is_code)
     }
 
-    /// The form's first way to print this offset that the control supports, and the value of the word.
+    /// The first word of the form for this offset that the control supports, and the value of the word.
     pub fn way(&self, values: &dyn Values, control: &Control) -> Option<(&WorkWord, f64)> {
         if let Some((word, value)) = values.number(VarId::Work).and_then(|work| self.more(work)) {
             return word.has(value, control).then_some((word, value));

@@ -60,8 +60,7 @@ pub struct Row {
     pub not_run: Option<String>,
     /// The words and values with which the code has this meaning; empty: the code has this meaning with any values.
     pub only: Vec<(u8, f64)>,
-    /// Whether the control stops the spindle before it runs the code. A Haas, for example, stops the spindle before it
-    /// turns on through-spindle coolant.
+    /// Whether the control stops the spindle before it runs the code, as a Haas does for through-spindle coolant.
     pub stops_spindle: bool,
     /// Values that only the simulator uses.
     pub runs: Runs,
@@ -132,8 +131,7 @@ macro_rules! shipped {
         const FILES: [(&str, &str); [$($name),*].len()] =
             [$(($name, include_str!(concat!("../../controls/", $name, ".toml")))),*];
 
-        /// The controls that come with postform. Each file is read at the first use of its control. A test reads all
-        /// files.
+        /// The controls that come with postform. A file is read at the first use of its control.
         static CONTROLS: [LazyLock<Control>; FILES.len()] = [$(LazyLock::new(|| {
             let text = include_str!(concat!("../../controls/", $name, ".toml"));
             Control::read($name, text).unwrap_or_else(|_| Control::empty())
@@ -270,8 +268,7 @@ impl Control {
         &self.title
     }
 
-    /// Facts about the control that are not public, one sentence each. A program that depends on such a fact is
-    /// refused.
+    /// Facts about the control that are not public, one sentence each. Programs that depend on a fact are refused.
     pub fn unknown(&self) -> &[String] {
         &self.unknown
     }

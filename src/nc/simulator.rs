@@ -21,8 +21,7 @@ use crate::diag::{Code, Diag};
 
 /// Maximum length of a line on any control, in bytes.
 const LONGEST: usize = 1 << 16;
-/// Maximum number of loop rounds, calls and repeated blocks. A program with more rounds, calls and repeats counts as
-/// endless and is refused.
+/// Maximum number of loop rounds, calls and repeated blocks. A program with more of them is refused.
 const MOST_JUMPS: u64 = 1_000_000;
 
 /// Maximum number of actions from subprograms, loops and long blocks. A program with more actions is refused.
@@ -86,7 +85,7 @@ pub struct Simulator<'a> {
     /// Whether the program ended with M99. The control would start the program again.
     pub(super) again: bool,
     jumps: u64,
-    /// The highest line that was read before a jump. Lines up to this line may be read again.
+    /// The highest line that was read before a jump. A jump back reads lines again only up to this line.
     pub(super) farthest: u64,
     /// Number of actions from subprograms, loops and long blocks.
     repeated: u64,
@@ -157,8 +156,7 @@ impl<'a> Simulator<'a> {
         &self.line
     }
 
-    /// The text of the line that was run last. Take the text before the next step. `None`: the line has further
-    /// actions.
+    /// The text of the line that was run last. Take the text before the next step. `None`: the line has more actions.
     #[inline]
     pub fn text_to_keep(&mut self) -> Option<&mut Vec<u8>> {
         if self.unfinished { None } else { Some(&mut self.line) }

@@ -31,7 +31,7 @@ pub struct Want {
     pub changed: bool,
     /// The feed of moves, in program units.
     feed: Option<f64>,
-    /// Feed of moves in units of its letter, if the rounding error is small.
+    /// Feed of moves in units of the last decimal of F, if the rounding error is small.
     feed_units: Option<i64>,
     /// Unit of feeds.
     feed_mode: FeedMode,
@@ -154,7 +154,7 @@ impl Want {
         self.feed
     }
 
-    /// The feed of moves in units of its letter, if the rounding error is small.
+    /// The feed of moves in units of the last decimal of F, if the rounding error is small.
     #[inline]
     pub fn feed_units(&self) -> Option<i64> {
         self.feed_units

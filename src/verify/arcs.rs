@@ -8,8 +8,8 @@ use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
 
-/// Greatest deviation of the parts of an arc from its circle, in tolerances. The factor is more than 1, because the
-/// centres of arcs are rounded too.
+/// Greatest deviation of the parts of an arc from its circle, as a multiple of the tolerance. The factor is more than
+/// 1, because the centres of arcs are rounded too.
 const OFF: f64 = 5.0;
 
 /// Whether a short straight cut that begins at the start of the arc is a chord of the arc. The cut is a chord if its

@@ -10,8 +10,8 @@ use super::rapids::{moves_as_before, same_rapids};
 use super::sides::Sides;
 use crate::lang::Machine;
 
-/// Shortest cut for the fast comparison, in tolerances. A longer cut is always longer than the rounding of its
-/// positions.
+/// Shortest cut for the fast comparison, as a multiple of the tolerance. A longer cut is always longer than the
+/// rounding of its positions.
 const LONG: f64 = 4.0;
 
 /// Whether the program's next cut equals the job's cut, and both cuts directly follow another cut. If `true`, the cut

@@ -2,8 +2,8 @@
 
 use super::cut::{ACROSS, ALL, DEPTH, Rapid, distance, lies_between, same};
 
-/// Minimum length of a rapid, in tolerances. The direction of a shorter rapid can't be determined from its printed
-/// digits.
+/// Minimum length of a rapid, as a multiple of the tolerance. The direction of a shorter rapid can't be determined from
+/// its printed digits.
 const LEG: f64 = 4.0;
 
 /// A path as a list of corners: its start, if known, and the ends of its rapids.

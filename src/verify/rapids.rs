@@ -86,7 +86,7 @@ fn stays_at_wall(s: &mut Sides<'_>, line: u64) {
 
 fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV011, line, "check the spindle codes of the cycle", || {
-        "while the tool retracts, the spindle does not turn or stop at an angle as in the job".to_owned()
+        "while the tool retracts, the spindle does not turn, or does not stop at an angle, as in the job".to_owned()
     });
 }
 

@@ -44,12 +44,12 @@ allowed! {
     outs    "hole" "with a higher retract at feed" "lines.rs" "Taps and reamed holes whose retract at feed ends only at the return plane.";
     entries "cut" "interrupted and continued" "align.rs" "Cuts that are interrupted and continued at the same position.";
     slow    "rapid" "made at feed to turn compensation on or off" "comparer.rs" "Moves at feed that turn compensation on or off, where the job has a rapid.";
-    dwells  "dwell" "added by the form" "pauses.rs" "Dwells that the job does not have, if they are outside cuts and holes. In a cut, a dwell of up to 30 s is allowed after the start of a stopped spindle, or with a torch or laser on.";
+    dwells  "dwell" "added by the form" "pauses.rs" "Dwells that the job does not have, if they are outside cuts and holes. In a cut, a dwell of up to 30 s is allowed after the spindle starts, or with a torch or laser on.";
     stops   "stop" "added by the form" "pauses.rs" "Stops that the job does not have, outside cuts and holes.";
     pauses  "pause" "at another position between the same cuts" "pauses.rs" "Stops and dwells of the job that the program makes at another position between the same cuts. The position of a stop is not lower than in the job.";
     feeds   "feed" "set by the form" "modal.rs" "Cuts at a feed that the form contains, or computes from the job's feed. The feed is 0.2 to 2 times the job's feed.";
     speeds  "speed" "set by the form" "modal.rs" "Cuts at a speed that the form contains, or computes from the job's speed, as `S[min(speed,800)]`. The speed is 0.2 to 2 times the job's speed. This is not allowed for taps.";
-    threads "thread" "with other passes" "threads.rs" "Threads that are cut to the job's depth in other passes. No pass is deeper than 1.5 times the deepest pass of the job.";
+    threads "thread" "with other passes" "threads.rs" "Threads that are cut to the job's depth, but in other passes than in the job. No pass is deeper than 1.5 times the deepest pass of the job.";
     custom  "hole" "of a custom cycle" "comparer.rs" "Holes of custom cycles, if the form's own moves go along the axis of the hole to the job's depth.";
 }
 

@@ -49,7 +49,8 @@ impl Low {
     }
 }
 
-/// Greatest length, in tolerances, of a rapid across that may be a rapid straight up with rounded ends.
+/// Greatest length, as a multiple of the tolerance, of a rapid across that may be a rapid straight up with rounded
+/// ends.
 const ROUNDED_ACROSS: f64 = 2.0;
 
 /// Whether both paths have the same rapids with the same state of the spindle.

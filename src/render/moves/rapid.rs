@@ -28,7 +28,7 @@ pub fn rapid(to: &Axes, cx: &mut Cx<'_>) -> Done {
             work_before(&mut cx.writer())?;
         }
         if turns && upon_is_due(cx.said.lacks(cx.want, shape), true, shape, cx.want, cx.said) {
-            let message = "an Upon sequence would move the tool here before the part turns";
+            let message = "at this rapid, an Upon sequence would move the tool before the part turns";
             return fault(
                 Code::PR017,
                 message,

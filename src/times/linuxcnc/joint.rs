@@ -186,7 +186,7 @@ fn arc(last: &Piece, next: &Piece, tolerance: Option<f64>, rates: &Rates) -> Opt
     })
 }
 
-/// The greatest speed through the corner between two lines at which both lines keep their speed limits.
+/// The greatest speed through the corner between two lines. At this speed, both lines keep their speed limits.
 fn altitude(last: &Piece, next: &Piece, turn: f64) -> f64 {
     if last.round.is_some() || next.round.is_some() {
         return 0.0;

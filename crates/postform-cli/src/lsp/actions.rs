@@ -16,7 +16,7 @@ const FIX_ALL: &str = "source.fixAll.postform";
 /// Puts the letter formats in order.
 const ORGANISE: &str = "source.organizeFormats";
 
-/// Maximum number of programs printed for one answer: one before all fixes, and one for each of the first fixes.
+/// Maximum number of programs that one answer prints: one without a fix, and one for each of the first fixes.
 const MOST_PROGRAMS: usize = 17;
 /// Maximum number of actions in one answer, for example if the whole form is selected.
 const MOST_ACTIONS: usize = 300;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use postform::internals::scene::At;
 use serde::Deserialize;
 
-/// A request of a page for a scene.
+/// The request with which a page asks for a scene.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ask {

@@ -27,7 +27,7 @@ pub fn check(spec: &CycleSpec) -> Result<(), Problem> {
         );
     }
     if spec.norevr && spec.rapout {
-        return problem(Code::PC016, "the tap has both `norevr` and `rapout`", "keep one of the two keys");
+        return problem(Code::PC016, "the tap has both `norevr` and `rapout`", "keep `norevr` or `rapout`");
     }
     if spec.mode.is_some() && (spec.norevr || spec.rapout) {
         let help = "take `mode` (DEEP or BRKCHP) out, or `norevr` and `rapout`";
@@ -106,11 +106,7 @@ fn options(spec: &CycleSpec) -> Result<(), Problem> {
         Some((_, name, kinds)) => {
             let message = format!("`{}` has no `{name}`", spec.kind.name());
             let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
-            Err(Problem::new(
-                Code::PC017,
-                message,
-                format!("`{name}` is only for {}: remove the key", names.join(", ")),
-            ))
+            Err(Problem::new(Code::PC017, message, format!("only for {}: remove it", names.join(", "))))
         }
     }
 }

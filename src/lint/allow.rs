@@ -65,7 +65,7 @@ fn unused(allow: &Allow) -> Diag {
     // a code that is an error by default can't be allowed, because it always prevents printing
     let help = match allow.code.row().severity {
         Severity::Error => "an error can't be allowed: fix the error",
-        _ => "remove the comment, so that it does not hide a later finding",
+        _ => "remove the code from the comment, so that it does not hide a later finding",
     };
     Diag::new(Code::PF108, format!("`{}` allows nothing here", allow.code.name()))
         .at(allow.word, "no such finding")

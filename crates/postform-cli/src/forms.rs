@@ -196,5 +196,5 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
 
 /// Reports a skipped file: a fix must only change files of the folder, and reading a pipe would never end.
 fn left_out(path: &Path, why: &str) {
-    message(&format!("{}: left out ({why}); to check the file, give its name", files::name(path)));
+    message(&format!("{}: left out ({why}); to check this form, give its name", files::name(path)));
 }

@@ -19,7 +19,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             continue;
         }
         let mut diag = Diag::new(Code::PF409, format!("{} leaves {code} active", body.name()))
-            .at(word.span, "the control would also drill at the next position")
+            .at(word.span, "the control would also make a hole at the next position")
             .help("end the cycle with `End Cancel`, and print G80 in a sequence `Cancel`");
         let end = view.node(sequence.span).and_then(|node| node.end.as_ref());
         if let Some(end) =

@@ -171,7 +171,7 @@ pub(super) fn survey(
         let name = code.map_or("block delete".to_owned(), |code| code.to_string());
         let times = if count > 1 { format!(", {count} times") } else { String::new() };
         let message = format!("{name}{times} is left out: a job can't contain it");
-        warnings.push(warning(line, message, "if the machine needs this code, let the form print it"));
+        warnings.push(warning(line, message, "if the machine needs it, let the form print it"));
     }
     if simulator.begins_again() {
         let message = "the program ends with M99 and begins again, but a job runs only once";

@@ -95,7 +95,7 @@ impl<'a> Turner<'a> {
         self.in_thread = false;
         match &item.action {
             Action::Rapid { to, .. } | Action::Feed { to, .. } | Action::Arc(Turn { to, .. }) if to[1] != 0.0 => {
-                unsaid(line, "a move along Y", "remove the move: the job of a lathe has only Z and X")
+                unsaid(line, "a move along Y", "remove the Y word: the job of a lathe has only Z and X")
             }
             Action::Rapid { astray, .. } if astray & AXES != 0 => {
                 let help = "write the position by X and Z, or go there by G53";

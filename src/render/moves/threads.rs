@@ -156,7 +156,11 @@ fn planned(thread: &Thread, shape: &Shape, said: &Said) -> Done<Cut> {
     let falls = start - crest;
     if let Some(taper) = taper.filter(|taper| (taper - falls).abs() > 1e-9) {
         let message = format!("the ends of the thread differ by {falls} in radius, but its `taper` is {taper}");
-        return fault(Code::PR031, message, "give only x of `to` or only `taper`; both together must be equal");
+        return fault(
+            Code::PR031,
+            message,
+            "give only x of `to`, or only `taper`, or a `taper` equal to the change of x",
+        );
     }
     let depth = thread.depth.abs() * shape.scale;
     let first = thread.first_depth.map(|d| d * shape.scale);

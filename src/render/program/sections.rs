@@ -95,7 +95,7 @@ fn check_section(id: SequenceId, shape: &Shape) -> Done {
     if id.row().machines.has(machine) {
         return Ok(());
     }
-    let message = format!("the path of a {} can't contain this part", machine.name());
+    let message = format!("the path of a form for {} can't contain this part", machine.name());
     fault(Code::PR008, message, format!("{} is for {}", id.name(), id.row().machines))
 }
 

@@ -205,7 +205,11 @@ impl<'s> Builder<'s> {
         }
         if let Some(home) = item.home {
             if !home {
-                return fault(Code::PJ003, "`home` is false, so the item does nothing", "remove `home`, or write true");
+                return fault(
+                    Code::PJ003,
+                    "`home` is false, so the item does nothing",
+                    "remove the item, or write true",
+                );
             }
             return self.push(Event::Home);
         }

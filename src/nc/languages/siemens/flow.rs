@@ -77,7 +77,7 @@ impl Simulator<'_> {
             None => Ok(()),
             Some(_) => refuse(
                 Code::PN018,
-                "a call has more arguments than the PROC line of the program",
+                "a call has more arguments than the PROC line of the subprogram",
                 "leave the additional arguments out",
             ),
         }

@@ -1,6 +1,6 @@
 //! Evaluates expressions in words: `[#1 * 2 + SIN[30]]`.
 
-use super::fault::{Done, Fault, refuse};
+use super::fault::{Done, Fault, quoted, refuse};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, Token, Tokens};
 use crate::diag::Code;
@@ -62,7 +62,7 @@ impl<'a> Reader<'a> {
         let help = "a value is a number, #1, [..] or a function like SIN[..]";
         match self.ahead {
             Some(token) if token.kind != Kind::LineEnd => {
-                let text = String::from_utf8_lossy(self.text(token)).into_owned();
+                let text = quoted(self.line, token.start, token.end);
                 Err(Fault::at(Code::PN014, token.start, format!("{what} instead of `{text}`"), help))
             }
             _ => Err(Fault::at(Code::PN014, self.line.len(), format!("the block ends, but {what} is missing"), help)),

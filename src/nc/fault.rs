@@ -39,6 +39,15 @@ impl Fault {
     }
 }
 
+/// The text of a token for a message. A token is at most one byte of a character that is not ASCII; the text is then the
+/// whole character.
+pub(super) fn quoted(line: &[u8], start: usize, end: usize) -> String {
+    match line.get(start) {
+        Some(first) if first.is_ascii() => String::from_utf8_lossy(&line[start..end.max(start + 1)]).into_owned(),
+        _ => String::from_utf8_lossy(line.get(start..).unwrap_or_default()).chars().take(1).collect(),
+    }
+}
+
 /// Refuses a block: returns a fault without a column.
 pub fn refuse<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
     Err(Fault::new(code, message, help))

@@ -3,7 +3,7 @@
 use super::block::Block;
 use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
 use super::expression::Reader;
-use super::fault::{Done, Fault, refuse};
+use super::fault::{Done, Fault, quoted, refuse};
 use super::flow::Flow;
 use super::parameters::Parameters;
 use super::scan::{Kind, tokens, tokens_from};
@@ -363,10 +363,6 @@ fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
 
 #[cold]
 fn unreadable<T>(line: &[u8], start: usize, end: usize) -> Done<T> {
-    let text = match line.get(start) {
-        Some(first) if first.is_ascii() => String::from_utf8_lossy(&line[start..end.max(start + 1)]).into_owned(),
-        // a token is one byte of a character that is not ASCII
-        _ => String::from_utf8_lossy(&line[start.min(line.len())..]).chars().take(1).collect(),
-    };
+    let text = quoted(line, start, end);
     Err(Fault::at(Code::PN001, start, format!("`{text}` can't be read"), "remove it, or put it into a comment"))
 }

@@ -24,11 +24,8 @@ pub(super) fn unknown_code(diag: &Diag, control: &Control) -> (String, &'static 
     let is_code = |word: &&str| word.len() > 1 && word[1..].starts_with(|c: char| c.is_ascii_digit());
     let code = words.into_iter().find(is_code).filter(|_| diag.code == Code::PN003);
     let why = code.map_or_else(|| diag.message.clone(), |code| format!("{code} is unknown for {name}"));
-    let help = match code.and_then(|code| code.parse().ok()) {
-        Some(code) if control.lacks(code) => {
-            return (format!("{why}: its control file marks the code as absent"), "let the form print another code");
-        }
-        _ => "describe the code in a control file, or check its effect at the machine",
-    };
-    (why, help)
+    if code.and_then(|code| code.parse().ok()).is_some_and(|code| control.lacks(code)) {
+        return (format!("{why}: its control file marks the code as absent"), "let the form print another code");
+    }
+    (why, "describe the code in a control file, or check its effect at the machine")
 }

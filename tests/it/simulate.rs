@@ -375,11 +375,16 @@ fn simple_blocks_are_read_the_same_in_each_layout() {
 /// A message shows a character that looks like a space by its number.
 #[test]
 fn a_no_break_space_is_shown_by_its_number() {
-    let program = Cursor::new("G21\nG0\u{a0}X1.\nM30\n");
-    let mut simulator = Simulator::new(program, RunSettings::new(control("fanuc")));
-    let refused = std::iter::repeat_with(|| simulator.step(&mut Vec::new())).find_map(Result::err);
-    let Some(RunError::Refused(diag, 2)) = refused else { panic!("{refused:?}") };
-    assert_eq!(diag.message, r"`\u{a0}` can't be read, in `G0\u{a0}X1.`");
+    for (block, message) in [
+        ("G0\u{a0}X1.", r"`\u{a0}` can't be read, in `G0\u{a0}X1.`"),
+        ("G0 X\u{a0}1.", r"a value instead of `\u{a0}`, in `G0 X\u{a0}1.`"),
+    ] {
+        let program = Cursor::new(format!("G21\n{block}\nM30\n"));
+        let mut simulator = Simulator::new(program, RunSettings::new(control("fanuc")));
+        let refused = std::iter::repeat_with(|| simulator.step(&mut Vec::new())).find_map(Result::err);
+        let Some(RunError::Refused(diag, 2)) = refused else { panic!("{refused:?}") };
+        assert_eq!(diag.message, message);
+    }
 }
 
 /// A program that is truncated or has any changed byte is run or refused. The simulator never panics or hangs.

@@ -10,8 +10,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let Some(control) = view.settings.control.filter(|_| view.is_mill()) else { return };
     for word in view.words() {
         if let WordKind::Var(letter @ (b'G' | b'M'), var) = word.kind {
-            let codes = view.settings.codes_of(var).into_iter().filter_map(|value| control::Code::of(letter, value));
-            if let Some(code) = codes.into_iter().find(|&code| control.lacks(code)) {
+            let mut codes =
+                view.settings.codes_of(var).into_iter().filter_map(|value| control::Code::of(letter, value));
+            if let Some(code) = codes.find(|&code| control.lacks(code)) {
                 let message = format!("[{}] may print {code}, which {} does not have", var.name(), control.name());
                 diags.push(
                     Diag::new(Code::PF608, message)

@@ -7,6 +7,7 @@ use similar::{Algorithm, DiffTag, capture_diff_slices};
 use super::gaps::gaps;
 use super::ignore::Ignore;
 use super::key::key;
+use super::lines::{Lines, both};
 use super::program::Program;
 use super::words::{letters, likeness, within, words};
 
@@ -69,53 +70,18 @@ impl Comparison {
     }
 }
 
-/// The compared lines of a part of a program, with a key for each line.
-struct Lines {
-    keys: Vec<u64>,
-    numbers: Vec<u32>,
-    /// Number of the first line after the part.
-    end: usize,
-}
-
-impl Lines {
-    fn of(program: &Program, part: Range<usize>, ignore: &Ignore) -> Lines {
-        let end = part.end;
-        let (mut keys, mut numbers) = (Vec::with_capacity(part.len()), Vec::with_capacity(part.len()));
-        for number in part {
-            if let Some(key) = key(program.line(number), ignore) {
-                keys.push(key);
-                numbers.push(number as u32);
-            }
-        }
-        Lines { keys, numbers, end }
-    }
-
-    fn number(&self, at: usize) -> usize {
-        self.numbers[at] as usize
-    }
-
-    /// The lines of the program from the first to the last compared line of a range. For an empty range, the result is
-    /// an empty range before the next compared line, or at the end of the part.
-    fn covered(&self, range: &Range<usize>) -> Range<usize> {
-        if range.is_empty() {
-            let at = self.numbers.get(range.start).map_or(self.end, |&number| number as usize);
-            return at..at;
-        }
-        self.number(range.start)..self.number(range.end - 1) + 1
-    }
-}
-
 /// Compares two programs. The search for the shortest list of differences is limited in steps, not in time; so the result
 /// is the same on every machine. If two large programs have little in common, the list may be longer than necessary.
 pub fn compare(old: &Program, new: &Program, options: &Options) -> Comparison {
     let mut comparison = Comparison::default();
     for [from, to] in gaps(old, new) {
-        let (before, after) = (Lines::of(old, from, &options.ignore), Lines::of(new, to, &options.ignore));
-        for op in capture_diff_slices(Algorithm::Myers, &before.keys, &after.keys) {
+        let [before, after] = both(old, from, new, to, &options.ignore);
+        for op in capture_diff_slices(Algorithm::Myers, before.keys(), after.keys()) {
             let (tag, from, to) = op.as_tag_tuple();
             if tag == DiffTag::Equal {
                 continue;
             }
+            let (from, to) = (before.compared(from), after.compared(to));
             let edits = pair(old, new, &before, &after, from.clone(), to.clone(), options);
             if !edits.is_empty() {
                 comparison.hunks.push(Hunk { old: before.covered(&from), new: after.covered(&to), edits });

@@ -4,6 +4,7 @@ mod align;
 mod gaps;
 mod ignore;
 mod key;
+mod lines;
 mod program;
 mod summary;
 mod words;

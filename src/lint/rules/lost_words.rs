@@ -1,7 +1,7 @@
 //! PF101: words after two spaces or a tab look like output, but these words are a comment and are not printed.
 
 use crate::diag::{Code, Diag};
-use crate::lang::SequenceId;
+use crate::lang::{CommandId, SequenceId, SequenceName};
 use crate::lint::tokens::looks_like_a_word;
 use crate::lint::view::View;
 use crate::span::Span;
@@ -18,6 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                     let is_argument = |token: &str| token.parse::<f64>().is_ok() || is_letter(token);
                     lost(&statement.line, text, &|token| is_argument(token) || looks_like_a_word(token), diags);
                 }
+                Head::Blank(line) if begins_as_form(line) => lost(line, text, &|_| true, diags),
                 Head::Blank(line) | Head::Format { line, .. } | Head::StrayEnd(line) => {
                     lost(line, text, &looks_like_a_word, diags);
                 }
@@ -39,12 +40,27 @@ fn sequence(node: &SequenceNode, text: &str, diags: &mut Vec<Diag>) {
             // if the bracket of a comment is not closed, any lost text may be the rest of that comment
             (_, Some(PieceKind::Note { closed: false, .. })) => lost(&body.line, text, &|_| true, diags),
             (Tail::Comment(comment), _) if body.words.is_empty() => macro_line(*comment, text, diags),
+            _ if body.words.is_empty() && begins_as_form(&body.line) => lost(&body.line, text, &|_| true, diags),
             _ => lost(&body.line, text, &looks_like_a_word, diags),
         }
     }
     if let Some(end) = &node.end {
         lost(&end.line, text, &|token| token.eq_ignore_ascii_case("Cancel"), diags);
     }
+}
+
+/// Whether the lost text begins with a command, a number format, the name of a sequence or `End`.
+fn begins_as_form(line: &Line) -> bool {
+    let Tail::Lost(lost) = &line.tail else { return false };
+    let words: Vec<&str> = lost.text.split_whitespace().collect();
+    let Some(first) = words.first() else { return false };
+    let mut chars = lost.text.trim().chars();
+    let is_format = chars.next().is_some_and(|c| c.is_ascii_alphabetic())
+        && ["->", ">"].iter().any(|mark| chars.as_str().trim_start().starts_with(mark));
+    is_format
+        || first.eq_ignore_ascii_case("End")
+        || CommandId::parse(first).is_some()
+        || SequenceName::parse(&words).is_some()
 }
 
 /// Whether the lost text is a count: a number alone, or text after a number where no comment can begin.
@@ -99,13 +115,19 @@ fn lost(line: &Line, text: &str, is_word: &dyn Fn(&str) -> bool, diags: &mut Vec
     let gap = Span { start: line.span.start + before.len() as u32, end: lost.span.start, ..lost.span };
     let words = lost.text.trim_end();
     let prints = match before.trim() {
-        "" => "the line prints nothing".to_owned(),
+        "" => "the line has no effect".to_owned(),
         words => format!("only `{words}` is printed"),
     };
     let joined = [before, words].join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let help = match before.trim() {
+        "" => {
+            format!("begin the line with `{joined}`, without blanks before it; if it is a comment, begin it with `#`")
+        }
+        _ => format!("write `{joined}`, or begin the comment with `#`"),
+    };
     let diag = Diag::new(Code::PF101, format!("`{words}` is lost: {prints}"))
         .at(lost.span, "two spaces or a tab before this text make it a comment")
-        .help(format!("write `{joined}`, or begin the comment with `#`"));
+        .help(help);
     // a sentence is a comment, even if some of its words look like output
     let fix = if before.trim().is_empty() { "" } else { " " };
     diags.push(match tokens.all(is_word) {

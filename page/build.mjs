@@ -26,6 +26,13 @@ async function script(entry, out) {
   await build({ ...options, entryPoints: [here(`src/${entry}.ts`)], outfile: here(out) });
 }
 
+/** Removes the indents and the comments of the shaders in gl.ts, which would be part of their text. */
+const shaders = {
+  name: "shaders",
+  setup: ({ onLoad }) =>
+    onLoad({ filter: /gl\.ts$/ }, ({ path }) => ({ contents: readFileSync(path, "utf8").replace(/^ +| +\/\/ .*$/gm, ""), loader: "ts" })),
+};
+
 async function page(entry, out, connects, data = "") {
   const bundled = await build({
     entryPoints: [here(`src/${entry}.ts`)],
@@ -37,7 +44,8 @@ async function page(entry, out, connects, data = "") {
     legalComments: "none",
     write: false,
     outdir: here("."),
-    loader: { ".css": "css", ".glsl": "text" },
+    loader: { ".css": "css" },
+    plugins: [shaders],
   });
   const text = (end) => bundled.outputFiles.find((file) => file.path.endsWith(end))?.text.trim() ?? "";
   // the text of a script must not end it

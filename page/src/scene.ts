@@ -56,6 +56,8 @@ export interface PictureHead {
   /** Letters of the axes of a position: XYZ, or XY for a wire. */
   letters: string;
   tools: number[];
+  /** Names of tools whose numbers are unknown. The tool 1e9 + n has the name with the index n. */
+  toolNames?: string[];
   middle: number[];
   extents: [number[], number[]];
   ceiling: number;
@@ -65,6 +67,11 @@ export interface PictureHead {
   view: string;
   warnings: Said[];
   refused: Said | null;
+}
+
+/** A tool as text: its number, or its name if the number is unknown. */
+export function toolText({ toolNames }: PictureHead, tool: number): string {
+  return toolNames?.[tool - 1e9] ?? `T${tool}`;
 }
 
 export interface Hunks {
@@ -124,7 +131,7 @@ export class Path {
   readonly first: Uint32Array;
   readonly moveLine: Uint32Array;
   readonly moveKind: Uint8Array;
-  readonly moveTool: Uint8Array;
+  readonly moveTool: Uint8Array | Uint16Array;
   /** Seconds from the beginning of the program to the end of each move, with an assumed rapid rate and no accelerations. */
   readonly ownTime: Float32Array;
   /** The times that are shown: those of the machine file, if there is one. */
@@ -135,19 +142,20 @@ export class Path {
   readonly ends: Float64Array;
   readonly holes: Float32Array;
   readonly holeLine: Uint32Array;
-  readonly holeTool: Uint8Array;
+  readonly holeTool: Uint8Array | Uint16Array;
 
   constructor(scene: Scene, of: string, readonly head: PictureHead) {
     this.points = scene.array(`${of}points`, Float32Array);
     this.first = scene.array(`${of}first`, Uint32Array);
     this.moveLine = scene.array(`${of}moveLine`, Uint32Array);
     this.moveKind = scene.array(`${of}moveKind`, Uint8Array);
-    this.moveTool = scene.array(`${of}moveTool`, Uint8Array);
+    const ofTools: Numbers<Uint8Array | Uint16Array> = head.tools.length <= 256 ? Uint8Array : Uint16Array;
+    this.moveTool = scene.array(`${of}moveTool`, ofTools);
     this.moveTime = this.ownTime = scene.array(`${of}moveTime`, Float32Array);
     this.ends = scene.array(`${of}ends`, Float64Array);
     this.holes = scene.array(`${of}holes`, Float32Array);
     this.holeLine = scene.array(`${of}holeLine`, Uint32Array);
-    this.holeTool = scene.array(`${of}holeTool`, Uint8Array);
+    this.holeTool = scene.array(`${of}holeTool`, ofTools);
   }
 
   get moves(): number {
@@ -274,7 +282,7 @@ export function formLine(packed: number): { file: number; line: number } | null 
   return packed < 0 ? null : { file: packed >> LINE_BITS, line: packed & ((1 << LINE_BITS) - 1) };
 }
 
-function alike(a: Uint8Array | Uint32Array | Float32Array, b: typeof a): boolean {
+function alike(a: Uint8Array | Uint16Array | Uint32Array | Float32Array, b: typeof a): boolean {
   if (a.length !== b.length) return false;
   if (a.buffer === b.buffer && a.byteOffset === b.byteOffset) return true;
   // an unknown position is NaN

@@ -2,6 +2,7 @@
 
 import { element } from "./element.ts";
 import type { Held, Program, Register } from "./program.ts";
+import { toolText } from "./scene.ts";
 
 export class StateStrip {
   readonly root = element("div", { class: "state", role: "region", "aria-label": "State after the chosen block" });
@@ -12,7 +13,7 @@ export class StateStrip {
     if (!program?.path || line < 1) return;
     const cells: [name: string, words: Word[]][] = [
       ["codes", codes(program, line)],
-      ["tool", [word(program, line, "tool", "T"), word(program, line, "h", "H"), word(program, line, "d", "D")]],
+      ["tool", [tool(program, line), word(program, line, "h", "H"), word(program, line, "d", "D")]],
       ["spindle", [word(program, line, "speed", "S"), word(program, line, "spindle", "M")]],
       ["coolant", [word(program, line, "coolant", "M")]],
       ["feed", [word(program, line, "feed", "F")]],
@@ -50,6 +51,12 @@ type Word = Known | null;
 function word(program: Program, line: number, register: Register, letter: string): Word {
   const held = program.held(register, line);
   return held && shown(letter, held);
+}
+
+/** The tool after a line, by its number or name. */
+function tool(program: Program, line: number): Word {
+  const held = program.held("tool", line);
+  return held && program.path ? { text: toolText(program.path.head, held.value), line: held.line } : null;
 }
 
 function shown(letter: string, held: Held): Known {

@@ -3,7 +3,7 @@
 import type { Vector } from "./backplot/camera.ts";
 import { element } from "./element.ts";
 import type { Program } from "./program.ts";
-import type { Path } from "./scene.ts";
+import { type Path, toolText } from "./scene.ts";
 
 /** Duration in seconds for playing a whole program. */
 const WHOLE = 30;
@@ -81,7 +81,7 @@ export class Timeline {
     this.clock.title = program?.path?.isTimed ? "times of the machine file" : "an estimate: without accelerations, with an assumed rapid rate";
     this.root.hidden = this.total <= 0;
     this.marks.replaceChildren(...this.changes().map(([tool, time]) => {
-      const mark = element("i", { title: `T${tool} at ${clock(time)}` });
+      const mark = element("i", { title: `${tool} at ${clock(time)}` });
       mark.style.left = `${(time / this.total) * 100}%`;
       return mark;
     }));
@@ -89,12 +89,12 @@ export class Timeline {
   }
 
   /** The tools, and the times of their tool changes. */
-  private changes(): [number, number][] {
+  private changes(): [string, number][] {
     const path = this.path;
     if (!path) return [];
-    const found: [number, number][] = [];
+    const found: [string, number][] = [];
     for (let move = 1; move < path.moves && found.length <= MOST_MARKS; move++) {
-      if (path.moveTool[move] !== path.moveTool[move - 1]) found.push([path.head.tools[path.moveTool[move]], path.moveTime[move - 1]]);
+      if (path.moveTool[move] !== path.moveTool[move - 1]) found.push([toolText(path.head, path.head.tools[path.moveTool[move]]), path.moveTime[move - 1]]);
     }
     return found.length > MOST_MARKS ? [] : found;
   }

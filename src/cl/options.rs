@@ -93,8 +93,7 @@ impl Assumed {
     /// The text is invalid. The error describes the format.
     pub fn parse(text: &str) -> Result<Assumed, String> {
         let number = |text: &str| text.trim().parse::<u32>().ok().filter(|n| *n <= LARGEST).map(f64::from);
-        // like the words of statements: without spaces and in capital letters
-        let name = |text: &str| text.split_whitespace().collect::<String>().to_ascii_uppercase();
+        let name = |text: &str| text.trim().to_ascii_uppercase();
         let pair = |text: &str| text.split_once('=').and_then(|(tool, n)| Some((name(tool), number(n)?)));
         let named = || text.split(',').map(pair).collect::<Option<Vec<_>>>().map(Assumed::Named);
         let read = number(text).map(Assumed::One).or_else(named);
@@ -106,12 +105,15 @@ impl Assumed {
         if let Assumed::One(number) = self { Some(*number) } else { None }
     }
 
-    /// The number of the tool with this name; `None` if there is one number for the only tool.
+    /// The names and their numbers; empty if there is one number for the only tool.
+    pub fn named(&self) -> &[(String, f64)] {
+        if let Assumed::Named(list) = self { list } else { &[] }
+    }
+
+    /// The number of a tool of a CL file. Names in CL files are compared without spaces, like the words of statements.
     pub(super) fn of(&self, tool: &str) -> Option<f64> {
-        match self {
-            Assumed::One(_) => None,
-            Assumed::Named(list) => list.iter().find(|(name, _)| name == tool).map(|(_, number)| *number),
-        }
+        let is = |name: &str| name.split_whitespace().flat_map(str::chars).eq(tool.chars());
+        self.named().iter().find(|(name, _)| is(name)).map(|(_, number)| *number)
     }
 }
 

@@ -62,7 +62,8 @@ pub(super) fn read_nc(
         ..RunSettings::new(reading.control.unwrap_or_else(Control::usual))
     };
     let tool = reading.tool.as_ref().and_then(Assumed::one);
-    let options = JobOptions { settings, units: reading.units, tool, start: reading.start };
+    let tool_names = reading.tool.as_ref().map_or(&[][..], Assumed::named);
+    let options = JobOptions { settings, units: reading.units, tool, tool_names, start: reading.start };
     read_program(input, &options, &mut report.warnings, sink)
 }
 

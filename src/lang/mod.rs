@@ -19,7 +19,7 @@ pub use directives::{DIRECTIVES, DirectiveRow, Each, directive_meant};
 pub use machine::{Beam, Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, SequenceId, SequenceName};
 pub use suggest::{LONGEST_NAME, did_you_mean};
-pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST};
+pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST, in_quotes, in_word};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::{additional_work, work_code};
 

@@ -128,6 +128,17 @@ impl std::fmt::Display for TextVar {
     }
 }
 
+/// A character that a word may contain; `None` for other characters.
+pub fn in_word(c: char) -> Option<char> {
+    Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
+}
+
+/// A character that a typed text in quotation marks may contain. The character must not end the quotation, a block or a
+/// comment.
+pub fn in_quotes(c: char) -> Option<char> {
+    in_word(c).or(Some(c).filter(|c| " ,:/+*=<>&'#[]".contains(*c)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,11 +1,13 @@
 //! Writes actions as JSON Lines.
 
 use super::action::{Action, Item};
+use super::state::State;
 use crate::toolpath::{Direction, Plane, StopKind};
 
-/// Writes an action as a JSON object and a line end. Some actions, such as comments, are not written. If `unknown` is
+/// Writes an action as a JSON object and a line end. Some actions, such as comments, are not written. `state`: the
+/// state of the control after the block, which has the names of tools. If `unknown` is
 /// set, unknown positions are written as null.
-pub fn json_line(item: &Item, unknown: bool, out: &mut Vec<u8>) {
+pub fn json_line(item: &Item, state: &State, unknown: bool, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let start = out.len();
     out.extend_from_slice(b"{\"line\":");
@@ -45,7 +47,13 @@ pub fn json_line(item: &Item, unknown: bool, out: &mut Vec<u8>) {
         Action::Orient(angle) => number(b",\"orient\":", *angle, out),
         Action::Stop(kind) => name(b",\"stop\":\"", stop_name(*kind), out),
         Action::End => name(b",\"stop\":\"", "end", out),
-        Action::Tool(number_of) => number(b",\"tool\":", *number_of, out),
+        Action::Tool(tool) => match state.tool_name(*tool) {
+            Some(called) => {
+                out.extend_from_slice(b",\"tool\":");
+                out.extend_from_slice(serde_json::Value::from(&*called).to_string().as_bytes());
+            }
+            None => number(b",\"tool\":", *tool, out),
+        },
         Action::Coolant(kind) => name(b",\"coolant\":\"", kind.name(), out),
         Action::Units(units) => name(b",\"units\":\"", units.name(), out),
         Action::Work(code) => number(b",\"work\":", *code, out),

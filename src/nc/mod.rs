@@ -46,6 +46,7 @@ mod stops;
 mod tally;
 mod thread;
 mod tool;
+mod tool_names;
 mod turning;
 mod way;
 
@@ -64,3 +65,4 @@ pub use tally::Tally;
 pub(crate) use tally::sweep;
 pub use tally::{clock, rapid_rate};
 pub(crate) use tool::{cooling as cooling_of, rotation as rotation_of};
+pub(crate) use tool_names::FIRST as FIRST_NAMED_TOOL;

@@ -1,5 +1,7 @@
 //! The state of a control between two blocks, divided into parts.
 
+use std::sync::Arc;
+
 use super::action::{Position, Rotation};
 use super::block::Block;
 use super::codes::Motion;
@@ -9,6 +11,7 @@ use super::lathe::Threads;
 use super::place::Place;
 use super::profiled::FirstBlocks;
 use super::settings::RunSettings;
+use super::tool_names::ToolNames;
 use crate::control::{Centres, Control, Meaning, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
@@ -22,6 +25,7 @@ pub struct State {
     pub(super) place: Place,
     pub(super) drive: Drive,
     pub(super) tool: Tool,
+    pub(super) tool_names: ToolNames,
     pub(super) holes: Holes,
     /// The state of threads, which a lathe keeps between blocks.
     pub(super) threads: Threads,
@@ -124,6 +128,7 @@ impl State {
             threads: Threads::default(),
             turning: FirstBlocks::default(),
             tool: Tool::default(),
+            tool_names: ToolNames::default(),
             holes: Holes::default(),
             warnings: Vec::new(),
         }
@@ -132,6 +137,17 @@ impl State {
     /// Sets the units that are active before the first G20 or G21.
     pub(super) fn begin_in(&mut self, units: Units) {
         self.modes.units = units;
+    }
+
+    /// The name of a tool that the program calls by its name, and whose number is unknown. `tool`: the value of
+    /// [`Action::Tool`](super::action::Action::Tool). `None`: the value is a tool number.
+    pub fn tool_name(&self, tool: f64) -> Option<Arc<str>> {
+        self.tool_names.name(tool)
+    }
+
+    /// The names by which the program has called tools. The name with the index n belongs to the tool 10^9 + n.
+    pub fn tool_names(&self) -> Vec<Arc<str>> {
+        self.tool_names.all()
     }
 
     /// Position of the tool.

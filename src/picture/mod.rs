@@ -4,6 +4,8 @@
 //! order, the block of each move, and the modal state after each block. [`strips`](Picture::strips) converts the
 //! picture to points, including the arcs, and [`svg`] draws a still picture.
 
+use std::sync::Arc;
+
 mod frame;
 mod run;
 mod state;
@@ -104,6 +106,8 @@ pub struct Picture {
     pub holes: Vec<Hole>,
     /// Numbers of the tools in the order of their first use. The first number is 0: no tool is active yet.
     pub tools: Vec<f64>,
+    /// Names of tools whose numbers are unknown. The tool 10^9 + n has the name with the index n.
+    pub tool_names: Vec<Arc<str>>,
     /// Changes of the modal state, in the order in which the blocks are run.
     pub changes: Vec<Change>,
     /// Counts and times.

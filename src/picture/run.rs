@@ -1,5 +1,6 @@
 //! Runs a program and records its motions.
 
+use std::collections::HashMap;
 use std::io::{self, Read, Seek};
 
 use super::state::Registers;
@@ -49,6 +50,8 @@ struct Pen {
     /// Letters of the axes of the machine, in the order of a position.
     letters: &'static [u8; 6],
     tool: u16,
+    /// Indexes in the picture's list of tools, by the bits of the tool number.
+    indexes: HashMap<u64, u16>,
     /// Factor from the program's units to the picture's units.
     factor: f64,
     units: Units,
@@ -67,6 +70,7 @@ impl Pen {
             turned: Vec::new(),
             letters: "XYZ",
             tools: vec![0.0],
+            tool_names: Vec::new(),
             changes: Vec::new(),
             tally: Tally::new(units),
             blocks: 0,
@@ -81,6 +85,7 @@ impl Pen {
             angles: [0.0; 3],
             letters: settings.control.axes(),
             tool: 0,
+            indexes: HashMap::from([(0f64.to_bits(), 0)]),
             factor: 1.0,
             units,
         }
@@ -111,6 +116,7 @@ impl Pen {
             }
         }
         self.picture.blocks = simulator.blocks();
+        self.picture.tool_names = simulator.state().tool_names();
         Ok(simulator)
     }
 
@@ -139,11 +145,11 @@ impl Pen {
             }
             Action::Tool(number) => {
                 let tools = &mut self.picture.tools;
-                let known = tools.iter().position(|tool| tool == number);
-                self.tool = known.unwrap_or_else(|| {
+                self.tool = *self.indexes.entry(number.to_bits()).or_insert_with(|| {
                     tools.push(*number);
-                    tools.len() - 1
-                }) as u16;
+                    // the tools after the last index share this index
+                    u16::try_from(tools.len() - 1).unwrap_or(u16::MAX)
+                });
             }
             Action::Hole(hole) => {
                 let [_, _, across] = axes_of(hole.plane);

@@ -289,7 +289,7 @@ fn legend(picture: &Picture, strips: &Strips, over_old: bool, [width, height]: [
     for (i, number) in picture.tools.iter().enumerate() {
         let cuts = |found: &super::Move| usize::from(found.tool) == i && matches!(found.kind, Kind::Feed | Kind::Arc);
         if picture.moves.iter().any(cuts) {
-            let name = if i == 0 { "no tool".to_owned() } else { format!("T{number}") };
+            let name = if i == 0 { "no tool".to_owned() } else { picture.tool_text(*number) };
             entry(&format!("t{}", colour(i)), &name, out);
         }
     }

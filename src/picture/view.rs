@@ -1,6 +1,7 @@
 //! The views in which a picture can be drawn.
 
 use super::{Picture, Register};
+use crate::nc::FIRST_NAMED_TOOL;
 
 /// The direction from which a picture is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +43,12 @@ impl View {
 }
 
 impl Picture {
+    /// A tool as text: its number, or its name if the number is unknown.
+    pub(super) fn tool_text(&self, tool: f64) -> String {
+        let name = self.tool_names.get((tool - FIRST_NAMED_TOOL) as usize).filter(|_| tool >= FIRST_NAMED_TOOL);
+        name.map_or_else(|| format!("T{tool}"), |name| format!("T \"{name}\""))
+    }
+
     /// The default view: the lathe view for lathe programs, the isometric view for all other programs.
     pub fn usual_view(&self) -> View {
         let still = self.moves.iter().all(|found| found.to[1].is_nan() || found.to[1] == 0.0);

@@ -183,7 +183,8 @@ impl Sink for Tools {
                 {
                     let [diameter, corner_radius] =
                         [tool.diameter, tool.corner_radius].map(|length| length.map(|length| length * self.scale));
-                    self.tools.push(JobTool { number: tool.number as u32, diameter, corner_radius });
+                    let (number, name) = (tool.number as u32, tool.name.clone());
+                    self.tools.push(JobTool { number, name, diameter, corner_radius });
                 }
             }
             _ => {}

@@ -10,7 +10,7 @@ use super::travel::Travels;
 use crate::control::{Control, Meaning};
 use crate::diag::Code;
 use crate::machine::{Coolant, LETTERS, Machine, Sweep, offsets};
-use crate::nc::{Action, Cooling, Item, Pace, Position, Simulator, Turn, axes_of, sweep};
+use crate::nc::{Action, Cooling, FIRST_NAMED_TOOL, Item, Pace, Position, Simulator, Turn, axes_of, sweep};
 use crate::times::Curve;
 use crate::toolpath::Direction;
 use crate::verify::Finding;
@@ -28,8 +28,9 @@ pub(super) struct Check<'m> {
     clock: Result<Clock, String>,
     /// The findings by code and subject. Several findings about one subject are joined to one finding.
     found: BTreeMap<(Code, String), Finding>,
-    /// For each of the two reference points: the program moved there, but the machine's file does not contain its position.
-    no_reference: [bool; 2],
+    /// For the points of G28, of G30 and of G30 with another P: the program moved there, but the machine's file does not
+    /// contain the position.
+    no_reference: [bool; 3],
     was_compensated: bool,
     /// After the last block: the axes that are at a machine position which the program contains, as bits.
     said: u8,
@@ -48,7 +49,7 @@ impl<'m> Check<'m> {
             pace: Pace::new(machine.speeds.map_or(f64::INFINITY, |[_, fastest]| fastest)),
             clock: Clock::of(machine),
             found: BTreeMap::new(),
-            no_reference: [false; 2],
+            no_reference: [false; 3],
             was_compensated: false,
             said: 0,
         }
@@ -66,7 +67,8 @@ impl<'m> Check<'m> {
         let before = std::mem::replace(&mut self.said, run.state().at_said_machine());
         let is_move = |item: &Item| matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
         let last = items.iter().rposition(is_move);
-        let reference = run.reference_point().filter(|point| self.machine.references[*point].is_none());
+        let reference =
+            run.reference_point().filter(|point| self.machine.references.get(*point).is_none_or(Option::is_none));
         for (at, item) in items.iter().enumerate() {
             // the machine positions in a block belong to the last move of the block
             let is_last = last == Some(at);
@@ -120,7 +122,7 @@ impl<'m> Check<'m> {
                 self.clocks(|clock, after| clock.arc(curve, &before, after, feed));
             }
             Action::Tool(number) => {
-                self.changes_tool(*number, line);
+                self.changes_tool(*number, run, line);
                 let tool = self.tool;
                 self.places.changes_tool();
                 self.clocks(|clock, _| clock.change(tool));
@@ -281,9 +283,10 @@ impl<'m> Check<'m> {
         }
     }
 
-    fn changes_tool(&mut self, number: f64, line: (u64, &[u8])) {
+    fn changes_tool(&mut self, number: f64, run: &Simulator<'_>, line: (u64, &[u8])) {
+        let name = run.state().tool_name(number);
         let number = number as u32;
-        self.tool = Some(number).filter(|number| *number != 0);
+        self.tool = Some(number).filter(|number| *number != 0 && name.is_none());
         if number == 0 || self.tools.contains(&number) {
             return;
         }
@@ -292,9 +295,12 @@ impl<'m> Check<'m> {
             let of_job = self.job.iter().find(|tool| tool.number == number).and_then(|tool| tool.diameter);
             match table.0.get(&number) {
                 None => {
-                    let message = format!("the machine's table has no T{number}");
-                    let help = "add the tool to the table, with its length and diameter";
-                    self.found(Code::PM011, &format!("T{number}"), message, help, line);
+                    let (tool, help) = match name {
+                        Some(name) => (format!("tool \"{name}\""), "add the name to the tool in the table"),
+                        None => (format!("T{number}"), "add the tool to the table, with its length and diameter"),
+                    };
+                    let message = format!("the machine's table has no {tool}");
+                    self.found(Code::PM011, &tool, message, help, line);
                 }
                 Some(entry) => {
                     if let (Some(own), Some(job)) = (entry.diameter, of_job)
@@ -326,7 +332,8 @@ impl<'m> Check<'m> {
         };
         let number = register.unsigned_abs();
         // a tool that is missing in the table already has a finding
-        let is_said = self.tool == Some(number) && !table.0.contains_key(&number);
+        let is_said =
+            (self.tool == Some(number) || f64::from(number) >= FIRST_NAMED_TOOL) && !table.0.contains_key(&number);
         let known = table.0.get(&number).is_some_and(|entry| entry.length.is_some());
         if !known && !is_said && !self.control.is_lathe() {
             let message = format!("the machine's table has no length H{number}");
@@ -395,7 +402,7 @@ impl<'m> Check<'m> {
         findings.extend(fit.findings(self.machine, self.control));
         findings.extend(self.found.into_values());
         findings.sort_by_key(|finding| finding.line);
-        for (point, name) in ["G28", "G30"].into_iter().enumerate() {
+        for (point, name) in ["G28", "G30", "G30 with P3 or more"].into_iter().enumerate() {
             if self.no_reference[point] {
                 fit.not_checked.push(format!("the position of {name}: it is not in [reference]"));
             }

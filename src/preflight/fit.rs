@@ -9,6 +9,7 @@ use super::travel::Travels;
 use crate::control::Control;
 use crate::diag::Code;
 use crate::machine::{Axis, LETTERS, Machine, offsets};
+use crate::nc::FIRST_NAMED_TOOL;
 use crate::verify::Finding;
 
 /// The unknown value of a row, which may be the sum of an offset and a length.
@@ -116,6 +117,8 @@ impl Fit {
         let letter = LETTERS[row.axis];
         let register = |register: i32| match control.is_lathe() {
             true => format!("{letter} of tool offset {register}"),
+            // the tool is called by a name that the machine's table does not have
+            false if f64::from(register) >= FIRST_NAMED_TOOL => "the length of the tool".to_owned(),
             false => format!("the length H{}", register.unsigned_abs()),
         };
         match row.unknown {

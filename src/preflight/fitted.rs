@@ -38,6 +38,8 @@ impl Fitted {
 pub struct JobTool {
     /// The number of the tool.
     pub number: u32,
+    /// The name of the tool.
+    pub name: Option<String>,
     /// The diameter of the tool in millimetres.
     pub diameter: Option<f64>,
     /// The radius of the corner of the tool, in millimetres.

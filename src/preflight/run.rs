@@ -46,6 +46,12 @@ fn run(
     let mut run = Simulator::new(program, settings);
     let known = machine.offsets.iter().flatten().map(|(number, at)| (*number, at.map(|value| value.unwrap_or(0.0))));
     run.begin_on(&mut known.into_iter(), machine.references.map(Option::unwrap_or_default));
+    let in_table = machine.tools.iter().flat_map(|table| &table.0).map(|(number, tool)| (*number, &tool.name));
+    let in_table = in_table.filter_map(|(number, name)| Some((number, name.as_ref()?)));
+    let in_job = job.iter().filter_map(|tool| Some((tool.number, tool.name.as_ref()?)));
+    for (number, name) in in_table.chain(in_job) {
+        run.know_tool(name, f64::from(number));
+    }
     let mut check = Check::new(machine, settings.control, job);
     if by_block {
         check.keep_blocks();

@@ -11,7 +11,7 @@ use std::fmt::Display;
 
 use crate::compile::Op;
 use crate::diag::Code;
-use crate::lang::{TEXT_COUNT, TextId};
+use crate::lang::{TEXT_COUNT, TextId, in_quotes, in_word};
 use crate::toolpath::{Start, ToolChange};
 
 /// Values of text variables, by slot. Texts that the form does not print are not stored.
@@ -113,17 +113,6 @@ fn plain_word(text: &Text, fits: fn(char) -> Option<char>) -> String {
     let wide = usize::from(text.width.unsigned_abs());
     let most = if wide == 0 { usize::MAX } else { wide };
     text.text.chars().take(most).map(|c| fits(c).unwrap_or('_')).collect()
-}
-
-/// A character that a word may contain; `None` for other characters.
-fn in_word(c: char) -> Option<char> {
-    Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
-}
-
-/// A character that a typed text in quotation marks may contain. The character must not end the quotation, a block or a
-/// comment.
-fn in_quotes(c: char) -> Option<char> {
-    in_word(c).or(Some(c).filter(|c| " ,:/+*=<>&'#[]".contains(*c)))
 }
 
 /// The filter for characters outside comments, depending on the text before them.

@@ -64,7 +64,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
         [found.kind as u8 | u8::from(found.by_cycle) << 4 | unknown]
     };
     scene.section(format!("{of}moveKind"), moves.iter().map(kind));
-    scene.section(format!("{of}moveTool"), moves.iter().map(|found| [found.tool.min(255) as u8]));
+    tools(scene, format!("{of}moveTool"), picture, moves.iter().map(|found| found.tool));
     if !picture.turned.is_empty() {
         // the points above are positions on the part; these are the positions of the axes
         let ends = moves.iter().flat_map(|found| found.to).map(f64::to_le_bytes);
@@ -76,7 +76,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     let ends = holes.iter().flat_map(|hole| hole.on_part().map(near));
     scene.section(format!("{of}holes"), ends.flatten().map(f32::to_le_bytes));
     scene.section(format!("{of}holeLine"), holes.iter().map(|hole| hole.line.to_le_bytes()));
-    scene.section(format!("{of}holeTool"), holes.iter().map(|hole| [hole.tool.min(255) as u8]));
+    tools(scene, format!("{of}holeTool"), picture, holes.iter().map(|hole| hole.tool));
     let changes = &picture.changes;
     scene.section(format!("{of}changeLine"), changes.iter().map(|change| change.line.to_le_bytes()));
     scene.section(format!("{of}changeRegister"), changes.iter().map(|change| [change.register as u8]));
@@ -84,10 +84,19 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     scene.say(&format!("{of}picture"), head(picture, middle, strips.extents, strips.ceiling));
 }
 
+/// Adds indexes in the list of tools: one byte each if all indexes fit, else two.
+fn tools(scene: &mut Scene, name: String, picture: &Picture, indexes: impl ExactSizeIterator<Item = u16>) {
+    if picture.tools.len() <= 256 {
+        scene.section(name, indexes.map(|index| [index as u8]));
+    } else {
+        scene.section(name, indexes.map(u16::to_le_bytes));
+    }
+}
+
 fn head(picture: &Picture, middle: [f64; 3], extents: [[f64; 3]; 2], ceiling: f64) -> Value {
     let said = |diag: &Diag, line: Option<u64>| json!({ "line": line, "code": diag.code.name(), "message": diag.message, "help": diag.help });
     let line_of = |diag: &Diag| diag.place.as_ref().and_then(|place| place.line);
-    json!({
+    let mut head = json!({
         "units": picture.units.name(),
         "letters": picture.letters,
         "tools": picture.tools,
@@ -100,5 +109,9 @@ fn head(picture: &Picture, middle: [f64; 3], extents: [[f64; 3]; 2], ceiling: f6
         "view": picture.usual_view().name(),
         "warnings": picture.warnings.iter().map(|diag| said(diag, line_of(diag))).collect::<Vec<Value>>(),
         "refused": picture.refused.as_ref().map(|(diag, line)| said(diag, Some(*line))),
-    })
+    });
+    if !picture.tool_names.is_empty() {
+        head["toolNames"] = picture.tool_names.iter().map(|name| Value::from(&**name)).collect();
+    }
+    head
 }

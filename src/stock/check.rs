@@ -58,6 +58,11 @@ pub fn check_stock(
         return Ok(check.checked);
     }
     let mut run = Simulator::new(program, RunSettings { places_unknown: true, ..settings });
+    for tool in tools {
+        if let Some(name) = &tool.name {
+            run.know_tool(name, f64::from(tool.number));
+        }
+    }
     check.work = run.state().work_number();
     let mut items = Vec::new();
     loop {
@@ -173,7 +178,10 @@ impl<'a> Check<'a> {
                     self.breaks();
                     self.work = run.state().work_number();
                 }
-                Action::Tool(number) => self.tool = Some(*number as u32).filter(|number| *number != 0),
+                Action::Tool(number) => {
+                    let is_number = run.state().tool_name(*number).is_none();
+                    self.tool = Some(*number as u32).filter(|number| *number != 0 && is_number);
+                }
                 Action::Orient(_) => self.is_oriented = true,
                 Action::Spindle(rotation, _) if *rotation != Rotation::Stop => self.is_oriented = false,
                 Action::Compensation(on) => {

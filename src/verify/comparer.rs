@@ -294,6 +294,10 @@ impl Intent for Sides<'_> {
         }
     }
 
+    fn tool_name(&mut self, name: &str, number: f64) {
+        self.program.know_tool(name, number);
+    }
+
     fn home(&mut self, length: Option<f64>) {
         self.job.goes_home(length);
     }

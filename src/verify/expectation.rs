@@ -6,7 +6,7 @@ use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Control, Meaning};
 use crate::cycle::Defaults;
-use crate::lang::{Beam, Machine, SEQUENCES, UnitChoice, VarId, work_code};
+use crate::lang::{Beam, Machine, SEQUENCES, TextId, UnitChoice, VarId, work_code};
 use crate::nc::Cooling;
 use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
@@ -57,6 +57,8 @@ pub struct Expectation {
     pub is_flat: bool,
     /// The form's codes for threading and cutting a wire; `None` if there is no form.
     pub(super) wire: Option<Codes>,
+    /// The widths in characters to which the form shortens the names of tools in words.
+    pub name_widths: Vec<usize>,
     /// Feeds that the form itself prints or calculates.
     pub feeds: Own,
     /// Speeds that the form itself prints or calculates.
@@ -87,6 +89,7 @@ impl Default for Expectation {
             beam: None,
             is_flat: false,
             wire: None,
+            name_widths: Vec::new(),
             feeds: Own::default(),
             speeds: Own::default(),
         }
@@ -130,6 +133,11 @@ impl Expectation {
         let settings = &program.settings;
         self.wire = (settings.machine == Machine::Edm).then(|| wire_codes::codes_of(program));
         (self.feeds, self.speeds) = (Own::of(program), Own::of(program));
+        let widths = program.ops.iter().filter_map(|op| match op {
+            Op::TextVar { var, in_comment: false, .. } if var.id == TextId::Toolname => Some(var.width.unsigned_abs()),
+            _ => None,
+        });
+        self.name_widths = widths.filter(|width| *width != 0).map(usize::from).collect();
         let along = settings.axes[if settings.machine == Machine::Lathe { 0 } else { 2 }];
         self.increment =
             program.letters.each_ref().map(|letters| 10f64.powi(-i32::from(letters[along].format.dec.count)));

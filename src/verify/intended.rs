@@ -193,6 +193,12 @@ impl Job {
         if let Some(tool) = change.tool.as_ref().filter(|tool| self.tool != Some(tool.number)) {
             self.tool = Some(tool.number);
             self.state.tool = Some(tool.number);
+            if let Some(name) = &tool.name {
+                to.tool_name(name, tool.number);
+                for width in &self.expectation.name_widths {
+                    to.tool_name(&name.chars().take(*width).collect::<String>(), tool.number);
+                }
+            }
             let [length, diameter] =
                 self.expectation.registers.map_or([None; 2], |by| by.map(|by| Some(tool.number + by)));
             let lengths = self.control.traits().tool_length;

@@ -35,6 +35,8 @@ pub(super) trait Intent {
     fn changed(&mut self, frame: Frame, length: Option<f64>, tool: bool);
     /// The tool goes home. At home the tool's position is unknown. `length`: the tool's length register.
     fn home(&mut self, length: Option<f64>);
+    /// A tool of the job has this name. The program may call the tool by its name.
+    fn tool_name(&mut self, name: &str, number: f64);
     /// The job is over.
     fn finish(&mut self) -> Done;
     /// Sets that the job is for a wire EDM machine.

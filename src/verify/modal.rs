@@ -21,10 +21,9 @@ pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     }
     let states = both.each_ref().map(|state| &**state);
     let mut agree = true;
-    let tools = s.tools;
     let checks = [
-        tool(states, tools),
-        offsets(states),
+        tool(states, s),
+        offsets(states, s),
         turning(states),
         coolant(states),
         rigid(states, tap),
@@ -39,19 +38,21 @@ pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     s.agreed = agree.then_some(both);
 }
 
-fn tool([wanted, is]: [&State; 2], tools: bool) -> Option<Differs> {
-    let wanted = wanted.tool.filter(|_| tools)?;
+fn tool([wanted, is]: [&State; 2], s: &Sides<'_>) -> Option<Differs> {
+    let wanted = wanted.tool.filter(|_| s.tools)?;
     let message = match is.tool {
         Some(is) if is == wanted => return None,
-        Some(is) => format!("tool {} cuts, but the job has tool {} here", number(is), number(wanted)),
+        Some(is) => format!("tool {} cuts, but the job has tool {} here", s.program.tool_text(is), number(wanted)),
         None => format!("no tool is loaded, but the job has tool {} here", number(wanted)),
     };
     Some((Code::PV012, "print T[tool] M6 in the tool change", message))
 }
 
-fn offsets([wanted, is]: [&State; 2]) -> Option<Differs> {
+fn offsets([wanted, is]: [&State; 2], s: &Sides<'_>) -> Option<Differs> {
+    // the register of a tool without a number is part of the finding about the tool
     if let (Some(a), Some(b)) = (wanted.length, is.length)
         && a != b
+        && !s.program.is_name(b)
     {
         let message = format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a));
         return Some((Code::PV014, "print G43 H[lcomp] in the tool change", message));

@@ -64,6 +64,7 @@ pub fn compare_motions(
         program.want(units);
         program
     });
+    b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
     let mut ways = [RapidPath::default(), RapidPath::default()];
     let mut motions = Motions::default();
@@ -129,7 +130,7 @@ pub fn compare_motions(
         if names.by_order && rounded_alike(cut.state.speed, found.state.speed) && cut.state.speed != found.state.speed {
             alike.state = State { speed: cut.state.speed, ..*found.state }.into();
         }
-        let message = differs(cut, &alike, way, tolerance, names)
+        let message = differs(cut, &alike, way, tolerance, names, &a)
             .or_else(|| astray(&a, &b, tolerance))
             .or_else(|| pauses(&a, &b, tolerance))
             .or_else(|| switching(&a, &b, names))
@@ -171,7 +172,14 @@ fn end(cut: &Cut) -> String {
     shown(&cut.end(), 0b111)
 }
 
-fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) -> Option<String> {
+fn differs(
+    cut: &Cut,
+    found: &Cut,
+    way: Compared,
+    tolerance: f64,
+    names: Names,
+    program: &Program<'_>,
+) -> Option<String> {
     let near = |a: f64, b: f64| (a - b).abs() <= tolerance.max(1e-9 * a.abs());
     if cut.unknown != found.unknown {
         let [new, old] = [found, cut].map(|cut: &Cut| match cut.unknown {
@@ -253,7 +261,7 @@ fn differs(cut: &Cut, found: &Cut, way: Compared, tolerance: f64, names: Names) 
     if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
         return Some("only one program synchronizes a tap with the spindle (M29)".to_owned());
     }
-    state(&cut.state, &found.state, names)
+    state(&cut.state, &found.state, names, program)
 }
 
 /// How the numbers of registers and work offsets in two programs are compared. Two programs for the same control use
@@ -292,9 +300,12 @@ impl Names {
     }
 }
 
-fn state(before: &State, now: &State, names: Names) -> Option<String> {
+fn state(before: &State, now: &State, names: Names, program: &Program<'_>) -> Option<String> {
+    if before.tool != now.tool {
+        let text = |tool: Option<f64>| tool.map_or("none".to_owned(), |tool| program.tool_text(tool));
+        return Some(format!("the tool is {}, but {} in the old program", text(now.tool), text(before.tool)));
+    }
     let pairs = [
-        ("the tool", before.tool, now.tool),
         ("the length register", names.register(before.length), names.register(now.length)),
         ("the diameter register", names.register(before.diameter), names.register(now.diameter)),
         ("the work offset", names.work(before.work), names.work(now.work)),

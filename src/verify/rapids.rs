@@ -149,6 +149,10 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
     let Some((code, frame, length)) = wrong else { return };
     let text = |name: &str, value: Option<f64>| value.map_or(format!("no {name}"), |v| format!("{name}{}", number(v)));
     let way = if line == 0 { "after the last cut" } else { "before this cut" };
+    let tool = match frame.tool {
+        Some(tool) if tools => format!("tool {}", s.program.tool_text(tool)),
+        _ => "the tool".to_owned(),
+    };
     s.found(code, line, "print the offsets before the first move to a height", || match length {
         Some(length) => {
             let length =
@@ -156,7 +160,6 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
             format!("{way} the tool moves with {length} in {}, but not in the job", text("work offset ", frame.work))
         }
         None => {
-            let tool = if tools { text("T", frame.tool) } else { "the tool".to_owned() };
             format!("{way} {tool} moves in {}, but the job has no move there", text("work offset ", frame.work))
         }
     });

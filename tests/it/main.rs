@@ -73,6 +73,7 @@ mod streams;
 mod support;
 mod texts;
 mod times;
+mod tool_names;
 mod torch;
 mod trace;
 mod transcripts;

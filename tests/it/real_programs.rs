@@ -75,7 +75,7 @@ fn real_programs_printed_by_another_form_make_the_same_motions() {
         if expected.is_err() {
             continue;
         }
-        let options = JobOptions { settings, units, tool: None, start: None };
+        let options = JobOptions { settings, units, tool: None, tool_names: &[], start: None };
         let read = |sink: &mut dyn Sink| read_program(Cursor::new(&bytes), &options, &mut Vec::new(), sink);
         let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
         if let Err(error) = read(&mut renderer) {

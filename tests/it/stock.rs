@@ -15,7 +15,7 @@ use proptest::prelude::*;
 const HEAD: &str = "G21 G90 G94 G17 G40\nT1 M6\nG54 G0 X-20 Y0 S1000 M3\nG43 H1 Z50\n";
 
 fn tools() -> Vec<JobTool> {
-    let tool = |number, diameter, corner_radius| JobTool { number, diameter, corner_radius };
+    let tool = |number, diameter, corner_radius| JobTool { number, name: None, diameter, corner_radius };
     vec![
         tool(1, Some(10.0), None),
         tool(2, Some(6.0), Some(3.0)),

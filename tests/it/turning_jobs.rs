@@ -17,7 +17,7 @@ fn printed(program: &str) -> Result<(Vec<String>, Vec<String>), String> {
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options::default());
     let settings = RunSettings::new(control("fanuc-lathe"));
-    let options = JobOptions { settings, units: None, tool: None, start: None };
+    let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start: None };
     let mut warnings = Vec::new();
     match read_program(Cursor::new(program), &options, &mut warnings, &mut renderer) {
         Ok(()) => {

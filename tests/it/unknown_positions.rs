@@ -87,7 +87,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let checked = check(&post("haas.pf"));
     let haas = compile(&checked.form);
     let mut renderer = Renderer::new(&haas, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions { settings, units: None, tool: None, start: None };
+    let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start: None };
     let read = read_program(Cursor::new(changed.as_str()), &options, &mut Vec::new(), &mut renderer);
     assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("an unknown machine position")));
 }
@@ -97,7 +97,8 @@ fn printed(program: &str, start: Option<[f64; 3]>) -> Result<String, String> {
     let checked = check(&crate::support::plain_post("haas.pf"));
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, start };
+    let options =
+        JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, tool_names: &[], start };
     match read_program(Cursor::new(program), &options, &mut Vec::new(), &mut renderer) {
         Ok(()) => Ok(String::from_utf8(std::mem::take(renderer.text())).unwrap()),
         Err(ReadError::Job(diag)) => Err(diag.code.name().into()),

@@ -299,7 +299,13 @@ fn without_tap() -> String {
 fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
     let source = document(text);
     let old = rendered(fanuc, &source, Cycles::Form);
-    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, start: None };
+    let options = JobOptions {
+        settings: RunSettings::new(control("fanuc")),
+        units: None,
+        tool: None,
+        tool_names: &[],
+        start: None,
+    };
     let mut warnings = Vec::new();
     let seen = std::cell::RefCell::new(0);
     let job = |sink: &mut dyn Sink| {

@@ -209,14 +209,7 @@ fn job_format(
              JOB --form FORM` the job comes first"
         ));
     }
-    let from = format_of(path, args.from, first)?;
-    if from == Format::Nc && args.assume_tool.as_ref().is_some_and(|tool| tool.one().is_none()) {
-        return Err(format!(
-            "error: for an NC program --assume-tool takes one number: {} is an NC program",
-            name(path)
-        ));
-    }
-    Ok(from)
+    format_of(path, args.from, first)
 }
 
 /// Options that apply only to some formats.

@@ -72,6 +72,11 @@ export function faded(colours: Colours, colour: Colour, shade: number): Colour {
   return mix(colour, colours.paper, FADE * (1 - shade / 255));
 }
 
+/** The index of a tool in one byte: many tools share the indexes of the colours. */
+export function inByte(tool: number): number {
+  return tool && 1 + ((tool - 1) % TOOLS);
+}
+
 /** The colour of a tool by its index in the list of tools; index 0 means no tool. */
 export function ofTool(colours: Colours, tool: number): Colour {
   return colours.tools[(tool + TOOLS - 1) % TOOLS];

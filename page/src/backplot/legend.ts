@@ -2,7 +2,8 @@
 
 import { element } from "../element.ts";
 import type { Program } from "../program.ts";
-import { type Colour, type Colours, css, TOOLS } from "./colours.ts";
+import { toolText } from "../scene.ts";
+import { type Colour, type Colours, css, ofTool } from "./colours.ts";
 import type { Shades } from "./shades.ts";
 
 /** Maximum number of entries; the others are only counted. */
@@ -21,11 +22,11 @@ function numbers(program: Program, { meaning }: Shades, colours: Colours): HTMLE
   const used = new Set<number>();
   for (let move = 0; move < moveKind.length; move++) if ([1, 2].includes(moveKind[move] & 15)) used.add(of(move));
   const name = (number: number) => {
-    if (meaning === "tool") return number === 0 ? "no tool" : `T${head.tools[number]}`;
+    if (meaning === "tool") return number === 0 ? "no tool" : toolText(head, head.tools[number]);
     return number === 0 ? "no operation" : `operation ${number}`;
   };
   const rest = used.size > MOST ? [element("i", {}, `and ${used.size - MOST} more`)] : [];
-  return [...[...used].sort((a, b) => a - b).slice(0, MOST).map((number) => coloured(name(number), colours.tools[(number + TOOLS - 1) % TOOLS])), ...rest];
+  return [...[...used].sort((a, b) => a - b).slice(0, MOST).map((number) => coloured(name(number), ofTool(colours, number))), ...rest];
 }
 
 function coloured(name: string, colour: Colour): HTMLElement {

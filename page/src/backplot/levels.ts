@@ -1,6 +1,7 @@
 // The path in several levels of detail. In the coarse levels, a million moves become some ten thousand lines.
 
 import type { Path } from "../scene.ts";
+import { inByte } from "./colours.ts";
 
 /** Number of pieces that are tested together for visibility. */
 const CHUNK = 4096;
@@ -42,7 +43,7 @@ export function levels(path: Path): Level[] {
   for (let move = 0; move < path.moves; move++) {
     for (let piece = path.first[move]; piece < path.first[move + 1]; piece++) {
       kinds[piece * 4] = path.moveKind[move] & 15;
-      kinds[piece * 4 + 1] = path.moveTool[move];
+      kinds[piece * 4 + 1] = inByte(path.moveTool[move]);
     }
   }
   drawOnce(path, kinds);

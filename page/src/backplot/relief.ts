@@ -37,7 +37,7 @@ export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, co
       const [sx, sy] = [(at(column + stride, row) - at(column - stride, row)) / (2 * size), (at(column, row + stride) - at(column, row - stride)) / (2 * size)];
       const edge = column < stride || row < stride || column + stride >= wide || row + stride >= deep;
       const bright = edge ? 0.8 : Math.max(0.25, Math.min(1, (0.45 * sx + 0.4 * sy + 0.8) / Math.hypot(sx, sy, 1)));
-      const tint = tools[cell] ? 1 + ((tools[cell] + TOOLS - 1) % TOOLS) : 0;
+      const tint = tools[cell];
       const colour = palette[tint * LIGHT + Math.round(bright * (LIGHT - 1))];
       // the wall down to the lower of the two cells in front of it
       const lower = Math.min(at(column + ahead, row), at(column, row + aside));

@@ -1,6 +1,7 @@
 // The stock as a height field. The tools cut it along the path, and rapids through it are found.
 
 import type { Path } from "../scene.ts";
+import { inByte } from "./colours.ts";
 import type { Plate } from "./ground.ts";
 import { lowest } from "./sweep.ts";
 import type { Shape } from "./tool.ts";
@@ -135,7 +136,7 @@ export class Stock {
         const height = lowest(radius, corner, px, py, from[2], dx, dy, dz);
         if (height < this.heights[cell]) {
           this.heights[cell] = Math.max(height, this.bottom);
-          this.tools[cell] = tool;
+          this.tools[cell] = inByte(tool);
         }
       }
     }

@@ -84,8 +84,10 @@ fn read_twice(
     // boring tools move away from the wall in the same direction as in a job whose bore has an angle of zero
     let settings = RunSettings { places_unknown: true, bore_shift: -1.0, ..options.settings };
     let mut simulator = Simulator::new(input, settings);
+    know_tools(&mut simulator, options);
     let survey = survey(&mut simulator, options, warnings)?;
     let mut simulator = simulator.again().map_err(ReadError::Io)?;
+    know_tools(&mut simulator, options);
     if options.settings.control.is_lathe() {
         let mut turner = Turner::new(&survey, options, warnings, sink, simulator.state().modes.feed_mode)?;
         run(&mut simulator, |item, text, _| turner.take(item, text))?;
@@ -94,6 +96,12 @@ fn read_twice(
     let mut reader = Reader::new(&survey, options, warnings, sink);
     run(&mut simulator, |item, text, behind| reader.take(item, text, behind))?;
     Ok(reader.finish()?)
+}
+
+fn know_tools(simulator: &mut Simulator<'_>, options: &JobOptions<'_>) {
+    for (name, number) in options.tool_names {
+        simulator.know_tool(name, *number);
+    }
 }
 
 /// Runs the program. For each action, calls `take` with the action, the text of its block, and the state of the machine

@@ -67,7 +67,8 @@ impl Reader<'_> {
         }
         self.changes += 1;
         let (line, text) = &self.remark;
-        self.tool_name = (*line == self.place.line).then(|| text.clone());
+        let named = || self.options.tool_names.iter().find(|(_, known)| *known == number).map(|(name, _)| name.clone());
+        self.tool_name = (*line == self.place.line).then(|| text.clone()).or_else(named);
         self.operation = true;
         self.wanted.rotation = Some(Rotation::Stop);
         self.said = Switches::default();

@@ -26,7 +26,7 @@ pub(super) const MOST_WAITING: usize = 1000;
 /// Converts actions of the simulator to events of a job.
 pub(super) struct Reader<'a> {
     pub(super) survey: &'a Survey,
-    pub(super) options: &'a JobOptions,
+    pub(super) options: &'a JobOptions<'a>,
     pub(super) warnings: &'a mut Vec<Diag>,
     sink: &'a mut dyn Sink,
     pub(super) place: Place,

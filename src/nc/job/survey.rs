@@ -2,6 +2,7 @@
 //! the first move.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::fault::{refused, unsaid, warning};
 use super::options::JobOptions;
@@ -71,6 +72,10 @@ pub(super) fn survey(
     // whether this tool has cut while its length offset was on
     let mut with_length = false;
     let (mut told, mut named) = (false, false);
+    // whether the tool went home by a code that ends the length offset, and whether the user was told about it
+    let (mut at_home, mut told_of_home) = (false, false);
+    // the names of tools whose numbers are unknown, with the line of the first call, and the greatest tool number
+    let (mut unknown, mut greatest): (Vec<(Arc<str>, u64)>, f64) = (Vec::new(), 0.0);
     let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
     let mut base = None;
     loop {
@@ -79,6 +84,13 @@ pub(super) fn survey(
         let shift = simulator.state().shift()[2];
         for item in &items {
             if let Action::Feed { .. } | Action::Arc(_) = &item.action {
+                if std::mem::take(&mut at_home) && !std::mem::replace(&mut told_of_home, true) {
+                    let message = "a tool cuts after G28, G30 or G53 without another G43: the job assumes that its length \
+                                   offset is active again";
+                    let help =
+                        "check the manual of the control: many controls end the length offset at the machine zero";
+                    warnings.push(warning(item.line, message, help));
+                }
                 match length {
                     None if with_length => {
                         let help =
@@ -133,17 +145,25 @@ pub(super) fn survey(
                     }
                     units = Some(*now);
                 }
+                Action::Length(None) if simulator.ends_length() => at_home = true,
                 Action::Length(None) => length = None,
                 Action::Length(Some(register)) if *register < 0.0 => {
                     let help = "write G43, and change the sign of the length in the register";
                     return unsaid(item.line, "G44, a subtracted length offset", help);
                 }
-                Action::Tool(_) => {
+                Action::Tool(tool) => {
+                    match simulator.state().tool_name(*tool) {
+                        Some(name) if !unknown.iter().any(|(known, _)| *known == name) => {
+                            unknown.push((name, item.line));
+                        }
+                        Some(_) => {}
+                        None => greatest = greatest.max(*tool),
+                    }
                     survey.registers.push(Registers::default());
-                    (inherited, with_length) = (true, false);
+                    (inherited, with_length, at_home) = (true, false, false);
                 }
                 Action::Length(Some(register)) => {
-                    (length, inherited) = (Some(*register), false);
+                    (length, inherited, at_home) = (Some(*register), false, false);
                     let line = item.line;
                     one(&mut survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
                 }
@@ -166,6 +186,13 @@ pub(super) fn survey(
             let name = simulator.comment().map(|name| String::from_utf8_lossy(name).trim().to_owned());
             survey.name = name.filter(|name| !name.is_empty());
         }
+    }
+    if let Some((name, line)) = unknown.first() {
+        let numbers = (1..).map(|count: u32| greatest + f64::from(count));
+        let all = unknown.iter().zip(numbers).map(|((name, _), number)| format!("{name}={number}"));
+        let help = format!("give the numbers with `--assume-tool '{}'`", all.collect::<Vec<_>>().join(","));
+        let message = format!("the number of the tool \"{name}\" is unknown");
+        return Err(Box::new(Diag::new(diag::Code::PL009, message).help(help).place(Location::at(*line, 1))).into());
     }
     for (code, (line, count)) in left_out {
         let name = code.map_or("block delete".to_owned(), |code| code.to_string());

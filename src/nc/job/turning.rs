@@ -20,7 +20,7 @@ const STATION: f64 = 100.0;
 /// Converts actions of the simulator to events of a job.
 pub(super) struct Turner<'a> {
     survey: &'a Survey,
-    options: &'a JobOptions,
+    options: &'a JobOptions<'a>,
     warnings: &'a mut Vec<Diag>,
     sink: &'a mut dyn Sink,
     place: Place,
@@ -52,7 +52,7 @@ pub(super) struct Turner<'a> {
 impl<'a> Turner<'a> {
     pub fn new(
         survey: &'a Survey,
-        options: &'a JobOptions,
+        options: &'a JobOptions<'a>,
         warnings: &'a mut Vec<Diag>,
         sink: &'a mut dyn Sink,
         mode: FeedMode,

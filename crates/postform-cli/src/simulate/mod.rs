@@ -52,9 +52,9 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
             if args.dry {
                 tally.add(item);
             } else if args.format == MotionFormat::Json {
-                json_line(item, unknown, &mut text);
+                json_line(item, simulator.state(), unknown, &mut text);
             } else {
-                text::line(item, simulator.text(), shown, &mut text);
+                text::line(item, &simulator, shown, &mut text);
             }
         }
         let new = simulator.take_warnings();

@@ -1,7 +1,8 @@
 //! Actions as lines of text.
 
-use postform::internals::nc::{Action, Item, RunSettings, plane_name, stop_name, turn_name};
+use postform::internals::nc::{Action, Item, RunSettings, Simulator, plane_name, stop_name, turn_name};
 use postform::internals::number::quantise;
+use postform::internals::terminal::escaped;
 
 /// The display of positions.
 #[derive(Clone, Copy)]
@@ -147,7 +148,7 @@ impl Backwards {
 }
 
 /// One action as a line of text.
-pub fn line(item: &Item, block: &[u8], Shown { unknown, across, axes }: Shown, out: &mut Vec<u8>) {
+pub fn line(item: &Item, run: &Simulator<'_>, Shown { unknown, across, axes }: Shown, out: &mut Vec<u8>) {
     let hidden = |machine: u8| if unknown { machine } else { 0 };
     let mut text = Backwards::new();
     text.byte(b'\n');
@@ -198,7 +199,10 @@ pub fn line(item: &Item, block: &[u8], Shown { unknown, across, axes }: Shown, o
             "spindle"
         }
         Action::Orient(value) => number_line(&mut text, *value, "orient"),
-        Action::Tool(value) => number_line(&mut text, *value, "tool"),
+        Action::Tool(tool) => match run.state().tool_name(*tool) {
+            Some(name) => name_line(&mut text, &escaped(&name), "tool"),
+            None => number_line(&mut text, *tool, "tool"),
+        },
         Action::Work(value) => number_line(&mut text, *value, "work"),
         Action::Stop(kind) => name_line(&mut text, stop_name(*kind), "stop"),
         Action::Coolant(kind) => name_line(&mut text, kind.name(), "coolant"),
@@ -207,9 +211,9 @@ pub fn line(item: &Item, block: &[u8], Shown { unknown, across, axes }: Shown, o
         Action::Comment(start, end) => {
             text.byte(b' ');
             text.head(item.line, b"comment");
-            let comment = String::from_utf8_lossy(block.get(*start..*end).unwrap_or_default());
+            let comment = String::from_utf8_lossy(run.text().get(*start..*end).unwrap_or_default());
             out.extend_from_slice(&text.bytes[text.at..text.bytes.len() - 1]);
-            out.extend_from_slice(postform::internals::terminal::escaped(comment.trim()).as_bytes());
+            out.extend_from_slice(escaped(comment.trim()).as_bytes());
             out.push(b'\n');
             return;
         }

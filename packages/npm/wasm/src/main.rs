@@ -113,7 +113,7 @@ fn simulate(request: &Request) -> Value {
         let step = simulator.step(&mut items);
         for item in &items {
             let before = actions.len();
-            json_line(item, request.start_unknown, &mut actions);
+            json_line(item, simulator.state(), request.start_unknown, &mut actions);
             if actions.len() > before {
                 // the line end becomes the comma of the list
                 actions.pop();

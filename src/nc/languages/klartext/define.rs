@@ -16,7 +16,7 @@ impl Words<'_> {
         let tool = match cursor.peek() {
             Some(b'"') => {
                 let Some(name) = cursor.quoted() else { return Err(cursor.unreadable()) };
-                Some(self.tool(name))
+                Some(self.state.tool_names.word(name))
             }
             Some(byte) if byte.is_ascii_digit() => cursor.unsigned(),
             Some(b'Q' | b'q') => Some(self.number(cursor)?),
@@ -40,7 +40,11 @@ impl Words<'_> {
                 (Some(b'D'), Some(b'L' | b'R')) => {
                     let skipped = if rest.starts_with(b"DR2") { 3 } else { 2 };
                     skip(skipped, cursor);
-                    self.number(cursor)?;
+                    if self.number(cursor)? != 0.0 {
+                        let name = String::from_utf8_lossy(&rest[..skipped]).into_owned();
+                        let message = format!("{name} of a tool call changes the length or the radius of the tool");
+                        return Err(Fault::at(Code::PN016, begin, message, "enter the value in the tool table"));
+                    }
                 }
                 (Some(b'S'), _) => {
                     skip(1, cursor);
@@ -60,17 +64,6 @@ impl Words<'_> {
             }
         }
         Ok(())
-    }
-
-    fn tool(&mut self, name: &[u8]) -> f64 {
-        if let Some(number) = std::str::from_utf8(name).ok().and_then(|name| name.parse::<u32>().ok()) {
-            return f64::from(number);
-        }
-        let at = self.own.tools.iter().position(|known| known == name).unwrap_or_else(|| {
-            self.own.tools.push(name.to_vec());
-            self.own.tools.len() - 1
-        });
-        (at + 1) as f64
     }
 
     /// Reads a definition: `CYCL DEF 200 DRILLING ~ Q200=2 ..`, `CYCL DEF 7.1 X+10`, or `CYCL DEF 247 .. Q339=2`.

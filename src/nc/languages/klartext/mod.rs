@@ -39,8 +39,6 @@ pub struct Klartext {
     ahead: Option<[Vec<u8>; 2]>,
     /// The corner that the previous line has calculated.
     corner: Option<corner::Corner>,
-    /// Names of the tools in the order of their first use. The index of a name, from 1, is the number of the tool.
-    tools: Vec<Vec<u8>>,
     /// Labels with their positions in the input; `None`: the input has not been searched yet.
     labels: Option<HashMap<String, Spot>>,
     /// For each `CALL LBL 1 REP 3`: the line of the call, and the number of repeats that are left.

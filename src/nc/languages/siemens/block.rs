@@ -174,7 +174,7 @@ impl Words<'_> {
             return self.value(cursor);
         }
         let Some(name) = cursor.quoted() else { return Err(cursor.unreadable()) };
-        Ok(self.own.tool(name))
+        Ok(self.state.tool_names.word(name))
     }
 
     /// Reads the value after `=`: `X=R1*2`, `X=AC(10)`, `X=IC(-5)`.

@@ -16,8 +16,6 @@ pub struct Siemens {
     pub(super) variables: Vec<HashMap<String, f64>>,
     /// The cycle that `MCALL` has made modal.
     pub(super) modal: Option<Call>,
-    /// Names of the tools in the order of their first use. The index of a name, from 1, is the number of the tool.
-    tools: Vec<Vec<u8>>,
     /// The units that the program has last set.
     pub(super) units: Option<Units>,
     /// The arguments of a call. The arguments are stored until the `PROC` line of the subprogram is read.
@@ -78,19 +76,5 @@ impl Siemens {
     pub(super) fn at_depth(&mut self, depth: usize) {
         self.variables.truncate(depth + 1);
         self.variables.resize_with(depth + 1, HashMap::new);
-    }
-
-    /// The number of a tool. A name that is a number is itself the tool number. Any other name gets its index among the
-    /// tool names of the program.
-    pub(super) fn tool(&mut self, name: &[u8]) -> f64 {
-        let number = std::str::from_utf8(name).ok().and_then(|name| name.parse::<u32>().ok());
-        if let Some(number) = number {
-            return f64::from(number);
-        }
-        let at = self.tools.iter().position(|known| known.eq_ignore_ascii_case(name)).unwrap_or_else(|| {
-            self.tools.push(name.to_vec());
-            self.tools.len() - 1
-        });
-        (at + 1) as f64
     }
 }

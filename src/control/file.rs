@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::arcs::Arcs;
 use super::code::Code;
-use super::file_text::{File, Height, InRapids, Longer, RowText, SecondTool, WithoutAxes};
+use super::file_text::{EndsLength, File, Height, InRapids, Longer, RowText, SecondTool, WithoutAxes};
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
@@ -311,8 +311,24 @@ impl Reader<'_> {
             }
             tool => tool.as_ref().map(|at| *at.get_ref()),
         };
+        let ends_length = match &row.ends_length {
+            None => 0,
+            Some(at) if !matches!(meaning, Meaning::Reference | Meaning::Machine) => {
+                return Err(of_another("ends_length", at.span().start, "reference points and machine coordinates"));
+            }
+            Some(at) => match at.get_ref() {
+                EndsLength::AlongZ => 0b100,
+                EndsLength::Always => 0x3f,
+            },
+        };
+        let beside_moves = match &row.beside_moves {
+            Some(at) if meaning != Meaning::Harmless => {
+                return Err(of_another("beside_moves", at.span().start, "harmless codes"));
+            }
+            beside => beside.as_ref().is_some_and(|beside| *beside.get_ref()),
+        };
         let speed_out = row.speed_out.as_ref().map(|letter| self.letter(letter)).transpose()?;
-        Ok(Runs { motions, work, point, speed_out, tool, by_diameter: row.by_diameter })
+        Ok(Runs { motions, work, point, speed_out, tool, beside_moves, ends_length, by_diameter: row.by_diameter })
     }
 
     /// Reads words with their values, such as `P0 P10000`.

@@ -197,6 +197,14 @@ pub(super) enum Height {
     Machine,
 }
 
+/// The value of `ends_length`.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case", expecting = "\"along-z\" or \"always\"")]
+pub(super) enum EndsLength {
+    AlongZ,
+    Always,
+}
+
 /// A row of `[codes]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a row, as { is = \"harmless\" }")]
@@ -217,4 +225,6 @@ pub(super) struct RowText {
     #[serde(default)]
     pub(super) by_diameter: bool,
     pub(super) speed_out: Option<Spanned<String>>,
+    pub(super) ends_length: Option<Spanned<EndsLength>>,
+    pub(super) beside_moves: Option<Spanned<bool>>,
 }

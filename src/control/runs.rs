@@ -154,6 +154,11 @@ pub struct Runs {
     pub speed_out: Option<u8>,
     /// The tool that the code makes active, for a machine with a drill bank.
     pub tool: Option<u16>,
+    /// Whether the axis words in a block with this code belong to a move. Used only for harmless G codes.
+    pub beside_moves: bool,
+    /// As bits, the axes along which a move by this code ends the tool length offset. The offset is active again after
+    /// the next code or register of a tool length.
+    pub ends_length: u8,
     /// Whether cutter compensation uses no register: D is a diameter, or the diameter belongs to the tool.
     pub by_diameter: bool,
 }

@@ -107,6 +107,11 @@ fn about(row: &Row) -> String {
     if row.stops_spindle {
         text += "; the spindle stops";
     }
+    text += match row.runs.ends_length {
+        0 => "",
+        0b100 => "; a move along Z ends the tool length offset until the next code or register of a length",
+        _ => "; ends the tool length offset until the next code or register of a length",
+    };
     match &row.not_run {
         Some(why) => format!("{text}; not run: {why}"),
         None => text,
@@ -230,7 +235,11 @@ like = \"{name}\"
 # \"M88\" = {{ is = \"through\", stops_spindle = true }}
 # a code of the builder that changes nothing in the program's motions
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
-# a code that calls a program of the builder: all positions are printed again after it
+# the same; axis words in its block belong to a move (without beside_moves such a block is not proven)
+# \"G202\" = {{ is = \"harmless\", beside_moves = true }}
+# a move to the machine zero that ends the tool length offset until the next G43 or H: along-z or always
+# \"G28\" = {{ is = \"reference\", point = 1, ends_length = \"along-z\" }}
+# a code that calls a program of the builder: all positions are printed again after it, and the program is not proven
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
 # the spindles of a drill bank: M201 is tool 101, and each later code is the next tool
 # \"M201-M206\" = {{ is = \"tool-number\", tool = 101 }}

@@ -95,6 +95,7 @@ sequences! {
     EndOperation      "EndOperation"      plain "ML"  ""    Ours "the end of an operation: after its last move" "end of an operation" "operations"
     CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job ([text]), instead of the generated comment" "`comment`" "operations"
     MoveHome          "MoveHome"          plain "MLE" ""    Ours "the move to the machine's home position, which has no coordinates in the job" "`home`" "operations"
+    AfterHome         "AfterHome"         plain "ML"  ""    Ours "the first rapid with a height after `MoveHome`: on a control that ends the tool length at the machine zero, turns it on again" "the rapid after `home`" "after-home"
     WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, if no other sequence prints it" "`work`" "operations"
     SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, if no other sequence prints it" "`spindle`" "operations"
     CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "other coolant, if no other sequence prints it" "`coolant`" "operations"

@@ -26,6 +26,18 @@ impl Simulator<'_> {
         self.passing = if programs == 0 { 0 } else { programs + 1 };
     }
 
+    /// Sets the number of a tool that the program may call by its name. Call this function before the block that loads
+    /// the tool. If a name gets two numbers, its number is unknown.
+    pub fn know_tool(&mut self, name: &str, number: f64) {
+        self.state.tool_names.know(name, number);
+    }
+
+    /// Shares the list of tool names with another program, so that equal names are the same tool. Call this function
+    /// before the first block.
+    pub fn share_tool_names(&mut self, other: &Simulator<'_>) {
+        self.state.tool_names.share(&other.state.tool_names);
+    }
+
     /// Runs the program as a lathe program, with the lathe control of the same maker. Call this function before the
     /// first block. If `by_diameter` is set, X is a diameter, as a machine parameter can define. On LinuxCNC, G7 makes
     /// X a diameter.
@@ -47,10 +59,17 @@ impl Simulator<'_> {
         self.parameters = Parameters::new(control);
     }
 
-    /// The reference point to which the last block moves: 0 is the point of G28, 1 is the point of G30.
+    /// Whether the current block moves to a machine position by a code that ends the tool length offset.
+    pub fn ends_length(&self) -> bool {
+        self.block.row(Group::Once).is_some_and(|row| row.runs.ends_length != 0)
+    }
+
+    /// The reference point to which the last block moves: 0 is the point of G28, 1 is the point of G30 or of G30 P2, 2 is
+    /// another point of G30.
     pub fn reference_point(&self) -> Option<usize> {
         let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference)?;
-        Some(usize::from(row.runs.point == Some(2)))
+        let is_other = row.words.has(b'P') && self.block.get(b'P').is_some_and(|point| point != 2.0);
+        Some(if is_other { 2 } else { usize::from(row.runs.point == Some(2)) })
     }
 
     /// The allowed distance of the path from its corners: P of the last block.

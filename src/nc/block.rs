@@ -29,6 +29,8 @@ pub struct Block {
     pub(super) has_modes: bool,
     /// Whether the block has a G code that uses the axis words but is not a motion.
     pub(super) takes_axes: bool,
+    /// The last harmless G code that may use axis words itself.
+    pub(super) harmless: Option<&'static Row>,
     /// The M codes in their order: number, and the control's row for this number.
     m: [Option<(u16, &'static Row)>; MOST],
     m_count: usize,
@@ -147,6 +149,14 @@ impl Block {
         self.takes_axes
     }
 
+    /// Records a G code that may use axis words itself: it is harmless, but its meaning beside axis words is unknown.
+    #[inline]
+    pub fn note_harmless(&mut self, row: &'static Row) {
+        if row.meaning == Meaning::Harmless && !row.runs.beside_moves {
+            self.harmless = Some(row);
+        }
+    }
+
     /// Whether the block contains nothing but spaces, comments and a block number.
     pub fn is_empty(&self) -> bool {
         self.is_empty
@@ -163,6 +173,7 @@ impl Block {
         if self.has_g {
             self.g = [None; GROUPS];
             (self.has_g, self.has_modes, self.takes_axes) = (false, false, false);
+            self.harmless = None;
         }
         self.polar = [None; 2];
         self.spindle = false;

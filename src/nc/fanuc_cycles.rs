@@ -30,6 +30,7 @@ impl State {
             self.holes.series.running = true;
             self.holes.series.initial = self.place.position[across];
             self.holes.series.initial_unknown = self.is_unknown(across);
+            self.holes.series.initial_elsewhere = false;
         }
         self.keep_cycle_words(block, b"XYZ"[across]);
         if !block.has(letters("XYZABCR")) {
@@ -69,9 +70,10 @@ impl State {
             shift: self.bore_shift(motions),
             level: bottom,
             feed,
-            heights: match (series.r_unknown || series.depth_unknown, series.initial_unknown) {
-                (true, _) => Heights::Unknown,
-                (_, true) if motions == Motions::Back || self.modes.to_initial => Heights::ButClear,
+            heights: match motions == Motions::Back || self.modes.to_initial {
+                _ if series.r_unknown || series.depth_unknown => Heights::Unknown,
+                true if series.initial_elsewhere => Heights::Unknown,
+                true if series.initial_unknown => Heights::ButClear,
                 _ => Heights::Given,
             },
         };

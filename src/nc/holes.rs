@@ -27,6 +27,8 @@ pub struct Series {
     pub initial: f64,
     /// Whether the initial level is known only at the machine.
     pub initial_unknown: bool,
+    /// Whether the initial level is a height in another work offset than the active one.
+    pub initial_elsewhere: bool,
     /// Whether R is an increment from an unknown height.
     pub r_unknown: bool,
     /// Whether the depth is an increment from an unknown height.

@@ -200,8 +200,12 @@ impl State {
 
     /// Sets the work offset. `work` is the number of its code, or the number of the offset itself.
     fn work_is(&mut self, work: f64, out: &mut Out<'_>) {
-        if self.place.work_is(work) && self.settings.places_unknown {
-            self.place.becomes_unknown(0b111);
+        if self.place.work_is(work) {
+            // an active cycle still returns to the initial level of the former work offset
+            self.holes.series.initial_elsewhere |= self.holes.series.running;
+            if self.settings.places_unknown {
+                self.place.becomes_unknown(0b111);
+            }
         }
         out.push(Action::Work(work));
     }

@@ -186,6 +186,8 @@ impl State {
             let feed = self.drive.feed_of(block, self.modes.feed_mode)?;
             self.place.feed_home(to, named, feed, out);
         }
+        let ends_length = block.row(Group::Once).map_or(0, |row| row.runs.ends_length);
+        self.end_length(named & ends_length, out);
         Ok(())
     }
 

@@ -18,7 +18,7 @@ impl State {
         let point = usize::from(row.runs.point == Some(2));
         match row.meaning {
             Meaning::SetOffsets => self.set_data(row.code, block, out),
-            Meaning::Reference => self.go_home(point, block, out),
+            Meaning::Reference => self.go_home(point, row.runs.ends_length, block, out),
             Meaning::SetReference => {
                 self.place.homes[point] = self.place.frames.to_machine(&self.place.position);
                 Ok(())
@@ -136,7 +136,7 @@ impl State {
     }
 
     /// Moves through an intermediate position to a reference point.
-    fn go_home(&mut self, which: usize, block: &Block, out: &mut Out<'_>) -> Done {
+    fn go_home(&mut self, which: usize, ends_length: u8, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
         }
@@ -158,6 +158,7 @@ impl State {
         // a rotary axis is at an angle of zero at its reference point
         self.place.goes_home(axes & 0b111);
         self.place.rapid_to(to, out);
+        self.end_length(axes & ends_length, out);
         Ok(())
     }
 }

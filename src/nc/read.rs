@@ -221,6 +221,7 @@ impl Block {
         let rules = control.rules();
         let its_group = group(row, rules);
         self.takes_axes |= takes_axes(row, rules);
+        self.note_harmless(row);
         self.has_modes |= !matches!(its_group, Group::Motion | Group::Cycle);
         let group = its_group as usize;
         // on LinuxCNC, G80 has no effect in a block with another motion
@@ -272,6 +273,12 @@ impl Block {
     fn check(&self, control: &'static Control) -> Done {
         if self.has_m() {
             self.check_m(control)?;
+        }
+        if let Some(row) = self.harmless.filter(|_| self.has_axes()) {
+            let message = format!("the axis words may belong to {}, and not to a move", row.code);
+            let help = "write the move in another block; if the code never uses axis words, add `beside_moves = true` to \
+                        its row in the control's file";
+            return refuse(Code::PN016, message, help);
         }
         if self.has_modes {
             self.check_values()?;

@@ -54,13 +54,7 @@ impl State {
             None => {}
         }
         if let Some(tool) = block.get(b'T') {
-            if tool < 0.0 || tool.fract() != 0.0 {
-                return refuse(
-                    diag::Code::PN018,
-                    format!("T{tool} is not a tool number"),
-                    "tool numbers are whole numbers",
-                );
-            }
+            self.check_tool(tool)?;
             self.tool.number = Some(tool);
             if self.control.is_lathe() {
                 self.turn_turret(tool, out);
@@ -137,15 +131,17 @@ impl State {
             let help = "a second T is allowed only with M6, for the next tool: write M6, or keep one T";
             return refuse(diag::Code::PN002, "T is twice in a block without a tool change", help);
         }
-        if tool < 0.0 || tool.fract() != 0.0 {
-            return refuse(
-                diag::Code::PN018,
-                format!("T{tool} is not a tool number"),
-                "tool numbers are whole numbers",
-            );
-        }
+        self.check_tool(tool)?;
         self.tool.number = Some(tool);
         Ok(())
+    }
+
+    fn check_tool(&self, word: f64) -> Done {
+        if self.tool_names.is_tool(word) {
+            return Ok(());
+        }
+        let help = "tool numbers are whole numbers below 1000000000";
+        refuse(diag::Code::PN018, format!("T{word} is not a tool number"), help)
     }
 
     /// Runs M6. The spindle is stopped after M6.
@@ -157,6 +153,7 @@ impl State {
             self.place.goes_to_machine(0b100);
         }
         self.drive.spindle = Rotation::Stop;
+        let tool = self.tool_names.number(tool);
         self.tool.loaded = Some(tool);
         out.push(Action::Tool(tool));
         Ok(())
@@ -214,6 +211,14 @@ impl State {
         Ok(())
     }
 
+    /// Ends the tool length offset after a move of these axes to a machine position. The code of the offset stays
+    /// active, so that a register alone turns the offset on again.
+    pub(super) fn end_length(&mut self, axes: u8, out: &mut Out<'_>) {
+        if axes != 0 && self.tool.length_on && !self.control.is_lathe() {
+            out.push(Action::Length(None));
+        }
+    }
+
     pub(super) fn length(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let row = match block.row(Group::Length) {
             Some(row) => row,
@@ -223,6 +228,7 @@ impl State {
                 let counts = self.tool.length_on || by_register;
                 if let Some(register) = block.get(b'H').filter(|_| counts && !self.control.is_linuxcnc()) {
                     // register 0 means no length
+                    let register = self.tool_names.number(register);
                     self.tool.length_on = register != 0.0 || !by_register;
                     out.push(Action::Length(Some(register).filter(|register| *register != 0.0)));
                 }
@@ -263,7 +269,7 @@ impl State {
                     self.place.frames.tool = [0.0; 3]; // ends the offset of G43.1
                 }
                 // the simulator has no tool table, so the length counts as zero; G44 subtracts it
-                let register = register.unwrap_or(0.0);
+                let register = self.tool_names.number(register.unwrap_or(0.0));
                 out.push(Action::Length(Some(if row.meaning == Meaning::LengthMinus { -register } else { register })));
             }
         }

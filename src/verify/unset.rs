@@ -11,6 +11,8 @@ pub(super) struct Due {
     length_reported: bool,
     /// Whether the program turned a length offset on and then off.
     length_off: bool,
+    /// Whether a move to the machine zero ended the length offset.
+    ended_at_home: bool,
     units: bool,
 }
 
@@ -19,7 +21,7 @@ impl Due {
     pub fn new(expectation: &Expectation, control: &Control) -> Due {
         let has_lengths = control.traits().tool_length != ToolLength::None;
         let lengths = expectation.tools && expectation.lengths_due && has_lengths;
-        Due { lengths, length_reported: false, length_off: false, units: expectation.units_due }
+        Due { lengths, length_reported: false, length_off: false, ended_at_home: false, units: expectation.units_due }
     }
 
     /// Records that the program sets its units.
@@ -42,13 +44,19 @@ impl Due {
         self.lengths
     }
 
-    /// Records a change of the length offset from one register to another.
-    pub fn length_changes(&mut self, from: Option<f64>, to: Option<f64>) {
+    /// Records a change of the length offset from one register to another. `at_home`: a move to the machine zero ended
+    /// the offset.
+    pub fn length_changes(&mut self, from: Option<f64>, to: Option<f64>, at_home: bool) {
+        self.ended_at_home = to.is_none() && at_home;
         self.length_off = to.is_none() && (self.length_off || from.is_some());
     }
 
     /// The correction for a missing length offset.
     pub fn length_help(&self) -> &'static str {
+        if self.ended_at_home {
+            return "this control ends the length offset at the machine zero (G28, G30, on some controls G53): print G43 \
+                    H[lcomp] with the next height, for example in the sequence AfterHome or in Upon [work]";
+        }
         match self.length_off {
             false => "print G43 H[lcomp] in the tool change, before the height",
             true => {

@@ -462,3 +462,38 @@ fn a_refused_call_hides_nothing() {
         assert_eq!(last, Some(1.0), "{name}");
     }
 }
+
+/// Codes that change positions without a word about it: the program is refused there, and not run on.
+#[test]
+fn codes_that_move_the_frame_or_the_tool_are_refused() {
+    let klartext = |block: &str| {
+        let program = format!(
+            "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000 DL+0 DR+0\n2 L X+1 Y+1 R0 FMAX M3\n{block}\nL Z-1 F100\nM30\n"
+        );
+        actions(&program, "heidenhain").1
+    };
+    assert_eq!(klartext("L X+2 F200 M8"), None);
+    for block in ["TOOL CALL 1 Z S1000 DL+0.5", "TOOL CALL S1200 DL-1", "TOOL CALL 1 Z S1000 DR+0.1 DR2:+0"] {
+        let refused = klartext(block).unwrap_or_else(|| panic!("{block} is run"));
+        assert!(refused.contains("changes the length or the radius of the tool"), "{block}: {refused}");
+    }
+    for code in ["M93", "M95", "M96", "M104", "M112", "M114", "M142", "M143", "M197"] {
+        let refused = klartext(&format!("L X+2 F200 {code}")).unwrap_or_else(|| panic!("{code} is run"));
+        assert!(refused.starts_with(&format!("{code} is not supported")), "{refused}");
+    }
+    // axis words beside a code that may use them itself: G22 X Y Z I J K sets stroke limits, and moves nothing
+    let codes = |control: &str, block: &str| actions(&format!("G21 G90\nG0 X1. Y1. Z1.\n{block}\nM30\n"), control).1;
+    for block in
+        ["G22 X20. Y0 Z20. I-10. J-10. K-10.", "G23 X20.", "G5.1 Q1 X20.", "G8 P1 Y2.", "G103 P1 Z2.", "G187 P1 G0 X2."]
+    {
+        let refused = codes("fanuc", block).unwrap_or_else(|| panic!("{block} is run"));
+        assert!(refused.contains("the axis words may belong to"), "{block}: {refused}");
+        let alone: String =
+            block.split(' ').filter(|word| !word.starts_with(['X', 'Y', 'Z'])).collect::<Vec<_>>().join(" ");
+        assert_eq!(codes("fanuc", &alone), None, "{alone}");
+    }
+    // a Haas repeats a cycle by L, and not by K
+    let cycle = |word: &str| codes("haas", &format!("G91 G99 G81 X1. Z-1. R-.5 {word} F100."));
+    assert_eq!(cycle("L3"), None);
+    assert!(cycle("K3").unwrap().contains("the block has K"), "K3");
+}

@@ -431,3 +431,17 @@ fn grblhal_slows_down_at_corners_as_grbl_does() {
     assert_eq!(time("grblhal"), time("grbl"));
     assert!((time("grblhal") - time("linuxcnc")).abs() > 0.1, "{} {}", time("grblhal"), time("linuxcnc"));
 }
+
+/// G30 P3 moves to a point that no machine file contains, and not to the point of G30.
+#[test]
+fn other_reference_points_are_unknown() {
+    let program = |p: &str| format!("{HEAD}G91 G30{p} X0\nG90\nM30\n");
+    let file = format!("{VF2}{KNOWN}[reference]\nG30 = [-100, 0, 0]\n");
+    let not_checked = |p: &str| fitted(&program(p), &machine(&file)).fit.not_checked.join("; ");
+    for p in ["", " P2"] {
+        assert!(!not_checked(p).contains("the position of G30"), "{p}: {}", not_checked(p));
+    }
+    for p in [" P3", " P4"] {
+        assert!(not_checked(p).contains("the position of G30 with P3 or more"), "{p}: {}", not_checked(p));
+    }
+}

@@ -185,7 +185,7 @@ fn subprograms() {
             ("subprograms.pf", "F8.", "F80.", "PV006"),
             ("subprograms.pf", "Z-.5 R.1", "Z-.6 R.1", "PV004"),
             ("subprograms.pf", "M8\n", "(none)\n", "PV024"),
-            ("subprograms.pf", "N260 G55", "N260 G56", "PV012"),
+            ("subprograms.pf", "N270 G55", "N270 G56", "PV012"),
             ("subprograms.pf", "N80 M9\n", "N80 M5\n", "PV011"),
             ("fadal-subs.pf", "M98 P2 L1\n", "(none)\n", "PV001"),
             ("fadal-subs.pf", "F8.", "F80.", "PV006"),

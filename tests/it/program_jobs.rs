@@ -21,7 +21,13 @@ fn printed_by(form: &str, program: &str) -> Result<(String, Vec<String>), String
     let checked = check(form);
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, start: None };
+    let options = JobOptions {
+        settings: RunSettings::new(control("fanuc")),
+        units: None,
+        tool: None,
+        tool_names: &[],
+        start: None,
+    };
     let mut warnings = Vec::new();
     match read_program(Cursor::new(program), &options, &mut warnings, &mut renderer) {
         Ok(()) => {
@@ -143,6 +149,7 @@ fn what_is_left_out_is_warned_of() {
         ("M7\nG1 X1. F5.", "flood and mist"),
         ("G49\nG0 Z2.\nG1 X1. F5.", "without a length offset"),
         ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G0 X3. Y3. Z1.\nG1 Z-.1", "reference point"),
+        ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G0 X3. Y3. Z1.\nG1 Z-.1", "after G28, G30 or G53 without another G43"),
     ];
     for (blocks, part) in cases {
         let (text, warnings) =
@@ -214,7 +221,7 @@ fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
         let form = compile(&checked.form);
         let mut renderer = Renderer::new(&form, Options::default());
         let settings = RunSettings::new(control("fanuc"));
-        let options = JobOptions { settings, units: None, tool: None, start };
+        let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start };
         let mut warnings = Vec::new();
         let read = read_program(Cursor::new(program), &options, &mut warnings, &mut renderer);
         let text = String::from_utf8(std::mem::take(renderer.text())).unwrap();

@@ -348,8 +348,11 @@ fn right_programs_of_other_forms_are_proven() {
     let limited = fanuc.replace("S[speed]", "S[min(speed,800)]");
     assert!(matches!(of_form(&limited, &tap).1, Verdict::Different(_)), "{:?}", of_form(&limited, &tap));
 
-    let home =
-        fanuc.replacen("Upon [work]\nG91 G28 Z0\nG90\nG[work] G0 X[h] Y[v]\nEnd", "Upon [work]\nG[work]\nEnd", 1);
+    let home = fanuc.replacen(
+        "Upon [work]\nG91 G28 Z0\nG90\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd",
+        "Upon [work]\nG[work]\nEnd",
+        1,
+    );
     assert_ne!(home, fanuc);
     let offsets = mm(
         r#"{"tool":1,"work":54,"spindle":{"speed":900,"direction":"cw"},"feed":50,"path":[{"rapid":[0,0,20]},{"line":[0,0,1]},{"rapid":[0,0,20]}]},
@@ -374,11 +377,12 @@ fn right_programs_of_other_forms_are_proven() {
     )
     .replacen("\"units\":\"inch\"", "\"units\":\"mm\"", 1);
     is_right("a cut across one that no digits show", of_form(&unusual("metric"), &across));
-    // from home first down, then across: the start is unknown
+    // from home first down, then across: the start is unknown. This control keeps the tool length at home
     let home = inch(
         r#"{"rapid":[0.7375,-2.0667,1.6584]},{"home":true},{"rapid":[null,null,1.0876]},{"rapid":[0.6466,-2.2204,1.6921]},{"line":[-3.1394,-1.7077,-0.3154]}"#,
     );
-    is_right("down after home", of_form(&unusual("no-return-plane"), &home));
+    let keeps = unusual("no-return-plane").replace("Control fanuc", "Control linuxcnc");
+    is_right("down after home", of_form(&keeps, &home));
     // the control leaves the hole higher than the job does, and moves back for a cut that is shorter than the last digit
     let tapped = inch(
         r#"{"rapid":[1.0698,1.7598,0.8441]},{"cycle":{"kind":"tap","clear":0.2746,"depth":0.7718,"feed":18.9,"points":[[-0.7609,0.351,-0.2594]]}},{"line":[-0.7609,0.351,0.01521]},{"rapid":[-0.7609,0.351,1.7092]}"#,
@@ -411,7 +415,7 @@ fn programs_are_identical_to_themselves() {
         let program = format!("{head}{body}M30\n%\n");
         let settings = RunSettings::new(control("fanuc"));
         let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None);
-        let options = JobOptions { settings, units: None, tool: None, start: None };
+        let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start: None };
         let read = read_program(Cursor::new(program.clone()), &options, &mut Vec::new(), &mut comparer);
         let verdict = comparer.verdict().unwrap();
         assert!(verdict.is_proven(), "{name}: {read:?} {verdict:#?}");
@@ -462,7 +466,7 @@ fn wrong_programs_are_different() {
         ("fanuc.pf", stop, "G43 H1", "H1", "PV014"),
         ("haas.pf", tapped, "S3000 M3", "S3000 M5", "PV011"),
         ("grbl.pf", offsets, "G55 X3. Y3.\nZ2.\n", "Z2.\nG55 X3. Y3.\n", "PV001"),
-        ("fanuc.pf", offsets, "G55 G0 X3. Y3.\nN100 Z2.\n", "G0 Z2.\nG55 X3. Y3.\n", "PV001"),
+        ("fanuc.pf", offsets, "G55 G0 X3. Y3.\nN100 G43 H1 Z2.\n", "G0 Z2.\nG55 X3. Y3.\n", "PV001"),
         ("haas.pf", stop, "M30\n", "(none)\n", "PV015"),
     ];
     let mut quiet = String::new();

@@ -4,6 +4,7 @@ use crate::proofs::{mm, of_post, one};
 use crate::support::check;
 use crate::verify::{document, post, verified};
 use postform::internals::verify::Verdict;
+use postform::{Job, Proof};
 
 /// The verdict on a program of a post after a change: the codes with their counts, or the allowances.
 fn after(post_name: &str, job: &str, changes: &[(&str, &str)]) -> String {
@@ -319,7 +320,7 @@ fn the_tool_comes_down_over_the_first_place() {
         ["identical", "equivalent: 1 path between cuts with the axes in another order or at a greater height"]
             .contains(&after("fanuc.pf", &home, &[]).as_str())
     );
-    assert_eq!(after("fanuc.pf", &home, &[("X0 Y80. Z-10.", "X0 Z-10.")]), "PV009 1");
+    assert_eq!(after("fanuc.pf", &home, &[("X0 Y80.\n", "X0\n")]), "PV009 1");
 }
 
 /// A state that a text of the job changes must also change in the program.
@@ -369,4 +370,86 @@ fn the_way_out_goes_down_where_the_jobs_does() {
     for (from, to) in [("X-60.", "X45."), ("X-70. Y0", "X45. Y0")] {
         assert_eq!(after("linuxcnc.pf", &leave, &[(from, to)]), "PV009 1", "{from}");
     }
+}
+
+/// A move to the machine zero ends the tool length on many controls. Without another G43, the tool would go down by its
+/// length too far.
+#[test]
+fn the_length_is_turned_on_again_after_home() {
+    let offsets = one(
+        r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"work":55},{"rapid":[20,20,25]},{"line":[20,20,-1]},{"rapid":[20,20,25]}"#,
+    );
+    let home = one(
+        r#"{"rapid":[0,0,25]},{"line":[0,0,-1]},{"rapid":[0,0,25]},{"home":true},{"rapid":[20,20,25]},{"line":[20,20,-1]},{"rapid":[20,20,25]}"#,
+    );
+    for (job, height) in [(&offsets, "Z25."), (&home, "Z25.")] {
+        for post in ["fanuc.pf", "brother.pf"] {
+            let (program, _) = of_post(post, job);
+            let (first, rest) = program.split_at(program.find("G28").unwrap());
+            assert!(first.contains("G43 H1") && rest.contains(&format!("G43 H1 {height}")), "{post}\n{program}");
+            assert!(!after(post, job, &[]).contains("PV"), "{post}");
+            let lost = after(post, job, &[(&format!("G43 H1 {height}\n"), &format!("{height}\n"))]);
+            assert!(lost.starts_with("PV014"), "{post}: {lost}");
+        }
+    }
+    // the same program on other controls: G28 ends the length on a Haas, G53 does not; LinuxCNC keeps it
+    let verdict = |control: &str, program: &str| {
+        let mut proof = Proof::default();
+        proof.control = Some(crate::support::control(control));
+        match proof.verify(Job::json(&home), std::io::Cursor::new(program.to_owned())).unwrap().verdict {
+            Verdict::Different(found) => {
+                let length = found.iter().find(|found| found.code.name() == "PV014");
+                let length = length.unwrap_or_else(|| panic!("{control}: {found:#?}"));
+                assert!(length.help.contains("AfterHome"), "{length:#?}");
+                "PV014"
+            }
+            verdict => {
+                assert!(verdict.is_proven(), "{control}: {verdict:?}");
+                "proven"
+            }
+        }
+    };
+    let program = |up: &str| {
+        format!(
+            "%\nO1\nG21 G17 G40 G49 G80 G90\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z25. M8\nG1 Z-1. F100.\nG0 Z25.\n{up}\nG0 X20. Y20.\nZ25.\n\
+             G1 Z-1.\nG0 Z25.\nM30\n%\n"
+        )
+    };
+    let table = [
+        ("G91 G28 Z0\nG90", "fanuc haas mazak mitsubishi brother", "linuxcnc"),
+        ("G53 G0 Z0", "fanuc brother", "haas mazak mitsubishi centroid linuxcnc"),
+        ("G91 G30 P2 Z0\nG90", "fanuc haas", ""),
+        ("G53 G0 Z0\nG91 G28 Y0\nG90", "haas", "mazak"),
+    ];
+    for (up, wrong, right) in table {
+        for control in wrong.split_whitespace() {
+            assert_eq!(verdict(control, &program(up)), "PV014", "{control}: {up}");
+        }
+        for control in right.split_whitespace() {
+            assert_eq!(verdict(control, &program(up)), "proven", "{control}: {up}");
+        }
+    }
+}
+
+/// While a cycle is active, the tool returns to the initial level of the work offset in which the cycle began. In
+/// another work offset, the height of this level is unknown.
+#[test]
+fn a_cycle_that_goes_on_in_another_work_offset_is_not_proven() {
+    let job = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"drill","depth":5,"clear":2,"return":25,"feed":100,"points":[[0,0,0]]}},{"work":55},
+        {"rapid":[0,0,25]},{"cycle":{"kind":"drill","depth":5,"clear":2,"return":25,"feed":100,"points":[[0,0,0],[90,0,0]]}},{"rapid":[90,0,25]}"#,
+    );
+    let program = |back: &str| {
+        format!(
+            "%\nO1\nG21 G17 G40 G49 G80 G90\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z25. M8\nG{back} G81 X0 Y0 Z-5. R2. F100.\n             G55 X0 Y0\nX90.\nG80\nG0 Z25.\nM30\n%\n"
+        )
+    };
+    let mut proof = Proof::default();
+    proof.control = Some(crate::support::control("fanuc"));
+    let verdict = |program: String| proof.verify(Job::json(&job), std::io::Cursor::new(program)).unwrap().verdict;
+    let by_initial = verdict(program("98"));
+    assert!(!by_initial.is_proven(), "{by_initial:?}");
+    // R is a position in the new work offset
+    let by_r = verdict(program("99"));
+    assert!(!matches!(by_r, Verdict::NotProven(_)), "{by_r:?}");
 }

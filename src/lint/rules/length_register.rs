@@ -18,8 +18,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     // the tool call of a conversational control sets the length
     let first = first.filter(|body| !body.words().any(|word| matches!(word.kind, WordKind::Text(_))));
     // these sequences come after the first move, and not in every job
-    let later = [SequenceId::Index, SequenceId::Unwind].map(Purpose::Sequence);
-    let mut words = view.bodies.iter().filter(|body| !later.contains(&body.purpose)).flat_map(|body| body.words());
+    let later = [SequenceId::Index, SequenceId::Unwind, SequenceId::AfterHome].map(Purpose::Sequence);
+    let is_later = |purpose: &Purpose| later.contains(purpose) || matches!(purpose, Purpose::Upon(VarId::Work, _));
+    let mut words = view.bodies.iter().filter(|body| !is_later(&body.purpose)).flat_map(|body| body.words());
     let says = words.any(|word| on(word) || is_register(&word));
     if let (Some(body), false) = (first, says) {
         let better = if view.traits().tool_length == ToolLength::Register { "H[lcomp]" } else { "G43 H[lcomp]" };

@@ -31,5 +31,15 @@ pub fn home(cx: &mut Cx<'_>) -> Done {
     cx.said.forget_axes(shape);
     cx.said.forget_place();
     cx.want.forget(&[VarId::H, VarId::V, VarId::D]);
+    cx.said.from_home = shape.program.routine(SequenceId::AfterHome).is_some();
+    cx.said.differs |= cx.said.from_home; // so that the next rapid is not printed as a plain rapid
     Ok(())
+}
+
+/// Prints the form's AfterHome sequence before a rapid from the home position.
+pub fn after_home(cx: &mut Cx<'_>) -> Done {
+    let shape = cx.shape;
+    cx.said.from_home = false;
+    let Some(routine) = shape.routine(SequenceId::AfterHome, cx.want, cx.said) else { return Ok(()) };
+    run_with_upons(routine, cx)
 }

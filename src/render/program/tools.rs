@@ -53,7 +53,10 @@ pub fn tool_change(
     set_conditions(change, changes, shape, want, out)?;
     want.texts.operation(change, shape);
     match &change.tool {
-        Some(tool) if changes => change_tool(tool, change, shape, want, said, out)?,
+        Some(tool) if changes => {
+            said.from_home = false;
+            change_tool(tool, change, shape, want, said, out)?;
+        }
         tool => {
             operation_comment(change, None, &mut Cx { shape, want, said, out })?;
             tool.as_ref().map_or(Ok(()), |tool| same_registers(tool, want))?;

@@ -70,6 +70,8 @@ pub struct Said {
     pub(super) switched: bool,
     /// Whether the control's state may differ from the job's request, so that the next move must check the state.
     pub differs: bool,
+    /// Whether the tool has gone home, and the sequence AfterHome is not printed yet.
+    pub from_home: bool,
     /// Effects of the open subprogram on the spindle. `None`: in the main program.
     pub sub: Option<Spins>,
 }
@@ -107,6 +109,7 @@ impl Said {
             calls: false,
             switched: false,
             differs: false,
+            from_home: false,
             sub: None,
         }
     }

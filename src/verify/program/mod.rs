@@ -13,7 +13,7 @@ use std::io::{Read, Seek};
 use beam::Switched;
 pub(super) use doubt::Doubt;
 
-use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
+use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, number, place};
 use super::expectation::{Expectation, taps_ahead};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
@@ -124,6 +124,26 @@ impl<'a> Program<'a> {
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
         self.scale.units = units;
+    }
+
+    /// Sets the number of a tool that the program may call by its name.
+    pub fn know_tool(&mut self, name: &str, number: f64) {
+        self.simulator.know_tool(name, number);
+    }
+
+    /// Makes tools that two programs call by the same name the same tool.
+    pub fn share_tool_names(&mut self, other: &Program<'_>) {
+        self.simulator.share_tool_names(&other.simulator);
+    }
+
+    /// Whether a tool, or its register, is a name whose number is unknown.
+    pub fn is_name(&self, tool: f64) -> bool {
+        self.simulator.state().tool_name(tool).is_some()
+    }
+
+    /// A tool for a message: its name if the program calls it by a name whose number is unknown, else its number.
+    pub fn tool_text(&self, tool: f64) -> String {
+        self.simulator.state().tool_name(tool).map_or_else(|| number(tool).to_string(), |name| format!("\"{name}\""))
     }
 
     /// Sets the number of subprograms before the main program. Each subprogram begins with an O word.
@@ -333,7 +353,7 @@ impl<'a> Program<'a> {
                     let message = "the program turns a tool length offset on, but this control has none";
                     self.hazard(Code::PV014, item.line, message, "remove G43, or name a control with tool lengths");
                 }
-                self.due.length_changes(self.state.length, *register);
+                self.due.length_changes(self.state.length, *register, self.simulator.ends_length());
                 self.state.length = *register;
             }
             Action::Units(units) => {

@@ -394,6 +394,13 @@ for control in ("linuxcnc", "fanuc"):
         r = f"G0 X0. Y0. Z1.\nM3 S500\nG98 G83 X0. Y0. Z-{n / 1000:.3f} R0. Q0.001 F100.\nX1.\nX2.\nG80\nM30\n"
         return {"a.nc": f"G21 G17 G90 G94\n{r}"}, ["simulate", "a.nc", "--control", control, "--dry"]
 
+for command in ("simulate", "plot", "fit"):
+    @row(f"{command}: many tools", (9_000, 90_000), status=(0, 1))
+    def _(n, command=command):
+        files = {"a.nc": "G21 G90\n" + "".join(f"T{t + 1} M6\n" for t in range(n)) + "M30\n", "m.toml": 'name = "m"\n[tools.1]\nlength = 9\n'}
+        more = {"simulate": [], "plot": ["-o", "a.svg"], "fit": ["--machine", "m.toml"]}[command]
+        return files, [command, "a.nc", *more]
+
 @row("simulate: lines passed over by `if [0]`", (210_000, 2_100_000), status=(0,))
 def _(n): return {"a.nc": "o1 if [0]\n" + "G1 X1.\n" * n + "o1 endif\nM2\n"}, ["simulate", "a.nc", "--control", "linuxcnc"]
 

@@ -28,11 +28,7 @@ impl Source {
         let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         // the end-of-file mark of DOS
         let body = body.strip_suffix(b"\x1a").unwrap_or(body);
-        let (text, was_windows_1252) = match std::str::from_utf8(body) {
-            Ok(text) => (Cow::Borrowed(text), false),
-            Err(_) => (Cow::Owned(body.iter().map(|&b| windows_1252(b)).collect()), true),
-        };
-        Self::with(name.into(), text.into_owned(), was_windows_1252)
+        Self::with(name.into(), text_of(body).into_owned(), std::str::from_utf8(body).is_err())
     }
 
     /// Encodes a text in the encoding of this file.
@@ -112,6 +108,14 @@ impl Source {
 /// Number of characters that begin in these bytes of UTF-8.
 fn beginnings(bytes: &[u8]) -> u32 {
     bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() as u32
+}
+
+/// The text of bytes: UTF-8, else Windows-1252, as in old files.
+pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().map(|&byte| windows_1252(byte)).collect()),
+    }
 }
 
 /// The character of one Windows-1252 byte. The five bytes that Windows-1252 leaves undefined become the characters with

@@ -14,6 +14,7 @@ use super::state::State;
 use super::tlon::{indirv, tlon};
 use super::words::Word;
 use crate::diag::Code;
+use crate::lang::did_you_mean;
 use crate::toolpath::{Event, StopKind};
 
 /// The kind of a major word.
@@ -222,7 +223,7 @@ fn unknown(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
         let message = format!("the unknown word `{name}` is in front of {hidden}");
         return fault(Code::PL001, message, "remove the word, or put it on a separate line");
     }
-    job.notes.unknown(name);
+    job.notes.unknown(name, || did_you_mean(name, MAJORS.iter().map(|(word, _)| *word)));
     Ok(())
 }
 

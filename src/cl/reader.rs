@@ -16,6 +16,7 @@ use super::state::{Arcs, Cycle, Feeds, Motion, State};
 use super::texts::{Insert, lone_insert, text};
 use super::words::{Word, plain_goto, words};
 use crate::diag::Code;
+use crate::source::text_of;
 use crate::toolpath::{Event, Flow, Place, ReadError, Sink, Stop};
 
 /// Number of lines that are searched for the CAM system.
@@ -100,8 +101,8 @@ fn read(
         read.map_err(|stop| reader.placed(stop))?;
     }
     let end = reader.finish();
-    reader.state.job.notes.tell_unknown();
     end.map_err(|stop| reader.placed(stop))?;
+    reader.state.job.notes.tell_unknown();
     Ok(reader.state.setups)
 }
 
@@ -144,7 +145,7 @@ impl Reader<'_> {
             } else if line.starts_with(b"$$*") {
                 return Ok(());
             } else if let Some((word, said)) = text_statement(line) {
-                let said = String::from_utf8_lossy(said.strip_suffix(b"~").unwrap_or(said)).into_owned();
+                let said = text_of(said.strip_suffix(b"~").unwrap_or(said)).into_owned();
                 return if self.ended { Ok(()) } else { text(word, said, &mut self.insert, &mut self.state.job) };
             }
         }
@@ -231,7 +232,12 @@ impl Reader<'_> {
     }
 
     fn placed(&self, stop: Stop) -> ReadError {
-        stop.placed(|| self.state.job.notes.place.into()).into()
+        let mut stop = stop.placed(|| self.state.job.notes.place.into());
+        if let Stop::Wrong(diag) = &mut stop {
+            let help = diag.help.take().unwrap_or_default() + &self.state.job.notes.ignored();
+            diag.help = Some(help).filter(|help| !help.is_empty());
+        }
+        stop.into()
     }
 }
 

@@ -16,9 +16,24 @@ pub struct Report {
     pub warnings: Vec<Diag>,
     /// Facts that the file contains, such as coordinate systems and names of tool paths.
     pub facts: Vec<String>,
-    /// Major words that are unknown, each with the line of its first occurrence and the number of occurrences.
-    unknown: Vec<(String, u64, u64)>,
+    /// Major words that are unknown.
+    unknown: Vec<Unknown>,
 }
+
+/// A major word that is unknown.
+#[derive(Clone, Debug)]
+struct Unknown {
+    name: String,
+    /// A known word that is similar, as a sentence.
+    near: Option<String>,
+    /// The line of its first occurrence.
+    line: u64,
+    /// The number of occurrences.
+    count: u64,
+}
+
+/// Maximum number of unknown words in the help of an error.
+const MOST_IGNORED: usize = 3;
 
 /// Maximum number of facts, and also of warnings and of unknown words.
 const MOST_FACTS: usize = 100;
@@ -104,23 +119,37 @@ impl<'r> Notes<'r> {
         }
     }
 
-    /// Counts an unknown major word.
-    pub fn unknown(&mut self, name: &str) {
+    /// Counts an unknown major word. `near`: a known word that is similar, as a sentence.
+    pub fn unknown(&mut self, name: &str, near: impl FnOnce() -> Option<String>) {
         let unknown = &mut self.report.unknown;
-        match unknown.iter().position(|(known, _, _)| known == name) {
-            Some(at) => unknown[at].2 += 1,
-            None if unknown.len() < MOST_FACTS => unknown.push((name.to_owned(), self.place.line, 1)),
+        match unknown.iter().position(|known| known.name == name) {
+            Some(at) => unknown[at].count += 1,
+            None if unknown.len() < MOST_FACTS => {
+                unknown.push(Unknown { name: name.to_owned(), near: near(), line: self.place.line, count: 1 });
+            }
             None => {}
         }
     }
 
     /// Adds a warning for each unknown major word, with the number of its occurrences.
     pub fn tell_unknown(&mut self) {
-        for (name, line, count) in std::mem::take(&mut self.report.unknown) {
+        for Unknown { name, near, line, count } in std::mem::take(&mut self.report.unknown) {
             let times = if count == 1 { String::new() } else { format!(", {count} times") };
             let message = format!("`{name}` is unknown and is ignored{times}");
-            let diag = Diag::new(Code::PL003, message).help("check whether it moves or switches anything");
+            let check = "check whether it moves or switches anything";
+            let help = near.map_or(check.to_owned(), |near| format!("{near} Else {check}"));
+            let diag = Diag::new(Code::PL003, message).help(help);
             self.report.warnings.push(diag.place(Location::line(line)));
         }
+    }
+
+    /// The unknown major words before an error, as lines for its help; empty if there are none. An ignored word may be
+    /// the cause of the error.
+    pub fn ignored(&self) -> String {
+        let one = |Unknown { name, near, line, .. }: &Unknown| {
+            let near = near.as_ref().map_or(String::new(), |near| format!(": {near}"));
+            format!("\n`{name}` in line {line} is unknown and was ignored{near}")
+        };
+        self.report.unknown.iter().take(MOST_IGNORED).map(one).collect()
     }
 }

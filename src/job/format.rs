@@ -23,7 +23,7 @@ const EXTENSIONS: [(Format, &[&str]); 6] = [
     (Format::Json, &["json"]),
     (Format::JsonLines, &["jsonl", "ndjson"]),
     (Format::Cl, &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
-    (Format::Nc, &["nc", "ngc", "tap", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
+    (Format::Nc, &["nc", "ngc", "tap", "cnc", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
     (Format::Freecad, &["fcstd"]),
     (Format::Nci, &["nci"]),
 ];

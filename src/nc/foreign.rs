@@ -159,8 +159,11 @@ pub fn turned(start: &[u8]) -> Option<(u64, Vec<u8>)> {
     station.filter(|_| !is_changed)
 }
 
-/// The control for programs with this file name. Example: `part.MPF` is a program for a Siemens control.
+/// The control for programs with this file name. Example: `part.MPF` is a program for a Siemens control, and
+/// `part.MPF.gz` is, too.
 pub fn control_of_name(name: &Path) -> Option<&'static Control> {
+    let is_packed = name.extension()?.eq_ignore_ascii_case("gz");
+    let name = if is_packed { Path::new(name.file_stem()?) } else { name };
     let extension = name.extension()?.to_str()?.to_ascii_lowercase();
     let (control, _) = NAMES.iter().find(|(_, extensions)| extensions.contains(&extension.as_str()))?;
     Control::named(control)

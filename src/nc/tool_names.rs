@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::lang::{in_quotes, in_word};
+use crate::source::text_of;
 
 /// Smallest number that stands for a name. Tool numbers are smaller, so a name never counts as another tool's number.
 pub const FIRST: f64 = 1e9;
@@ -29,7 +30,7 @@ struct Called {
 impl ToolNames {
     /// The value of a T word with this name. A name that is a number is itself the tool number.
     pub fn word(&self, name: &[u8]) -> f64 {
-        let name = String::from_utf8_lossy(name);
+        let name = text_of(name);
         let name = name.trim();
         if let Ok(number) = name.parse::<u32>()
             && f64::from(number) < FIRST

@@ -26,7 +26,7 @@ use crate::compile;
 use crate::control::Control;
 use crate::diag::{Diag, Findings};
 use crate::error::Error;
-use crate::lang::TextId;
+use crate::lang::{TextId, VarId};
 use crate::lint::{Levels, ready};
 use crate::sema::{Limits, Property, analyse};
 use crate::source::Source;
@@ -136,6 +136,11 @@ impl Post {
     pub fn says_time(&self) -> bool {
         let texts = self.0.program.texts_printed;
         texts.has(TextId::Date) || texts.has(TextId::Time)
+    }
+
+    /// Whether the form prints the program number of the job.
+    pub fn prints_program_number(&self) -> bool {
+        self.0.program.printed.has(VarId::Program)
     }
 
     /// The form's warnings and notes, with its text. The list contains no errors, because a form with errors is never

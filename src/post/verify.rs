@@ -1,5 +1,6 @@
 //! Verifies programs: simulates a program by the rules of its control and compares it with its job.
 
+use std::collections::HashSet;
 use std::io::{Cursor, Read, Seek};
 use std::path::Path;
 
@@ -165,10 +166,12 @@ struct Tools {
     /// Number of millimetres in a unit of the job.
     scale: f64,
     tools: Vec<JobTool>,
+    /// The numbers of these tools.
+    numbers: HashSet<u32>,
 }
 
 fn tools_of(form: Option<&compile::Program>, mut job: Job<'_>) -> Result<Vec<JobTool>, Error> {
-    let mut tools = Tools { scale: 1.0, tools: Vec::new() };
+    let mut tools = Tools { scale: 1.0, tools: Vec::new(), numbers: HashSet::new() };
     taken(form.map(|form| &form.settings), &mut tools, |sink| job.read(sink))?;
     Ok(tools.tools)
 }
@@ -179,7 +182,7 @@ impl Sink for Tools {
             Event::Start(start) => self.scale = start.units.in_mm(),
             Event::ToolChange(change) => {
                 if let Some(tool) = &change.tool
-                    && self.tools.iter().all(|known| f64::from(known.number) != tool.number)
+                    && self.numbers.insert(tool.number as u32)
                 {
                     let [diameter, corner_radius] =
                         [tool.diameter, tool.corner_radius].map(|length| length.map(|length| length * self.scale));

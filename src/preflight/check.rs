@@ -1,6 +1,6 @@
 //! Checks the actions of a program against its machine.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::clock::Clock;
 use super::fit::Fit;
@@ -23,7 +23,7 @@ pub(super) struct Check<'m> {
     places: Places<'m>,
     travels: Travels<'m>,
     tool: Option<u32>,
-    tools: Vec<u32>,
+    tools: HashSet<u32>,
     pace: Pace,
     clock: Result<Clock, String>,
     /// The findings by code and subject. Several findings about one subject are joined to one finding.
@@ -45,7 +45,7 @@ impl<'m> Check<'m> {
             places: Places::new(machine, control.is_lathe()),
             travels: Travels::new(machine),
             tool: None,
-            tools: Vec::new(),
+            tools: HashSet::new(),
             pace: Pace::new(machine.speeds.map_or(f64::INFINITY, |[_, fastest]| fastest)),
             clock: Clock::of(machine),
             found: BTreeMap::new(),
@@ -287,10 +287,9 @@ impl<'m> Check<'m> {
         let name = run.state().tool_name(number);
         let number = number as u32;
         self.tool = Some(number).filter(|number| *number != 0 && name.is_none());
-        if number == 0 || self.tools.contains(&number) {
+        if number == 0 || !self.tools.insert(number) {
             return;
         }
-        self.tools.push(number);
         if let Some(table) = &self.machine.tools {
             let of_job = self.job.iter().find(|tool| tool.number == number).and_then(|tool| tool.diameter);
             match table.0.get(&number) {

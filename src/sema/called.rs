@@ -149,6 +149,7 @@ impl Analysis {
                 Ok(source) => {
                     self.called.insert(name.clone());
                     open.push(name.clone());
+                    self.calls.push((statement.line.span, self.files.len() as u32));
                     self.add_file(source, open, load);
                     open.pop();
                     None

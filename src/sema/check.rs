@@ -22,6 +22,8 @@ pub struct Checked {
     pub files: Vec<Source>,
     /// The syntax trees of the files.
     pub trees: Vec<syntax::Form>,
+    /// The lines that call files, each with the index of the called file.
+    pub calls: Vec<(Span, u32)>,
     /// The analysed form, from all files together.
     pub form: Form,
     /// The findings so far, unsorted.
@@ -50,7 +52,7 @@ pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Resul
         analysis.item(item);
     }
     analysis.whole();
-    Checked { files: analysis.files, trees, form: analysis.form, diags: analysis.diags }
+    Checked { files: analysis.files, trees, calls: analysis.calls, form: analysis.form, diags: analysis.diags }
 }
 
 #[derive(Default)]
@@ -64,6 +66,7 @@ pub(super) struct Analysis {
     pub(super) trees: Vec<syntax::Form>,
     /// The items of all files in reading order: number of the file, and index of the item in its tree.
     pub(super) order: Vec<(u32, u32)>,
+    pub(super) calls: Vec<(Span, u32)>,
     /// The control of the form, if a file describes this control.
     pub(super) control: Option<&'static Control>,
     pub(super) form: Form,

@@ -40,7 +40,8 @@ pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
 }
 
 pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
-    let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name));
+    let own = || ["Upon", "End"].into_iter();
+    let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name)).chain(own());
     let mut diag = Diag::new(Code::PF201, format!("`{}` is not a command or a sequence", name)).at(span, "unknown");
     // an abbreviation is not a misspelling, but suggest the name that begins with it
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));

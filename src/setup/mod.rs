@@ -8,6 +8,8 @@ pub use collect::{Stops, of_job};
 pub use html::html;
 pub use markdown::markdown;
 
+use std::io::{self, Read};
+
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
@@ -53,7 +55,7 @@ pub struct SetupSheet {
     /// unknown.
     #[serde(serialize_with = "seconds")]
     pub times: Option<Times>,
-    /// SHA-256 hashes of the files of job, form, control, machine and program, each with its file name.
+    /// SHA-256 hashes of the job, the form, all other files that were read, and the program, each with its file name.
     pub hashes: Vec<[String; 2]>,
     /// Pictures as SVG, each with a caption.
     #[serde(skip)]
@@ -62,9 +64,21 @@ pub struct SetupSheet {
 
 impl SetupSheet {
     /// Adds a file with its SHA-256 hash, written as `sha256sum` prints it.
-    pub fn add_file(&mut self, name: String, bytes: &[u8]) {
-        let digits = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    ///
+    /// # Errors
+    /// The file can't be read.
+    pub fn add_file(&mut self, name: String, mut content: impl Read) -> io::Result<()> {
+        let (mut hash, mut part) = (Sha256::new(), vec![0; 1 << 16]);
+        loop {
+            let count = content.read(&mut part)?;
+            if count == 0 {
+                break;
+            }
+            hash.update(&part[..count]);
+        }
+        let digits = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
         self.hashes.push([name, digits]);
+        Ok(())
     }
 
     /// Adds values from the machine's tool table: lengths, and names of tools for which the job has no name.

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::support::folder::{self, err};
 use crate::support::{job, mill, root};
 
 struct Folder(std::path::PathBuf);
@@ -580,5 +581,24 @@ fn no_file_and_no_argument_steers_the_terminal() {
         assert!(!text.is_empty(), "{args:?}");
         let steers = |c: char| c != '\n' && postform::internals::terminal::steers(c);
         assert!(!text.chars().any(steers), "{args:?}: {text:?}");
+    }
+}
+
+/// A job in place of a program was read as codes.
+#[test]
+fn a_job_is_not_a_program() {
+    let job = root().join("samples/bracket/job.json");
+    let job = job.to_str().unwrap();
+    let machine = root().join("samples/bracket/vf2.toml");
+    let folder = folder::Folder::new("job-not-program");
+    for arguments in [
+        vec!["simulate", job],
+        vec!["fit", job, "--machine", machine.to_str().unwrap()],
+        vec!["restart", job, "--tool", "2"],
+    ] {
+        let output = folder.run(&arguments);
+        let said = err(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(said.contains("is a job, not an NC program"), "{arguments:?}: {said}");
     }
 }

@@ -8,7 +8,7 @@ use crate::support::mill;
 use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, Options, Report, read_cl};
 use postform::internals::compile::Program;
 use postform::internals::render::Renderer;
-use postform::toolpath::{ReadError, Summary, Units};
+use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Summary, Units};
 
 const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 
@@ -798,4 +798,60 @@ fn work_offsets_and_frames_of_cl_files_are_not_passed_over() {
     let other = format!("{upright}\nGOTO/1,0,10\n{}", upright.replace("0,0,0", "5,0,0"));
     assert!(error(&other).starts_with("PL004 this MCS differs from the MCS of line 7"));
     assert!(error("MCS/1,0,0,0,0,-1,0,1,0,0,0,0").starts_with("PL004 an MCS that is turned"));
+}
+
+/// An ignored word may be the cause of an error that follows. The error then names the word.
+#[test]
+fn a_mistyped_word_is_named_in_the_error_that_it_causes() {
+    let file = "UNITS/MM\nLOADTL/1\nSPINDL/900,CLW\nFROM/0,0,20\nFEDRAT/50\nGOTO/0,0,1\nFINI\n";
+    for (from, to) in [("LOADTL", "LODTL"), ("FEDRAT", "FEDRT"), ("SPINDL", "SPINDLE"), ("UNITS", "UNIS")] {
+        let text = file.replacen(from, to, 1);
+        let mut options = Options::default();
+        if from == "FEDRAT" {
+            options.start = None;
+        }
+        let Err(ReadError::Job(diag)) =
+            read_cl(text.as_bytes(), &options, &mut Report::default(), &mut Summary::default())
+        else {
+            // the renderer reports a missing feed
+            assert_eq!(from, "FEDRAT", "{to} is read");
+            continue;
+        };
+        let help = diag.help.unwrap_or_default();
+        assert!(
+            help.contains(&format!("`{to}` in line")) && help.contains(&format!("did you mean `{from}`?")),
+            "{help}"
+        );
+    }
+    let mut report = Report::default();
+    let text = file.replacen("FEDRAT/50\n", "FEDRAT/50\nRAPD\n", 1);
+    read_cl(text.as_bytes(), &Options::default(), &mut report, &mut Summary::default()).unwrap();
+    let help = report.warnings[0].help.as_deref().unwrap_or_default();
+    assert!(help.starts_with("did you mean `RAPID`?"), "{help}");
+}
+
+/// Texts that are not UTF-8 are read as Windows-1252, so that no letter is lost.
+#[test]
+fn letters_of_old_files_are_kept() {
+    let said = |bytes: &[u8]| {
+        let mut comments = Comments::default();
+        read_cl(bytes, &Options::default(), &mut Report::default(), &mut comments).unwrap();
+        comments.0
+    };
+    let file = b"UNITS/MM\nLOADTL/1\nSPINDL/900,CLW\nPPRINT GR\xd6SSE\nFROM/0,0,20\nFEDRAT/50\nGOTO/0,0,1\nFINI\n";
+    assert_eq!(said(file), ["GR\u{d6}SSE"]);
+    let utf8 = String::from_utf8(file.iter().flat_map(|&b| char::from(b).to_string().into_bytes()).collect()).unwrap();
+    assert_eq!(said(utf8.as_bytes()), ["GR\u{d6}SSE"]);
+}
+
+#[derive(Default)]
+struct Comments(Vec<String>);
+
+impl Sink for Comments {
+    fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+        if let Event::Comment(text) = event {
+            self.0.push(text.trim().to_owned());
+        }
+        Flow::Continue(())
+    }
 }

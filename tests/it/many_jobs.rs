@@ -72,8 +72,17 @@ fn equal_program_numbers_are_warned_of() {
     assert!(!run("haas.pf", &["--quiet"]).contains("same program number"));
     fs::copy(root().join("postforms/grbl.pf"), folder.0.join("grbl.pf")).unwrap();
     folder.write("jobs/bracket/job.json", &plate);
-    let form = folder.read("grbl.pf");
-    assert_eq!(run("grbl.pf", &[]).contains("same program number"), form.contains("[program#"));
+    assert!(!run("grbl.pf", &[]).contains("same program number"));
+    // the spelling of the variable has no influence, and the text in a comment prints nothing
+    let haas = folder.read("haas.pf");
+    for (name, from, to, warns) in [
+        ("angles.pf", "[program#]", "<program#>", true),
+        ("capitals.pf", "[program#]", "[Program#]", true),
+        ("remark.pf", "O[program#]", "O1 # not [program#]", false),
+    ] {
+        folder.write(name, haas.replace(from, to));
+        assert_eq!(run(name, &[]).contains("same program number"), warns, "{name}");
+    }
 }
 
 #[test]

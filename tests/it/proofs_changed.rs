@@ -453,3 +453,14 @@ fn a_cycle_that_goes_on_in_another_work_offset_is_not_proven() {
     let by_r = verdict(program("99"));
     assert!(!matches!(by_r, Verdict::NotProven(_)), "{by_r:?}");
 }
+
+/// Between M29 and the tap no axis may move: a Fanuc stops there with the alarm 204.
+#[test]
+fn nothing_moves_between_m29_and_its_tap() {
+    let tap = one(
+        r#"{"rapid":[0,0,25]},{"cycle":{"kind":"tap","depth":9,"clear":2,"feed":1250,"points":[[10,10,0],[20,10,0]]}},{"rapid":[20,10,25]}"#,
+    );
+    assert!(!after("fanuc.pf", &tap, &[]).contains("PV"));
+    let moved = after("fanuc.pf", &tap, &[("M29 S1000\n", "M29 S1000\nG0 X10. Y10.\n")]);
+    assert!(moved.starts_with("PV011"), "{moved}");
+}

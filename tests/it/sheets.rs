@@ -29,7 +29,8 @@ fn a_sheet_has_offsets_tools_operations_and_stops() {
     assert_eq!(json["operations"][6]["name"], "dowels of the second part");
     assert_eq!(json["stops"], serde_json::json!([{"optional": true, "tool": 5.0, "comment": null}]));
     assert!(json["verdict"].as_str().unwrap().starts_with("equivalent"), "{json:#}");
-    assert_eq!(json["hashes"].as_array().unwrap().len(), 3);
+    // the job, the form, postform.toml, and the program
+    assert_eq!(json["hashes"].as_array().unwrap().len(), 4, "{}", json["hashes"]);
     let machine = path("samples/bracket/vf2.toml");
     let page = sheet(&folder, &["--form", &form, "--machine", &machine]);
     for part in
@@ -117,4 +118,23 @@ fn what_a_sheet_cant_be_is_said() {
     assert!(code == Some(2) && said.contains("no form is given"), "{said}");
     let (code, _) = run(&["sheet", "job.json", "--form", &form, "-o", "job.json"]);
     assert!(code == Some(2) && folder.read("job.json") == "{", "an input stays");
+}
+
+/// Every file that was read has its hash: also the machine of postform.toml, its tool table, and the control. A pipe has
+/// none.
+#[test]
+fn a_sheet_has_the_hash_of_each_file_that_was_read() {
+    let folder = Folder::new("sheet-hashes");
+    folder.write("job.json", std::fs::read(root().join("samples/bracket/job.json")).unwrap());
+    folder.write("haas.pf", std::fs::read(root().join("postforms/haas.pf")).unwrap());
+    folder.write("m.toml", "name = \"M\"\n[tools]\nfile = \"tools.csv\"\n");
+    folder.write("tools.csv", "number,length\n1,100\n");
+    folder.write("postform.toml", "form = \"haas.pf\"\nmachine = \"m.toml\"\n");
+    let json: serde_json::Value = serde_json::from_str(&sheet(&folder, &["--format", "json"])).unwrap();
+    let hashes: Vec<[String; 2]> = serde_json::from_value(json["hashes"].clone()).unwrap();
+    let names: Vec<&str> = hashes.iter().map(|[name, _]| name.rsplit('/').next().unwrap()).collect();
+    assert_eq!(names, ["job.json", "haas.pf", "m.toml", "postform.toml", "tools.csv", "the program"]);
+    // as `sha256sum` prints them
+    assert_eq!(hashes[2][1], "87953cf5e78952cd9d2f8c3b46879ecac0ed43a3a22a3f49fddedfca62ec1910");
+    assert_eq!(hashes[4][1], "3cba72185a6eb3270da44cee3a4b5e66a0b4b19c9e731089c72dba0fab47fb67");
 }

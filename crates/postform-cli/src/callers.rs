@@ -3,6 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use postform::Source;
+use postform::internals::lang::CommandId;
+use postform::internals::syntax::{Statement, parse};
+
 use super::config::Config;
 use super::files;
 
@@ -38,14 +42,16 @@ pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
         forms.extend(entries.filter(|other| files::is_form(other)).take(MOST_FORMS));
     }
     forms.sort();
-    let calls = |other: &PathBuf| text(other).lines().any(|line| names(line, files::folder(other), path));
+    let calls = |other: &PathBuf| {
+        let source = Source::from_text(files::name(other), text(other));
+        let folder = files::folder(other);
+        parse(&source, 0).statements().filter_map(called).any(|name| folder.join(name) == path)
+    };
     forms.into_iter().filter(|other| other != path).find(calls)
 }
 
-/// Does a line call a file?
-fn names(line: &str, folder: &Path, path: &Path) -> bool {
-    let line = line.split('#').next().unwrap_or(line).trim();
-    let Some((command, name)) = line.split_once([' ', '\t']) else { return false };
-    let calls = command.eq_ignore_ascii_case("Call") || command.eq_ignore_ascii_case("CallMe");
-    calls && folder.join(name.trim().trim_matches('"')) == path
+/// The name of the file that a statement calls.
+fn called(statement: &Statement) -> Option<String> {
+    let calls = matches!(CommandId::parse(&statement.name.text), Some(CommandId::Call | CommandId::CallMe));
+    calls.then(|| statement.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" "))
 }

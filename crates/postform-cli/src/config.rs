@@ -55,9 +55,6 @@ pub struct Tests {
 /// The name of the file.
 const NAME: &str = "postform.toml";
 
-/// Maximum size of the file: a larger file is no configuration.
-const LARGEST: u64 = 1 << 20;
-
 impl Config {
     /// The configuration for a file: the first `postform.toml` in its folder or a folder above. Standard input uses the working folder.
     ///
@@ -72,7 +69,9 @@ impl Config {
             }
             let candidate = folder.join(NAME);
             match fs::metadata(&candidate) {
-                Ok(meta) if meta.is_file() => return Config::read(&candidate, meta.len()),
+                Ok(meta) if meta.is_file() => {
+                    return Config::from_text(&candidate, &files::small_text(&candidate, "a configuration")?);
+                }
                 Ok(_) => {
                     let help = "postform.toml must be a file: remove or replace it";
                     return Err(format!("error: {} is not a file\n  help: {help}", files::name(&candidate)));
@@ -87,15 +86,6 @@ impl Config {
                 return Ok(Config::default());
             }
         }
-    }
-
-    fn read(path: &Path, length: u64) -> Result<Config, String> {
-        super::inputs::note(path);
-        let name = escaped(&path.to_string_lossy());
-        if length > LARGEST {
-            return Err(format!("error: {name} is larger than 1 MB: it is not a configuration"));
-        }
-        Config::from_text(path, &fs::read_to_string(path).map_err(|error| io_message("read", path, &error))?)
     }
 
     /// Reads the text of the file.

@@ -51,8 +51,23 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
 }
 
 /// An NC program as a seekable file; any other input is copied into a file.
+///
+/// # Errors
+/// A message: the file can't be read, or it is a job and not a program.
 pub fn open_program(path: &Path) -> Result<File, String> {
-    Ok(Again::open(path)?.file)
+    let mut file = Again::open(path)?.file;
+    let mut head = Vec::new();
+    let fail = |error: io::Error| io_message("read", path, &error);
+    file.by_ref().take(256).read_to_end(&mut head).map_err(fail)?;
+    file.rewind().map_err(fail)?;
+    let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head).trim_ascii_start();
+    if head.starts_with(b"{\"") || head.starts_with(b"{\n") || head.starts_with(b"{\r") || head.starts_with(b"{ ") {
+        let name = name(path);
+        return Err(format!(
+            "error: {name} is a job, not an NC program\n  help: `postform render {name} --form FORM` prints the program of a job"
+        ));
+    }
+    Ok(file)
 }
 
 /// An input that is read more than once; an input that is not seekable is copied into a file.
@@ -186,13 +201,29 @@ pub fn read_form(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
+/// Largest settings file: of a control, of a machine, or postform.toml.
+const LARGEST_SETTINGS: u64 = 1 << 20;
+
+/// Reads a settings file. `what` is the kind of the file, as `a machine file`.
+///
+/// # Errors
+/// A message: the file can't be read, is larger than 1 MB, or is not UTF-8.
+pub fn small_text(path: &Path, what: &str) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    let read = open(path)?.take(LARGEST_SETTINGS + 1).read_to_end(&mut bytes);
+    read.map_err(|error| io_message("read", path, &error))?;
+    if bytes.len() as u64 > LARGEST_SETTINGS {
+        return Err(format!("error: {} is larger than 1 MB: it is not {what}", name(path)));
+    }
+    String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", name(path)))
+}
+
 /// A shop's own control.
 ///
 /// # Errors
 /// A message: the file can't be read, or contains an error, with line and column.
 pub fn control(path: &Path) -> Result<&'static Control, String> {
-    let bytes = read_form(path)?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", name(path)))?;
+    let text = small_text(path, "a control file")?;
     Control::own(&name(path), &text).map_err(|wrong| format!("error: {}", escaped_lines(&wrong.to_string())))
 }
 
@@ -374,8 +405,7 @@ pub fn unpacked_bytes(path: &Path, bytes: Vec<u8>) -> Result<Arc<[u8]>, String> 
 fn settle(job: &mut Job<'_>, format: Format, path: &Path, args: &ReadArgs) {
     job.reading = args.reading(format);
     if format == Format::Nc {
-        let name = unpacked_name(path);
-        job.reading.control = job.reading.control.or_else(|| control_of_name(name.as_deref().unwrap_or(path)));
+        job.reading.control = job.reading.control.or_else(|| control_of_name(path));
     }
 }
 

@@ -26,6 +26,12 @@ pub fn note(path: &Path) {
     }
 }
 
+/// The paths of all files that have been read so far, in the order of their paths. Standard input is not a file.
+pub fn all() -> Vec<PathBuf> {
+    let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    read.names.iter().filter(|path| path.as_path() != Path::new("-")).cloned().collect()
+}
+
 /// The time of the last change of all files read so far; `None`: one of them no longer exists.
 pub fn newest() -> Option<SystemTime> {
     let read = READ.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,6 +1,5 @@
 //! Machine files, and the check whether programs fit into a machine.
 
-use std::fs;
 use std::io::{Read, Seek, Write as _};
 use std::path::Path;
 
@@ -18,10 +17,7 @@ use super::files::{self, io_message};
 use super::prepare::Prepared;
 use super::report::{Reporter, count, place_in, place_in_jobs};
 use super::say::{message, say};
-use super::{Ending, inputs, output};
-
-/// Maximum size of a machine's file or of its tool table, in bytes.
-const LARGEST: u64 = 1 << 20;
+use super::{Ending, output};
 
 /// Reads the file of a machine, and the files that it names.
 ///
@@ -35,14 +31,7 @@ pub fn read(path: &Path) -> Result<Machine, String> {
 }
 
 fn text(path: &Path) -> Result<String, String> {
-    inputs::note(path);
-    let fail = |error: std::io::Error| io_message("read", path, &error);
-    let meta = fs::metadata(path).map_err(fail)?;
-    if meta.len() > LARGEST {
-        return Err(format!("error: {} is larger than 1 MB: it is not a machine file", files::name(path)));
-    }
-    let bytes = fs::read(path).map_err(fail)?;
-    String::from_utf8(bytes).map_err(|_| format!("error: {} is not UTF-8", files::name(path)))
+    files::small_text(path, "a machine file")
 }
 
 /// The machine from an option, the form, or postform.toml.
@@ -184,7 +173,8 @@ pub fn of_post<'a>(
 ) -> Result<(Fitted, Fitting<'a>), String> {
     let again = !job.is_stream();
     let reads = again && machine.tools.is_some();
-    let tools = if reads { post.job_tools(job.again()).unwrap_or_default() } else { Vec::new() };
+    let tools = if reads { post.job_tools(job.again()) } else { Ok(Vec::new()) };
+    let tools = tools.map_err(|error| format!("error: the job can't be read again: {error}"))?;
     let settings = post.run_settings(proof, options.units.unwrap_or(Units::Mm));
     let fitting = Fitting { machine, settings, tools, program: name };
     let mut fitted = fitting.fitted(program)?;

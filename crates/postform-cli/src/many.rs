@@ -2,7 +2,6 @@
 
 use std::io::Write as _;
 use std::num::NonZeroUsize;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use super::each::each_in_order;
@@ -70,8 +69,7 @@ pub fn run<T: Send>(
     let (mut failed, mut worst, mut written) = (Vec::new(), Ending::Clean, Ok(()));
     let one = |item: T| {
         let (done, messages) = kept(|| {
-            let done = catch_unwind(AssertUnwindSafe(|| work(&item))).unwrap_or(Ok((String::new(), Ending::Broken)));
-            done.unwrap_or_else(|error| {
+            work(&item).unwrap_or_else(|error| {
                 message(&error);
                 (String::new(), Ending::Failed)
             })

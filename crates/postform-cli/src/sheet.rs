@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{Read as _, Seek as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use postform::internals::picture::{self, Sheet, View};
 use postform::internals::setup::{SetupSheet, html, markdown};
@@ -13,13 +13,13 @@ use super::Ending;
 use super::args::{SheetArgs, SheetFormat, UnitsArg};
 use super::config::Config;
 use super::files::{self, io_message};
-use super::machine;
 use super::output::{self, Target};
 use super::prepare::prepare;
 use super::rendered::rendered;
 use super::report::{Reporter, stopped};
 use super::say::{message, say};
 use super::verdict::Sides;
+use super::{inputs, machine};
 
 /// Width of a picture in pixels.
 const WIDTH: f64 = 480.0;
@@ -119,14 +119,17 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     Ok(Ending::Clean)
 }
 
-/// The SHA-256 hashes of the files from which the sheet is made.
+/// The SHA-256 hashes of the files from which the sheet is made: the job, the form, and all other files that were read. A
+/// pipe can't be read again, so it has no hash.
 fn hashes(sheet: &mut SetupSheet, args: &SheetArgs, form: &Path, program: &[u8]) -> Result<(), String> {
-    for path in [Some(args.job.as_path()), Some(form), args.machine.machine.as_deref()].into_iter().flatten() {
-        if path != Path::new("-") {
-            let bytes = fs::read(path).map_err(|error| io_message("read", path, &error))?;
-            sheet.add_file(files::name(path), &bytes);
-        }
+    let first = [args.job.as_path(), form];
+    let mut others = inputs::all();
+    others.sort_by_key(|path| path.file_name().map(std::ffi::OsStr::to_owned));
+    let others = others.iter().map(PathBuf::as_path).filter(|path| !first.contains(path));
+    for path in first.into_iter().chain(others).filter(|path| path.is_file()) {
+        let fail = |error: std::io::Error| io_message("read", path, &error);
+        sheet.add_file(files::name(path), fs::File::open(path).map_err(fail)?).map_err(fail)?;
     }
-    sheet.add_file("the program".into(), program);
-    Ok(())
+    let fail = |error: std::io::Error| io_message("read", Path::new("the program"), &error);
+    sheet.add_file("the program".into(), program).map_err(fail)
 }

@@ -10,6 +10,7 @@ use crate::control::{Meaning, ToolLength, WorkOffset};
 use crate::diag::Diag;
 use crate::lang::{Machine, additional_work};
 use crate::nc::action::{Action, Item, Position, Turn};
+use crate::source::text_of;
 use crate::toolpath::{Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, StopKind};
 
 /// An item that waits for the first move of an operation.
@@ -217,7 +218,7 @@ impl<'a> Reader<'a> {
             }
             Action::Comment(start, end) => {
                 let text = block.get(*start..*end).unwrap_or_default();
-                self.comment(String::from_utf8_lossy(text).trim())
+                self.comment(text_of(text).trim())
             }
             Action::Units(_)
             | Action::Length(_)

@@ -11,6 +11,7 @@ use crate::diag::{self, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::Action;
 use crate::nc::simulator::Simulator;
+use crate::source::text_of;
 use crate::toolpath::{About, ReadError, Start, Units};
 
 /// The registers that a tool uses between its tool change and the next one.
@@ -183,7 +184,7 @@ pub(super) fn survey(
         // the name of a program is the comment after the program number
         if !named && simulator.program().is_some() {
             named = true;
-            let name = simulator.comment().map(|name| String::from_utf8_lossy(name).trim().to_owned());
+            let name = simulator.comment().map(|name| text_of(name).trim().to_owned());
             survey.name = name.filter(|name| !name.is_empty());
         }
     }

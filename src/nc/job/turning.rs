@@ -8,6 +8,7 @@ use super::switches::Switches;
 use crate::diag::Diag;
 use crate::lang::Machine;
 use crate::nc::action::{Action, Item, Passes, Position, Turn};
+use crate::source::text_of;
 use crate::toolpath::{
     Arc, Axes, Coolant, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, Stop, Thread, Tool, ToolChange,
 };
@@ -164,7 +165,7 @@ impl<'a> Turner<'a> {
             Action::Frame => unsaid(line, "a frame that moves", "take G50 with X or Z, G52 and G92 out"),
             Action::Orient(_) => unsaid(line, "a stop of the spindle at an angle", "a job of a lathe has none"),
             Action::Comment(start, end) => {
-                let text = String::from_utf8_lossy(block.get(*start..*end).unwrap_or_default());
+                let text = text_of(block.get(*start..*end).unwrap_or_default());
                 self.comment(text.trim())
             }
             Action::Plane(_)

@@ -41,6 +41,8 @@ pub(super) struct Program<'a> {
     placed: u8,
     state: Shared,
     spin: Spin,
+    /// Whether M29 was run, and no axis has moved since.
+    is_rigid_ahead: bool,
     mode: FeedMode,
     cycle: bool,
     /// Rotation of the spindle before the tapping cycle of a control, because this cycle starts the spindle itself.
@@ -95,6 +97,7 @@ impl<'a> Program<'a> {
             placed: 0,
             state: state.into(),
             spin: Spin::Turns(Rotation::Stop),
+            is_rigid_ahead: false,
             mode: FeedMode::PerMinute,
             cycle: false,
             before_tap: None,
@@ -278,6 +281,16 @@ impl<'a> Program<'a> {
         self.simulator.take_warnings()
     }
 
+    /// Finds a move between M29 and the tap: the control stops there with the alarm 204.
+    fn moves_after_rigid(&mut self, item: &Item) {
+        let moves = matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
+        self.is_rigid_ahead = !moves;
+        if moves && !item.by_cycle {
+            let message = "an axis moves between M29 and the tap: the control stops with an alarm";
+            self.hazard(Code::PV011, item.line, message, "print M29 on the line before the tapping cycle");
+        }
+    }
+
     fn frame(&self) -> Frame {
         Frame { tool: self.state.tool, work: self.state.work }
     }
@@ -291,6 +304,9 @@ impl<'a> Program<'a> {
         let turned = self.state.rotation;
         if let Some(unsaid) = &mut self.scale.wire {
             *unsaid = self.simulator.state().at_machine();
+        }
+        if self.is_rigid_ahead {
+            self.moves_after_rigid(item);
         }
         match &item.action {
             Action::Rapid { to, machine, astray, placed } => self.rapid(to, [*machine, *astray, *placed], item.line),
@@ -470,6 +486,7 @@ impl<'a> Program<'a> {
         self.passage.codes.push((code.letter, code.tenths));
         if meaning == Meaning::RigidAhead && self.state.rigid.is_some() {
             self.state.rigid = Some(true);
+            self.is_rigid_ahead = true;
         }
         if code.letter != b'M' {
             return;

@@ -64,15 +64,14 @@ fn form(view: &View, server: &Server) -> Vec<lsp::Diagnostic> {
     found
 }
 
-/// The line that calls a file, or the beginning of the form.
+/// The line of the form that calls a file, directly or through other files; the beginning of the form if there is none.
 fn call_of(view: &View, file: u32) -> postform::Span {
-    let name = view.document.files().get(file as usize).map_or("", |source| source.name.as_str());
-    let statements = view.document.checked().trees[0].statements();
-    let mut calls = statements.filter(|statement| statement.name.text.to_ascii_lowercase().starts_with("call"));
-    let of = |statement: &&postform::internals::syntax::Statement| {
-        statement.args.first().is_some_and(|arg| name.ends_with(arg.text.trim_start_matches("./")))
-    };
-    calls.find(of).map(|statement| statement.line.span).unwrap_or_default()
+    let calls = &view.document.checked().calls;
+    let mut line = calls.iter().find(|(_, called)| *called == file);
+    while let Some((span, _)) = line.filter(|(span, _)| span.file != 0) {
+        line = calls.iter().find(|(_, called)| *called == span.file);
+    }
+    line.map(|(span, _)| *span).unwrap_or_default()
 }
 
 /// The findings of a program: the errors and warnings of its control.

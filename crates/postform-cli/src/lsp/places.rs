@@ -70,17 +70,8 @@ pub fn implementation(server: &Server, at: &lsp::TextDocumentPositionParams) -> 
 
 /// The file that the line at a location calls.
 fn called(view: &View, place: u32) -> Option<u32> {
-    let tree = view.document.checked().trees.get(view.file as usize)?;
-    let on_line = |statement: &&postform::internals::syntax::Statement| {
-        statement.line.span.start <= place && place <= statement.line.span.end
-    };
-    let statement = tree.statements().find(on_line)?;
-    let command = statement.name.text.to_ascii_lowercase();
-    let name = &statement.args.first().filter(|_| matches!(command.as_str(), "call" | "callme"))?.text;
-    let files = view.document.files();
-    (0..files.len())
-        .find(|&file| file as u32 != view.file && files[file].name.ends_with(name.as_str()))
-        .map(|file| file as u32)
+    let is_here = |line: &Span| line.file == view.file && line.start <= place && place <= line.end;
+    view.document.checked().calls.iter().find(|(line, _)| is_here(line)).map(|(_, file)| *file)
 }
 
 /// The name at a position, if it can be renamed.

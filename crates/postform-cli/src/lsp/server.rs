@@ -2,12 +2,14 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use gen_lsp_types as lsp;
 use postform::internals::control::{self, Control};
 use postform::internals::ide::program;
+use postform::internals::nc::{RunSettings, settings_for};
 use serde::Deserialize;
 
 use super::programs::{Programs, form_of};
@@ -144,8 +146,8 @@ impl Server {
         Some(self.folders.first().map_or_else(|| job.clone(), |folder| folder.join(job)))
     }
 
-    /// The control of a program, and its source: a comment in the program, its form, postform.toml, the editor's settings, or
-    /// the default.
+    /// The control of a program, and its source: a comment in the program, its form, postform.toml, the editor's settings, its
+    /// language or file name, or the default.
     ///
     /// # Errors
     /// A message: the control does not exist, or its file can't be read.
@@ -167,7 +169,15 @@ impl Server {
             Some(name) => {
                 Ok((self.named(name, self.folders.first().map_or(folder, PathBuf::as_path))?, "of the settings"))
             }
-            None => Ok((Control::usual(), "default: no control is named")),
+            None => {
+                let settings = RunSettings { assumed: true, ..RunSettings::new(Control::usual()) };
+                let name = text.path.as_deref().unwrap_or(Path::new(""));
+                let found = settings_for(&mut Cursor::new(text.source.text.as_bytes()), name, settings);
+                match found.ok().filter(|found| !found.assumed) {
+                    Some(found) => Ok((found.control, "recognised by the program or its file name")),
+                    None => Ok((Control::usual(), "default: no control is named")),
+                }
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use gen_lsp_types::Uri;
-use postform::Source;
+use postform::{Format, Source};
 
 use super::uri;
 use crate::files;
@@ -91,7 +91,10 @@ fn kind(path: &Path, language: &str) -> Kind {
     }
     match extension {
         "pf" => Kind::Form,
-        "nc" | "ngc" | "tap" | "cnc" | "eia" => Kind::Program,
+        // a header file of C has the extension of Klartext programs
+        _ if !matches!(language, "c" | "cpp") && Format::of_name(&path.to_string_lossy()) == Some(Format::Nc) => {
+            Kind::Program
+        }
         _ if path.file_name().is_some_and(|name| name == "postform.toml") => Kind::Settings,
         _ => Kind::Other,
     }

@@ -246,10 +246,7 @@ const MOST_NUMBERS: usize = 5;
 /// Warns of programs with the same number: a control that stores programs by their numbers keeps only one program for
 /// each number.
 fn same_numbers(planned: &[Planned], forms: &[Ready]) {
-    let prints: Vec<bool> = forms
-        .iter()
-        .map(|form| form.prepared.post.files().iter().any(|file| file.text.contains("[program#")))
-        .collect();
+    let prints: Vec<bool> = forms.iter().map(|form| form.prepared.post.prints_program_number()).collect();
     let mut first: HashMap<(usize, u32), &Planned> = HashMap::new();
     let mut equal = Vec::new();
     for program in planned.iter().filter(|program| program.to.is_ok() && prints[program.ready]) {

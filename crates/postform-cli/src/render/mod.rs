@@ -65,7 +65,8 @@ fn joined(args: &RenderArgs) -> Result<Vec<PathBuf>, String> {
     Ok(expanded.collect::<Result<Vec<_>, String>>()?.concat())
 }
 
-/// The files to watch: the jobs, the form, called forms, and postform.toml.
+/// The files to watch: the jobs, the form, called forms, postform.toml, and all files that were read before, such as the
+/// machine and the control.
 fn inputs(jobs: &[&Path], args: &RenderArgs) -> Vec<PathBuf> {
     let config = jobs.first().and_then(|job| Config::near(job).ok()).unwrap_or_default();
     let form = args.form.clone().or(config.form);
@@ -75,6 +76,7 @@ fn inputs(jobs: &[&Path], args: &RenderArgs) -> Vec<PathBuf> {
         file.analyse(&Changed::new());
         paths.extend(file.paths());
     }
+    paths.extend(crate::inputs::all());
     paths
 }
 

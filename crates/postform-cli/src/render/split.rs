@@ -113,7 +113,8 @@ impl Sink for Seen {
             }
             _ => return Flow::Continue(()),
         };
-        if !self.found.parts.contains(&part) {
+        // each operation is a part of its own
+        if matches!(part, Part::Operation(_)) || !self.found.parts.contains(&part) {
             self.found.parts.push(part);
         }
         Flow::Continue(())

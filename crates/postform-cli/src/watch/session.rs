@@ -2,7 +2,7 @@
 //! files each time.
 
 use std::collections::HashMap;
-use std::fs;
+use std::io::Read as _;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -450,7 +450,9 @@ fn lines(text: &str) -> String {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
-    fs::read(path).map_err(|error| io_message("read", path, &error))
+    let mut bytes = Vec::new();
+    files::open(path)?.read_to_end(&mut bytes).map_err(|error| io_message("read", path, &error))?;
+    Ok(bytes)
 }
 
 /// The files of a form, with unsaved texts in place of some of them.

@@ -61,7 +61,12 @@ impl State {
         }
         if self.control.is_lathe() {
             for (axis, place) in to.iter_mut().enumerate() {
-                let by = self.increment(block, axis).unwrap_or(0.0);
+                let Some(by) = self.increment(block, axis) else { continue };
+                if self.axis_word(block, axis).is_some() {
+                    let [position, increment] = [["X", "U"], ["Y", "V"], ["Z", "W"]][axis];
+                    let message = format!("{position} and {increment} in one block");
+                    return refuse(Code::PN004, message, "write one of them: a control uses only one");
+                }
                 *place += by;
                 self.place.moves_by(axis, by);
             }

@@ -105,9 +105,18 @@ impl State {
                     return refuse(Code::PN006, "the code needs axis words and has none", "write the axes to shift");
                 }
                 for axis in 0..6 {
-                    let Some(value) = self.axis_word(block, axis) else { continue };
                     let (unknown, at, is_linuxcnc) =
                         (self.is_unknown(axis), self.place.position[axis], self.control.is_linuxcnc());
+                    // U and W of a lathe are added to the current position
+                    if let Some(by) = self.increment(block, axis) {
+                        if does == Meaning::Frame || self.axis_word(block, axis).is_some() {
+                            let help = "write X and Z, each once";
+                            return refuse(Code::PN004, "an increment of an axis where it has no clear meaning", help);
+                        }
+                        self.place.frames.shift.by[axis] -= by;
+                        continue;
+                    }
+                    let Some(value) = self.axis_word(block, axis) else { continue };
                     let shift = &mut self.place.frames.shift;
                     if does == Meaning::Frame {
                         shift.by[axis] = value;

@@ -61,7 +61,10 @@ impl State {
         }
         if block.g_meaning(Group::Once) == Some(Meaning::Machine)
             && (block.has_axes() || is_one_of(motion, &ARCS) || self.control.is_linuxcnc())
-            && (!is_one_of(motion, &STRAIGHT) || in_force.is_some() || begins_cycle(block))
+            // except on LinuxCNC, G0 or G1 in the block ends an active cycle
+            && (!is_one_of(motion, &STRAIGHT)
+                || in_force.is_some() && (self.control.is_linuxcnc() || block.row(Group::Motion).is_none())
+                || begins_cycle(block))
         {
             return refuse(
                 Code::PN006,
@@ -290,7 +293,10 @@ impl State {
     fn leave_cycle(&mut self, row: &'static Row, out: &mut Out<'_>) {
         self.end_cycle(out);
         self.threads.end_passes(Some(row.meaning));
-        self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
+        // G76 of a lathe takes effect only in its block
+        if !(self.control.is_lathe() && row.meaning == Meaning::ThreadCycle) {
+            self.modes.motion = Some(row).filter(|row| row.meaning != Meaning::CycleEnd);
+        }
     }
 
     /// Ends the active cycle. The modal motion does not change.

@@ -6,6 +6,7 @@ use std::io::Cursor;
 
 use crate::support::{control, root};
 use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
+use postform::toolpath::FeedMode;
 use serde_json::Value;
 
 /// The actions of a program, and the message if it is refused.
@@ -496,4 +497,65 @@ fn codes_that_move_the_frame_or_the_tool_are_refused() {
     let cycle = |word: &str| codes("haas", &format!("G91 G99 G81 X1. Z-1. R-.5 {word} F100."));
     assert_eq!(cycle("L3"), None);
     assert!(cycle("K3").unwrap().contains("the block has K"), "K3");
+}
+
+/// Rules of Siemens controls that a formula of another language does not have.
+#[test]
+fn a_siemens_ranks_operators_and_rounds_whole_numbers() {
+    let runs = |blocks: &str| actions(&format!("G17 G54 G90\nG0 X0 Y0 Z0\nG1 F100 X1\n{blocks}\nM30\n"), "siemens");
+    let goes = |blocks: &str| {
+        let (actions, refused) = runs(blocks);
+        assert_eq!(refused, None, "{blocks}");
+        let last = actions.iter().rev().find_map(|action| match action {
+            Action::Feed { to, .. } => Some(to[0]),
+            _ => None,
+        });
+        last.unwrap()
+    };
+    // AND before XOR before OR: the jump is made
+    assert_eq!(goes("R1=1 R2=0 R3=0\nIF R1 OR R2 AND R3 GOTOF SKIP\nX9\nSKIP:"), 1.0);
+    assert_eq!(goes("R1=1 R2=1 R3=1\nIF R1 XOR R2 OR R3 GOTOF SKIP\nX9\nSKIP:"), 1.0);
+    assert_eq!(goes("R1=5 R2=7\nIF (R1==5) AND (R2==7) GOTOF SKIP\nX9\nSKIP:"), 1.0);
+    let refused = runs("R1=5 R2=7\nIF R1==5 AND R2==7 GOTOF SKIP\nX9\nSKIP:").1.unwrap();
+    assert!(refused.contains("AND and a comparison in one formula without brackets"), "{refused}");
+    // INT rounds, BOOL is 0 or 1
+    assert_eq!(goes("DEF INT N\nN=2.5\nX=N*4"), 12.0);
+    assert_eq!(goes("DEF INT N=2.4\nX=N*4"), 8.0);
+    assert_eq!(goes("DEF BOOL B=5\nX=B*4"), 4.0);
+    assert_eq!(goes("DEF REAL N=2.5\nX=N*4"), 10.0);
+    assert!(runs("X2 M70").1.unwrap().contains("M70"));
+    // G96 and G97 turn on feeds per revolution
+    let modes = |block: &str| {
+        let (actions, refused) = runs(block);
+        assert_eq!(refused, None, "{block}");
+        actions.iter().any(|action| matches!(action, Action::FeedMode(FeedMode::PerRev)))
+    };
+    assert!(modes("G97 S2000 M3") && modes("G96 S200 M3") && !modes("G94 G97 S2000 M3") && !modes("S2000 M3"));
+}
+
+/// Words of a lathe that were run with another meaning than on the control.
+#[test]
+fn a_lathe_reads_increments_and_g76_as_its_control() {
+    let runs =
+        |blocks: &str| actions(&format!("G21 G99 G97 S500 M3\nT0101\nG0 X40. Z5.\n{blocks}\nM30\n"), "fanuc-lathe");
+    let at = |blocks: &str| {
+        let (actions, refused) = runs(blocks);
+        assert_eq!(refused, None, "{blocks}");
+        actions.iter().rev().find_map(|action| match action {
+            Action::Rapid { to, machine, .. } | Action::Feed { to, machine, .. } => Some((to[0], to[2], *machine)),
+            _ => None,
+        })
+    };
+    // the tool stands at X42 Z5.5 after the shift, and moves by 2 in X to X44
+    let moved = runs("G50 U2. W.5\nG0 X44. Z5.5");
+    assert!(moved.0.iter().any(|action| matches!(action, Action::Frame)), "{moved:?}");
+    assert_eq!(at("G0 U2. Z5."), Some((21.0, 5.0, 0)));
+    for (block, message) in [("G0 X44. U2.", "X and U in one block"), ("G1 Z-1. W-.1 F.1", "Z and W in one block")] {
+        assert!(runs(block).1.unwrap().contains(message), "{block}");
+    }
+    // G76 takes effect only in its blocks: a block after it is a rapid, as before it
+    let thread = "G76 P010060 Q100 R.05\nG76 X36. Z-20. R0 P1200 Q400 F1.5\nX50.";
+    let (actions, refused) = runs(thread);
+    assert_eq!(refused, None);
+    assert!(matches!(actions.iter().rev().find(|action| !matches!(action, Action::End)), Some(Action::Rapid { .. })));
 }

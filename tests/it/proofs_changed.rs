@@ -464,3 +464,17 @@ fn nothing_moves_between_m29_and_its_tap() {
     let moved = after("fanuc.pf", &tap, &[("M29 S1000\n", "M29 S1000\nG0 X10. Y10.\n")]);
     assert!(moved.starts_with("PV011"), "{moved}");
 }
+
+/// The offset register stays the same while the compensation is on, also if the job names no register.
+#[test]
+fn a_contour_keeps_its_offset_register() {
+    let contour = mm(
+        r#"{"tool":1,"work":54,"spindle":{"speed":900,"direction":"cw"},"feed":90,"path":[{"rapid":[0,0,25]},{"line":[0,0,-1]},
+        {"infeed":[5,0],"side":"left"},{"line":[30,0,-1]},{"line":[30,20,-1]},{"outfeed":[40,20]},{"rapid":[40,20,25]}]}"#,
+    );
+    for post in ["fanuc.pf", "haas.pf"] {
+        assert!(!after(post, &contour, &[]).contains("PV"), "{post}");
+        let changed = after(post, &contour, &[("Y20.\n", "Y20. D7\n")]);
+        assert!(changed.contains("PV018"), "{post}: {changed}");
+    }
+}

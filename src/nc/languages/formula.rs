@@ -10,9 +10,14 @@ const DEEPEST: u32 = 64;
 /// A function that returns the value of a name. `None`: the name is unknown.
 pub type Values<'v> = dyn Fn(&str) -> Option<f64> + 'v;
 
+/// Number of the levels of logical operators in [`OPERATORS`]. The next level has the comparisons.
+const LOGICAL: usize = 3;
+
 /// Binary operators by precedence. Operators of the same precedence are evaluated from left to right.
-const OPERATORS: [&[(&str, Operator)]; 5] = [
-    &[("AND", Operator::And), ("OR", Operator::Or), ("XOR", Operator::Xor)],
+const OPERATORS: [&[(&str, Operator)]; 7] = [
+    &[("OR", Operator::Or)],
+    &[("XOR", Operator::Xor)],
+    &[("AND", Operator::And)],
     &[
         ("==", Operator::Equal),
         ("<>", Operator::Other),
@@ -114,17 +119,31 @@ pub fn formula(cursor: &mut Cursor<'_>, values: &Values<'_>) -> Done<f64> {
 }
 
 fn binary(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: u32) -> Done<f64> {
-    let Some(operators) = OPERATORS.get(strength) else { return unary(cursor, values, depth) };
-    let mut value = binary(cursor, values, strength + 1, depth)?;
+    Ok(compared(cursor, values, strength, depth)?.0)
+}
+
+/// The value of a part of a formula, and whether the part compares values without brackets around it. The controls rank
+/// comparisons and logical operators differently, so both in one formula need brackets.
+fn compared(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: u32) -> Done<(f64, bool)> {
+    let Some(operators) = OPERATORS.get(strength) else { return Ok((unary(cursor, values, depth)?, false)) };
+    let (mut value, mut compares) = compared(cursor, values, strength + 1, depth)?;
     'more: loop {
         for (text, operator) in *operators {
             let is_word = text.as_bytes()[0].is_ascii_alphabetic();
+            let at = cursor.at();
             if if is_word { cursor.takes_word(text) } else { cursor.takes(text.as_bytes()) } {
-                value = operator.apply(value, binary(cursor, values, strength + 1, depth)?);
+                let (other, also) = compared(cursor, values, strength + 1, depth)?;
+                if strength < LOGICAL && (compares || also) {
+                    let message = format!("{text} and a comparison in one formula without brackets");
+                    let help = "put each comparison into brackets: `(R1==5) AND (R2==7)`";
+                    return Err(Fault::at(Code::PN014, at, message, help));
+                }
+                compares |= strength == LOGICAL;
+                value = operator.apply(value, other);
                 continue 'more;
             }
         }
-        return Ok(value);
+        return Ok((value, compares));
     }
 }
 
@@ -193,13 +212,15 @@ mod tests {
             ("COS 60", 0.5),
             ("ATAN2(1,0)", 90.0),
             ("7 DIV 2 + 7 MOD 2", 4.0),
-            ("R1 > 3 AND NOT (R1 == 5)", 1.0),
+            ("(R1 > 3) AND NOT (R1 == 5)", 1.0),
             ("[R1 LT 3]", 0.0),
         ] {
             let value = formula(&mut Cursor::new(text.as_bytes(), 0), &values).unwrap();
             assert!((value - result).abs() < 1e-12, "{text} = {value}");
         }
-        for text in ["1/0", "R2", "1+", "(1", "SQRT(-1)", &"(".repeat(500), &"-".repeat(500)] {
+        for text in
+            ["1/0", "R1 > 3 AND NOT (R1 == 5)", "R2", "1+", "(1", "SQRT(-1)", &"(".repeat(500), &"-".repeat(500)]
+        {
             assert!(formula(&mut Cursor::new(text.as_bytes(), 0), &values).is_err(), "{text}");
         }
     }

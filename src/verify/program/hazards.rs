@@ -4,7 +4,7 @@
 use super::Program;
 use crate::control::Rules;
 use crate::diag::Code;
-use crate::nc::Rotation;
+use crate::nc::{Action, Item, Rotation};
 use crate::verify::finding::Finding;
 
 impl Program<'_> {
@@ -54,6 +54,16 @@ impl Program<'_> {
         } else if !self.ended && self.state.rotation != Some(Rotation::Stop) {
             // `%` ends the program and switches neither spindle nor coolant off
             self.hazard(Code::PV016, line, "the program ends while its spindle turns", "print M2 or M30 in EndCode");
+        }
+    }
+
+    /// Finds a move between M29 and the tap: the control stops there with the alarm 204.
+    pub(super) fn moves_after_rigid(&mut self, item: &Item) {
+        let moves = matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
+        self.is_rigid_ahead = !moves;
+        if moves && !item.by_cycle {
+            let message = "an axis moves between M29 and the tap: the control stops with an alarm";
+            self.hazard(Code::PV011, item.line, message, "print M29 on the line before the tapping cycle");
         }
     }
 

@@ -7,13 +7,14 @@ mod hazards;
 mod motions;
 mod plain;
 mod texts;
+mod tools;
 
 use std::io::{Read, Seek};
 
 use beam::Switched;
 pub(super) use doubt::Doubt;
 
-use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, number, place};
+use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
 use super::expectation::{Expectation, taps_ahead};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
@@ -127,26 +128,6 @@ impl<'a> Program<'a> {
     pub fn begin_in(&mut self, units: Units) {
         self.simulator.begin_in(units);
         self.scale.units = units;
-    }
-
-    /// Sets the number of a tool that the program may call by its name.
-    pub fn know_tool(&mut self, name: &str, number: f64) {
-        self.simulator.know_tool(name, number);
-    }
-
-    /// Makes tools that two programs call by the same name the same tool.
-    pub fn share_tool_names(&mut self, other: &Program<'_>) {
-        self.simulator.share_tool_names(&other.simulator);
-    }
-
-    /// Whether a tool, or its register, is a name whose number is unknown.
-    pub fn is_name(&self, tool: f64) -> bool {
-        self.simulator.state().tool_name(tool).is_some()
-    }
-
-    /// A tool for a message: its name if the program calls it by a name whose number is unknown, else its number.
-    pub fn tool_text(&self, tool: f64) -> String {
-        self.simulator.state().tool_name(tool).map_or_else(|| number(tool).to_string(), |name| format!("\"{name}\""))
     }
 
     /// Sets the number of subprograms before the main program. Each subprogram begins with an O word.
@@ -281,16 +262,6 @@ impl<'a> Program<'a> {
         self.simulator.take_warnings()
     }
 
-    /// Finds a move between M29 and the tap: the control stops there with the alarm 204.
-    fn moves_after_rigid(&mut self, item: &Item) {
-        let moves = matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_));
-        self.is_rigid_ahead = !moves;
-        if moves && !item.by_cycle {
-            let message = "an axis moves between M29 and the tap: the control stops with an alarm";
-            self.hazard(Code::PV011, item.line, message, "print M29 on the line before the tapping cycle");
-        }
-    }
-
     fn frame(&self) -> Frame {
         Frame { tool: self.state.tool, work: self.state.work }
     }
@@ -362,7 +333,7 @@ impl<'a> Program<'a> {
             }
             Action::Tool(number) => self.tool(*number, item.line),
             Action::Length(register) => {
-                if register.is_some_and(|register| register != 0.0)
+                if register.is_some()
                     && self.control.traits().tool_length == ToolLength::None
                     && !self.control.is_lathe()
                 {
@@ -395,8 +366,13 @@ impl<'a> Program<'a> {
                 self.changed();
             }
             Action::Compensation(side) => {
-                self.state.side = Some(side.map(|(side, _)| side));
-                self.state.diameter = side.and_then(|(_, register)| register);
+                let register = side.and_then(|(_, register)| register);
+                let side = Some(side.map(|(side, _)| side));
+                if side == self.state.side && self.state.diameter.is_some_and(|before| Some(before) != register) {
+                    let message = "the offset register changes while the compensation is on";
+                    self.hazard(Code::PV018, item.line, message, "print one D for each contour");
+                }
+                (self.state.side, self.state.diameter) = (side, register);
             }
             Action::Hole(hole) => {
                 self.cycle = true;

@@ -246,6 +246,13 @@ impl Words<'_> {
             block.given &= !(bit(b'F') | bit(b'S')); // the active feed and speed do not change
             block.put(b'P', seconds);
         }
+        // G96 and G97 turn on feeds per revolution, as G95 does; G961 and G971 would keep feeds per minute
+        if block.row(Group::SpeedMode).is_some()
+            && block.row(Group::FeedMode).is_none()
+            && let Some(row) = self.state.control.first(Meaning::PerRev)
+        {
+            block.put_g(row, Group::FeedMode, false);
+        }
         if let Some(units) = block.g_meaning(Group::Units) {
             self.own
                 .units(units == Meaning::Inch, block.row(Group::Units).is_some_and(|row| row.code.tenths >= 7000))?;

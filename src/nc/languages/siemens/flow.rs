@@ -3,7 +3,7 @@
 use super::super::cursor::{Cursor, capitals};
 use super::block::Words;
 use super::head::{Head, head, number, section, without_comment};
-use super::ways::Siemens;
+use super::ways::{Kind, Siemens, Variable};
 use crate::diag::Code;
 use crate::nc::action::{Action, Item};
 use crate::nc::fault::{Done, Fault, refuse};
@@ -58,14 +58,14 @@ impl Simulator<'_> {
         if cursor.takes(b"(") {
             while !cursor.takes(b")") {
                 let (Some(kind), Some(name)) = (cursor.name(), cursor.name()) else { return Err(cursor.unreadable()) };
-                if !["REAL", "INT", "BOOL"].iter().any(|known| kind.eq_ignore_ascii_case(known.as_bytes())) {
+                let Some(kind) = Kind::named(kind) else {
                     let message = format!("an argument of type {} is not supported", String::from_utf8_lossy(kind));
                     return refuse(Code::PN016, message, "give the subprogram numbers");
-                }
+                };
                 let name = String::from_utf8_lossy(name).to_ascii_uppercase();
                 let value = arguments.next().copied().flatten().unwrap_or(0.0);
                 if let Some(own) = self.siemens.variables.last_mut() {
-                    own.insert(name, value);
+                    own.insert(name, Variable { kind, value: kind.holds(value) });
                 }
                 cursor.takes(b",");
                 if cursor.is_over() {
@@ -219,17 +219,17 @@ impl Simulator<'_> {
             }
             "RET" => return self.return_from("RET").map(Some),
             "DEF" => {
-                let Some(kind) = cursor.name() else { return Err(cursor.unreadable()) };
-                if !["REAL", "INT", "BOOL"].iter().any(|known| kind.eq_ignore_ascii_case(known.as_bytes())) {
-                    let message = format!("variables of type {} are not supported", String::from_utf8_lossy(kind));
+                let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+                let Some(kind) = Kind::named(name) else {
+                    let message = format!("variables of type {} are not supported", String::from_utf8_lossy(name));
                     return Err(Fault::at(Code::PN016, begin, message, "use REAL, INT or BOOL"));
-                }
+                };
                 loop {
                     let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
                     let name = String::from_utf8_lossy(name).to_ascii_uppercase();
                     let value = if cursor.takes(b"=") { words.value(cursor)? } else { 0.0 };
                     if let Some(own) = words.own.variables.last_mut() {
-                        own.insert(name, value);
+                        own.insert(name, Variable { kind, value: kind.holds(value) });
                     }
                     if !cursor.takes(b",") {
                         break;

@@ -13,7 +13,7 @@ pub struct Siemens {
     /// The values of the R parameters by name, such as `R1`.
     pub(super) parameters: HashMap<String, f64>,
     /// The values of variables that `DEF` defines: one map for the main program, then one for each running subprogram.
-    pub(super) variables: Vec<HashMap<String, f64>>,
+    pub(super) variables: Vec<HashMap<String, Variable>>,
     /// The cycle that `MCALL` has made modal.
     pub(super) modal: Option<Call>,
     /// The units that the program has last set.
@@ -32,6 +32,38 @@ pub struct Siemens {
     pub(super) repeats: Vec<(u64, u32)>,
     /// The line of the `FOR` to which the last `ENDFOR` has jumped back.
     pub(super) next_round: Option<u64>,
+}
+
+/// A variable of a program.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable {
+    pub kind: Kind,
+    pub value: f64,
+}
+
+/// The type of a variable.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    Real,
+    Int,
+    Bool,
+}
+
+impl Kind {
+    /// The type with this name.
+    pub(super) fn named(name: &[u8]) -> Option<Kind> {
+        let all = [("REAL", Kind::Real), ("INT", Kind::Int), ("BOOL", Kind::Bool)];
+        all.iter().find(|(own, _)| name.eq_ignore_ascii_case(own.as_bytes())).map(|(_, kind)| *kind)
+    }
+
+    /// The value that a variable of this type gets. The control rounds a value for INT: from .5 on upward.
+    pub(super) fn holds(self, value: f64) -> f64 {
+        match self {
+            Kind::Real => value,
+            Kind::Int => (value + 0.5).floor(),
+            Kind::Bool => f64::from(u8::from(value != 0.0)),
+        }
+    }
 }
 
 /// A main program or subprogram of the input.
@@ -54,13 +86,14 @@ pub struct Part {
 impl Siemens {
     /// The value of a variable or parameter.
     pub(super) fn value(&self, name: &str) -> Option<f64> {
-        self.variables.last().and_then(|own| own.get(name)).or_else(|| self.parameters.get(name)).copied()
+        let own = self.variables.last().and_then(|own| own.get(name)).map(|own| own.value);
+        own.or_else(|| self.parameters.get(name).copied())
     }
 
     /// Sets a variable or parameter. Returns `false` if no variable or parameter has this name.
     pub(super) fn set(&mut self, name: &str, value: f64) -> bool {
         if let Some(own) = self.variables.last_mut().and_then(|own| own.get_mut(name)) {
-            *own = value;
+            own.value = own.kind.holds(value);
             return true;
         }
         let is_parameter = name

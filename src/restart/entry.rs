@@ -123,6 +123,9 @@ fn search(text: &[u8], settings: RunSettings, asked: &Asked, past_head: bool) ->
     search.finish()
 }
 
+/// Maximum number of tools in a message.
+const MOST_TOOLS: usize = 10;
+
 struct Search<'t> {
     target: &'t Target,
     exactly: bool,
@@ -152,6 +155,8 @@ struct Search<'t> {
     height_by_other: bool,
     /// A possible entry at a T word whose tool change has not come yet. At this T word the tool is clear of the part.
     tool_line: Option<Entry>,
+    /// The first tools of the program.
+    tools: Vec<f64>,
 }
 
 impl<'t> Search<'t> {
@@ -174,6 +179,7 @@ impl<'t> Search<'t> {
             came_at_rapid: false,
             height_by_other: false,
             tool_line: None,
+            tools: Vec::new(),
         }
     }
 
@@ -242,7 +248,12 @@ impl<'t> Search<'t> {
                     self.came_at_rapid = true;
                 }
                 Action::Feed { .. } | Action::Arc(_) => self.came_at_rapid = false,
-                Action::Tool(_) => self.way = None,
+                Action::Tool(tool) => {
+                    self.way = None;
+                    if self.tools.len() < MOST_TOOLS && !self.tools.contains(tool) {
+                        self.tools.push(*tool);
+                    }
+                }
                 Action::Stop(StopKind::Program) if stops => self.way = None,
                 Action::LeftOut(code, meaning) if self.head.is_some() && *meaning != Meaning::ExactStop => {
                     self.codes.push((line, code.to_string()));
@@ -344,7 +355,13 @@ impl<'t> Search<'t> {
     fn finish(self) -> Result<Found, Refused> {
         let Some(asked) = self.asked else {
             let what = match self.target {
-                Target::Tool(number) => format!("the program has no tool change to T{number}"),
+                Target::Tool(number) if self.tools.is_empty() => {
+                    format!("the program has no tool change, so none to T{number}")
+                }
+                Target::Tool(number) => {
+                    let tools: Vec<String> = self.tools.iter().map(|tool| format!("T{tool}")).collect();
+                    format!("the program has no tool change to T{number}, only to {}", tools.join(", "))
+                }
                 Target::Block(number) => format!("the program has no block N{number} that is run"),
                 Target::Line(line) => format!("no block is run at line {line} or after it"),
                 Target::Operation(name) => format!("no comment of the program has `{}`", escaped(name)),

@@ -584,6 +584,17 @@ fn no_file_and_no_argument_steers_the_terminal() {
     }
 }
 
+/// A folder in place of a job: the option for folders is named.
+#[test]
+fn a_folder_is_not_a_job() {
+    let folder = folder::Folder::new("folder-not-job");
+    let form = root().join("postforms/haas.pf");
+    let output = folder.run(&["render", ".", "--form", form.to_str().unwrap()]);
+    let said = err(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("it is a folder") && said.contains("--out-dir OUT"), "{said}");
+}
+
 /// A job in place of a program was read as codes.
 #[test]
 fn a_job_is_not_a_program() {

@@ -223,7 +223,7 @@ fn exactly_goes_down_at_feed() {
 fn what_cant_be_rebuilt_is_refused() {
     let folder = Folder::new("restart-refused");
     let cases = [
-        (PROGRAM.to_owned(), "fanuc", vec!["--tool", "9"], "no tool change to T9"),
+        (PROGRAM.to_owned(), "fanuc", vec!["--tool", "9"], "no tool change to T9, only to T1, T2"),
         (PROGRAM.to_owned(), "fanuc", vec!["--at", "N99"], "no block N99"),
         (PROGRAM.to_owned(), "fanuc", vec!["--line", "999"], "no block is run at line 999"),
         (PROGRAM.to_owned(), "fanuc", vec!["--operation", "third"], "no comment of the program has `third`"),

@@ -240,6 +240,12 @@ fn job_format(
              JOB --form FORM` the job comes first"
         ));
     }
+    if path.is_dir() {
+        let name = name(path);
+        return Err(format!(
+            "error: can't read {name}: it is a folder\n  help: `postform render {name} --form FORM --out-dir OUT` prints each job in it"
+        ));
+    }
     format_of(path, args.from, first)
 }
 

@@ -270,7 +270,10 @@ impl State {
                 }
                 // the simulator has no tool table, so the length counts as zero; G44 subtracts it
                 let register = self.tool_names.number(register.unwrap_or(0.0));
-                out.push(Action::Length(Some(if row.meaning == Meaning::LengthMinus { -register } else { register })));
+                // register 0 means no length
+                let register = Some(register).filter(|register| *register != 0.0);
+                let subtracts = row.meaning == Meaning::LengthMinus;
+                out.push(Action::Length(register.map(|register| if subtracts { -register } else { register })));
             }
         }
         self.place.position = self.place.frames.to_program(&place);

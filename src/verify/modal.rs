@@ -14,7 +14,7 @@ type Differs = (Code, &'static str, String);
 /// define the pitch of the thread.
 pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let both = [cut.state.clone(), found.state.clone()];
-    s.before = found.state.clone();
+    let before = std::mem::replace(&mut s.before, found.state.clone());
     if s.agreed.as_ref() == Some(&both) {
         s.agreed = Some(both); // the next comparison needs only the pointers
         return;
@@ -24,6 +24,7 @@ pub(super) fn compare(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) {
     let checks = [
         tool(states, s),
         offsets(states, s),
+        unsaid(&before, states),
         turning(states),
         coolant(states),
         rigid(states, tap),
@@ -61,6 +62,24 @@ fn offsets([wanted, is]: [&State; 2], s: &Sides<'_>) -> Option<Differs> {
     let is = is.work.map_or("not printed".to_owned(), |b| b.to_string());
     let message = format!("the work offset is {is}, but {a} in the job");
     Some((Code::PV012, "print G[work] in the tool change, or in the sequence `Upon [work]`", message))
+}
+
+/// A value that the job does not contain must not change in the program: a tool has one length register, and a job
+/// without work offsets is cut in one offset.
+fn unsaid(before: &State, [wanted, is]: [&State; 2]) -> Option<Differs> {
+    if let (Some(a), Some(b)) = (before.work, is.work)
+        && a != b
+        && wanted.work.is_none()
+    {
+        let message = format!("the work offset changes from {a} to {b}, but the job has one work offset");
+        return Some((Code::PV012, "give the operations of the job their `work`, or print one work offset", message));
+    }
+    let (a, b) = (before.length?, is.length?);
+    if a == b || wanted.length.is_some() || before.tool != is.tool {
+        return None;
+    }
+    let message = format!("the length offset of the tool changes from H{} to H{}", number(a), number(b));
+    Some((Code::PV014, "print one length register for each tool", message))
 }
 
 fn turning([wanted, is]: [&State; 2]) -> Option<Differs> {

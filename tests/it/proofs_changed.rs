@@ -478,3 +478,38 @@ fn a_contour_keeps_its_offset_register() {
         assert!(changed.contains("PV018"), "{post}: {changed}");
     }
 }
+
+/// A value that the job does not contain may have any value in the program, but only one.
+#[test]
+fn what_a_job_leaves_open_does_not_change() {
+    let job = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[{"tool":1,
+        "spindle":{"speed":1000,"direction":"cw"},"coolant":"flood","feed":100,"path":[{"rapid":[0,0,25]},{"line":[0,0,-1]},{"line":[10,0,-1]},
+        {"rapid":[10,0,25]},{"line":[10,0,-1]},{"line":[20,0,-1]},{"rapid":[20,0,25]}]}]}"#;
+    let program = |between: &str, length: &str| {
+        format!(
+            "%\nO1\nG21 G17 G40 G49 G80 G90\nT1 M6\nG56 G0 X0 Y0 S1000 M3\nG43 {length} Z25. M8\nG1 Z-1. F100.\nX10.\n{between}\nG0 Z25.\n\
+             G1 Z-1.\nX20.\nG0 Z25.\nM30\n%\n"
+        )
+    };
+    let codes = |control: &str, between: &str, length: &str| {
+        let mut proof = Proof::default();
+        proof.control = Some(crate::support::control(control));
+        let program = std::io::Cursor::new(program(between, length));
+        match proof.verify(Job::json(job), program).unwrap().verdict {
+            Verdict::Different(found) => found.iter().map(|found| found.code.name()).collect::<Vec<_>>().join(" "),
+            verdict => verdict.to_string(),
+        }
+    };
+    for control in ["fanuc", "haas"] {
+        assert_eq!(codes(control, "", "H8"), "identical");
+        for offset in ["G54", "G54.1 P2"] {
+            let said = codes(control, &format!("G0 Z25.\n{offset} X10. Y0"), "H8");
+            assert!(said.contains("PV012"), "{control} {offset}: {said}");
+        }
+        assert!(codes(control, "G43 H5", "H8").contains("PV014"), "{control}");
+    }
+    // H0 is no length
+    for control in ["fanuc", "haas", "centroid", "linuxcnc"] {
+        assert!(codes(control, "", "H0").contains("PV014"), "{control}: {}", codes(control, "", "H0"));
+    }
+}

@@ -174,6 +174,7 @@ codes! {
     PF713 Warning "a directive without its `@`"
     PF714 Warning "a pattern that is compared as plain text"
     PF715 Warning "a CommentLine that does not print the comment"
+    PF716 Warning "a variable in backquotes"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -99,6 +99,7 @@ mod unused_prompt;
 mod unused_sequence;
 mod unwind_down_first;
 mod upon_unused;
+mod variable_in_quotes;
 mod without_effect;
 mod words_after_end;
 mod wrong_quantity;
@@ -242,4 +243,5 @@ rules! {
     PF713 condition_as_text
     PF714 pattern_compared
     PF715 comment_line_without_text
+    PF716 variable_in_quotes
 }

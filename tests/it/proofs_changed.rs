@@ -392,6 +392,16 @@ fn the_length_is_turned_on_again_after_home() {
             assert!(lost.starts_with("PV014"), "{post}: {lost}");
         }
     }
+    // a cycle after the move home
+    for kind in ["drill", "deep", "chipbreak", "tap", "bore"] {
+        let cycle = one(&format!(
+            r#"{{"rapid":[0,0,25]}},{{"home":true}},{{"cycle":{{"kind":"{kind}","depth":9,"clear":2,"return":20,"feed":1250,"points":[[1,1,0],[5,1,0]]}}}},{{"rapid":[5,1,25]}}"#
+        ));
+        for post in ["fanuc.pf", "brother.pf"] {
+            let verdict = after(post, &cycle, &[]);
+            assert!(!verdict.contains("PV"), "{post} {kind}: {verdict}");
+        }
+    }
     // the same program on other controls: G28 ends the length on a Haas, G53 does not; LinuxCNC keeps it
     let verdict = |control: &str, program: &str| {
         let mut proof = Proof::default();

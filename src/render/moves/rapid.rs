@@ -7,7 +7,6 @@ use crate::diag::Code;
 use crate::lang::{VarId, VarSet};
 use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
-use crate::render::program::home::after_home;
 use crate::render::settle::print_lacking;
 use crate::render::shape::ROTARY_BITS;
 use crate::render::targets::set_targets;
@@ -39,12 +38,7 @@ pub fn rapid(to: &Axes, cx: &mut Cx<'_>) -> Done {
         }
         print_lacking(cx)?;
         cx.said.differs |= cx.said.sub.is_some_and(|sub| sub.stops); // a cut after it must check the spindle again
-        if cx.said.from_home {
-            match target.given & shape.depth_bit() {
-                0 => cx.said.differs = true,
-                _ => after_home(cx)?,
-            }
-        }
+        cx.said.differs |= cx.said.from_home; // so that no rapid from home is printed as a plain rapid
     }
     cx.said.stand.moved_by = None;
     if turns {

@@ -6,6 +6,7 @@ use crate::render::body::{Mode, run};
 use crate::render::cx::Cx;
 use crate::render::fault::Done;
 use crate::render::prelude::{check_prints, motion_block};
+use crate::render::program::home::after_home;
 use crate::render::said::{LastMove, Said};
 use crate::render::shape::Shape;
 use crate::render::targets::set_targets;
@@ -61,6 +62,9 @@ fn changes_depth_and_plane(target: &Axes, shape: &Shape, said: &Said) -> bool {
 pub fn rapid_block(target: &Axes, code: Option<sema::Code>, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let program = shape.program;
+    if cx.said.from_home && target.given & shape.depth_bit() != 0 {
+        after_home(target, cx)?;
+    }
     // the depth part of VRapid has its own code, which the sequence can't print
     match program.routine(SequenceId::RapidCode).filter(|_| code.is_none()) {
         Some(routine) if cx.said.differs_from(target, 0x3f, shape) => {

@@ -7,6 +7,8 @@ use crate::render::cx::Cx;
 use crate::render::fault::{Done, fault};
 use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
+use crate::render::vars::NOW;
+use crate::toolpath::Axes;
 
 /// Prints the form's MoveHome sequence. Only the form defines the home position, so the tool's position is unknown
 /// afterwards.
@@ -36,10 +38,24 @@ pub fn home(cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Prints the form's AfterHome sequence before a rapid from the home position.
-pub fn after_home(cx: &mut Cx<'_>) -> Done {
+/// Prints the form's AfterHome sequence before the first rapid from the home position that has a height.
+pub fn after_home(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     cx.said.from_home = false;
-    let Some(routine) = shape.routine(SequenceId::AfterHome, cx.want, cx.said) else { return Ok(()) };
-    run_with_upons(routine, cx)
+    let mut whole = cx.said.stand.position;
+    for axis in (0..6).filter(|axis| target.given & 1 << axis != 0) {
+        whole.set(axis, target.values[axis]);
+    }
+    // the rapid may be a part of a cycle, whose variables are used after it
+    let kept = NOW.map(|var| cx.want.get(var));
+    for (axis, var) in NOW.into_iter().enumerate() {
+        cx.want.put(var, whole.get(axis).map(|value| value * shape.scales[axis]));
+    }
+    if let Some(routine) = shape.routine(SequenceId::AfterHome, cx.want, cx.said) {
+        run_with_upons(routine, cx)?;
+    }
+    for (var, value) in NOW.into_iter().zip(kept) {
+        cx.want.put(var, value);
+    }
+    Ok(())
 }

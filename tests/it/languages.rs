@@ -482,6 +482,14 @@ fn codes_that_move_the_frame_or_the_tool_are_refused() {
         let refused = klartext(&format!("L X+2 F200 {code}")).unwrap_or_else(|| panic!("{code} is run"));
         assert!(refused.starts_with(&format!("{code} is not supported")), "{refused}");
     }
+    // a direction and a number of chip breaks are whole numbers
+    let bore = |q214: &str| {
+        klartext(&format!(
+            "CYCL DEF 202 BORING ~\n Q200=2 ~\n Q201=-5 ~\n Q206=200 ~\n Q211=0 ~\n Q208=0 ~\n Q203=0 ~\n Q204=50 ~\n Q214={q214} ~\n Q336=0\nL M99"
+        ))
+    };
+    assert_eq!(bore("1"), None);
+    assert!(bore("1.7").unwrap().contains("Q214=1.7 is not a whole number"));
     // axis words beside a code that may use them itself: G22 X Y Z I J K sets stroke limits, and moves nothing
     let codes = |control: &str, block: &str| actions(&format!("G21 G90\nG0 X1. Y1. Z1.\n{block}\nM30\n"), control).1;
     for block in

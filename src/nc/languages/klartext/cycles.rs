@@ -71,194 +71,33 @@ impl Cycle {
         self.words.get(&word).copied().unwrap_or(0.0)
     }
 
+    /// A parameter that is a whole number, such as the number of a direction.
+    fn whole(&self, word: u16) -> Done<usize> {
+        let value = self.get(word);
+        if value.fract() == 0.0 && (0.0..=9999.0).contains(&value) {
+            return Ok(value as usize);
+        }
+        refuse(Code::PN018, format!("Q{word}={value} is not a whole number from 0 to 9999"), "write a whole number")
+    }
+
     /// Calculates the hole. `None`: the depth is 0, so the cycle does nothing.
     ///
     /// # Errors
     /// The cycle refuses its parameters.
     fn hole(&self, stand: &Stand) -> Done<Option<Canned>> {
-        let (surface, depth) = (self.get(203), self.get(201));
-        if depth == 0.0 {
+        if self.get(201) == 0.0 {
             return Ok(None);
         }
-        let inch = stand.units == Units::Inch;
-        let mm = if inch { 1.0 / 25.4 } else { 1.0 };
-        let (r, bottom) = (surface + self.get(200), surface + depth);
-        let clear = r.max(surface + self.get(204));
-        let (turning, speed) = (stand.turning, stand.speed);
-        // in inch programs, feeds are written in tenths of an inch
-        let of_feed = |word: u16| if inch { self.get(word) / 10.0 } else { self.get(word) };
-        let into = of_feed(206);
-        let mut feed = into;
-        let mut steps = vec![Step::Rapid(r)];
-        let at_bottom = dwell(self.get(211));
-        let mut peck = 0.0;
-        // out of the hole: an infinite feed means a rapid, and 0 means the feed into the hole
-        let out_feed = if self.get(208) == 0.0 { into } else { of_feed(208) };
-        let retract = |steps: &mut Vec<Step>, height: f64| match out_feed.is_finite() && out_feed < 99_999.0 {
-            true => steps.push(Step::Feed(height, out_feed)),
-            false => steps.push(Step::Rapid(height)),
-        };
+        let mut work = Work::of(self, stand);
         let motions = match self.number {
-            200 | 240 => {
-                peck = if self.number == 200 { self.get(202) } else { -depth };
-                let all = depths(surface, bottom, peck, |stroke, _| stroke)?;
-                let pecks = all.len() > 1;
-                self.pecks(&all, r, into, &mut steps, |steps| steps.push(Step::Rapid(r)), |_, _| 0.2 * mm);
-                if pecks { Motions::Peck } else { Motions::Drill }
-            }
-            201 => {
-                steps.push(Step::Feed(bottom, into));
-                steps.extend(at_bottom);
-                retract(&mut steps, r);
-                Motions::FeedOut
-            }
-            202 => {
-                steps.push(Step::Feed(bottom, into));
-                steps.extend(at_bottom);
-                let by = 0.2 * mm;
-                let aside = match self.get(214) as i32 {
-                    0 => [0.0; 3],
-                    1 => [-by, 0.0, 0.0],
-                    2 => [0.0, -by, 0.0],
-                    3 => [by, 0.0, 0.0],
-                    4 => [0.0, by, 0.0],
-                    other => return refuse(Code::PN018, format!("Q214={other} is not a direction"), "write 0 to 4"),
-                };
-                steps.extend([Step::Orient(self.get(336)), Step::Aside(aside)]);
-                match out_feed.is_finite() && out_feed < 99_999.0 {
-                    true => steps.push(Step::Feed(r, out_feed)),
-                    false => steps.push(Step::Aside([0.0, 0.0, r - bottom])),
-                }
-                steps.extend([Step::Rapid(r), Step::Turn(turning, speed)]);
-                Motions::ShiftOut
-            }
-            203 => {
-                peck = self.get(202);
-                let all = depths(surface, bottom, peck, self.shorter())?;
-                let breaks = self.get(213) as usize;
-                let last = all.len() - 1;
-                for (count, depth) in all.iter().enumerate() {
-                    steps.push(Step::Feed(*depth, into));
-                    if count == last {
-                        break;
-                    }
-                    if breaks > 0 && (count + 1) % breaks != 0 {
-                        retract(&mut steps, depth + self.get(256));
-                        continue;
-                    }
-                    retract(&mut steps, r);
-                    steps.extend(dwell(self.get(210)));
-                    steps.push(Step::Rapid((depth + 0.2 * mm).min(r)));
-                }
-                steps.extend(at_bottom);
-                retract(&mut steps, r);
-                match (last, breaks) {
-                    (0, _) => Motions::Drill,
-                    (_, 0) => Motions::Peck,
-                    _ => Motions::Chipbreak,
-                }
-            }
-            205 => {
-                peck = self.get(202);
-                let all = depths(surface, bottom, peck, self.shorter())?;
-                let (first, last) = (self.get(258), self.get(259));
-                let count = all.len();
-                let above = |at: usize| {
-                    let part = if count > 2 { at as f64 / (count - 2) as f64 } else { 0.0 };
-                    if last == 0.0 { first } else { first + (last - first) * part }
-                };
-                let chip = self.get(257);
-                let mut from = surface;
-                for (at, depth) in all.iter().enumerate() {
-                    if chip > 0.0 {
-                        let parts = depths(from, *depth, chip, |stroke, _| stroke)?;
-                        for part in &parts[..parts.len() - 1] {
-                            steps.extend([Step::Feed(*part, into), Step::Rapid(part + self.get(256))]);
-                        }
-                    }
-                    steps.push(Step::Feed(*depth, into));
-                    from = *depth;
-                    if at + 1 < count {
-                        steps.extend([Step::Rapid(r), Step::Rapid((depth + above(at)).min(r))]);
-                    }
-                }
-                steps.extend(at_bottom);
-                if count > 1 {
-                    Motions::Peck
-                } else if chip > 0.0 {
-                    Motions::Chipbreak
-                } else {
-                    Motions::Drill
-                }
-            }
-            _ => {
-                let pitch = self.get(239);
-                let rigid = self.number != 206;
-                let inwards = match rigid {
-                    true if pitch > 0.0 => Rotation::Cw,
-                    true => Rotation::Ccw,
-                    false => turning,
-                };
-                if inwards == Rotation::Stop || speed <= 0.0 {
-                    let message = format!("CYCL DEF {} with the spindle stopped", self.number);
-                    return refuse(Code::PN012, message, "write M3, and S in TOOL CALL, before the cycle");
-                }
-                if rigid && pitch == 0.0 {
-                    return refuse(Code::PN018, "a pitch of 0", "write the pitch in Q239");
-                }
-                feed = if rigid { pitch.abs() * speed } else { into };
-                let factor = Some(self.get(403)).filter(|factor| *factor > 0.0).unwrap_or(1.0);
-                let out_speed = if self.number == 209 { speed * factor } else { speed };
-                let out_feed = feed * out_speed / speed;
-                let [go_in, go_out] = [Step::Turn(inwards, speed), Step::Turn(inwards.reversed(), out_speed)];
-                let chip = if self.number == 209 { self.get(257) } else { 0.0 };
-                let all = if chip > 0.0 { depths(surface, bottom, chip, |stroke, _| stroke)? } else { vec![bottom] };
-                if rigid && turning != inwards {
-                    steps.push(go_in);
-                }
-                for (at, depth) in all.iter().enumerate() {
-                    if at > 0 {
-                        let up = match self.get(256) {
-                            0.0 => r,
-                            turns => (all[at - 1] + turns * pitch.abs()).min(r),
-                        };
-                        steps.extend([go_out, Step::Feed(up, out_feed), go_in]);
-                    }
-                    steps.push(Step::Feed(*depth, feed));
-                }
-                if !rigid {
-                    steps.extend(at_bottom);
-                }
-                steps.extend([go_out, Step::Feed(r, out_feed), go_in]);
-                if inwards == Rotation::Cw { Motions::Tap } else { Motions::LeftTap }
-            }
+            200 | 240 => work.drill()?,
+            201 => work.ream(),
+            202 => work.bore()?,
+            203 => work.universal()?,
+            205 => work.deep()?,
+            _ => work.tap()?,
         };
-        let came = steps.iter().rev().find_map(|step| match step {
-            Step::Rapid(height) | Step::Feed(height, _) => Some(*height),
-            _ => None,
-        });
-        if came != Some(clear) {
-            steps.push(Step::Rapid(clear));
-        }
-        let hole = Drilling {
-            cycle: Drill {
-                code: Name { letter: b'q', tenths: self.number * 10 },
-                motions,
-                dwells: self.get(211) > 0.0,
-            },
-            at: stand.at,
-            plane: stand.plane,
-            r,
-            bottom,
-            clear,
-            dwell: self.get(211),
-            peck,
-            shift: [0.0; 2],
-            level: bottom,
-            feed,
-            heights: Heights::Given,
-        };
-        Ok(Some(Canned { hole, steps }))
+        Ok(Some(work.canned(motions)))
     }
 
     /// The length of the next stroke: the length of the last stroke minus Q212, but at least Q205.
@@ -266,26 +105,243 @@ impl Cycle {
         let (less, least) = (self.get(212), self.get(205));
         move |stroke, _| if less > 0.0 { (stroke - less).max(least) } else { stroke }
     }
+}
 
-    /// Adds the strokes of a hole. After each stroke except the last, the tool leaves the hole.
-    fn pecks(
-        &self,
-        all: &[f64],
-        r: f64,
-        feed: f64,
-        steps: &mut Vec<Step>,
-        comes_out: impl Fn(&mut Vec<Step>),
-        above: impl Fn(usize, usize) -> f64,
-    ) {
+/// The moves of a hole while they are calculated.
+struct Work<'c> {
+    cycle: &'c Cycle,
+    stand: &'c Stand,
+    surface: f64,
+    bottom: f64,
+    /// The clearance above the surface.
+    r: f64,
+    /// The feed into the hole.
+    into: f64,
+    /// The feed out of the hole; `None`: at rapid.
+    out: Option<f64>,
+    /// A millimetre in the units of the program.
+    mm: f64,
+    steps: Vec<Step>,
+    /// The depth of the first peck.
+    peck: f64,
+    /// The feed that the hole has.
+    feed: f64,
+}
+
+impl<'c> Work<'c> {
+    fn of(cycle: &'c Cycle, stand: &'c Stand) -> Work<'c> {
+        let inch = stand.units == Units::Inch;
+        // in inch programs, feeds are written in tenths of an inch
+        let of_feed = |word: u16| if inch { cycle.get(word) / 10.0 } else { cycle.get(word) };
+        let (surface, into) = (cycle.get(203), of_feed(206));
+        // out of the hole: an infinite feed means a rapid, and 0 means the feed into the hole
+        let out = if cycle.get(208) == 0.0 { into } else { of_feed(208) };
+        let r = surface + cycle.get(200);
+        Work {
+            cycle,
+            stand,
+            surface,
+            bottom: surface + cycle.get(201),
+            r,
+            into,
+            out: Some(out).filter(|out| out.is_finite() && *out < 99_999.0),
+            mm: if inch { 1.0 / 25.4 } else { 1.0 },
+            steps: vec![Step::Rapid(r)],
+            peck: 0.0,
+            feed: into,
+        }
+    }
+
+    /// Moves up out of the hole, or out of a stroke.
+    fn retract(&mut self, height: f64) {
+        self.steps.push(self.out.map_or(Step::Rapid(height), |feed| Step::Feed(height, feed)));
+    }
+
+    /// Feeds to the bottom and dwells there.
+    fn goes_down(&mut self) {
+        self.steps.push(Step::Feed(self.bottom, self.into));
+        self.steps.extend(dwell(self.cycle.get(211)));
+    }
+
+    /// Cycles 200 and 240: pecks with full retracts, or one stroke.
+    fn drill(&mut self) -> Done<Motions> {
+        self.peck = if self.cycle.number == 200 { self.cycle.get(202) } else { self.surface - self.bottom };
+        let all = depths(self.surface, self.bottom, self.peck, |stroke, _| stroke)?;
         for (at, depth) in all.iter().enumerate() {
-            steps.push(Step::Feed(*depth, feed));
+            self.steps.push(Step::Feed(*depth, self.into));
             if at + 1 < all.len() {
-                comes_out(steps);
-                steps.extend(dwell(self.get(210)));
-                steps.push(Step::Rapid((depth + above(at, all.len())).min(r)));
+                self.steps.push(Step::Rapid(self.r));
+                self.steps.extend(dwell(self.cycle.get(210)));
+                self.steps.push(Step::Rapid((depth + 0.2 * self.mm).min(self.r)));
             }
         }
-        steps.extend(dwell(self.get(211)));
+        self.steps.extend(dwell(self.cycle.get(211)));
+        Ok(if all.len() > 1 { Motions::Peck } else { Motions::Drill })
+    }
+
+    /// Cycle 201: feeds in and out.
+    fn ream(&mut self) -> Motions {
+        self.goes_down();
+        self.retract(self.r);
+        Motions::FeedOut
+    }
+
+    /// Cycle 202: the tool moves away from the wall before it leaves the hole.
+    fn bore(&mut self) -> Done<Motions> {
+        self.goes_down();
+        let by = 0.2 * self.mm;
+        let aside = match self.cycle.whole(214)? {
+            0 => [0.0; 3],
+            1 => [-by, 0.0, 0.0],
+            2 => [0.0, -by, 0.0],
+            3 => [by, 0.0, 0.0],
+            4 => [0.0, by, 0.0],
+            other => return refuse(Code::PN018, format!("Q214={other} is not a direction"), "write 0 to 4"),
+        };
+        self.steps.extend([Step::Orient(self.cycle.get(336)), Step::Aside(aside)]);
+        match self.out {
+            Some(feed) => self.steps.push(Step::Feed(self.r, feed)),
+            None => self.steps.push(Step::Aside([0.0, 0.0, self.r - self.bottom])),
+        }
+        self.steps.extend([Step::Rapid(self.r), Step::Turn(self.stand.turning, self.stand.speed)]);
+        Ok(Motions::ShiftOut)
+    }
+
+    /// Cycle 203: pecks with a number of chip breaks before each full retract.
+    fn universal(&mut self) -> Done<Motions> {
+        self.peck = self.cycle.get(202);
+        let all = depths(self.surface, self.bottom, self.peck, self.cycle.shorter())?;
+        let breaks = self.cycle.whole(213)?;
+        let last = all.len() - 1;
+        for (count, depth) in all.iter().enumerate() {
+            self.steps.push(Step::Feed(*depth, self.into));
+            if count == last {
+                break;
+            }
+            if breaks > 0 && (count + 1) % breaks != 0 {
+                self.retract(depth + self.cycle.get(256));
+                continue;
+            }
+            self.retract(self.r);
+            self.steps.extend(dwell(self.cycle.get(210)));
+            self.steps.push(Step::Rapid((depth + 0.2 * self.mm).min(self.r)));
+        }
+        self.steps.extend(dwell(self.cycle.get(211)));
+        self.retract(self.r);
+        Ok(match (last, breaks) {
+            (0, _) => Motions::Drill,
+            (_, 0) => Motions::Peck,
+            _ => Motions::Chipbreak,
+        })
+    }
+
+    /// Cycle 205: pecks with full retracts, and chip breaks inside each peck.
+    fn deep(&mut self) -> Done<Motions> {
+        self.peck = self.cycle.get(202);
+        let all = depths(self.surface, self.bottom, self.peck, self.cycle.shorter())?;
+        let (first, last, chip) = (self.cycle.get(258), self.cycle.get(259), self.cycle.get(257));
+        let count = all.len();
+        let above = |at: usize| {
+            let part = if count > 2 { at as f64 / (count - 2) as f64 } else { 0.0 };
+            if last == 0.0 { first } else { first + (last - first) * part }
+        };
+        let mut from = self.surface;
+        for (at, depth) in all.iter().enumerate() {
+            if chip > 0.0 {
+                let parts = depths(from, *depth, chip, |stroke, _| stroke)?;
+                for part in &parts[..parts.len() - 1] {
+                    self.steps.extend([Step::Feed(*part, self.into), Step::Rapid(part + self.cycle.get(256))]);
+                }
+            }
+            self.steps.push(Step::Feed(*depth, self.into));
+            from = *depth;
+            if at + 1 < count {
+                self.steps.extend([Step::Rapid(self.r), Step::Rapid((depth + above(at)).min(self.r))]);
+            }
+        }
+        self.steps.extend(dwell(self.cycle.get(211)));
+        Ok(if count > 1 {
+            Motions::Peck
+        } else if chip > 0.0 {
+            Motions::Chipbreak
+        } else {
+            Motions::Drill
+        })
+    }
+
+    /// Cycles 206, 207 and 209: taps with a floating holder, rigid taps, and rigid taps with chip breaks.
+    fn tap(&mut self) -> Done<Motions> {
+        let (number, pitch) = (self.cycle.number, self.cycle.get(239));
+        let (turning, speed) = (self.stand.turning, self.stand.speed);
+        let rigid = number != 206;
+        let inwards = match rigid {
+            true if pitch > 0.0 => Rotation::Cw,
+            true => Rotation::Ccw,
+            false => turning,
+        };
+        if inwards == Rotation::Stop || speed <= 0.0 {
+            let message = format!("CYCL DEF {number} with the spindle stopped");
+            return refuse(Code::PN012, message, "write M3, and S in TOOL CALL, before the cycle");
+        }
+        if rigid && pitch == 0.0 {
+            return refuse(Code::PN018, "a pitch of 0", "write the pitch in Q239");
+        }
+        self.feed = if rigid { pitch.abs() * speed } else { self.into };
+        let factor = Some(self.cycle.get(403)).filter(|factor| *factor > 0.0).unwrap_or(1.0);
+        let out_speed = if number == 209 { speed * factor } else { speed };
+        let out_feed = self.feed * out_speed / speed;
+        let [go_in, go_out] = [Step::Turn(inwards, speed), Step::Turn(inwards.reversed(), out_speed)];
+        let chip = if number == 209 { self.cycle.get(257) } else { 0.0 };
+        let all = match chip > 0.0 {
+            true => depths(self.surface, self.bottom, chip, |stroke, _| stroke)?,
+            false => vec![self.bottom],
+        };
+        if rigid && turning != inwards {
+            self.steps.push(go_in);
+        }
+        for (at, depth) in all.iter().enumerate() {
+            if at > 0 {
+                let up = match self.cycle.get(256) {
+                    0.0 => self.r,
+                    turns => (all[at - 1] + turns * pitch.abs()).min(self.r),
+                };
+                self.steps.extend([go_out, Step::Feed(up, out_feed), go_in]);
+            }
+            self.steps.push(Step::Feed(*depth, self.feed));
+        }
+        if !rigid {
+            self.steps.extend(dwell(self.cycle.get(211)));
+        }
+        self.steps.extend([go_out, Step::Feed(self.r, out_feed), go_in]);
+        Ok(if inwards == Rotation::Cw { Motions::Tap } else { Motions::LeftTap })
+    }
+
+    /// The hole with its moves; the last move goes to the second clearance.
+    fn canned(mut self, motions: Motions) -> Canned {
+        let clear = self.r.max(self.surface + self.cycle.get(204));
+        let came = self.steps.iter().rev().find_map(|step| match step {
+            Step::Rapid(height) | Step::Feed(height, _) => Some(*height),
+            _ => None,
+        });
+        if came != Some(clear) {
+            self.steps.push(Step::Rapid(clear));
+        }
+        let dwell = self.cycle.get(211);
+        let hole = Drilling {
+            cycle: Drill { code: Name { letter: b'q', tenths: self.cycle.number * 10 }, motions, dwells: dwell > 0.0 },
+            at: self.stand.at,
+            plane: self.stand.plane,
+            r: self.r,
+            bottom: self.bottom,
+            clear,
+            dwell,
+            peck: self.peck,
+            shift: [0.0; 2],
+            level: self.bottom,
+            feed: self.feed,
+            heights: Heights::Given,
+        };
+        Canned { hole, steps: self.steps }
     }
 }
 

@@ -532,6 +532,17 @@ fn a_siemens_ranks_operators_and_rounds_whole_numbers() {
     assert_eq!(goes("DEF BOOL B=5\nX=B*4"), 4.0);
     assert_eq!(goes("DEF REAL N=2.5\nX=N*4"), 10.0);
     assert!(runs("X2 M70").1.unwrap().contains("M70"));
+    // while MCALL is active, a block with S or F drills again if G0 or G1 is active, also beside other words
+    let holes = |block: &str| {
+        let program = format!("S900 M3\nG0 Z50\nMCALL CYCLE81(50,0,2,-10)\nX10 Y20\n{block}\nMCALL");
+        let (actions, refused) = runs(&program);
+        assert_eq!(refused, None, "{block}");
+        actions.iter().filter(|action| matches!(action, Action::Hole(_))).count()
+    };
+    let drilled = [("M8", 1), ("S1000 M3", 2), ("F150", 2), ("F100 M8", 2), ("G0", 2), ("G4 F1", 1)];
+    for (block, count) in drilled {
+        assert_eq!(holes(block), count, "{block}");
+    }
     // G96 and G97 turn on feeds per revolution
     let modes = |block: &str| {
         let (actions, refused) = runs(block);

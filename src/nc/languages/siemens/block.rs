@@ -269,7 +269,9 @@ impl Words<'_> {
         if let Some(call) = &self.own.modal {
             let moves = block.has_axes() && !block.axes_are_taken()
                 || block.row(Group::Motion).is_some()
-                || block.has(bit(b'F') | bit(b'S')) && !block.has_modes() && !block.has_m();
+                // S or F alone calls the cycle, too, while G0 or G1 is active
+                || block.has(bit(b'F') | bit(b'S'))
+                    && self.state.modes.motion.is_some_and(|row| matches!(row.meaning, Meaning::Rapid | Meaning::Line));
             if moves {
                 block.call = Some(call.clone());
             }

@@ -50,7 +50,8 @@ type Word = Known | null;
 
 function word(program: Program, line: number, register: Register, letter: string): Word {
   const held = program.held(register, line);
-  return held && shown(letter, held);
+  // the register of a tool with a name has no number
+  return held && held.value < 1e9 ? shown(letter, held) : null;
 }
 
 /** The tool after a line, by its number or name. */

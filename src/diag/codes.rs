@@ -140,6 +140,7 @@ codes! {
     PF441 Warning "a tool that moves across before it retracts"
     PF442 Warning "a thread whose passes do not return"
     PF443 Warning "the program ends too early"
+    PF444 Warning "a sequence that ends the tool length"
     // PF5: modality
     PF501 Warning "a letter that is not modal, named as modal"
     PF502 Warning "a one-shot code, named as modal"

@@ -161,6 +161,12 @@ impl<'a> View<'a> {
         self.settings.codes().meaning(word.code()?)
     }
 
+    /// As bits, the axes along which a move by this code ends the tool length on the form's control.
+    pub fn ends_length(&self, word: &Word) -> u8 {
+        let row = word.code().and_then(|code| self.settings.control().row(code));
+        row.map_or(0, |row| row.runs.ends_length)
+    }
+
     /// Whether a word starts a cycle of the control.
     pub fn starts_cycle(&self, word: &Word) -> bool {
         self.meaning(word).is_some_and(Meaning::is_cycle)

@@ -43,6 +43,7 @@ mod increments_left_on;
 mod increments_mixed;
 mod index_without_retract;
 mod length_code_without_h;
+mod length_lost;
 mod length_register;
 mod letter_for_digit;
 mod letter_formats;
@@ -222,6 +223,7 @@ rules! {
     PF441 across_before_up (codes)
     PF442 thread_without_return (codes)
     PF443 ends_too_early (codes)
+    PF444 length_lost (codes)
     // modality
     PF501 modal_letters (codes)
     PF502 modal_codes (codes)

@@ -202,8 +202,11 @@ for name, part, count in (("M0 lines", "M0\n", 330_000), ("double blanks", "G1  
 @row("lint: 1 MB of words of one line", (33_000, 330_000), status=(1, 2), linear=False)
 def _(n): return lint(form(lines=many("M0", n)))
 
-@row("lint: two halves of a line", (10_000, 100_000))
+@row("lint: two halves of a line", (9_000, 90_000))
 def _(n): return lint(form(lines=many("M3", n // 2) + " " + many("G1", n // 2) + " " + many("X[h]", n // 2)))
+
+@row("lint: unknown variables without a letter", (3_000, 30_000))
+def _(n): return lint(form(lines=many("[q]", n)))
 
 @row("lint: commands times words", (4_000, 40_000))
 def _(n): return lint(form(head=many("Rename q X", n // 2, "\n"), lines=many("M0", n)))
@@ -317,7 +320,8 @@ def _(n):
     return ({"j.json": job(subs=subs, items=call % (n + 1)), "f.pf": form()},
             ["render", "j.json", "--form", "f.pf"])
 
-@row("render: calls of one subprogram", (2_000, 20_000))
+# both programs are larger than the buffer of 128 KB in which the proof jumps without reading again
+@row("render: calls of one subprogram", (20_000, 80_000), seconds=2)
 def _(n):
     calls = ',{"call":{"sub":2,"at":[0,0,50]}}' * n
     return {"j.json": job(subs=[SUB % (2, "")], items=calls), "f.pf": form()}, ["render", "j.json", "--form", "f.pf"]

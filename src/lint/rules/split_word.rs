@@ -10,9 +10,11 @@ use crate::syntax::{Piece, PieceKind, Word};
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
     for words in bodies.map(|body| view.codes(&body.words)) {
+        let texts = words.iter().filter(|word| !is_code(word)).count();
         for (i, word) in words.iter().enumerate() {
             let before = i.checked_sub(1).map(|before| &words[before]);
-            let Some((span, label, help, edit)) = split(before, word, words) else { continue };
+            let among_codes = texts == usize::from(!is_code(word));
+            let Some((span, label, help, edit)) = split(before, word, among_codes) else { continue };
             let diag = Diag::new(Code::PF112, "a malformed word").at(span, label).help(help);
             diags.push(match edit {
                 Some((title, span, text)) => diag.fix(title, false, vec![(span, text)]),
@@ -25,7 +27,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 type Found = (Span, &'static str, String, Option<(&'static str, Span, String)>);
 
 /// The fault of a word: its location, a label, the correct text and the edit. `None` if the word is correct.
-fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
+/// `among_codes`: each other word of the line consists of letters with values.
+fn split(before: Option<&Word>, word: &Word, among_codes: bool) -> Option<Found> {
     let letter = before.and_then(letter_alone);
     match (word.pieces.as_slice(), letter, before) {
         // as in `R [vclear]` and `G 1`
@@ -68,21 +71,18 @@ fn split(before: Option<&Word>, word: &Word, line: &[Word]) -> Option<Found> {
                 },
             ],
             None,
-            Some(before),
-        ) => {
-            let is_code = |word: &Word| word.pieces.iter().all(Piece::is_word);
-            let among = line.iter().filter(|other| !std::ptr::eq(*other, word)).all(is_code);
-            (among && is_code(before)).then(|| {
-                (
-                    *span,
-                    "a number without its letter",
-                    format!("write the letter before it, as `F[{}]`", name.text),
-                    None,
-                )
-            })
+            Some(_),
+        ) if among_codes => {
+            let help = format!("write the letter before it, as `F[{}]`", name.text);
+            Some((*span, "a number without its letter", help, None))
         }
         _ => None,
     }
+}
+
+/// Whether a word consists of letters with values.
+fn is_code(word: &Word) -> bool {
+    word.pieces.iter().all(Piece::is_word)
 }
 
 /// Whether the text is the name of a variable in lower-case letters.

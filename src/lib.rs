@@ -181,7 +181,7 @@ pub mod internals {
         pub use crate::setup::{SetupSheet, html, markdown};
     }
     pub mod source {
-        pub use crate::source::Source;
+        pub use crate::source::{Source, text_of};
     }
     pub mod survey {
         pub use crate::survey::Surveyor;

@@ -28,7 +28,9 @@ impl Source {
         let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         // the end-of-file mark of DOS
         let body = body.strip_suffix(b"\x1a").unwrap_or(body);
-        Self::with(name.into(), text_of(body).into_owned(), std::str::from_utf8(body).is_err())
+        let text = text_of(body);
+        let was_windows_1252 = matches!(text, Cow::Owned(_));
+        Self::with(name.into(), text.into_owned(), was_windows_1252)
     }
 
     /// Encodes a text in the encoding of this file.
@@ -111,7 +113,7 @@ fn beginnings(bytes: &[u8]) -> u32 {
 }
 
 /// The text of bytes: UTF-8, else Windows-1252, as in old files.
-pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+pub fn text_of(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().map(|&byte| windows_1252(byte)).collect()),

@@ -6,6 +6,7 @@ use super::align::{Comparison, Edit};
 use super::ignore::Ignore;
 use super::program::Program;
 use super::words::{Word, words};
+use crate::source::text_of;
 
 /// The numbers of changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -50,7 +51,7 @@ impl Summary {
         // a code is listed with its number, any other word only with its letter
         let is_code = |word: &Word| matches!(word.letter, 0 | b'G' | b'M');
         let name = |word: &Word, text: &[u8]| {
-            let text = String::from_utf8_lossy(&text[word.span.clone()]).trim().to_owned();
+            let text = text_of(&text[word.span.clone()]).trim().to_owned();
             match word.letter {
                 0 => text, // a comment is listed as written
                 _ if is_code(word) => text.to_ascii_uppercase(),

@@ -1,6 +1,7 @@
 //! The error for a block that is refused.
 
 use crate::diag::{Code, Diag, Location};
+use crate::source::text_of;
 
 /// The reason why a block is refused. The reader adds the line number of the block.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +32,7 @@ impl Fault {
 
     /// Converts the fault to a finding about this line of the program.
     pub fn diag(self, line: u64, text: &[u8]) -> Diag {
-        let block = String::from_utf8_lossy(text);
+        let block = text_of(text);
         let block = block.trim();
         let message = if block.is_empty() { self.message } else { format!("{}, in `{block}`", self.message) };
         let column = u32::try_from(self.column.unwrap_or(0)).unwrap_or(u32::MAX).saturating_add(1);
@@ -43,8 +44,8 @@ impl Fault {
 /// whole character.
 pub(super) fn quoted(line: &[u8], start: usize, end: usize) -> String {
     match line.get(start) {
-        Some(first) if first.is_ascii() => String::from_utf8_lossy(&line[start..end.max(start + 1)]).into_owned(),
-        _ => String::from_utf8_lossy(line.get(start..).unwrap_or_default()).chars().take(1).collect(),
+        Some(first) if first.is_ascii() => text_of(&line[start..end.max(start + 1)]).into_owned(),
+        _ => text_of(line.get(start..).unwrap_or_default()).chars().take(1).collect(),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
 use crate::nc::{Action, Cooling, Kind, Rotation, RunError, RunSettings, Simulator, Standing, tokens};
+use crate::source::text_of;
 use crate::terminal::escaped;
 use crate::toolpath::{FeedMode, StopKind};
 
@@ -281,7 +282,7 @@ impl<'t> Search<'t> {
             Target::Operation(name) => items.iter().any(|item| match item.action {
                 Action::Comment(start, end) => {
                     let text = run.text().get(start..end).unwrap_or_default();
-                    String::from_utf8_lossy(text).to_lowercase().contains(&name.to_lowercase())
+                    text_of(text).to_lowercase().contains(&name.to_lowercase())
                 }
                 _ => false,
             }),

@@ -9,6 +9,7 @@ use super::program;
 use crate::diff::{Comparison, Options, Program, compare};
 use crate::nc::RunSettings;
 use crate::picture::draw;
+use crate::source::text_of;
 use crate::terminal::escaped;
 
 /// Maximum number of hunks that are shown.
@@ -16,7 +17,7 @@ const MOST: usize = 10_000;
 
 /// Adds the text and the motions of an old program to the scene.
 pub fn draw_old(scene: &mut Scene, old: &[u8], settings: RunSettings) {
-    program::text(scene, "old/", &String::from_utf8_lossy(old));
+    program::text(scene, "old/", &text_of(old));
     if let Ok(picture) = draw(Cursor::new(old), settings) {
         program::picture(scene, "old/", &picture);
     }

@@ -32,6 +32,7 @@ use crate::post::{Files, Options, Post, Program, Proof};
 use crate::preflight::preflight_by_block;
 use crate::sema::{Limits, analyse};
 use crate::source::Source;
+use crate::source::text_of;
 use crate::terminal::escaped;
 use crate::toolpath::Units;
 
@@ -152,7 +153,7 @@ pub fn drawn(program: impl Read + Seek, settings: RunSettings) -> Scene {
 pub fn of_program(name: &str, text: &[u8], picture: &Picture) -> Scene {
     let mut scene = Scene::new();
     scene.say("job", json!({ "name": escaped(name) }));
-    program::text(&mut scene, "", &String::from_utf8_lossy(text));
+    program::text(&mut scene, "", &text_of(text));
     program::picture(&mut scene, "", picture);
     scene
 }

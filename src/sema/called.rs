@@ -129,7 +129,7 @@ impl Analysis {
         open: &mut Vec<String>,
         load: &mut dyn FnMut(&str) -> Result<Source, String>,
     ) {
-        let name = statement.args.iter().map(|a| a.text.as_str()).collect::<Vec<_>>().join(" ");
+        let name = statement.argument();
         let problem = if name.is_empty() {
             return; // another finding reports a missing argument
         } else if is_outside(&name) {

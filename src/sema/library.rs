@@ -17,7 +17,7 @@ impl Analysis {
         if !has_sequences(&items[..at]) || !has_sequences(&items[at..]) {
             return None; // a single post with two names
         }
-        let names: Vec<String> = posts.iter().map(|(_, post)| format!("`{}`", text(post))).collect();
+        let names: Vec<String> = posts.iter().map(|(_, post)| format!("`{}`", post.argument())).collect();
         self.report(
             Diag::new(Code::PF006, format!("the file contains {} posts: {}", names.len(), names.join(", ")))
                 .at(second.line.span, "another post begins here")
@@ -39,10 +39,6 @@ fn named(item: &Head) -> Option<&Statement> {
     }
 }
 
-fn text(statement: &Statement) -> String {
-    statement.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" ")
-}
-
 /// Extracts one post of a file by its name; upper and lower case are equal. The lines of the other posts become empty, so line
 /// numbers do not change.
 ///
@@ -54,7 +50,7 @@ pub fn one_post(file: Source, name: &str) -> Result<Source, Vec<String>> {
         .items
         .iter()
         .filter_map(|item| named(item))
-        .map(|post| (text(post), post.line.span.start as usize))
+        .map(|post| (post.argument(), post.line.span.start as usize))
         .collect();
     let Some(row) = posts.iter().position(|(own, _)| own.eq_ignore_ascii_case(name)) else {
         return Err(posts.into_iter().map(|(name, _)| name).collect());

@@ -107,6 +107,13 @@ pub struct Statement {
     pub args: Vec<Spanned>,
 }
 
+impl Statement {
+    /// The words after the first word as one text, such as a file name with spaces.
+    pub fn argument(&self) -> String {
+        self.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" ")
+    }
+}
+
 /// A sequence, from its name line to its `End`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SequenceNode {

@@ -1,5 +1,7 @@
 //! Keeps the texts of the last lines of a program, because findings show the block that was just run.
 
+use crate::source::text_of;
+
 /// Number of lines kept.
 const KEPT: usize = 16;
 
@@ -36,6 +38,6 @@ impl Recent {
     /// Text of a line of the program, if the line is still kept.
     pub fn text(&self, line: u64) -> Option<String> {
         let (_, text) = self.lines.iter().find(|(number, _)| *number == line)?;
-        Some(String::from_utf8_lossy(text).trim().to_owned())
+        Some(text_of(text).trim().to_owned())
     }
 }

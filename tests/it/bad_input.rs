@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::support::folder::{self, err};
+use crate::support::folder::{self, err, out};
 use crate::support::{job, mill, root};
 
 struct Folder(std::path::PathBuf);
@@ -612,4 +612,35 @@ fn a_job_is_not_a_program() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
         assert!(said.contains("is a job, not an NC program"), "{arguments:?}: {said}");
     }
+}
+
+/// A comment of an old program in Windows-1252 lost its letters in every command that shows it.
+#[test]
+fn letters_of_old_programs_are_shown() {
+    let folder = folder::Folder::new("old-letters");
+    let program = |x: &str| {
+        let text = format!(
+            "%\nO1\nG21 G90 G17 G40 G49 G80\nT1 M6\n(FR\u{c4}SEN)\nG54 G0 X0 Y0 S500 M3\nG43 H1 Z10.\nG1 Z-1. F100.\nX{x}\n\
+             G0 Z50.\nM30\n%\n"
+        );
+        text.chars().map(|c| c as u8).collect::<Vec<_>>()
+    };
+    folder.write("old.nc", program("1."));
+    folder.write("new.nc", program("1.\nA\u{e4}"));
+    folder.write("empty.nc", "%\n");
+    for (arguments, shown) in [
+        (&["simulate", "old.nc"][..], "comment  FR\u{c4}SEN"),
+        (&["simulate", "new.nc"], "`\u{e4}`"),
+        (&["diff", "old.nc", "empty.nc"], "FR\u{c4}SEN"),
+        (&["diff", "old.nc", "empty.nc", "--format", "json"], "FR\u{c4}SEN"),
+        (&["diff", "old.nc", "empty.nc", "--format", "html"], "FR\u{c4}SEN"),
+        (&["diff", "old.nc", "new.nc"], "A\u{e4}"),
+    ] {
+        let output = folder.run(arguments);
+        let said = out(&output) + &err(&output);
+        assert!(said.contains(shown) && !said.contains('\u{fffd}'), "{arguments:?}: {said}");
+    }
+    // the comment is found, and its bytes are printed unchanged
+    let restart = folder.run(&["restart", "old.nc", "--operation", "fr\u{e4}sen"]);
+    assert!(restart.stdout.windows(7).any(|bytes| bytes == b"(FR\xc4SEN"), "{}", err(&restart));
 }

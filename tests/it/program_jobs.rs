@@ -3,7 +3,7 @@
 use crate::support::control;
 use std::io::Cursor;
 
-use crate::support::{check, mill, plain_post};
+use crate::support::{check, job_options, mill, plain_post};
 use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunSettings, read_program};
 use postform::internals::render::{Options, Renderer};
@@ -21,13 +21,7 @@ fn printed_by(form: &str, program: &str) -> Result<(String, Vec<String>), String
     let checked = check(form);
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions {
-        settings: RunSettings::new(control("fanuc")),
-        units: None,
-        tool: None,
-        tool_names: &[],
-        start: None,
-    };
+    let options = job_options(RunSettings::new(control("fanuc")));
     let mut warnings = Vec::new();
     match read_program(Cursor::new(program), &options, &mut warnings, &mut renderer) {
         Ok(()) => {
@@ -221,7 +215,7 @@ fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
         let form = compile(&checked.form);
         let mut renderer = Renderer::new(&form, Options::default());
         let settings = RunSettings::new(control("fanuc"));
-        let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start };
+        let options = JobOptions { start, ..job_options(settings) };
         let mut warnings = Vec::new();
         let read = read_program(Cursor::new(program), &options, &mut warnings, &mut renderer);
         let text = String::from_utf8(std::mem::take(renderer.text())).unwrap();

@@ -4,11 +4,11 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::program_commands::{postform, text};
-use crate::support::{check, control, plain_post, root};
+use crate::support::{check, control, job_options, plain_post, root};
 use crate::verify::{document, inches, post, rendered, verified};
 use postform::internals::compile::compile;
 use postform::internals::json::read_lines;
-use postform::internals::nc::{JobOptions, RunSettings, read_program};
+use postform::internals::nc::{RunSettings, read_program};
 use postform::internals::render::{Cycles, Options as RenderOptions, Renderer};
 use postform::internals::verify::{
     Batch, Comparer, Equivalences, Expectation, Kept, UNPROVEN, Verdict, prove_beside, tolerances,
@@ -416,7 +416,7 @@ fn programs_are_identical_to_themselves() {
         let program = format!("{head}{body}M30\n%\n");
         let settings = RunSettings::new(control("fanuc"));
         let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None);
-        let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start: None };
+        let options = job_options(settings);
         let read = read_program(Cursor::new(program.clone()), &options, &mut Vec::new(), &mut comparer);
         let verdict = comparer.verdict().unwrap();
         assert!(verdict.is_proven(), "{name}: {read:?} {verdict:#?}");

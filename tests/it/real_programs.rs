@@ -6,7 +6,7 @@ use crate::support::control;
 use std::fs;
 use std::io::Cursor;
 
-use crate::support::root;
+use crate::support::{job_options, root};
 use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunError, RunSettings, Simulator, Tally, Unpointed, read_program};
 use postform::internals::render::{Options, Renderer};
@@ -75,7 +75,7 @@ fn real_programs_printed_by_another_form_make_the_same_motions() {
         if expected.is_err() {
             continue;
         }
-        let options = JobOptions { settings, units, tool: None, tool_names: &[], start: None };
+        let options = JobOptions { units, ..job_options(settings) };
         let read = |sink: &mut dyn Sink| read_program(Cursor::new(&bytes), &options, &mut Vec::new(), sink);
         let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
         if let Err(error) = read(&mut renderer) {

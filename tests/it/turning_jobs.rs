@@ -3,9 +3,9 @@
 
 use std::io::Cursor;
 
-use crate::support::{check, control, plain_post};
+use crate::support::{check, control, job_options, plain_post};
 use postform::internals::compile::compile;
-use postform::internals::nc::{JobOptions, RunSettings, read_program};
+use postform::internals::nc::{RunSettings, read_program};
 use postform::internals::render::{Options, Renderer};
 use postform::toolpath::ReadError;
 
@@ -17,7 +17,7 @@ fn printed(program: &str) -> Result<(Vec<String>, Vec<String>), String> {
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options::default());
     let settings = RunSettings::new(control("fanuc-lathe"));
-    let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start: None };
+    let options = job_options(settings);
     let mut warnings = Vec::new();
     match read_program(Cursor::new(program), &options, &mut warnings, &mut renderer) {
         Ok(()) => {

@@ -3,7 +3,7 @@
 
 use std::io::Cursor;
 
-use crate::support::{check, control};
+use crate::support::{check, control, job_options};
 use crate::verify::{document, inches, post, rendered, verified};
 use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunSettings, read_program};
@@ -87,7 +87,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     let checked = check(&post("haas.pf"));
     let haas = compile(&checked.form);
     let mut renderer = Renderer::new(&haas, Options { program: Some(1), ..Options::default() });
-    let options = JobOptions { settings, units: None, tool: None, tool_names: &[], start: None };
+    let options = job_options(settings);
     let read = read_program(Cursor::new(changed.as_str()), &options, &mut Vec::new(), &mut renderer);
     assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("an unknown machine position")));
 }
@@ -97,8 +97,7 @@ fn printed(program: &str, start: Option<[f64; 3]>) -> Result<String, String> {
     let checked = check(&crate::support::plain_post("haas.pf"));
     let form = compile(&checked.form);
     let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
-    let options =
-        JobOptions { settings: RunSettings::new(control("fanuc")), units: None, tool: None, tool_names: &[], start };
+    let options = JobOptions { start, ..job_options(RunSettings::new(control("fanuc"))) };
     match read_program(Cursor::new(program), &options, &mut Vec::new(), &mut renderer) {
         Ok(()) => Ok(String::from_utf8(std::mem::take(renderer.text())).unwrap()),
         Err(ReadError::Job(diag)) => Err(diag.code.name().into()),

@@ -4,11 +4,11 @@
 use crate::support::control;
 use std::io::Cursor;
 
-use crate::support::{check, plain_post, wrong};
+use crate::support::{check, job_options, plain_post, wrong};
 use postform::internals::compile::compile;
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
-use postform::internals::nc::{JobOptions, RunSettings, read_program};
+use postform::internals::nc::{RunSettings, read_program};
 use postform::internals::render::{Cycles, Options, Renderer};
 use postform::internals::sema::Checked;
 use postform::internals::verify::{Comparer, Equivalences, Expectation, Verdict};
@@ -299,13 +299,7 @@ fn without_tap() -> String {
 fn becomes_a_job(fanuc: &Checked, text: &str, posts: &[&str]) {
     let source = document(text);
     let old = rendered(fanuc, &source, Cycles::Form);
-    let options = JobOptions {
-        settings: RunSettings::new(control("fanuc")),
-        units: None,
-        tool: None,
-        tool_names: &[],
-        start: None,
-    };
+    let options = job_options(RunSettings::new(control("fanuc")));
     let mut warnings = Vec::new();
     let seen = std::cell::RefCell::new(0);
     let job = |sink: &mut dyn Sink| {

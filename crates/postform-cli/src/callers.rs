@@ -53,5 +53,5 @@ pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
 /// The name of the file that a statement calls.
 fn called(statement: &Statement) -> Option<String> {
     let calls = matches!(CommandId::parse(&statement.name.text), Some(CommandId::Call | CommandId::CallMe));
-    calls.then(|| statement.args.iter().map(|arg| arg.text.as_str()).collect::<Vec<_>>().join(" "))
+    calls.then(|| statement.argument())
 }

@@ -58,10 +58,9 @@ pub fn open_program(path: &Path) -> Result<File, String> {
     let mut file = Again::open(path)?.file;
     let mut head = Vec::new();
     let fail = |error: io::Error| io_message("read", path, &error);
-    file.by_ref().take(256).read_to_end(&mut head).map_err(fail)?;
+    file.by_ref().take(LOOKED_AT).read_to_end(&mut head).map_err(fail)?;
     file.rewind().map_err(fail)?;
-    let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head).trim_ascii_start();
-    if head.starts_with(b"{\"") || head.starts_with(b"{\n") || head.starts_with(b"{\r") || head.starts_with(b"{ ") {
+    if matches!(Format::of_content(&head), Some(Format::Json | Format::JsonLines)) {
         let name = name(path);
         return Err(format!(
             "error: {name} is a job, not an NC program\n  help: `postform render {name} --form FORM` prints the program of a job"

@@ -1,12 +1,13 @@
 //! The texts of the program's lines, for findings.
 
 use super::Program;
+use crate::source::text_of;
 use crate::verify::recent_lines::Recent;
 
 impl Program<'_> {
     /// The text of the current line.
     pub fn text(&self) -> String {
-        String::from_utf8_lossy(self.simulator.text()).trim().to_owned()
+        text_of(self.simulator.text()).trim().to_owned()
     }
 
     /// The text of a recent line; empty if the line is no longer kept.

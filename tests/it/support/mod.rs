@@ -13,6 +13,7 @@ use postform::internals::cl::read_cl;
 use postform::internals::compile::{Program, compile};
 use postform::internals::control::Control;
 use postform::internals::json::{read_document, read_lines};
+use postform::internals::nc::{JobOptions, RunSettings};
 use postform::internals::post::taken;
 use postform::internals::render::{Options, Renderer, TraceLine, survey_terms};
 use postform::internals::sema::{Checked, Limits, analyse, one_post};
@@ -23,6 +24,11 @@ use postform::toolpath::{Flow, ReadError, Sink, Stop};
 /// A built-in control; for an unknown name, the default control.
 pub fn control(name: &str) -> &'static Control {
     Control::named(name).unwrap_or_else(Control::usual)
+}
+
+/// Options for a program that is read as a job, without values that the program lacks.
+pub fn job_options(settings: RunSettings) -> JobOptions<'static> {
+    JobOptions { settings, units: None, tool: None, tool_names: &[], start: None }
 }
 
 /// The folder of the repository.

@@ -7,6 +7,7 @@ use std::ops::Range;
 use postform::internals::diff::{Comparison, Edit, Hunk, Options, Program, Summary, changed_spans};
 use postform::internals::nc::RunSettings;
 use postform::internals::picture::{Sheet, View, draw, svg_over};
+use postform::internals::source::text_of;
 use postform::internals::terminal::escaped;
 
 use super::sides::Side;
@@ -145,7 +146,7 @@ fn cell(line: Option<usize>, text: &[u8], marked: &[Range<usize>], class: &str) 
 /// Text of a program in a page, escaped so that it contains no markup.
 fn safe(text: &[u8]) -> String {
     let mut out = String::new();
-    for c in escaped(&String::from_utf8_lossy(text)).chars() {
+    for c in escaped(&text_of(text)).chars() {
         match c {
             '&' => out += "&amp;",
             '<' => out += "&lt;",

@@ -3,13 +3,14 @@
 use serde_json::{Value, json};
 
 use postform::internals::diff::{Comparison, Edit, Options, Summary, changed_spans};
+use postform::internals::source::text_of;
 use postform::internals::verify::Motions;
 
 use super::sides::Side;
 
 /// The whole comparison.
 pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summary, options: &Options) -> Value {
-    let text = |side: &Side, line: usize| String::from_utf8_lossy(side.program.text(line)).into_owned();
+    let text = |side: &Side, line: usize| text_of(side.program.text(line)).into_owned();
     let edit = |edit: &Edit| -> Value {
         match *edit {
             Edit::Removed(line) => json!({ "kind": "removed", "old": line + 1, "old_text": text(old, line) }),

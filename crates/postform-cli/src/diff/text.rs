@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use postform::internals::diff::{Comparison, Edit, Hunk, Options, Summary, changed_spans};
+use postform::internals::source::text_of;
 use postform::internals::terminal::escaped;
 use postform::internals::verify::Motions;
 
@@ -212,7 +213,7 @@ fn fitted(text: &str, width: usize) -> String {
 }
 
 fn shown(line: &[u8]) -> String {
-    escaped(&String::from_utf8_lossy(line))
+    escaped(&text_of(line))
 }
 
 /// Maximum number of kinds of changes in the summary.

@@ -2,6 +2,7 @@
 
 use postform::internals::nc::{Action, Item, RunSettings, Simulator, plane_name, stop_name, turn_name};
 use postform::internals::number::quantise;
+use postform::internals::source::text_of;
 use postform::internals::terminal::escaped;
 
 /// The display of positions.
@@ -211,7 +212,7 @@ pub fn line(item: &Item, run: &Simulator<'_>, Shown { unknown, across, axes }: S
         Action::Comment(start, end) => {
             text.byte(b' ');
             text.head(item.line, b"comment");
-            let comment = String::from_utf8_lossy(run.text().get(*start..*end).unwrap_or_default());
+            let comment = text_of(run.text().get(*start..*end).unwrap_or_default());
             out.extend_from_slice(&text.bytes[text.at..text.bytes.len() - 1]);
             out.extend_from_slice(escaped(comment.trim()).as_bytes());
             out.push(b'\n');

@@ -67,11 +67,11 @@ pub struct Diag {
     /// The locations in the form, the main one first.
     pub labels: Vec<Label>,
     /// The location in the job or in the program.
-    pub place: Option<Location>,
+    pub place: Option<Box<Location>>,
     /// A proposed correction.
     pub help: Option<String>,
     /// The correction as an edit of the form.
-    pub fix: Option<Fix>,
+    pub fix: Option<Box<Fix>>,
 }
 
 impl Diag {
@@ -92,13 +92,14 @@ impl Diag {
 
     /// Adds a location in the form; the first one added is the main one.
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.labels.reserve_exact(1); // most findings have one location, and a form may have 100,000 findings
         self.labels.push(Label { span, text: shown(text.into()) });
         self
     }
 
     /// Adds the location in the job or in the program.
     pub fn place(mut self, place: impl Into<Location>) -> Self {
-        self.place = Some(place.into());
+        self.place = Some(Box::new(place.into()));
         self
     }
 
@@ -110,7 +111,7 @@ impl Diag {
 
     /// Adds an edit that fixes the finding.
     pub fn fix(mut self, title: impl Into<String>, safe: bool, edits: Vec<(Span, String)>) -> Self {
-        self.fix = Some(Fix { title: shown(title.into()), safe, edits });
+        self.fix = Some(Box::new(Fix { title: shown(title.into()), safe, edits }));
         self
     }
 
@@ -126,8 +127,9 @@ const LONGEST: usize = 400;
 const LONGEST_WORD: usize = 100;
 
 fn shown(text: String) -> String {
-    let text = if text.chars().any(is_invisible) { visible(&text) } else { text };
+    let mut text = if text.chars().any(is_invisible) { visible(&text) } else { text };
     if text.len() <= LONGEST_WORD {
+        text.shrink_to_fit(); // `format!` reserves twice the length, and a form may have 100,000 findings
         return text;
     }
     let words: Vec<String> = text.split(' ').map(|word| cut(word, LONGEST_WORD, "…")).collect();

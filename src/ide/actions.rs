@@ -63,7 +63,7 @@ impl Document {
             let Some(span) = diag.labels.first().map(|label| label.span).filter(|span| touches(*span, within)) else {
                 continue;
             };
-            if let Some(fix) = &diag.fix.clone().or_else(|| suggestion(diag, self.files())) {
+            if let Some(fix) = &diag.fix.as_deref().cloned().or_else(|| suggestion(diag, self.files())) {
                 let before = if fix.safe { None } else { before.get_or_insert_with(|| print(&Changed::new())).clone() };
                 actions.push(self.fixing(index, diag, fix, before.as_deref(), print));
             }

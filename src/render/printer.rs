@@ -163,8 +163,7 @@ impl Printer {
     /// Adds a note on the current item and a line of the form.
     pub fn note_at(&mut self, code: Code, message: String, help: &str, form: Option<Span>) {
         if !self.notes.iter().any(|n| n.code == code && n.message == message) && self.notes.len() < 100 {
-            let mut diag = Diag::new(code, message).help(help);
-            diag.place = Some(self.place.into());
+            let diag = Diag::new(code, message).help(help).place(self.place);
             self.notes.push(match form {
                 Some(span) => diag.at(span, "printed from here"),
                 None => diag,

@@ -56,8 +56,8 @@ fn finding(diag: &Diag, files: &[Source]) -> Value {
         "message": diag.message,
         "at": diag.labels.first().map_or(Value::Null, |label| place(label.span)),
         "labels": labels,
-        "job": diag.place.as_ref().map(Location::to_string),
-        "place": diag.place.as_ref().map(location),
+        "job": diag.place.as_deref().map(Location::to_string),
+        "place": diag.place.as_deref().map(location),
         "help": diag.help,
         "fix": fix,
     })

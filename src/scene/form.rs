@@ -60,7 +60,7 @@ pub fn finding(diag: &Diag, files: &[Source]) -> Value {
         .iter()
         .filter_map(|label| Some(json!({ "at": place(label.span, files)?, "text": label.text })))
         .collect();
-    let fix = diag.fix.clone().or_else(|| suggestion(diag, files)).map(|fix| {
+    let fix = diag.fix.as_deref().cloned().or_else(|| suggestion(diag, files)).map(|fix| {
         let edits =
             fix.edits.iter().filter_map(|(span, text)| Some(json!({ "at": place(*span, files)?, "text": text })));
         json!({ "title": fix.title, "safe": fix.safe, "edits": edits.collect::<Vec<Value>>() })
@@ -71,7 +71,7 @@ pub fn finding(diag: &Diag, files: &[Source]) -> Value {
         "message": diag.message,
         "help": diag.help,
         "labels": labels,
-        "place": diag.place.as_ref().map(Location::to_string),
+        "place": diag.place.as_deref().map(Location::to_string),
         "fix": fix,
     })
 }

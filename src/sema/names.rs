@@ -43,22 +43,20 @@ pub fn variable(name: &Spanned, settings: &Settings, diags: &mut Vec<Diag>) -> O
         let known = VARIABLES.iter().filter(|v| v.machines.has(machine)).map(|v| v.name);
         let known = known.chain(TEXTS.iter().map(|text| text.name));
         let known = known.chain(settings.properties.iter().map(|property| property.name.as_str()));
-        let mut diag = Diag::new(Code::PF202, format!("`{}` is not a variable", name.text)).at(name.span, "unknown");
-        let other = OTHERS.iter().find(|(other, _)| name.text.eq_ignore_ascii_case(other));
-        diag.help =
-            other.map(|(_, own)| format!("the variable is called `{own}`")).or_else(|| did_you_mean(&name.text, known));
-        if name.text.split_once(':').is_some_and(|(name, _)| VarId::parse(name).is_some()) {
-            diag.help =
-                Some("only texts have a width: the width of a number comes from the format of its letter".into());
-        } else if let Some(base) = name.text.strip_suffix("^2").filter(|base| VarId::parse(base).is_some()) {
-            diag.help = Some(format!("write a power as a product: `[{base}*{base}]`"));
+        let of_number = |base: &str| VarId::parse(base).is_some();
+        let help = if name.text.split_once(':').is_some_and(|(name, _)| of_number(name)) {
+            "only texts have a width: the width of a number comes from the format of its letter".into()
+        } else if let Some(base) = name.text.strip_suffix("^2").filter(|base| of_number(base)) {
+            format!("write a power as a product: `[{base}*{base}]`")
         } else if name.text.starts_with('#') {
-            diag.help =
-                Some(format!("put a variable of the control in backquotes with its letter: `` `X{}` ``", name.text));
-        } else if diag.help.is_none() {
-            diag.help = Some(no_name(&name.text));
-        }
-        diags.push(diag);
+            format!("put a variable of the control in backquotes with its letter: `` `X{}` ``", name.text)
+        } else if let Some((_, own)) = OTHERS.iter().find(|(other, _)| name.text.eq_ignore_ascii_case(other)) {
+            format!("the variable is called `{own}`")
+        } else {
+            did_you_mean(&name.text, known).unwrap_or_else(|| no_name(&name.text))
+        };
+        let message = format!("`{}` is not a variable", name.text);
+        diags.push(Diag::new(Code::PF202, message).at(name.span, "unknown").help(help));
         return None;
     };
     let machines = var.row().machines;

@@ -226,7 +226,7 @@ impl Analysis {
     /// conversational controls use words such as `CALL` and `NAME` too.
     fn command_inside(&mut self, body: &Body) {
         let Some((first, args)) = body.words.split_first().filter(|(_, args)| !args.is_empty()) else { return };
-        let [Piece { kind: PieceKind::Stray(name), .. }] = first.pieces.as_slice() else { return };
+        let [Piece { kind: PieceKind::Stray(name), .. }] = first.pieces.as_ref() else { return };
         let Some(id) = CommandId::parse(name).filter(|id| !matches!(id.row().args, Args::Text)) else { return };
         let spanned = |word: &Word| {
             let text = self.files[word.span.file as usize].slice(word.span).to_owned();
@@ -274,7 +274,7 @@ fn torn_end(body: &Body) -> Option<(String, Span, &'static str)> {
     let texts: Option<Vec<&str>> = body
         .words
         .iter()
-        .map(|word| match word.pieces.as_slice() {
+        .map(|word| match word.pieces.as_ref() {
             [Piece { kind: PieceKind::Stray(text), .. }] => Some(text.as_str()),
             _ => None,
         })
@@ -299,6 +299,6 @@ struct Lines {
 
 fn is_none(body: &[Body]) -> bool {
     body.iter().flat_map(|b| &b.words).all(|word| {
-        matches!(word.pieces.as_slice(), [Piece { kind: PieceKind::Stray(text), .. }] if text.eq_ignore_ascii_case("None"))
+        matches!(word.pieces.as_ref(), [Piece { kind: PieceKind::Stray(text), .. }] if text.eq_ignore_ascii_case("None"))
     })
 }

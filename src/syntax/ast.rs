@@ -204,7 +204,7 @@ pub struct Word {
     /// Location.
     pub span: Span,
     /// The parts of the word. A word has several parts if a space is missing, or if it is a text with variables.
-    pub pieces: Vec<Piece>,
+    pub pieces: Box<[Piece]>,
 }
 
 /// A part of a word.
@@ -256,7 +256,7 @@ pub enum PieceKind {
     /// A comment of the program, such as `(TOOL [tool])`.
     Note {
         /// The text and variables of the comment in their order, without the comment marks.
-        parts: Vec<Piece>,
+        parts: Box<[Piece]>,
         /// Whether the comment has its closing mark.
         closed: bool,
     },

@@ -65,7 +65,8 @@ fn lines(source: &Source, file: u32) -> Form {
 }
 
 /// Adds a sequence as an item. The sequence is boxed, because most items are lines and much smaller.
-fn boxed(node: SequenceNode) -> Head {
+fn boxed(mut node: SequenceNode) -> Head {
+    node.body.shrink_to_fit();
     Head::Sequence(Box::new(node))
 }
 
@@ -265,7 +266,7 @@ fn body_line(at: At, text: &str) -> Result<Body, End> {
     let mut body = Body { line: at.line(text), words: Vec::new(), directive: None };
     if is_too_deep(text) {
         let span = body.line.span;
-        body.words.push(Word { span, pieces: vec![Piece { span, kind: PieceKind::Stray(text.to_owned()) }] });
+        body.words.push(Word { span, pieces: [Piece { span, kind: PieceKind::Stray(text.to_owned()) }].into() });
         return Ok(body);
     }
     for pair in pairs(Rule::body_line, text) {

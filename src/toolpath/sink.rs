@@ -31,7 +31,7 @@ impl Stop {
     /// Adds a location to a finding that has no location.
     pub(crate) fn placed(mut self, place: impl FnOnce() -> Location) -> Stop {
         if let Stop::Wrong(diag) = &mut self {
-            diag.place.get_or_insert_with(place);
+            diag.place.get_or_insert_with(|| Box::new(place()));
         }
         self
     }

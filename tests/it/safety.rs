@@ -804,7 +804,7 @@ fn events_that_can_not_be_are_faults_of_postform() {
     let hole = || Event::Hole(Hole { at: Axes::new(&[1.0, 1.0, 0.0]), depth: None });
     let place = Place { line: 7, column: 1, ..Place::default() };
     let error = wrong(renderer.event(hole(), place));
-    assert_eq!((error.code.name(), error.place), ("PX001", Some(Location::at(7, 1))));
+    assert_eq!((error.code.name(), error.place.map(|place| *place)), ("PX001", Some(Location::at(7, 1))));
     renderer.push(Event::Finish, place).unwrap();
     assert_eq!(wrong(renderer.event(Event::Rapid(Axes::new(&[0.0; 3])), place)).code.name(), "PX001");
     assert_eq!(wrong(Summary::default().event(hole(), place)).code.name(), "PX001");

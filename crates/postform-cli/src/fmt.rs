@@ -7,7 +7,6 @@ use postform::Limits;
 use postform::diag::{Code, Diag};
 use postform::internals::fmt::format;
 use postform::internals::lint::Changed;
-use postform::internals::sema::Checked;
 use postform::internals::source::Source;
 
 use super::args::FmtArgs;
@@ -82,10 +81,8 @@ fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
         return Ok(Laid::LeftOut(format!("{why}\n  help: {help}")));
     }
     let file = FormFile::read(path, Limits::Extended)?;
-    let checked = file.analyse(&Changed::new());
-    if let Some(unread) = unread(&checked).filter(|_| !args.force) {
-        let line = unread.line(&checked.files);
-        return Ok(Laid::LeftOut(format!("{line}\n  help: {name} is not changed until every line of it can be read")));
+    if !args.force && let Some(unread) = unread(&file) {
+        return Ok(Laid::LeftOut(format!("{unread}\n  help: {name} is not changed until every line of it can be read")));
     }
     let after = format(&file.source());
     if file.bytes() == after.as_bytes() {
@@ -97,10 +94,12 @@ fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
     Ok(Laid::Otherwise)
 }
 
-/// The error at the first line that makes no sense, in the file itself and not in a called form.
-fn unread(checked: &Checked) -> Option<&Diag> {
+/// The message about the first line that makes no sense, in the file itself and not in a called form.
+fn unread(file: &FormFile) -> Option<String> {
+    let checked = file.analyse(&Changed::new());
     let own = |diag: &&Diag| diag.labels.first().is_some_and(|label| label.span.file == 0);
-    checked.diags.iter().filter(own).find(|diag| diag.is_error() && UNREAD.contains(&diag.code))
+    let unread = checked.diags.iter().filter(own).find(|diag| diag.is_error() && UNREAD.contains(&diag.code))?;
+    Some(unread.line(&checked.files))
 }
 
 fn filter(path: &Path, check: bool) -> Result<Ending, String> {

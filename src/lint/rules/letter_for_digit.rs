@@ -30,7 +30,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 
 /// The text of a word, if the word has no variables.
 fn plain(word: &Word) -> Option<(&str, Span)> {
-    match word.pieces.as_slice() {
+    match word.pieces.as_ref() {
         [Piece { kind: PieceKind::Stray(text), span }] => Some((text, *span)),
         _ => None,
     }

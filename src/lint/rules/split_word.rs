@@ -30,7 +30,7 @@ type Found = (Span, &'static str, String, Option<(&'static str, Span, String)>);
 /// `among_codes`: each other word of the line consists of letters with values.
 fn split(before: Option<&Word>, word: &Word, among_codes: bool) -> Option<Found> {
     let letter = before.and_then(letter_alone);
-    match (word.pieces.as_slice(), letter, before) {
+    match (word.pieces.as_ref(), letter, before) {
         // as in `R [vclear]` and `G 1`
         ([piece], Some(letter), Some(before)) if value(piece).is_some() => {
             let better = format!("{letter}{}", value(piece)?);
@@ -92,7 +92,7 @@ fn is_variable(text: &str) -> bool {
 
 /// The letter of a word that consists of one capital letter.
 fn letter_alone(word: &Word) -> Option<char> {
-    match word.pieces.as_slice() {
+    match word.pieces.as_ref() {
         [Piece { kind: PieceKind::Stray(text), .. }] if text.len() == 1 => {
             text.chars().next().filter(char::is_ascii_uppercase)
         }

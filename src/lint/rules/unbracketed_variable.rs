@@ -11,7 +11,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let PieceKind::Stray(text) = &piece.kind else { continue };
             let (span, letter, name) = match word.pieces.get(i + 1).map(|next| (&next.kind, next.span)) {
                 // as in `X(h)`
-                Some((PieceKind::Note { parts, closed: true }, end)) => match parts.as_slice() {
+                Some((PieceKind::Note { parts, closed: true }, end)) => match parts.as_ref() {
                     [Piece { kind: PieceKind::Stray(name), .. }] => (piece.span.to(end), text.as_str(), name.as_str()),
                     _ => continue,
                 },

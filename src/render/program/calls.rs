@@ -32,10 +32,7 @@ fn undefined<T>(number: f64) -> Done<T> {
 
 /// Replaces the location of a fault.
 fn at<T>(place: Place, done: Done<T>) -> Done<T> {
-    done.map_err(|mut diag: Box<Diag>| {
-        diag.place = Some(place.into());
-        diag
-    })
+    done.map_err(|diag: Box<Diag>| Box::new(diag.place(place)))
 }
 
 /// Prints a call. A subprogram moves the tool, so the known state is discarded before and after the call.

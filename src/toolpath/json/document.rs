@@ -75,7 +75,7 @@ fn read_text<T: Text>(
         return Err(ReadError::Job(Box::new(Diag::new(Code::PJ007, "the job is empty").help("write a job file"))));
     }
     if let Some(mut diag) = not_utf_8(&window.buffer.borrow()[..window.to.get()]) {
-        diag.place = Some(Location::at(1, 1));
+        diag = diag.place(Location::at(1, 1));
         return Err(ReadError::Job(Box::new(diag)));
     }
     let mut text = serde_json::Deserializer::from_reader(reader);

@@ -134,7 +134,7 @@ impl Lines<'_, '_> {
                     }
                     let key = self.context.path();
                     let steps = [place.path(), key].into_iter().filter(|step| !step.is_empty()).collect::<Vec<_>>();
-                    diag.place = Some(Location::at(number, column).step(steps.join(".")));
+                    diag.place = Some(Box::new(Location::at(number, column).step(steps.join("."))));
                 }
                 Err(failure)
             }

@@ -103,7 +103,7 @@ fn fits(text: &Text, control: &'static Control) -> Vec<lsp::Diagnostic> {
     };
     let of = |finding: &Finding| {
         let mut diag = Diag::new(finding.code, finding.message.as_str()).help(finding.help);
-        diag.place = Some(Location::line(finding.line.max(1)));
+        diag = diag.place(Location::line(finding.line.max(1)));
         at_location(&diag, &text.source, &machine.name)
     };
     fitted.findings.iter().map(of).collect()

@@ -7,10 +7,11 @@ use super::settings::RunSettings;
 use super::simulator::Simulator;
 use super::state::State;
 use crate::control::{Control, Meaning};
+use crate::toolpath::Units;
 
 impl Simulator<'_> {
     /// Sets the units that are active until the program sets units itself. Call this function before the first block.
-    pub fn begin_in(&mut self, units: crate::toolpath::Units) {
+    pub fn begin_in(&mut self, units: Units) {
         self.state.begin_in(units);
     }
 

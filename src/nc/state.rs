@@ -194,6 +194,12 @@ impl State {
         &self.place.frames.shift.by
     }
 
+    /// The position of the program's zero in machine coordinates, in the active units, and the rotation of the frame in
+    /// degrees. Work offsets that the program does not set are at the machine's zero.
+    pub fn zero(&self) -> (Position, f64) {
+        (self.place.frames.to_machine(&Position::default()), self.place.frames.angle())
+    }
+
     /// Converts program coordinates to machine coordinates, in the active units.
     pub fn in_machine_coordinates(&self, at: &Position) -> Position {
         self.place.frames.to_machine(at)

@@ -110,7 +110,7 @@ impl Post {
         proof: &Proof,
     ) -> Result<Proven, Error> {
         let plan = Plan::new(Some(&self.0.program), options, proof);
-        let outcome = prove_beside(batches, plan.settings, plan.expectation, proof.tolerance, plan.of_job);
+        let outcome = prove_beside(batches, plan.settings, plan.expectation, proof.tolerance, plan.in_units_of_job);
         let Outcome { verdict, counts, warnings } = outcome.map_err(|error| Error::of_io(ErrorKind::Program, error))?;
         Ok(Proven {
             verdict: if plan.assumed { verdict.assumed(plan.settings.control.name()) } else { verdict },
@@ -244,7 +244,7 @@ struct Plan {
     settings: RunSettings,
     expectation: Expectation,
     /// Whether the program begins in the units of the job.
-    of_job: bool,
+    in_units_of_job: bool,
     /// Whether the control is assumed, because neither the caller nor the form names a control.
     assumed: bool,
 }
@@ -266,7 +266,7 @@ impl Plan {
                     Expectation::of_form(&form.settings, options.sink_as_printed).typed(form).given(&given)
                 },
             ),
-            of_job: options.units.is_none(),
+            in_units_of_job: options.units.is_none(),
             assumed: proof.control.is_none() && form.is_some_and(|form| form.settings.control.is_none()),
         }
     }
@@ -282,14 +282,12 @@ fn prove(
     let settings = proof.settings(form, options.units.unwrap_or(Units::Mm));
     let settings =
         settings_for(&mut program, Path::new(""), settings).map_err(|error| Error::of_io(ErrorKind::Program, error))?;
-    let Plan { settings, mut expectation, of_job, assumed } = Plan::of(form, options, proof, settings);
+    let Plan { settings, mut expectation, in_units_of_job, assumed } = Plan::of(form, options, proof, settings);
     // if the job is itself an NC program, it has its own length registers, or none
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
     expectation.units_due &= form.is_some() || options.units.is_none();
-    let comparer = Comparer::new(program, settings, expectation, proof.tolerance);
-    let mut comparer = Started { comparer, of_job };
+    let mut comparer = Comparer::new(program, settings, expectation, proof.tolerance, in_units_of_job);
     let read = taken(form.map(|form| &form.settings), &mut comparer, |sink| job.read(sink));
-    let mut comparer = comparer.comparer;
     let (counts, warnings, decided) = (comparer.counts(), comparer.warnings(), comparer.is_decided());
     let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };
@@ -297,21 +295,5 @@ fn prove(
         Err(error) if !decided => Err(job.names(error).after(warnings, &[])),
         // the comparison stopped the reader, so the rest of the job is not checked
         _ => Ok(Proven { verdict, counts, warnings }),
-    }
-}
-
-/// A sink that sets the program's units at the first event. The program's units are those of the job, unless the
-/// program was printed in other units.
-struct Started<'a> {
-    comparer: Comparer<'a>,
-    of_job: bool,
-}
-
-impl Sink for Started<'_> {
-    fn event(&mut self, event: Event<'_>, place: Place) -> Flow {
-        if let (Event::Start(start), true) = (&event, self.of_job) {
-            self.comparer.begin_in(start.units);
-        }
-        self.comparer.event(event, place)
     }
 }

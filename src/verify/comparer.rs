@@ -32,17 +32,21 @@ const BINARY: f64 = 1.0 + 1e-6;
 pub struct Comparer<'a> {
     job: Job,
     sides: Sides<'a>,
+    /// Whether the program begins in the units of the job.
+    in_units_of_job: bool,
     /// Whether the first operation has begun.
     begun: bool,
 }
 
 impl<'a> Comparer<'a> {
     /// A comparison with this program. `tolerance` is in the job's units; the default is 0.0001 inch or 0.002 mm.
+    /// `in_units_of_job`: the program begins in the units of the job, until it sets its own units.
     pub fn new(
         program: impl Read + Seek + 'a,
         settings: RunSettings,
         expectation: Expectation,
         tolerance: Option<f64>,
+        in_units_of_job: bool,
     ) -> Comparer<'a> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
@@ -52,12 +56,13 @@ impl<'a> Comparer<'a> {
         let frame = Frame { tool: None, work: job.state.work };
         Comparer {
             job,
+            in_units_of_job,
             begun: false,
             sides: Sides {
                 program,
                 job: Passage::new(None, frame),
                 hole: Holes::default(),
-                limits: Limits { tolerance: tolerance.unwrap_or_default() * BINARY, chord: 0.0, increment: 0.0 },
+                limits: Limits { required: tolerance, ..Limits::default() },
                 ways: Default::default(),
                 before: super::cut::Shared::default(),
                 agreed: None,
@@ -72,11 +77,6 @@ impl<'a> Comparer<'a> {
                 failure: None,
             },
         }
-    }
-
-    /// Sets the units that apply until the program sets its own units.
-    pub fn begin_in(&mut self, units: Units) {
-        self.sides.program.begin_in(units);
     }
 
     /// Whether the control refused a block of the program that runs ahead of the job. The refusal is reported at the
@@ -150,6 +150,9 @@ impl Sink for Comparer<'_> {
     /// reason.
     fn event(&mut self, event: Event<'_>, place: toolpath::Place) -> Flow {
         self.sides.report.place = place;
+        if let (Event::Start(start), true) = (&event, self.in_units_of_job) {
+            self.sides.program.begin_in(start.units);
+        }
         if matches!(event, Event::ToolChange(_)) && !std::mem::replace(&mut self.begun, true) {
             self.sides.program.begin_behind(self.job.subprograms_first());
         }
@@ -171,10 +174,8 @@ impl Sink for Comparer<'_> {
 impl Intent for Sides<'_> {
     fn units(&mut self, units: Units, chord: f64, increment: f64) {
         self.program.want(units);
-        (self.limits.chord, self.limits.increment) = (chord, increment);
-        if self.limits.tolerance == 0.0 {
-            self.limits.tolerance = PLACES[usize::from(units == Units::Mm)] * BINARY;
-        }
+        let tolerance = self.limits.required.unwrap_or(PLACES[usize::from(units == Units::Mm)]) * BINARY;
+        self.limits = Limits { tolerance, chord, increment, ..self.limits };
     }
 
     fn rapid(&mut self, rapid: Rapid) -> Done {

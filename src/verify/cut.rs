@@ -51,7 +51,7 @@ impl Spin {
     /// at which it stops does not matter.
     pub fn serves(self, wanted: Spin) -> bool {
         match (wanted, self) {
-            (Spin::At(a), Spin::At(b)) => ((a - b) / 360.0).fract().abs() * 360.0 < ORIENTED,
+            (Spin::At(a), Spin::At(b)) => without_turns(a - b).abs() < ORIENTED,
             (Spin::At(_) | Spin::Oriented, Spin::Oriented) | (Spin::Oriented, Spin::At(_)) => true,
             (Spin::Turns(a), Spin::Turns(b)) => a == b,
             (Spin::Turns(a), _) => a == Rotation::Stop,
@@ -233,9 +233,13 @@ fn same_on(a: &Place, b: &Place, axes: u8, tolerance: f64) -> bool {
     (0..8).filter(|axis| axes & 1 << axis != 0).all(|axis| {
         let difference = a[axis] - b[axis];
         difference.abs() <= tolerance
-            || ((3..6).contains(&axis)
-                && (difference - 360.0 * (difference / 360.0).round()).abs() <= tolerance.max(ANGLE))
+            || ((3..6).contains(&axis) && without_turns(difference).abs() <= tolerance.max(ANGLE))
     })
+}
+
+/// A difference of angles in degrees without its full turns: from -180 to 180.
+pub(super) fn without_turns(difference: f64) -> f64 {
+    difference - 360.0 * (difference / 360.0).round()
 }
 
 /// Whether the rotary axes turn by the same angle in two cuts.
@@ -300,4 +304,16 @@ pub(super) fn number(value: f64) -> f64 {
 /// Whether two dwells in seconds are equal. A tolerance is needed, because dwells in revolutions are not whole milliseconds.
 pub(super) fn same_dwell(wanted: f64, is: f64) -> bool {
     (wanted - is).abs() <= (ROUNDED * wanted).max(MOMENT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_of_the_spindle_are_equal_on_both_sides_of_a_full_turn() {
+        let is = |a: f64, b: f64| Spin::At(a).serves(Spin::At(b));
+        assert!(is(359.999, 0.001) && is(0.001, 359.999) && is(-90.0, 270.0) && is(720.0, 0.0));
+        assert!(!is(359.0, 0.0) && !is(180.0, 0.0) && !is(90.0, 270.0));
+    }
 }

@@ -22,7 +22,7 @@ pub struct Expectation {
     pub chord: [f64; 2],
     /// The smallest step that the form can print along a hole, in inches and in millimetres.
     pub increment: [f64; 2],
-    /// Code of the first work offset: 54.
+    /// Number of the first work offset: 54 for G54, or 1 on a control that numbers its offsets.
     pub first_work: f64,
     /// Work offset that is active until the job selects a work offset.
     pub work: Option<f64>,

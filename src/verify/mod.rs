@@ -8,7 +8,6 @@ mod align;
 mod arcs;
 mod begin;
 mod calls;
-
 mod comparer;
 mod cut;
 mod expectation;
@@ -26,6 +25,8 @@ mod passage;
 mod pauses;
 mod planned_holes;
 mod program;
+mod program_cuts;
+mod program_passages;
 mod programs;
 mod rapid_path;
 mod rapids;

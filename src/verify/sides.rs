@@ -18,6 +18,8 @@ use crate::toolpath;
 /// Tolerances in the job's units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Limits {
+    /// The tolerance that the caller requires, if any.
+    pub required: Option<f64>,
     /// Distance up to which two positions are equal.
     pub tolerance: f64,
     /// How far short lines may deviate from the arc that they replace.

@@ -1,6 +1,6 @@
 //! Compares the program's path from one cut to the next with the job's path.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, shown};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, shown, without_turns};
 use super::rapid_path::{RapidPath, across};
 
 /// The result of comparing the program's path with the job's path.
@@ -259,8 +259,10 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
 /// The position with full turns added to or subtracted from its angles, so that the angles are near the angles of
 /// `like`.
 fn unwound(place: &Place, like: &Place) -> Place {
-    let turns = |axis: usize| if (3..6).contains(&axis) { ((place[axis] - like[axis]) / 360.0).round() } else { 0.0 };
-    std::array::from_fn(|axis| place[axis] - 360.0 * turns(axis))
+    std::array::from_fn(|axis| match axis {
+        3..6 => like[axis] + without_turns(place[axis] - like[axis]),
+        _ => place[axis],
+    })
 }
 
 /// Checks the path out of a hole whose cycle requires a state of the spindle, such as an angle. The path must contain
@@ -303,8 +305,9 @@ pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, to
         && pairs.all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b))
 }
 
-/// Checks the program's path after the last cut. No move across may be lower than the job's moves across. The tool may
-/// go down only where the job goes down.
+/// Checks the program's path after the last cut. No move across may be lower than the job's moves across. Below the
+/// job's greatest height, a move across must be above one of the job's rapids. The tool may go down only where the job
+/// goes down.
 pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<(Place, f64)> {
     let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
     let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -313,7 +316,8 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     let stays = across(&job.corners, tolerance).next().is_none() && !job.corners.is_empty();
     let low = across(&program.corners, ROUNDED_ACROSS * tolerance).find(|(a, b)| {
         let at = height(a).min(height(b));
-        at < crossing - tolerance || stays && b.unknown & ACROSS != 0 && at < crossing + tolerance
+        let is_elsewhere = at < highest - tolerance && !is_over(a, b, &job.corners, tolerance);
+        at < crossing - tolerance || is_elsewhere || stays && b.unknown & ACROSS != 0 && at < crossing + tolerance
     });
     if let Some((_, b)) = low {
         return Some((b.to, crossing));

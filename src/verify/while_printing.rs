@@ -13,7 +13,7 @@ use super::verdict::Verdict;
 use crate::diag::Diag;
 use crate::nc::RunSettings;
 use crate::render::TraceLine;
-use crate::toolpath::{Event, Kept, Place, Sink};
+use crate::toolpath::{Kept, Place, Sink};
 
 /// A batch of events that the renderer processed, and the text that it printed for these events.
 #[derive(Clone, Debug, Default)]
@@ -68,13 +68,13 @@ pub fn prove_beside<B: AsRef<Batch>>(
     settings: RunSettings,
     expectation: Expectation,
     tolerance: Option<f64>,
-    of_job: bool,
+    in_units_of_job: bool,
 ) -> io::Result<Outcome> {
     let queue =
         Queue { batches, events: VecDeque::new(), texts: VecDeque::new(), traces: VecDeque::new(), unread: false };
     let queue = Rc::new(RefCell::new(queue));
     let text = Text { queue: Rc::clone(&queue), batch: None, at: 0 };
-    let mut comparer = Comparer::new(text, settings, expectation, tolerance);
+    let mut comparer = Comparer::new(text, settings, expectation, tolerance, in_units_of_job);
     let mut found = 0;
     let locate = |comparer: &mut Comparer<'_>| {
         let queue = queue.borrow();
@@ -86,9 +86,6 @@ pub fn prove_beside<B: AsRef<Batch>>(
         let Some(batch) = next else { break };
         for (kept, place) in &(*batch).as_ref().events {
             let event = kept.event();
-            if let (Event::Start(start), true) = (&event, of_job) {
-                comparer.begin_in(start.units);
-            }
             let flow = comparer.event(event, *place);
             if comparer.found() > found {
                 found = locate(&mut comparer);

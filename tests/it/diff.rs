@@ -184,6 +184,65 @@ fn difference(name: &str, programs: [String; 2]) -> Option<String> {
     compare_motions(programs, Units::Mm, 1e-6).unwrap().difference.map(|found| found.message)
 }
 
+/// The positions of both programs are measured from a zero, which the programs may shift. The zeros are compared.
+#[test]
+fn motions_differ_in_the_zero_of_the_program() {
+    let part = |shift: &str| {
+        format!(
+            "G90\nT1 M6\nG54 G0 X0. Y0.\nG43 H1 Z10.\n{shift}\nG0 X0. Y0. Z10.\nG1 Z-1. F100.\nX10.\nG0 Z50.\nM30\n"
+        )
+    };
+    let differs = |name: &str, shifts: [&str; 2]| difference(name, shifts.map(part));
+    for (name, code) in [("fanuc", "G52"), ("haas", "G10 L2 P1"), ("linuxcnc", "G92"), ("linuxcnc", "G10 L2 P1")] {
+        let [no, five, six] =
+            ["", " X5.", " X6."].map(|shift| if shift.is_empty() { String::new() } else { format!("{code}{shift}") });
+        assert_eq!(differs(name, [&five, &five]), None, "{name} {code}");
+        assert!(differs(name, [&no, &five]).is_some(), "{name} {code}");
+        let found = differs(name, [&five, &six]).unwrap();
+        let [old, new] = if code == "G92" { ["X-5", "X-6"] } else { ["X5", "X6"] };
+        assert_eq!(
+            found,
+            format!("the zero of the program is shifted to {new} Y0 Z0, but to {old} Y0 Z0 in the old program")
+        );
+    }
+    assert_eq!(
+        differs("fanuc", ["", "G10 L2 P1 X0."]).unwrap(),
+        "only one program sets the work offset, or shifts it from an unknown machine position"
+    );
+    let shifted = |shift: &str| {
+        format!("G710\nG54 G0 X0 Y0\nT1 M6\nD1\nZ10\n{shift}\nG0 X0 Y0 Z10\nG1 Z-1 F100\nX10\nG0 Z50\nM30\n")
+    };
+    assert_eq!(difference("siemens", ["TRANS X50", "TRANS X50"].map(shifted)), None);
+    assert_eq!(
+        difference("siemens", ["TRANS X50", "TRANS X70"].map(shifted)).unwrap(),
+        "the zero of the program is shifted to X70 Y0 Z0, but to X50 Y0 Z0 in the old program"
+    );
+    // a cut along a rotary axis is named with this axis
+    let turned = |word: &str| {
+        format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. A0.\nG43 H1 Z10.\nG1 Z-1. F100.\nX10.{word}\nG0 Z50.\nM30\n")
+    };
+    let found = difference("fanuc", ["", " A30."].map(turned)).unwrap();
+    assert_eq!(found, "a cut goes to X10 Y0 Z-1 A30, but to X10 Y0 Z-1 A0 in the old program");
+}
+
+/// The path after the last cut: a rapid at the depth of the cut must be a rapid of the old program, and the spindle must
+/// turn as in the old program.
+#[test]
+fn motions_differ_after_the_last_cut() {
+    let part =
+        |end: &str| format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z10.\nG1 Z-5. F100.\nX50.\n{end}\nM30\n");
+    let differs = |old: &str, new: &str| difference("fanuc", [old, new].map(part));
+    let old = "G0 X52.\nZ50.";
+    assert_eq!(differs(old, "G0 X51.\nX52.\nZ50."), None);
+    assert_eq!(differs(old, "G0 X52.\nZ50.\nX80."), None);
+    for new in ["G0 X150.\nZ50.", "G0 X0.\nZ50.", "G0 X52.\nY3.\nZ50."] {
+        assert_eq!(differs(old, new).unwrap(), "the path after the last cut is different", "{new}");
+    }
+    let drilled = |code: &str| part(&format!("G0 Z10.\n{code} X10. Y0. Z-20. R2. F100.\nG80\nG0 Z50."));
+    let found = difference("fanuc", ["G81", "G86"].map(drilled)).unwrap();
+    assert_eq!(found, "the spindle leaves the last cut with stop, but with cw in the old program");
+}
+
 /// Spindle and turret of a lathe are compared.
 #[test]
 fn motions_of_lathes_differ_in_spindle_and_turret() {

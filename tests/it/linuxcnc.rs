@@ -128,6 +128,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
                 RunSettings::new(control("linuxcnc")),
                 Expectation::of_form(&settings, false),
                 None,
+                false,
             );
             read(&mut comparer);
             let verdict = comparer.verdict().unwrap();

@@ -415,7 +415,7 @@ fn programs_are_identical_to_themselves() {
     for (name, body) in bodies {
         let program = format!("{head}{body}M30\n%\n");
         let settings = RunSettings::new(control("fanuc"));
-        let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None);
+        let mut comparer = Comparer::new(Cursor::new(program.clone()), settings, Expectation::default(), None, false);
         let options = job_options(settings);
         let read = read_program(Cursor::new(program.clone()), &options, &mut Vec::new(), &mut comparer);
         let verdict = comparer.verdict().unwrap();
@@ -798,6 +798,7 @@ fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
         RunSettings::new(control("fanuc")),
         Expectation::of_control(control("fanuc")),
         None,
+        false,
     );
     let short = one(r#"{"rapid":[0,0,25]}"#);
     let job = document(&short);

@@ -44,7 +44,7 @@ pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
         ..RunSettings::new(compiled.settings.control.unwrap_or_else(Control::usual))
     };
     let expectation = Expectation::of_form(&compiled.settings, false).typed(&compiled);
-    let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None);
+    let mut comparer = Comparer::new(Cursor::new(program.to_owned()), settings, expectation, None, false);
     let read = job(&mut comparer);
     let verdict = comparer.verdict().unwrap();
     assert!(read || !verdict.is_proven(), "the job is read to its end");
@@ -53,6 +53,22 @@ pub fn verified(form: &Checked, program: &str, job: Job<'_>) -> Verdict {
 
 pub fn post(name: &str) -> String {
     plain_post(name)
+}
+
+/// A tolerance of 0 is not the default tolerance.
+#[test]
+fn a_tolerance_of_zero_accepts_no_difference() {
+    let part =
+        |x: &str| format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z10.\nG1 Z-5. F100.\n{x}\nG0 Z50.\nM30\n");
+    let is_proven = |x: &str, tolerance: Option<f64>| {
+        let settings = RunSettings::new(control("fanuc"));
+        let expectation = Expectation::of_control(control("fanuc"));
+        let mut comparer = Comparer::new(Cursor::new(part(x)), settings, expectation, tolerance, true);
+        postform::Job::nc(&part("X50.")).read(&mut comparer).unwrap();
+        comparer.verdict().unwrap().is_proven()
+    };
+    assert!(is_proven("X50.", Some(0.0)) && is_proven("X50.001", None));
+    assert!(!is_proven("X50.001", Some(0.0)));
 }
 
 /// Every kind of cycle that forms can print, with different depths and heights, and a return plane.
@@ -475,7 +491,7 @@ fn taps_with_a_dwell_and_by_the_spindle_are_the_jobs() {
 #[test]
 fn a_hole_outside_a_cycle_is_a_fault_of_postform() {
     let settings = RunSettings::new(control("fanuc"));
-    let mut comparer = Comparer::new(Cursor::new(String::new()), settings, Expectation::default(), None);
+    let mut comparer = Comparer::new(Cursor::new(String::new()), settings, Expectation::default(), None, false);
     let hole = postform::toolpath::Hole { at: postform::toolpath::Axes::new(&[1.0, 1.0, 0.0]), depth: None };
     let error = wrong(comparer.event(postform::toolpath::Event::Hole(hole), Default::default()));
     assert_eq!(error.code.name(), "PX001");

@@ -8,6 +8,7 @@ mod motions;
 mod plain;
 mod texts;
 mod tools;
+mod zero;
 
 use std::io::{Read, Seek};
 

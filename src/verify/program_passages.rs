@@ -1,0 +1,157 @@
+//! Compares what two programs do between two cuts: stops, dwells, frames, changes of the spindle, machine positions.
+
+use super::cut::{ALL, Spin, number, same, same_dwell};
+use super::passage::Mark;
+use super::program::Program;
+use super::program_cuts::{Names, both_shown};
+use super::tables::ANGLE;
+use crate::toolpath::StopKind;
+
+/// The first difference between two cuts, apart from the rapids and the rotation of the spindle.
+pub(super) fn between(old: &Program<'_>, new: &Program<'_>, names: Names, tolerance: f64) -> Option<String> {
+    astray(old, new, tolerance)
+        .or_else(|| frames(old, new, tolerance))
+        .or_else(|| pauses(old, new, tolerance))
+        .or_else(|| turrets(old, new))
+        .or_else(|| homes(old, new, names))
+        .or_else(|| standing(old, new))
+}
+
+/// Compares the targets of incremental moves from machine positions. Incremental moves of both programs must start from
+/// the same position.
+fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
+    let (a, b) = (&old.passage.astray, &new.passage.astray);
+    let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
+    let message = "before this cut, incremental moves from an unknown machine position go to another position";
+    (!alike).then(|| message.to_owned())
+}
+
+/// Compares the coordinate frames (G52, G92, G10, TRANS, TRANS DATUM) from which both programs measure positions.
+fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
+    let [before, now] = [old.zero(), new.zero()];
+    if (before.set, before.unknown) != (now.set, now.unknown) {
+        return Some("only one program sets the work offset, or shifts it from an unknown machine position".to_owned());
+    }
+    if (before.angle - now.angle).abs() > ANGLE {
+        let [now, before] = [now, before].map(|zero| number(zero.angle));
+        return Some(format!("the work offset is rotated by {now} degrees, but by {before} in the old program"));
+    }
+    (!same(&before.at, &now.at, ALL, tolerance)).then(|| {
+        let [now, before] = both_shown(&now.at, &before.at);
+        format!("the zero of the program is shifted to {now}, but to {before} in the old program")
+    })
+}
+
+/// Compares stops and dwells between two cuts.
+fn pauses(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
+    let stop = |kind: StopKind| if kind == StopKind::Program { "M0" } else { "M1" };
+    let stops = |program: &Program<'_>| -> Vec<String> {
+        program.passage.stops.iter().map(|made| stop(made.what).to_owned()).collect()
+    };
+    let in_cut = |program: &Program<'_>, wait: &Mark<f64>| program.passage.in_cut(wait, tolerance);
+    let waits = |program: &Program<'_>| -> Vec<String> {
+        let place = |wait: &Mark<f64>| if in_cut(program, wait) { " in the cut" } else { "" };
+        program.passage.waits.iter().map(|wait| format!("{} s{}", number(wait.what), place(wait))).collect()
+    };
+    let (before, now) = (stops(old), stops(new));
+    if before != now {
+        return Some(format!(
+            "the stops before this cut are {}, but {} in the old program",
+            listed(&now),
+            listed(&before)
+        ));
+    }
+    let pairs = || old.passage.waits.iter().zip(&new.passage.waits);
+    let same = old.passage.waits.len() == new.passage.waits.len()
+        && pairs().all(|(a, b)| same_dwell(a.what, b.what) && in_cut(old, a) == in_cut(new, b));
+    (!same).then(|| {
+        format!(
+            "the dwells before this cut are {}, but {} in the old program",
+            listed(&waits(new)),
+            listed(&waits(old))
+        )
+    })
+}
+
+/// Compares the changes of the spindle's rotation between two cuts.
+pub(super) fn switching(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
+    let turns = |program: &Program<'_>| -> Vec<String> {
+        program.passage.turns.iter().map(|turn| turn.name().to_owned()).collect()
+    };
+    let (before, now) = (turns(old), turns(new));
+    // the rotation at the cut is compared elsewhere, because the cycles of only some controls stop the spindle
+    if names.by_order && before.last() == now.last() {
+        return None;
+    }
+    (before != now).then(|| {
+        format!(
+            "the changes of the spindle before this cut are {}, but {} in the old program",
+            listed(&now),
+            listed(&before)
+        )
+    })
+}
+
+/// Compares the positions at which a lathe's turret indexes: X at home, Z at home, both, or neither.
+fn turrets(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let text = |axes: Option<&u8>| match axes {
+        None => "at no tool change",
+        Some(0) => "at a position from the program",
+        Some(0b001) => "at home only along X",
+        Some(0b100) => "at home only along Z",
+        Some(_) => "at home",
+    };
+    let (before, now) = (&old.passage.turrets, &new.passage.turrets);
+    let differ = (0..before.len().max(now.len())).find(|at| before.get(*at) != now.get(*at))?;
+    Some(format!("the turret turns {}, but {} in the old program", text(now.get(differ)), text(before.get(differ))))
+}
+
+/// Checks that the new program moves home each axis that the old program moves home. Only Z is checked, on a lathe X
+/// and Z. If the controls have different languages, the check is left out.
+fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
+    let counts = if old.control().is_lathe() { 0b101 } else { 0b100 };
+    let lost = old.passage.homes & !new.passage.homes & counts;
+    let axes: Vec<String> = ["X", "Y", "Z"]
+        .iter()
+        .enumerate()
+        .filter(|(axis, _)| lost & 1 << axis != 0)
+        .map(|(_, name)| (*name).to_owned())
+        .collect();
+    (!axes.is_empty() && !names.by_order)
+        .then(|| format!("the tool no longer goes home along {} before this cut", axes.join(" and ")))
+}
+
+/// Compares the angles at which the spindle is stopped during rapids.
+fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let angles = |program: &Program<'_>| -> Vec<String> {
+        let stands = program.passage.rapids.iter().filter_map(|rapid| match rapid.spin? {
+            Spin::At(angle) => Some(format!("{} degrees", number(angle))),
+            Spin::Oriented => Some("the control's own angle".to_owned()),
+            Spin::Turns(_) => None,
+        });
+        let mut list: Vec<String> = stands.collect();
+        list.dedup();
+        list
+    };
+    let (before, now) = (angles(old), angles(new));
+    let text = |list: &[String]| if list.is_empty() { "no angle".to_owned() } else { listed(list) };
+    (before != now).then(|| {
+        format!("the spindle angle before this cut is {}, but {} in the old program", text(&now), text(&before))
+    })
+}
+
+/// Compares the rotation of the spindle while the tool leaves the last cut. The cycles of only some controls stop the
+/// spindle there.
+pub(super) fn leaving(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
+    let turns = |program: &Program<'_>| match program.passage.rapids.first()?.spin? {
+        Spin::Turns(rotation) => Some(rotation.name()),
+        Spin::At(_) | Spin::Oriented => None,
+    };
+    let (before, now) = (turns(old)?, turns(new)?);
+    (!names.by_order && before != now)
+        .then(|| format!("the spindle leaves the last cut with {now}, but with {before} in the old program"))
+}
+
+fn listed(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}

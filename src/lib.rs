@@ -61,6 +61,7 @@ mod setup;
 mod source;
 mod span;
 mod stock;
+mod suggest;
 mod survey;
 mod syntax;
 mod terminal;
@@ -126,9 +127,8 @@ pub mod internals {
         };
     }
     pub mod lang {
-        pub use crate::lang::{
-            COMMANDS, CommandId, Machine, SEQUENCES, SequenceId, UnitChoice, VARIABLES, did_you_mean,
-        };
+        pub use crate::lang::{COMMANDS, CommandId, Machine, SEQUENCES, SequenceId, UnitChoice, VARIABLES};
+        pub use crate::suggest::did_you_mean;
     }
     pub mod lint {
         pub use crate::lint::{Changed, Fixed, Found, Level, Levels, RULES, fix, lint, parts};
@@ -190,7 +190,7 @@ pub mod internals {
         pub use crate::syntax::{Form, Head, Statement, Tail, parse};
     }
     pub mod terminal {
-        pub use crate::terminal::{escaped, escaped_lines, steers};
+        pub use crate::terminal::{escaped, escaped_lines, steers, without_markup};
     }
     pub mod trace {
         pub use crate::trace::Trace;

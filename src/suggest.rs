@@ -10,7 +10,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     }
     let wrong = name.to_ascii_lowercase();
     let (length, letters) = shape(&wrong);
-    // allow one error in a short name, and errors in a third of the letters of a long one
+    // allow one error in a short name, and errors in a third of the letters of a long name
     let allowed = (length / 3).clamp(1, 4);
     // one error changes the length by at most one and the set of letters by at most two; this excludes most candidates quickly
     let may_be = |candidate: &&str| {
@@ -22,7 +22,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter(may_be)
         .map(|candidate| (strsim::damerau_levenshtein(&wrong, &candidate.to_ascii_lowercase()), candidate))
         .filter(|&(distance, candidate)| {
-            // accept `dd` for `d`, although every letter of a one-letter name may be wrong
+            // for a one-letter name, accept only repetitions of the letter, such as `dd` for `d`
             let twice = || wrong.chars().all(|c| candidate.chars().any(|own| own.eq_ignore_ascii_case(&c)));
             distance <= allowed && (distance < candidate.chars().count() || twice())
         })
@@ -40,6 +40,12 @@ fn shape(name: &str) -> (usize, u64) {
 /// The text of a suggestion for a help line, such as `did you mean `x`?`.
 pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
+}
+
+/// Like [`did_you_mean`]. If no candidate is similar enough, the text lists all candidates.
+pub fn did_you_mean_one_of<'a>(name: &str, candidates: impl Iterator<Item = &'a str> + Clone) -> String {
+    did_you_mean(name, candidates.clone())
+        .unwrap_or_else(|| format!("one of {}", candidates.collect::<Vec<_>>().join(", ")))
 }
 
 #[cfg(test)]

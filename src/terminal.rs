@@ -34,6 +34,21 @@ fn with_escapes(text: &str, escapes: impl Fn(char) -> bool) -> String {
     out
 }
 
+/// Text for HTML, XML or SVG: the characters of markup become entities. Control characters are not changed.
+pub fn without_markup(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            c => out.push(c),
+        }
+    }
+    out
+}
+
 /// Text of several lines made safe for a terminal; line ends are kept.
 pub fn escaped_lines(text: &str) -> String {
     text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")

@@ -2,7 +2,6 @@
 
 use crate::render::TraceLine;
 use crate::span::Span;
-use crate::toolpath::Place;
 
 /// The origin of every line of a program.
 #[derive(Clone, Debug, Default)]
@@ -26,14 +25,5 @@ impl Trace {
     pub fn printed_by_form(&self, place: Span) -> impl Iterator<Item = u64> {
         let overlaps = move |span: Span| span.file == place.file && span.start < place.end && place.start < span.end;
         self.lines.iter().filter(move |line| line.form.is_some_and(overlaps)).map(|line| line.line)
-    }
-
-    /// The program lines that an item of the job printed; for a cycle, the lines of all its points.
-    pub fn printed_by_item(&self, place: Place) -> impl Iterator<Item = u64> {
-        let same = move |line: &Place| {
-            (line.operation, line.subprogram, line.item) == (place.operation, place.subprogram, place.item)
-                && (place.point == 0 || place.point == line.point)
-        };
-        self.lines.iter().filter(move |line| same(&line.place)).map(|line| line.line)
     }
 }

@@ -3,7 +3,16 @@
 import { element } from "./element.ts";
 
 /** The file name extensions of jobs. */
-export const JOBS = ".json,.jsonl,.cl,.apt,.cls,.nci,.FCStd,.nc,.ngc,.tap,.eia,.min,.mpf,.h,.gz";
+export const JOBS =
+  ".json,.jsonl,.ndjson,.cl,.apt,.aptsource,.ncl,.cls,.cldata,.as,.nc,.ngc,.tap,.cnc,.eia,.min,.ssb,.mpf,.spf,.h,.i,.fcstd,.nci,.gz";
+
+/** The file name extensions of NC programs. */
+const PROGRAMS = /\.(nc|ngc|tap|cnc|eia|min|ssb|mpf|spf|h|i)$/i;
+
+/** Is the file an NC program, by its name? */
+export function isProgram(name: string): boolean {
+  return PROGRAMS.test(name);
+}
 
 /** A button that opens files. */
 export function openButton(text: string, title: string, accept: string, open: (files: File[]) => void): HTMLElement {

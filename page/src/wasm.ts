@@ -1,16 +1,12 @@
 // postform as WebAssembly, with the open files.
 
 import type { Added, Ask, At, Help, Host } from "./host.ts";
+import { isProgram } from "./opening.ts";
 import { type Verdict, Scene } from "./scene.ts";
 
 export interface File_ {
   name: string;
   bytes: Uint8Array;
-}
-
-/** Is the file an NC program, by its name? */
-export function isProgram(name: string): boolean {
-  return /\.(nc|ngc|tap|eia|min|mpf|h)$/i.test(name);
 }
 
 /** A host that sends each request to a separate thread. */

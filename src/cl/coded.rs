@@ -7,7 +7,7 @@ use super::feed_unit::Feed;
 use super::report::Notes;
 use super::words::Word;
 use crate::diag::Code;
-use crate::lang::did_you_mean;
+use crate::suggest::did_you_mean;
 use crate::toolpath::CycleKind;
 
 /// The depths and steps that share one feed.

@@ -1,7 +1,7 @@
 //! The CAM systems that write CL files, and the differences between their files.
 
 use super::lines::text_statement;
-use crate::lang::did_you_mean;
+use crate::suggest::did_you_mean;
 
 /// The CAM system that wrote a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

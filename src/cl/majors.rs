@@ -14,7 +14,7 @@ use super::state::State;
 use super::tlon::{indirv, tlon};
 use super::words::Word;
 use crate::diag::Code;
-use crate::lang::did_you_mean;
+use crate::suggest::did_you_mean;
 use crate::toolpath::{Event, StopKind};
 
 /// The kind of a major word.

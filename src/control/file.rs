@@ -15,6 +15,7 @@ use super::runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
 use super::traits::{Rules, Traits};
 use super::words::Words;
 use super::{Control, Row, Rows};
+use crate::suggest::did_you_mean_one_of;
 
 /// The maximum length of a chain of control files in which each file names the next one with `like`.
 const LONGEST_CHAIN: usize = 8;
@@ -201,7 +202,7 @@ impl Reader<'_> {
     fn holes(&self, text: &Spanned<String>) -> Result<Vec<Hole>, Wrong> {
         let parse = |word: &str| {
             Hole::parse(word).ok_or_else(|| {
-                let near = super::nearest(word, Hole::ALL.iter().map(|hole| hole.name()));
+                let near = did_you_mean_one_of(word, Hole::ALL.iter().map(|hole| hole.name()));
                 self.wrong(text.span().start, format!("`{word}` is not a kind of hole"), near)
             })
         };
@@ -224,7 +225,7 @@ impl Reader<'_> {
             }
             let Some(meaning) = Meaning::parse(row.is.get_ref()) else {
                 let names = Meaning::ALL.iter().map(|meaning| meaning.name());
-                let near = crate::control::nearest(row.is.get_ref(), names);
+                let near = did_you_mean_one_of(row.is.get_ref(), names);
                 let message = format!("`{}` is not a meaning of a code", row.is.get_ref());
                 return Err(self.wrong(row.is.span().start, message, near));
             };
@@ -275,7 +276,7 @@ impl Reader<'_> {
             None => only_motions(makes),
             Some(text) if meaning != Meaning::Cycle => return Err(of_another("motions", text.span().start, "cycles")),
             Some(text) => Some(Motions::parse(text.get_ref()).ok_or_else(|| {
-                let near = super::nearest(text.get_ref(), Motions::ALL.iter().map(|motions| motions.name()));
+                let near = did_you_mean_one_of(text.get_ref(), Motions::ALL.iter().map(|motions| motions.name()));
                 self.wrong(text.span().start, format!("`{}` is not a kind of cycle motions", text.get_ref()), near)
             })?),
         };

@@ -12,11 +12,12 @@ mod hole;
 mod key;
 mod meaning;
 mod runs;
+mod shipped;
 mod traits;
 mod words;
 
 use std::collections::BTreeMap;
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 pub use arcs::Tolerance;
 pub use code::Code;
@@ -25,6 +26,7 @@ pub use hole::Hole;
 use key::Key;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
 pub use runs::{Motions, Pitch, PitchUnit, Runs, WorkOffset};
+pub use shipped::names;
 pub use traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
 pub use words::Words;
 
@@ -125,63 +127,12 @@ fn replace(rows: &mut Vec<Row>, row: Row, key: impl Fn(&Row) -> (u8, u16)) {
     }
 }
 
-macro_rules! shipped {
-    ($($name:literal)*) => {
-        /// The control files that come with postform: name and text.
-        const FILES: [(&str, &str); [$($name),*].len()] =
-            [$(($name, include_str!(concat!("../../controls/", $name, ".toml")))),*];
-
-        /// The controls that come with postform. A file is read at the first use of its control.
-        static CONTROLS: [LazyLock<Control>; FILES.len()] = [$(LazyLock::new(|| {
-            let text = include_str!(concat!("../../controls/", $name, ".toml"));
-            Control::read($name, text).unwrap_or_else(|_| Control::empty())
-        })),*];
-    };
-}
-
-shipped! { "fanuc" "fanuc-lathe" "fanuc-wire" "haas" "haas-lathe" "fadal" "mazak" "brother" "centroid" "mitsubishi" "siemens" "siemens-iso" "heidenhain" "okuma" "linuxcnc" "emc2" "grbl" "grblhal" "fluidnc" "pathpilot" "mach3" }
-
 /// Whether the name of a control is the name of a control file.
 pub fn is_file(name: &str) -> bool {
     name.len() > 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..].eq_ignore_ascii_case(".toml")
 }
 
-/// The names of the controls that come with postform.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    FILES.iter().map(|(name, _)| *name)
-}
-
-fn nearest(name: &str, names: impl Iterator<Item = &'static str>) -> String {
-    let names: Vec<&str> = names.collect();
-    let near = names.iter().map(|&other| (strsim::damerau_levenshtein(name, other), other)).min();
-    match near.filter(|(distance, _)| *distance <= 2 && name.len() < 64) {
-        Some((_, near)) => format!("did you mean `{near}`?"),
-        None => format!("one of {}", names.join(", ")),
-    }
-}
-
 impl Control {
-    /// The control with this name, if it comes with postform.
-    pub fn named(name: &str) -> Option<&'static Control> {
-        let at = FILES.iter().position(|(known, _)| *known == name)?;
-        Some(&CONTROLS[at])
-    }
-
-    /// The control for programs without a named control: a Fanuc mill.
-    pub fn usual() -> &'static Control {
-        &CONTROLS[0]
-    }
-
-    /// The control for forms without a `Control` command: a Fanuc mill with additional common codes of other controls.
-    /// This control is not used for running programs.
-    pub fn of_no_name() -> &'static Control {
-        static UNION: LazyLock<Control> = LazyLock::new(|| {
-            let text = include_str!("../../controls/of-no-name.toml");
-            Control::read("of-no-name", text).unwrap_or_else(|_| Control::empty())
-        });
-        &UNION
-    }
-
     /// Reads the text of a control file. `name` is used in messages.
     ///
     /// # Errors
@@ -410,7 +361,7 @@ impl Control {
 /// Reads the control that a file names with `like`. The file of that control is read each time: control files are
 /// short, and each chain is read only once.
 fn like(name: &str, depth: usize) -> Option<Result<Control, Wrong>> {
-    let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
+    let (name, text) = shipped::FILES.iter().find(|(known, _)| *known == name)?;
     Some(file::read(name, text, &like, depth))
 }
 
@@ -420,7 +371,7 @@ mod tests {
 
     #[test]
     fn every_file_that_ships_is_right() {
-        for (name, text) in FILES {
+        for &(name, text) in shipped::FILES {
             let control = Control::read(name, text).unwrap_or_else(|wrong| panic!("{wrong}"));
             assert_eq!((control.name(), Control::named(name).map(Control::name)), (name, Some(name)));
             assert!(!control.title().is_empty() && control.rows().count() > 30);

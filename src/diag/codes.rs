@@ -9,7 +9,7 @@ pub struct CodeRow {
     pub code: Code,
     /// The code as printed, `PF101`.
     pub name: &'static str,
-    /// Severity of the finding, before relaxed limits or a shop's levels change it.
+    /// Severity of the finding, before relaxed limits or a shop's levels change the severity.
     pub severity: Severity,
     /// The finding in a few words.
     pub title: &'static str,

@@ -50,7 +50,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     };
     let length = match traits.tool_length {
         ToolLength::CodeAndRegister => "by G43 with H",
-        ToolLength::Code => "by G43; without H it is the tool's own length",
+        ToolLength::Code => "by G43; G43 without H turns on the length of the tool in the spindle",
         ToolLength::Register => "by H alone",
         ToolLength::Tool => "by calling the tool or one of its edges",
         ToolLength::None => "never: the control has no tool lengths",
@@ -61,8 +61,12 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     };
     let machine = match traits.turns {
         Turns::Tool => "a mill",
-        Turns::Part => "a lathe: X is a diameter, U and W are increments, and T changes the tool with its register",
-        Turns::Nothing => "a wire EDM machine: X and Y are positions of the lower guide, U and V of the upper guide",
+        Turns::Part => {
+            "a lathe: X is a diameter, U and W are increments, and T changes the tool and its offset register"
+        }
+        Turns::Nothing => {
+            "a wire EDM machine: X and Y are positions of the lower guide, U and V are positions of the upper guide"
+        }
     };
     vec![
         ("programs", rules.to_owned()),
@@ -98,9 +102,9 @@ fn about(row: &Row) -> String {
         text += &format!("; {}{}", about[..1].to_lowercase(), &about[1..]);
     }
     match row.runs.work {
-        Some(WorkOffset::Additional(number)) => text += &format!("; that of G54.1 P{number}"),
+        Some(WorkOffset::Additional(number)) => text += &format!("; the same offset as G54.1 P{number}"),
         Some(WorkOffset::Usual(usual)) if row.code.tenths != usual => {
-            text += &format!("; that of G{}", f64::from(usual) / 10.0);
+            text += &format!("; the same offset as G{}", f64::from(usual) / 10.0);
         }
         _ => {}
     }
@@ -109,8 +113,8 @@ fn about(row: &Row) -> String {
     }
     text += match row.runs.ends_length {
         0 => "",
-        0b100 => "; a move along Z ends the tool length offset until the next code or register of a length",
-        _ => "; ends the tool length offset until the next code or register of a length",
+        0b100 => "; a move along Z ends the tool length offset until the next code or register of a tool length",
+        _ => "; ends the tool length offset until the next code or register of a tool length",
     };
     match &row.not_run {
         Some(why) => format!("{text}; not run: {why}"),
@@ -155,7 +159,7 @@ pub fn text(control: &Control) -> String {
 /// The text of docs/controls/NAME.md.
 pub fn page(control: &Control) -> String {
     let mut text = format!(
-        "# {}\n\n<!-- made from controls/{}.toml: `just overwrite` -->\n\nA form selects this control with the line `Control {1}`, a command with the option `--control {1}`.\n",
+        "# {}\n\n<!-- made from controls/{}.toml: `just overwrite` -->\n\nA form selects this control with the line `Control {1}`. A command selects this control with the option `--control {1}`.\n",
         control.title(),
         control.name()
     );
@@ -172,8 +176,8 @@ pub fn page(control: &Control) -> String {
 /// The text of docs/controls/README.md, which lists all controls.
 pub fn index() -> String {
     let mut text = String::from(
-        "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nA control is a file: CONTRIBUTING.md \
-         explains how to add one, `postform new --control-file NAME` prints a template. `rules = \"none\"` is for a control without G codes: postform prints programs for it, but checks no codes and proves no programs.\n\n| control | \
+        "# Controls\n\n<!-- made from controls/*.toml: `just overwrite` -->\n\nEach control has a file. CONTRIBUTING.md \
+         explains how to add a control, and `postform new --control-file NAME` prints a template of the file. `rules = \"none\"` is for a control without G codes: postform prints programs for this control, but checks no codes and proves no programs.\n\n| control | \
          title | codes | cycles |\n| --- | --- | --- | --- |\n",
     );
     for control in names().filter_map(Control::named) {
@@ -203,13 +207,13 @@ fn counts(control: &Control) -> (usize, usize) {
 /// A commented control file to start from, for a control similar to this one.
 pub fn file(control: &Control) -> String {
     format!(
-        "# A control of your own. Put it into the form's folder and write `Control my-control.toml` in the form; simulate and verify take
-# it with `--control my-control.toml`. Everything that is not in this file is as in {name}: `postform explain {name}`.
+        "# A control file of your own. Put this file into the form's folder and write `Control my-control.toml` in the form. For simulate and
+# verify, give `--control my-control.toml`. Values that are not in this file are those of {name}: `postform explain {name}`.
 name = \"my-control\"
 title = \"My machine\"
 like = \"{name}\"
 
-# For a control whose language postform does not read: postform prints programs for it, but checks no codes and proves no program.
+# For a control whose language postform does not read: postform prints programs, but checks no codes and proves no program.
 # rules = \"none\"
 
 # Differences other than codes: remove the first `#` of a line where your control differs.
@@ -221,29 +225,29 @@ like = \"{name}\"
 # [numbers]
 # length_without_point = \"units\"   # units: X10 is 10 mm; least-increment: X10 is 0.01 mm
 # [start]
-# modes = \"kept\"                   # a G91 or G20 of the program before is kept or lost
+# modes = \"kept\"                   # a G91 or G20 of the previous program is kept or lost
 # [stops]
 # spindle = \"kept\"                 # spindle and coolant at M0 are kept or lost
 # [arcs]
-# centres = \"incremental\"          # I and J count from the start of the arc (incremental) or from zero (absolute)
+# centres = \"incremental\"          # I and J are measured from the start of the arc (incremental) or from zero (absolute)
 # [tool]
 # length = \"G43 H\"                 # the words that turn the tool length offset on: G43 H, G43, H or none
 
-# The codes that differ. `is` is the meaning of a code; `words` are the letters that it takes besides axes, F, S and T.
+# The codes that differ. `is` is the meaning of a code; `words` are the letters that the code takes besides axes, F, S and T.
 [codes]
 # coolant through the spindle
 # \"M88\" = {{ is = \"through\", stops_spindle = true }}
 # a code of the builder that changes nothing in the program's motions
 # \"G201\" = {{ is = \"harmless\", words = \"P\" }}
-# the same; axis words in its block belong to a move (without beside_moves such a block is not proven)
+# also such a code; axis words in its block belong to a move (without beside_moves, postform does not prove such a block)
 # \"G202\" = {{ is = \"harmless\", beside_moves = true }}
 # a move to the machine zero that ends the tool length offset until the next G43 or H: along-z or always
 # \"G28\" = {{ is = \"reference\", point = 1, ends_length = \"along-z\" }}
-# a code that calls a program of the builder: all positions are printed again after it, and the program is not proven
+# a code that calls a program of the builder: postform prints all positions again after the code, and does not prove the program
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
 # the spindles of a drill bank: M201 is tool 101, and each later code is the next tool
 # \"M201-M206\" = {{ is = \"tool-number\", tool = 101 }}
-# `G310-G319` is all of these codes, `G31.*` all with a decimal, `M*` all others; `absent` removes a code of {name}
+# `G310-G319` means all of these codes, `G31.*` all codes with a decimal, `M*` all other M codes; `absent` removes a code of {name}
 
 # The values of `is`:
 {meanings}",

@@ -1,5 +1,5 @@
-//! Explains codes, commands, variables, sequences, cycles and controls. The texts come from the tables and pages from which
-//! the reference is made too.
+//! Explains codes, commands, variables, sequences, cycles and controls. The texts come from the same tables and pages as
+//! the reference.
 // pages contain variables as [var], which are not links
 #![allow(rustdoc::broken_intra_doc_links)]
 
@@ -9,18 +9,17 @@ mod pages;
 pub mod reference;
 mod words;
 
-pub use words::{command, end, none, sequence, takes, text, upon, variable};
+pub use words::{command, end, none, sequence, takes, text, unit, upon, variable};
 
 use crate::control::{self, Control};
 use crate::diag::{CODES, CodeRow};
-use crate::lang::{
-    COMMANDS, CommandId, DIRECTIVES, LONGEST_NAME, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId, did_you_mean,
-};
+use crate::lang::{COMMANDS, CommandId, DIRECTIVES, SEQUENCES, SequenceId, TEXTS, TextId, VARIABLES, VarId};
+use crate::suggest::{LONGEST_NAME, did_you_mean};
 
 /// The explanation of a code, command, variable, sequence, cycle or control. Upper and lower case are equal.
 ///
 /// # Errors
-/// Nothing has this name. The error suggests similar names.
+/// Returns an error if nothing has this name. The error suggests similar names.
 pub fn explain(what: &str) -> Result<String, String> {
     let asked = what.trim();
     let upon = asked.get(..5).is_some_and(|head| head.eq_ignore_ascii_case("Upon "));
@@ -80,7 +79,7 @@ pub fn list() -> String {
     let upons = [
         ("Upon [var]", "when a variable changes"),
         ("Upon Every [var]", "whenever a variable is used"),
-        ("End", "ends a sequence; End Cancel ends a canned cycle with Cancel"),
+        ("End", "ends a sequence; End Cancel ends a canned cycle and prints the sequence Cancel"),
         ("None", "a body that prints nothing"),
     ];
     let rows = SEQUENCES.iter().map(|row| (row.name, row.meaning)).chain(upons);

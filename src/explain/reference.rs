@@ -21,7 +21,7 @@ pub fn commands() -> String {
         "Commands of forms",
         "Commands come before the first sequence. `postform explain NAME` shows a command with an example.",
     );
-    text += "| command | takes | without it | does | standing |\n| --- | --- | --- | --- | --- |\n";
+    text += "| command | takes | default | does | source |\n| --- | --- | --- | --- | --- |\n";
     for row in COMMANDS {
         let default = if row.without.is_nothing() { "-".to_owned() } else { format!("`{}`", row.without) };
         let times = if row.repeats { ", as often as needed" } else { "" };
@@ -40,7 +40,7 @@ pub fn commands() -> String {
 pub fn variables() -> String {
     let mut text = head(
         "Variables of forms",
-        "A variable is written with a letter, as `X[h]`, or alone. `postform explain NAME` shows a variable with an \
+        "A variable is written alone or with a letter, such as `X[h]`. `postform explain NAME` shows a variable with an \
          example.",
     );
     let mut group = "";
@@ -49,14 +49,14 @@ pub fn variables() -> String {
             group = row.group;
             let first = if text.ends_with("|\n") { "\n" } else { "" };
             text += &format!(
-                "{first}## {group}\n\n| variable | is | counts | on | set by |\n| --- | --- | --- | --- | --- |\n"
+                "{first}## {group}\n\n| variable | is | value | on | set by |\n| --- | --- | --- | --- | --- |\n"
             );
         }
         let (counts, by) = (unit(row.unit), origin(row.origin));
         text += &format!("| `[{}]` | {} | {counts} | {} | {by} |\n", row.name, cell(row.meaning), row.machines);
     }
-    text += "\n## Texts\n\nTexts are for comments and names. They are additions of postform: the manual does not \
-             contain them. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
+    text += "\n## Texts\n\nTexts are for comments and names. Texts are an addition of postform: the manual does not \
+             describe texts. `[toolname:12]` has a width: see [language](language.md#texts).\n\n";
     text += "| variable | is | set by |\n| --- | --- | --- |\n";
     for row in TEXTS {
         text += &format!("| `[{}]` | {} | {} |\n", row.name, cell(row.meaning), row.from);
@@ -68,9 +68,9 @@ pub fn variables() -> String {
 pub fn sequences() -> String {
     let mut text = head(
         "Sequences",
-        "The table lists every sequence with its machines, the item of the job that prints it, and a sample.",
+        "The table lists every sequence with its machines, the item of the job that prints the sequence, and a sample.",
     );
-    text += "| sequence | machines | event | sample | printed | needed on |\n| --- | --- | --- | --- | --- | --- |\n";
+    text += "| sequence | machines | event | sample | printed | required on |\n| --- | --- | --- | --- | --- | --- |\n";
     for row in SEQUENCES {
         let needed = if row.required == Machines::of("") { "-".into() } else { row.required.to_string() };
         text += &format!(
@@ -104,7 +104,7 @@ const FAMILIES: [(&str, &str); 8] = [
 
 /// The text of docs/rules/README.md.
 pub fn rules() -> String {
-    let lead = "The findings of `postform lint`. postform prints no program for a form with an *error*. A finding \
+    let lead = "This page lists the findings of `postform lint`. postform prints no program for a form with an *error*. A finding \
         marked *rule* can be turned off ([lint](../lint.md)).";
     let mut text = head("Findings in forms", lead);
     for (family, title) in FAMILIES {

@@ -31,10 +31,10 @@ cycles! {
     "bore"      "feed to the bottom, stop the spindle, rapid out"
     "back"      "down off the axis of the hole with the spindle oriented, across to the axis, feed up"
     "ream"      "feed in, feed out"
-    "deep"      "pecks with a full retract after each"
-    "chipbreak" "pecks with a short retract after each"
-    "thru"      "feed through one web after the other"
-    "csink"     "to the depth that follows from a diameter and an angle"
+    "deep"      "pecks, with a full retract after each peck"
+    "chipbreak" "pecks, with a short retract after each peck"
+    "thru"      "feed through several webs, one after the other"
+    "csink"     "feed to the depth that follows from a diameter and an angle"
     "manual"    "stop above the point, for work by hand"
     "custom1"   "the moves of the form's Custom1"
     "custom2"   "the moves of the form's Custom2"
@@ -206,7 +206,7 @@ pub fn sequence(id: SequenceId) -> String {
 /// The explanation of `Upon [var]`, as `explain` prints it.
 pub fn upon() -> String {
     let lines = [
-        ("is", "a sequence that is printed when a variable changes, before its next use".to_owned()),
+        ("is", "a sequence that is printed when a variable changes, before the next use of this variable".to_owned()),
         ("every", "Upon Every [var] is printed at every use".to_owned()),
         ("on", "mill".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
@@ -220,7 +220,10 @@ pub fn upon() -> String {
 pub fn end() -> String {
     let lines = [
         ("is", "the end of a sequence, alone on a line".to_owned()),
-        ("Cancel", "End Cancel, only for a canned cycle, prints the sequence Cancel after the last hole".to_owned()),
+        (
+            "Cancel",
+            "End Cancel prints the sequence Cancel after the last hole; only canned cycles have End Cancel".to_owned(),
+        ),
         ("standing", standing(Standing::Doc).to_owned()),
         ("sample", "samples/cancel-with".to_owned()),
     ];
@@ -230,7 +233,7 @@ pub fn end() -> String {
 /// The explanation of `None`, which replaces the lines of a sequence.
 pub fn none() -> String {
     let lines = [
-        ("is", "the complete body of a sequence that prints nothing: its event prints no block".to_owned()),
+        ("is", "the only word in the body of a sequence that prints no block".to_owned()),
         ("in cycles", "a canned cycle with the body None is printed as single moves".to_owned()),
         ("standing", standing(Standing::Doc).to_owned()),
     ];
@@ -243,9 +246,11 @@ pub fn cycle(name: &str) -> Option<String> {
     let row = CYCLES.iter().find(|row| row.name.eq_ignore_ascii_case(name))?;
     let kind = CycleKind::parse(name)?;
     let served_by = match kind.sequence() {
-        Some(id) => format!("{}, or a Custom labelled {}", id.name(), row.name),
-        None if kind == CycleKind::Face => "a Custom labelled face, or a Drill that prints [dwell]".to_owned(),
-        None => format!("a Custom labelled {}", row.name),
+        Some(id) => format!("{}, or a Custom sequence with the comment {}", id.name(), row.name),
+        None if kind == CycleKind::Face => {
+            "a Custom sequence with the comment face, or a Drill that prints [dwell]".to_owned()
+        }
+        None => format!("a Custom sequence with the comment {}", row.name),
     };
     let lines = [
         ("is", row.meaning.to_owned()),

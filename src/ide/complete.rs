@@ -6,8 +6,8 @@ use crate::control::{self, Code, Control};
 use crate::diag::CODES;
 use crate::explain;
 use crate::lang::{
-    Args, COMMANDS, CommandId, DIRECTIVES, Each, Machine, Origin, SEQUENCES, SequenceId, TEXTS, TextId, Unit,
-    UnitChoice, VARIABLES, VarId,
+    Args, COMMANDS, CommandId, DIRECTIVES, Each, Machine, Origin, SEQUENCES, SequenceId, TEXTS, TextId, UnitChoice,
+    VARIABLES, VarId,
 };
 use crate::span::Span;
 
@@ -156,7 +156,7 @@ impl Document {
         let numbers = rows.into_iter().map(|row| {
             let value = current.and_then(|current| Some((&current.name, self.value(line, row.id, current)?)));
             let held = value.map(|(job, value)| format!(" = {value} in {job}")).unwrap_or_default();
-            one(row.name, format!("{}{held}: {}", counts(row.unit), row.meaning))
+            one(row.name, format!("{}{held}: {}", explain::unit(row.unit), row.meaning))
         });
         let texts = TEXTS.iter().map(|row| one(row.name, format!("text: {}", row.meaning)));
         let properties = self.checked.form.settings.properties.iter();
@@ -373,19 +373,6 @@ fn body(id: SequenceId) -> String {
 
 fn quoted(text: &str) -> String {
     text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
-}
-
-fn counts(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Length => "length",
-        Unit::Angle => "degrees",
-        Unit::Feed => "feed",
-        Unit::Speed => "speed",
-        Unit::Time => "time",
-        Unit::Code => "code",
-        Unit::Count => "whole number",
-        Unit::Number => "number",
-    }
 }
 
 #[cfg(test)]

@@ -18,20 +18,47 @@ pub enum Format {
     Nci,
 }
 
-/// The file name extensions of each format.
-const EXTENSIONS: [(Format, &[&str]); 6] = [
-    (Format::Json, &["json"]),
-    (Format::JsonLines, &["jsonl", "ndjson"]),
-    (Format::Cl, &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
-    (Format::Nc, &["nc", "ngc", "tap", "cnc", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
-    (Format::Freecad, &["fcstd"]),
-    (Format::Nci, &["nci"]),
+/// A row of the table of formats: the name on the command line and in the Python package, what a file in the format is,
+/// and the file name extensions.
+type Row = (Format, &'static str, &'static str, &'static [&'static str]);
+
+const ROWS: [Row; Format::ALL.len()] = [
+    (Format::Json, "json", "One JSON document", &["json"]),
+    (Format::JsonLines, "jsonl", "JSON Lines", &["jsonl", "ndjson"]),
+    (Format::Cl, "cl", "An APT CL file", &["cl", "apt", "aptsource", "ncl", "cls", "cldata", "as"]),
+    (Format::Nc, "nc", "An NC program", &["nc", "ngc", "tap", "cnc", "eia", "min", "ssb", "mpf", "spf", "h", "i"]),
+    (Format::Freecad, "freecad", "A FreeCAD document", &["fcstd"]),
+    (Format::Nci, "nci", "A Mastercam NCI file", &["nci"]),
 ];
 
-/// Number of bytes of a job that are examined to guess its format.
-const LOOKED_AT: usize = 4096;
-
 impl Format {
+    /// Number of bytes of a job that are examined to recognise its format.
+    pub const LOOKED_AT: usize = 4096;
+
+    /// All formats.
+    pub const ALL: [Format; 6] =
+        [Format::Json, Format::JsonLines, Format::Cl, Format::Nc, Format::Freecad, Format::Nci];
+
+    /// The format with this name, such as `jsonl`.
+    pub fn parse(name: &str) -> Option<Format> {
+        Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+
+    /// The name of the format on the command line and in the Python package.
+    pub fn name(self) -> &'static str {
+        ROWS[self as usize].1
+    }
+
+    /// What a file in the format is, such as `An APT CL file`.
+    pub fn about(self) -> &'static str {
+        ROWS[self as usize].2
+    }
+
+    /// The file name extensions of the format, in small letters.
+    pub fn extensions(self) -> &'static [&'static str] {
+        ROWS[self as usize].3
+    }
+
     /// The format by the extension of a file name, also if Creo adds a version after it (`op010.ncl.1`).
     pub fn of_name(name: &str) -> Option<Format> {
         let name = name.rsplit(['/', '\\']).next()?;
@@ -40,13 +67,13 @@ impl Format {
             (stem, extension) = stem.rsplit_once('.')?;
         }
         let is = |known: &str| !stem.is_empty() && extension.eq_ignore_ascii_case(known);
-        EXTENSIONS.iter().find(|(_, known)| known.iter().any(|known| is(known))).map(|(format, _)| *format)
+        Self::ALL.into_iter().find(|format| format.extensions().iter().any(|known| is(known)))
     }
 
     /// The format by the first bytes of a job: a zip archive, a brace, record 1050, a word with a slash, or a block of
     /// an NC program. `None`: the bytes begin with none of these.
     pub fn of_content(bytes: &[u8]) -> Option<Format> {
-        let start = bytes.get(..LOOKED_AT).unwrap_or(bytes);
+        let start = bytes.get(..Self::LOOKED_AT).unwrap_or(bytes);
         if start.starts_with(b"PK\x03\x04") {
             return Some(Format::Freecad); // no other job format is a zip archive
         }
@@ -88,6 +115,12 @@ fn is_statement(line: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rows_are_in_the_order_of_the_formats() {
+        assert_eq!(ROWS.map(|row| row.0), Format::ALL);
+        assert!(Format::ALL.iter().enumerate().all(|(at, format)| *format as usize == at));
+    }
 
     #[test]
     fn names_tell_formats() {

@@ -1,6 +1,6 @@
 //! The table of directives. A directive is a line of a sequence that determines which lines are printed.
 
-use super::suggest::nearest;
+use crate::suggest::nearest;
 
 /// One row of the table of directives.
 #[derive(Debug)]
@@ -17,29 +17,29 @@ pub struct DirectiveRow {
 pub const DIRECTIVES: &[DirectiveRow] = &[
     DirectiveRow {
         name: "@if",
-        takes: "a condition, as `[cool] = mist and [speed] > 0`",
-        meaning: "the lines after it, up to @elif, @else or @end, print if the condition is true",
+        takes: "a condition, such as `[cool] = mist and [speed] > 0`",
+        meaning: "prints the lines up to @elif, @else or @end if the condition is true",
     },
     DirectiveRow {
         name: "@elif",
         takes: "a condition",
-        meaning: "the lines after it print if this condition is true and the conditions before are false",
+        meaning: "prints the lines after it if this condition is true and all earlier conditions are false",
     },
     DirectiveRow {
         name: "@else",
         takes: "nothing",
-        meaning: "the lines after it print if all conditions before are false",
+        meaning: "prints the lines after it if all earlier conditions are false",
     },
     DirectiveRow { name: "@end", takes: "nothing", meaning: "ends @if or @for" },
     DirectiveRow {
         name: "@for",
         takes: "`tool`, `operation` or `work`",
-        meaning: "the lines after it, up to @end, print once for each tool, operation or work offset of the job",
+        meaning: "prints the lines up to @end once for each tool, operation or work offset of the job",
     },
     DirectiveRow {
         name: "@set",
-        takes: "a variable from val1 to val10, `=` and an expression, as `val1 = [val1]+1`",
-        meaning: "the variable has this value until the end of the program",
+        takes: "a variable from val1 to val10, `=` and an expression, such as `val1 = [val1]+1`",
+        meaning: "gives the variable a value until the end of the program",
     },
 ];
 

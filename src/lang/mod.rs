@@ -7,7 +7,6 @@ mod coolant;
 mod directives;
 mod machine;
 mod sequences;
-mod suggest;
 mod texts;
 mod variables;
 mod work;
@@ -18,7 +17,6 @@ pub use coolant::Coolant;
 pub use directives::{DIRECTIVES, DirectiveRow, Each, directive_meant};
 pub use machine::{Beam, Machine, Machines, UnitChoice};
 pub use sequences::{SEQUENCES, SequenceId, SequenceName};
-pub use suggest::{LONGEST_NAME, did_you_mean};
 pub use texts::{TEXT_COUNT, TEXTS, TextId, TextSet, TextVar, WIDEST, in_quotes, in_word};
 pub use variables::{AHEAD, MOST_VARIABLES, Origin, TOOLS_AHEAD, Unit, VARIABLES, VarId, VarSet, Variable};
 pub use work::{additional_work, work_code};
@@ -28,7 +26,7 @@ pub use work::{additional_work, work_code};
 pub enum Standing {
     /// The manual states the rule.
     Doc,
-    /// The manual does not state the rule, but its examples print correctly only with this rule.
+    /// The manual does not state the rule, but the examples in the manual print correctly only with this rule.
     Ex,
     /// We decided the rule, because no public source states it.
     Ours,

@@ -12,7 +12,7 @@ pub struct Sequence {
     pub name: &'static str,
     /// Whether the sequence is a canned cycle. A canned cycle may have a line count and `End Cancel`.
     pub is_cycle: bool,
-    /// The machines that have the sequence. The sets of machines are from the manual if no other source is marked.
+    /// The machines that have the sequence. The sets of machines are from the manual unless another source is marked.
     pub machines: Machines,
     /// Machines whose forms must contain the sequence.
     pub required: Machines,
@@ -76,8 +76,8 @@ sequences! {
     EndZLevel         "EndZLevel"         plain "MLE" ""    Doc "after the moves of one Z level" "`end` zlevel" "sections"
     BeginRow          "BeginRow"          plain "M"   ""    Doc "before each pass of a pocket or surface cut" "`begin` row" "begin-row"
     EndRow            "EndRow"            plain "M"   ""    Doc "after each pass of a pocket or surface cut" "`end` row" "end-row"
-    BeginCut          "BeginCut"          plain "M"   ""    Ours "before a cut with a torch or a laser: on, pierce" "the first cut after a rapid" "plasma"
-    EndCut            "EndCut"            plain "M"   ""    Ours "after a cut with a torch or a laser: off" "the rapid after a cut" "plasma"
+    BeginCut          "BeginCut"          plain "M"   ""    Ours "before a cut: turns the torch or laser on, and pierces" "the first cut after a rapid" "plasma"
+    EndCut            "EndCut"            plain "M"   ""    Ours "after a cut: turns the torch or laser off" "the rapid after a cut" "plasma"
     Index             "Index"             plain "M"   ""    Doc "instead of a rapid that turns a rotary axis" "`rapid` to another rotary angle" "index"
     Unwind            "Unwind"            plain "M"   ""    Doc "when a rotary axis would leave its travel" "a rotary angle beyond `Limits`" "unwind"
     SubStart          "SubStart"          plain "M"   ""    Doc "the beginning of a subprogram" "`subprograms`" "sub-start"
@@ -95,25 +95,25 @@ sequences! {
     EndOperation      "EndOperation"      plain "ML"  ""    Ours "the end of an operation: after its last move" "end of an operation" "operations"
     CommentLine       "CommentLine"       plain "MLE" ""    Ours "a comment of the job ([text]), instead of the generated comment" "`comment`" "operations"
     MoveHome          "MoveHome"          plain "MLE" ""    Ours "the move to the machine's home position, which has no coordinates in the job" "`home`" "operations"
-    AfterHome         "AfterHome"         plain "ML"  ""    Ours "the first rapid with a height after `MoveHome`: on a control that ends the tool length at the machine zero, turns it on again" "the rapid after `home`" "after-home"
-    WorkChange        "WorkChange"        plain "MLE" ""    Ours "another work offset, if no other sequence prints it" "`work`" "operations"
-    SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "another speed or direction, if no other sequence prints it" "`spindle`" "operations"
-    CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "other coolant, if no other sequence prints it" "`coolant`" "operations"
-    FeedModeChange    "FeedModeChange"    plain "ML"  ""    Ours "another feed mode, if no other sequence prints it" "`feed_mode`" "operations"
+    AfterHome         "AfterHome"         plain "ML"  ""    Ours "the first rapid with a height after `MoveHome`: turns the tool length offset on again, if the control ends the offset at the machine zero" "the rapid after `home`" "after-home"
+    WorkChange        "WorkChange"        plain "MLE" ""    Ours "a change of the work offset that no other sequence prints" "`work`" "operations"
+    SpindleChange     "SpindleChange"     plain "ML"  ""    Ours "a change of the spindle speed or direction that no other sequence prints" "`spindle`" "operations"
+    CoolantChange     "CoolantChange"     plain "MLE" ""    Ours "a change of the coolant that no other sequence prints" "`coolant`" "operations"
+    FeedModeChange    "FeedModeChange"    plain "ML"  ""    Ours "a change of the feed mode that no other sequence prints" "`feed_mode`" "operations"
     AutoThread        "AutoThread"        cycle "L"   ""    Doc "the control's own threading cycle" "`thread`" "lathe-part"
     CanThread         "CanThread"         cycle "L"   ""    Doc "a threading cycle with one block per pass, instead of AutoThread" "`thread`" "can-thread"
     Back              "Back"              cycle "M"   ""    Doc "back boring" "`cycle` back" "back-machine"
     Bore              "Bore"              cycle "ML"  ""    Doc "boring: feed down, rapid out" "`cycle` bore" "bore-machine"
     Cancel            "Cancel"            cycle "ML"  ""    Doc "ends a machine cycle" "end of a cycle with `End Cancel`" "cancel-with"
     Chipbreak         "Chipbreak"         cycle "ML"  ""    Doc "pecking with short retracts that break the chip" "`cycle` chipbreak" "chipbreak-machine"
-    Custom1           "Custom1"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom1, or the kind named after `Custom1`" "custom1-machine"
-    Custom2           "Custom2"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom2, or the kind named after `Custom2`" "more-cycles"
-    Custom3           "Custom3"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom3, or the kind named after `Custom3`" "more-cycles"
+    Custom1           "Custom1"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom1, or the kind written after `Custom1`" "custom1-machine"
+    Custom2           "Custom2"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom2, or the kind written after `Custom2`" "more-cycles"
+    Custom3           "Custom3"           cycle "ML"  ""    Doc "a cycle of the machine that has no sequence of its own" "`cycle` custom3, or the kind written after `Custom3`" "more-cycles"
     Drill             "Drill"             cycle "ML"  ""    Doc "straight drilling" "`cycle` drill" "drill-machine"
     LTap              "LTap"              cycle "M"   ""    Doc "left-hand tapping" "`cycle` ltap" "ltap-machine"
-    Peck              "Peck"              cycle "ML"  ""    Doc "deep drilling with full retracts; with the body `None` postform generates the moves" "`cycle` deep" "peck-machine"
+    Peck              "Peck"              cycle "ML"  ""    Doc "deep drilling with full retracts; if the body is `None`, postform generates the moves" "`cycle` deep" "peck-machine"
     Ream              "Ream"              cycle "ML"  ""    Doc "reaming: feed down, feed out" "`cycle` ream" "more-cycles"
-    Tap               "Tap"               cycle "ML"  ""    Ours "tapping; the manual lists it, but its page is not public" "`cycle` tap" "more-cycles"
+    Tap               "Tap"               cycle "ML"  ""    Ours "tapping; the manual lists this cycle, but the page about this cycle is not public" "`cycle` tap" "more-cycles"
 }
 
 impl SequenceId {

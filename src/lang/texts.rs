@@ -28,8 +28,8 @@ macro_rules! texts {
 
 #[rustfmt::skip]
 texts! {
-    Progname "progname" "the program's name"                     "`name` of the job; PARTNO of a CL file, the comment after the O number of an NC program, the label of a FreeCAD job"
-    Partname "partname" "the part"                               "`part` of the job"
+    Progname "progname" "the program's name"                     "`name` of the job; PARTNO of a CL file, the comment after the O number of an NC program, or the label of a FreeCAD job"
+    Partname "partname" "the name of the part"                   "`part` of the job"
     Material "material" "the material of the part"               "`material` of the job"
     Customer "customer" "the customer of the part"                      "`customer` of the job"
     Author   "author"   "the author of the job"                       "`author` of the job; not PPRINT of a CL file"
@@ -37,12 +37,12 @@ texts! {
     Tooltext "tooltext" "the job's comment on the tool"          "`comment` of the tool"
     Opname   "opname"   "the operation's name"                   "`name` of the operation"
     Optext   "optext"   "the job's comment on the operation"     "`comment` of the operation"
-    Text     "text"     "the comment that is printed, in CommentLine" "`comment` items"
-    Date     "date"     "the date of printing, as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
-    Time     "time"     "the time of printing, as 14:05"         "the clock, --date or SOURCE_DATE_EPOCH"
+    Text     "text"     "in CommentLine: the comment that is printed" "`comment` items"
+    Date     "date"     "the date of printing, such as 2026-03-31"     "the clock, --date or SOURCE_DATE_EPOCH"
+    Time     "time"     "the time of printing, such as 14:05"         "the clock, --date or SOURCE_DATE_EPOCH"
     Jobfile  "jobfile"  "the job's file, without its folder"     "the command line"
-    Formname "formname" "the form's name"                        "`Name` of the form, else its file"
-    Formhash "formhash" "the first 12 digits of the SHA-256 of the form's file and of the files it calls" "the form"
+    Formname "formname" "the form's name"                        "`Name` of the form; without `Name`, the file name of the form"
+    Formhash "formhash" "the first 12 digits of a SHA-256 hash of the form and the forms that it calls" "the form"
     Control  "control"  "the name of the control in the form"        "`Control` of the form"
     Version  "version"  "postform's version"                     "postform"
 }
@@ -98,7 +98,7 @@ pub struct TextVar {
 pub const WIDEST: i8 = 100;
 
 impl TextVar {
-    /// Whether the name is that of a text, with or without a width.
+    /// Whether the name, with or without a width, is the name of a text.
     pub fn is_text(name: &str) -> bool {
         TextId::parse(name.split(':').next().unwrap_or(name)).is_some()
     }
@@ -128,13 +128,13 @@ impl std::fmt::Display for TextVar {
     }
 }
 
-/// A character that a word may contain; `None` for other characters.
+/// Returns the character if a word may contain this character, otherwise `None`.
 pub fn in_word(c: char) -> Option<char> {
     Some(c).filter(|c| c.is_ascii_alphanumeric() || "_-.".contains(*c))
 }
 
-/// A character that a typed text in quotation marks may contain. The character must not end the quotation, a block or a
-/// comment.
+/// Returns the character if a typed text in quotation marks may contain this character, otherwise `None`. The character
+/// must not end the quotation, a block or a comment.
 pub fn in_quotes(c: char) -> Option<char> {
     in_word(c).or(Some(c).filter(|c| " ,:/+*=<>&'#[]".contains(*c)))
 }

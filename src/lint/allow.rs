@@ -5,10 +5,10 @@
 use std::collections::BTreeMap;
 
 use crate::diag::{CODES, Code, Diag, Severity};
-use crate::lang::did_you_mean;
 use crate::sema::Checked;
 use crate::source::Source;
 use crate::span::Span;
+use crate::suggest::did_you_mean;
 use crate::syntax::{Head, Line, Tail};
 
 use super::places::{Cover, Places};

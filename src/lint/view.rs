@@ -179,13 +179,18 @@ impl<'a> View<'a> {
         }
         let own = [SequenceId::RapidCode, SequenceId::LineCode];
         let all = own.iter().all(|&id| self.body(id).is_some_and(|body| !body.lines.is_empty()));
-        let says = |word: &Word| word.letter().is_some_and(|letter| self.axis(letter) == Some(2));
-        self.is_mill() && all && !self.words().any(says)
+        self.is_mill() && all && !self.words().any(|word| self.is_depth(word))
     }
 
-    /// Whether a cycle of the control makes one hole and then ends, as G74 to G76 on a lathe.
+    /// Whether a word moves the depth axis.
+    pub fn is_depth(&self, word: &Word) -> bool {
+        word.letter().and_then(|letter| self.axis(letter)) == Some(2)
+    }
+
+    /// Whether a cycle of a lathe cuts once and then ends, as G74 to G76 on a Fanuc.
     pub fn works_once(&self, code: Code) -> bool {
-        !self.is_mill() && (Code::g(74)..=Code::g(76)).contains(&code)
+        let meaning = self.settings.control().of_lathe().meaning(code);
+        !self.is_mill() && matches!(meaning, Some(Meaning::FacePecks | Meaning::GroovePecks | Meaning::ThreadCycle))
     }
 
     /// Whether the form's own lengths are in millimetres.
@@ -229,10 +234,14 @@ impl<'a> View<'a> {
         self.checked.trees.iter().flat_map(|tree| tree.sequences()).find(|node| node.name.line.span == span)
     }
 
+    /// The lines of all sequences as written in the form.
+    pub fn written_lines(&self) -> impl Iterator<Item = &'a syntax::Body> + use<'a> {
+        self.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body)
+    }
+
     /// The words as written in the form, without comments that extend to the end of the block.
     pub fn written(&self) -> impl Iterator<Item = &'a syntax::Word> + '_ {
-        let bodies = self.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
-        bodies.flat_map(|body| self.codes(&body.words))
+        self.written_lines().flat_map(|body| self.codes(&body.words))
     }
 
     /// The words of a line that come before a comment that extends to the end of the block.

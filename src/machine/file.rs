@@ -11,6 +11,7 @@ use super::fixture::Fixture;
 use super::tool_table::{self, Entry, ToolTable};
 use super::{Corners, LETTERS, Machine, Rotary, offsets};
 use crate::control::{self, Control, Wrong};
+use crate::suggest::did_you_mean_one_of;
 use crate::toolpath::Units;
 
 /// A function that reads a file which the machine file names. The function returns the text, or the reason why the file
@@ -117,8 +118,8 @@ impl Reader<'_> {
             return Control::own(name, &text);
         }
         Control::named(&name.to_ascii_lowercase()).ok_or_else(|| {
-            let help = format!("one of {}, or a control file", control::names().collect::<Vec<_>>().join(", "));
-            self.wrong(said.span().start, format!("there is no control `{name}`"), help)
+            let help = did_you_mean_one_of(name, control::names());
+            self.wrong(said.span().start, format!("there is no control `{name}`"), format!("{help}, or a control file"))
         })
     }
 

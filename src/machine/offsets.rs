@@ -53,7 +53,7 @@ fn names(control: &Control, number: usize) -> Vec<String> {
 /// selects offsets by codes.
 fn counted(control: &Control) -> Option<u8> {
     let by_code = || {
-        [150, 2470].into_iter().find_map(|tenths| match control.row(Code { letter: b'G', tenths })?.runs.work? {
+        control.rows().find_map(|row| match row.runs.work? {
             WorkOffset::Counted(letter) => Some(letter),
             _ => None,
         })

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Kind, Picture, Strips, View};
-use crate::terminal::escaped;
+use crate::terminal::{escaped, without_markup};
 
 /// The settings of a drawing.
 #[derive(Clone, Debug)]
@@ -333,15 +333,5 @@ fn described(picture: &Picture, strips: &Strips) -> String {
 
 /// A text for use in a picture, escaped so that it contains no markup.
 fn safe(text: &str) -> String {
-    let mut out = String::new();
-    for c in escaped(text).chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c => out.push(c),
-        }
-    }
-    out
+    without_markup(&escaped(text))
 }

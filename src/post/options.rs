@@ -2,10 +2,11 @@
 
 use crate::control::Control;
 use crate::error::Error;
-use crate::lang::{Origin, VARIABLES, VarId, did_you_mean};
+use crate::lang::{Origin, VARIABLES, VarId};
 use crate::nc::Unpointed;
 use crate::render::{self, Clock, Cycles};
 use crate::sema::{Property, PropertyValue, Settings};
+use crate::suggest::did_you_mean;
 use crate::times::Rates;
 use crate::toolpath::Units;
 

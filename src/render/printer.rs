@@ -295,6 +295,11 @@ impl Printer {
         if self.words > 0 { self.page.text.len() - self.start } else { 0 }
     }
 
+    /// The text of the open block.
+    fn block(&self) -> &[u8] {
+        &self.page.text[self.page.text.len() - self.length()..]
+    }
+
     /// The text of the open block after its first `length` bytes.
     pub fn block_from(&self, length: usize) -> &[u8] {
         self.page.text.get(self.start + length..).unwrap_or_default()
@@ -302,14 +307,12 @@ impl Printer {
 
     /// Does the open block end inside round brackets?
     pub fn is_in_brackets(&self) -> bool {
-        let block = if self.words > 0 { &self.page.text[self.page.text.len() - self.length()..] } else { &[] };
-        block.iter().rev().find(|c| b"()".contains(c)) == Some(&b'(')
+        self.block().iter().rev().find(|c| b"()".contains(c)) == Some(&b'(')
     }
 
     /// Does the open block end between quotation marks?
     pub fn is_in_quotes(&self) -> bool {
-        let block = if self.words > 0 { &self.page.text[self.page.text.len() - self.length()..] } else { &[] };
-        block.iter().filter(|&&c| c == b'"').count() % 2 == 1
+        self.block().iter().filter(|&&c| c == b'"').count() % 2 == 1
     }
 
     /// Is a block open?

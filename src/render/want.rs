@@ -14,9 +14,10 @@ use super::vars::Vars;
 use crate::control::Meaning;
 use crate::control::{self, Group};
 use crate::diag::Code;
-use crate::lang::{Machine, Origin, TextId, Unit, VARIABLES, VarId, did_you_mean, work_code};
+use crate::lang::{Machine, Origin, TextId, Unit, VARIABLES, VarId, work_code};
 use crate::number::quantise;
 use crate::sema::{Settings, Values};
+use crate::suggest::did_you_mean;
 use crate::toolpath::{Coolant, CycleKind, FeedMode, Spindle, SpindleTurn};
 
 /// The values that the job currently requests.

@@ -6,8 +6,9 @@ use super::near;
 use super::property::{PropertyKind, PropertyValue};
 use super::value_names::names_of;
 use crate::diag::{Code, Diag};
-use crate::lang::{Coolant, TextVar, VarId, VarSet, did_you_mean};
+use crate::lang::{Coolant, TextVar, VarId, VarSet};
 use crate::span::Span;
+use crate::suggest::did_you_mean;
 use crate::syntax::{Arithmetic, Comparison, Expr, ExprKind, Operator, Spanned, Unread};
 
 /// Variables whose value is 1 or 0. A condition may use a variable of this list without a comparison.

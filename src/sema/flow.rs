@@ -6,8 +6,9 @@ use super::names::{Context, property};
 use super::property::{PropertyKind, Target};
 use super::step::{Arm, Step};
 use crate::diag::{Code, Diag};
-use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, did_you_mean, directive_meant};
+use crate::lang::{DIRECTIVES, Each, Origin, Unit, VarId, directive_meant};
 use crate::span::Span;
+use crate::suggest::did_you_mean;
 use crate::syntax::{Directive, DirectiveKind, Spanned};
 
 /// Maximum nesting depth of directives.

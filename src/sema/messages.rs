@@ -1,8 +1,9 @@
 //! Findings that several checks share.
 
 use crate::diag::{Code, Diag};
-use crate::lang::{COMMANDS, SEQUENCES, did_you_mean};
+use crate::lang::{COMMANDS, SEQUENCES};
 use crate::span::Span;
+use crate::suggest::did_you_mean;
 
 pub(super) fn bad_format(span: Span, why: &str) -> Diag {
     Diag::new(Code::PF301, format!("the letter format {why}"))

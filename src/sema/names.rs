@@ -3,7 +3,8 @@
 use super::property::Property;
 use super::settings::Settings;
 use crate::diag::{Code, Diag};
-use crate::lang::{TEXTS, VARIABLES, VarId, did_you_mean};
+use crate::lang::{TEXTS, VARIABLES, VarId};
+use crate::suggest::did_you_mean;
 use crate::syntax::Spanned;
 
 /// The data that all words and conditions of a form need.

@@ -4,8 +4,9 @@ use std::collections::HashSet;
 
 use super::args::{Arguments, Read, bad};
 use super::store::Setting;
-use crate::lang::{TextVar, VarId, did_you_mean};
+use crate::lang::{TextVar, VarId};
 use crate::span::Span;
+use crate::suggest::did_you_mean;
 
 /// Maximum number of tool fields in a form. A tool field is a text that the job gives for each tool.
 const MOST_FIELDS: usize = 24;

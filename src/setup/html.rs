@@ -1,6 +1,7 @@
 //! Writes the setup sheet as a self-contained HTML page for A4 and Letter paper: light or dark on the screen, black on paper.
 
 use super::{SetupSheet, facts, tables, title};
+use crate::terminal::without_markup;
 
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #bbb; --quiet: #555; }
@@ -59,17 +60,7 @@ pub fn html(sheet: &SetupSheet) -> String {
     page + "</div>\n</body>\n</html>\n"
 }
 
+/// Text for the page. A control character becomes a space.
 fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c if c.is_control() => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
+    without_markup(&text.replace(char::is_control, " "))
 }

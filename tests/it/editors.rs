@@ -3,8 +3,9 @@
 use std::fs;
 use std::process::Command;
 
+use postform::Format;
 use postform::internals::lang::{COMMANDS, SEQUENCES};
-use serde_json::Value;
+use serde_json::{Value, json as value};
 
 use crate::support::root;
 
@@ -51,6 +52,35 @@ fn the_extension_has_the_version_and_the_licence_of_the_program() {
     assert_eq!(json("package.json")["version"], env!("CARGO_PKG_VERSION"));
     let read = |name: &str| fs::read_to_string(root().join(name)).unwrap();
     assert_eq!(read("editors/vscode/LICENSE"), read("LICENSE"));
+}
+
+/// File name extensions in TypeScript, JSON and Markdown are those of the table of formats.
+#[test]
+fn file_name_extensions_are_those_of_the_table() {
+    let of = |formats: &[Format]| -> Vec<String> {
+        formats.iter().flat_map(|format| format.extensions()).map(|extension| format!(".{extension}")).collect()
+    };
+    // the extensions between two texts of a file, with a point before each
+    let listed = |file: &str, start: &str, end: &str| -> Vec<String> {
+        let text = fs::read_to_string(root().join(file)).unwrap();
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let (_, rest) = text.split_once(start).unwrap_or_else(|| panic!("{file} lacks {start}"));
+        let list = rest.split_once(end).unwrap().0;
+        let names = list.split(|c: char| !c.is_ascii_lowercase()).filter(|name| !["", "or"].contains(name));
+        names.map(|name| format!(".{name}")).collect()
+    };
+    let programs = of(&[Format::Nc]);
+    let all = of(&Format::ALL);
+    assert_eq!(listed("page/src/opening.ts", "JOBS =", ";"), [all, vec![".gz".into()]].concat());
+    assert_eq!(listed("page/src/opening.ts", "PROGRAMS = ", "$"), programs);
+    assert_eq!(listed("docs/programs.md", "program if its extension is", "The canned"), programs);
+    assert_eq!(listed("docs/cl.md", "CAM systems: `", "`"), of(&[Format::Cl]));
+    // VS Code has a language for programs, and FreeCAD documents are not text
+    let texts = of(&[Format::Json, Format::JsonLines, Format::Cl, Format::Nci]);
+    assert_eq!(listed("editors/vscode/src/extension.ts", "**/*.{", "}"), texts);
+    // .h and .i are also the extensions of C files
+    let of_no_other_language: Vec<String> = programs.into_iter().filter(|name| name != ".h" && name != ".i").collect();
+    assert_eq!(json("package.json")["contributes"]["languages"][1]["extensions"], value!(of_no_other_language));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Many jobs in one command: `render --out-dir`, `--split`, `--changed`, `verify`, `check` and `diff --forms` over folders.
 
 use std::fs;
+use std::io::Write as _;
 use std::time::{Duration, SystemTime};
 
 use crate::support::folder::{Folder, err, out};
@@ -323,6 +324,15 @@ fn compressed_jobs_and_programs() {
     // a compressed program can be a job, and a compressed job can be proven
     let output = folder.run(&["check", "bracket.nc.gz", "--job-control", "haas"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    // a compressed program needs no form for its picture, and a compressed CL file gets a program number as a case
+    let output = folder.run(&["plot", "bracket.nc.gz", "-o", "bracket.svg"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let cl = fs::read(root().join("samples/cl-drill/job.cl")).unwrap();
+    let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    packer.write_all(&cl).unwrap();
+    folder.write("parts/drill.cl.gz", packer.finish().unwrap());
+    let output = folder.run(&["test", "parts", "--form", "haas.pf", "--update"]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
     folder.write("cut.nc.gz", &packed[..packed.len() / 2]);
     let output = folder.run(&["check", "cut.nc.gz"]);
     assert_eq!(output.status.code(), Some(2));

@@ -12,7 +12,7 @@ use postform::internals::sema::MOST_TEXT;
 use postform::internals::terminal::{escaped, escaped_lines};
 use postform::{Format, Job};
 
-use super::args::{From, ReadArgs};
+use super::args::ReadArgs;
 pub use super::destination::folder;
 use super::inputs;
 use super::packed::{unpacked, unpacked_name};
@@ -50,15 +50,15 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, String> {
     }
 }
 
-/// An NC program as a seekable file; any other input is copied into a file.
+/// An NC program as a file in which postform can seek.
 ///
 /// # Errors
 /// A message: the file can't be read, or it is a job and not a program.
 pub fn open_program(path: &Path) -> Result<File, String> {
-    let mut file = Again::open(path)?.file;
+    let mut file = seekable(path)?;
     let mut head = Vec::new();
     let fail = |error: io::Error| io_message("read", path, &error);
-    file.by_ref().take(LOOKED_AT).read_to_end(&mut head).map_err(fail)?;
+    file.by_ref().take(Format::LOOKED_AT as u64).read_to_end(&mut head).map_err(fail)?;
     file.rewind().map_err(fail)?;
     if matches!(Format::of_content(&head), Some(Format::Json | Format::JsonLines)) {
         let name = name(path);
@@ -69,36 +69,26 @@ pub fn open_program(path: &Path) -> Result<File, String> {
     Ok(file)
 }
 
-/// An input that is read more than once; an input that is not seekable is copied into a file.
-pub struct Again {
-    file: File,
-}
-
-impl Again {
-    /// Opens a file; standard input, pipes and the text of compressed files are copied.
-    pub fn open(path: &Path) -> Result<Again, String> {
-        inputs::note(path);
-        let fail = |error: io::Error| io_message("read", path, &error);
-        if path != Path::new("-") {
-            let file = File::open(path).map_err(fail)?;
-            let meta = file.metadata().map_err(fail)?;
-            if meta.is_dir() {
-                return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
-            }
-            if meta.is_file() && unpacked_name(path).is_none() {
-                return Ok(Again { file });
-            }
+/// A file in which postform can seek: standard input, pipes and the text of compressed files are copied into one.
+///
+/// # Errors
+/// A message: the file can't be read.
+pub fn seekable(path: &Path) -> Result<File, String> {
+    inputs::note(path);
+    let fail = |error: io::Error| io_message("read", path, &error);
+    if path != Path::new("-") {
+        let file = File::open(path).map_err(fail)?;
+        let meta = file.metadata().map_err(fail)?;
+        if meta.is_dir() {
+            return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
         }
-        let mut spool = Spool::new().map_err(fail)?;
-        io::copy(&mut open(path)?, &mut spool).map_err(fail)?;
-        Ok(Again { file: spool.into_file().map_err(fail)? })
+        if meta.is_file() && unpacked_name(path).is_none() {
+            return Ok(file);
+        }
     }
-
-    /// The file itself.
-    pub fn into_file(mut self) -> Result<File, String> {
-        self.file.rewind().map_err(|error| io_message("read", Path::new("the program"), &error))?;
-        Ok(self.file)
-    }
+    let mut spool = Spool::new().map_err(fail)?;
+    io::copy(&mut open(path)?, &mut spool).map_err(fail)?;
+    spool.into_file().map_err(fail)
 }
 
 /// A file that must not change while it is read more than once.
@@ -306,19 +296,23 @@ fn only(args: &ReadArgs) -> [Only; 6] {
     ]
 }
 
+/// The format by the extension of a file, without the `.gz` of a compressed file.
+pub fn format_of_name(path: &Path) -> Option<Format> {
+    Format::of_name(&unpacked_name(path).as_deref().unwrap_or(path).to_string_lossy())
+}
+
 fn format_of(
     path: &Path,
-    from: Option<From>,
+    from: Option<Format>,
     first: impl FnOnce() -> Result<Option<Format>, String>,
 ) -> Result<Format, String> {
-    let unpacked = unpacked_name(path);
-    let by_name = || Format::of_name(&unpacked.as_deref().unwrap_or(path).to_string_lossy());
-    match from.map(From::format).or_else(by_name) {
+    match from.or_else(|| format_of_name(path)) {
         Some(format) => Ok(format),
         None if path == Path::new("-") => Ok(Format::Json),
         None => first()?.ok_or_else(|| {
             let name = name(path);
-            format!("error: the format of {name} is unknown: give it with --from json, jsonl, cl, nc, nci or freecad")
+            let known = Format::ALL.map(Format::name).join(", ");
+            format!("error: the format of {name} is unknown: give it with --from, one of {known}")
         }),
     }
 }
@@ -326,21 +320,21 @@ fn format_of(
 /// The format by the first bytes of a file; an input that is not seekable is not examined.
 fn by_content(path: &Path) -> Result<Option<Format>, String> {
     let fail = |error: io::Error| io_message("read", path, &error);
-    let file = File::open(path).map_err(fail)?;
-    if !file.metadata().map_err(fail)?.is_file() {
+    if !std::fs::metadata(path).map_err(fail)?.is_file() {
         return Ok(None);
     }
-    let mut start = Vec::new();
-    match unpacked_name(path) {
-        Some(_) => unpacked(io::BufReader::new(file)).take(LOOKED_AT).read_to_end(&mut start),
-        None => file.take(LOOKED_AT).read_to_end(&mut start),
-    }
-    .map_err(fail)?;
-    Ok(Format::of_content(&start))
+    Ok(Format::of_content(&beginning(path).map_err(fail)?))
 }
 
-/// Number of bytes that are examined to recognise a job.
-const LOOKED_AT: u64 = 4096;
+/// The first bytes of a file, decompressed if its name ends with `.gz`.
+pub fn beginning(path: &Path) -> io::Result<Vec<u8>> {
+    let (file, mut start, most) = (File::open(path)?, Vec::new(), Format::LOOKED_AT as u64);
+    match unpacked_name(path) {
+        Some(_) => unpacked(io::BufReader::new(file)).take(most).read_to_end(&mut start)?,
+        None => file.take(most).read_to_end(&mut start)?,
+    };
+    Ok(start)
+}
 
 /// Checks that the format of a job is known and that the options apply to it.
 pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
@@ -367,7 +361,7 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
     let twice = again || matches!(format, Format::Nc | Format::Freecad);
     let is_file = path != Path::new("-") && fs::metadata(path).is_ok_and(|meta| meta.is_file());
     let mut job = match twice || is_file {
-        true => Job::file(format, Steady::new(Again::open(path)?.file)),
+        true => Job::file(format, Steady::new(seekable(path)?)),
         false => Job::stream(format, open(path)?),
     };
     settle(&mut job, format, path, args);
@@ -379,7 +373,7 @@ pub fn job(path: &Path, args: &ReadArgs, again: bool) -> Result<Job<'static>, St
 /// # Errors
 /// A message: the format is unknown.
 pub fn job_in_memory(path: &Path, bytes: &Arc<[u8]>, args: &ReadArgs) -> Result<Job<'static>, String> {
-    let first = || Ok(Format::of_content(&bytes[..bytes.len().min(LOOKED_AT as usize)]));
+    let first = || Ok(Format::of_content(bytes));
     let format = job_format(path, args, first)?;
     let mut job = Job::file(format, io::Cursor::new(Arc::clone(bytes)));
     settle(&mut job, format, path, args);

@@ -81,8 +81,12 @@ fn one(path: &Path, args: &FmtArgs) -> Result<Laid, String> {
         return Ok(Laid::LeftOut(format!("{why}\n  help: {help}")));
     }
     let file = FormFile::read(path, Limits::Extended)?;
-    if !args.force && let Some(unread) = unread(&file) {
-        return Ok(Laid::LeftOut(format!("{unread}\n  help: {name} is not changed until every line of it can be read")));
+    if !args.force
+        && let Some(unread) = unread(&file)
+    {
+        return Ok(Laid::LeftOut(format!(
+            "{unread}\n  help: {name} is not changed until every line of it can be read"
+        )));
     }
     let after = format(&file.source());
     if file.bytes() == after.as_bytes() {

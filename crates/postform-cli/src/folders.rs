@@ -2,18 +2,15 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use postform::Format;
 
-use super::files::io_message;
+use super::files::{beginning, format_of_name, io_message};
 use super::packed::unpacked_name;
 
 /// Maximum depth of subfolders; deeper ones are skipped.
 pub const DEEPEST: usize = 32;
-/// Number of bytes of a JSON document that are examined to recognise a job.
-const HEAD: u64 = 4096;
 
 /// The jobs in a folder and its subfolders, in the order of their paths; and the JSON files that do not begin like a job.
 ///
@@ -29,16 +26,9 @@ fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut V
     let entries = listed(folder)?;
     let expected = jobs_expected(&entries);
     for path in &entries {
-        // a broken link counts as a job that can't be read
-        let is_there = path.is_file() || path.is_symlink() && !path.exists();
-        // the contents of a compressed job are not examined
-        let is_job = match unpacked_name(path) {
-            Some(name) => is_there && is_named_as_job(&name),
-            None => is_job(path, &expected),
-        };
-        if is_job {
+        if is_job(path, &expected) {
             jobs.push(path.clone());
-        } else if is_there && !is_expected(path) && Format::of_name(&path.to_string_lossy()) == Some(Format::Json) {
+        } else if path.is_file() && !is_expected(path) && format_of_name(path) == Some(Format::Json) {
             others.push(path.clone());
         }
     }
@@ -46,14 +36,6 @@ fn collect(folder: &Path, deeper: usize, jobs: &mut Vec<PathBuf>, others: &mut V
         collect(folder, deeper - 1, jobs, others)?;
     }
     Ok(())
-}
-
-/// Is the file name the name of a job? A program is a job only if it is called `job`.
-fn is_named_as_job(name: &Path) -> bool {
-    match Format::of_name(&name.to_string_lossy()) {
-        Some(Format::Nc) => name.file_stem().is_some_and(|stem| stem == "job"),
-        format => format.is_some(),
-    }
 }
 
 /// The folders among these entries.
@@ -95,25 +77,29 @@ pub fn jobs_expected(entries: &[PathBuf]) -> HashSet<String> {
     entries.iter().filter(|path| is_expected(path)).map(|path| stem_of_expected(path)).collect()
 }
 
-/// Is the file a job? A JSON file must look like a job, be called `job`, or have an expected program. An NC program must be
-/// called `job`.
+/// The name of a job without its extension, and without the `.gz` of a compressed job.
+pub fn stem_of_job(path: &Path) -> String {
+    let name = unpacked_name(path);
+    name.as_deref().unwrap_or(path).file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Whether the file is a job. A JSON file must look like a job, be called `job`, or have an expected program. An NC
+/// program must be called `job`. A broken link counts as a job that can't be read.
 pub fn is_job(path: &Path, expected: &HashSet<String>) -> bool {
-    if !path.is_file() || is_expected(path) {
+    let is_there = path.is_file() || path.is_symlink() && !path.exists();
+    if !is_there || is_expected(path) {
         return false;
     }
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let is_called_so = stem == "job" || expected.contains(stem.as_ref());
-    match Format::of_name(&path.to_string_lossy()) {
+    let stem = stem_of_job(path);
+    match format_of_name(path) {
         Some(Format::Nc) => stem == "job",
-        Some(Format::Json) => is_called_so || looks_like_a_job(path),
+        Some(Format::Json) => stem == "job" || expected.contains(&stem) || looks_like_a_job(path),
         Some(_) => true,
         None => false,
     }
 }
 
 fn looks_like_a_job(path: &Path) -> bool {
-    let mut head = Vec::new();
-    let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     // a read error is reported when the job is read
-    read.is_err() || String::from_utf8_lossy(&head).contains("\"postform\"")
+    beginning(path).map_or(true, |head| String::from_utf8_lossy(&head).contains("\"postform\""))
 }

@@ -180,10 +180,18 @@ fn opened(path: &Path) -> io::Result<File> {
 /// # Errors
 /// A message; the old contents are unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let fail = |error| io_message("write", path, &error);
-    let mut target = Target::place(path, false)?;
-    target.write(bytes).map_err(fail)?;
-    target.complete().map_err(fail)
+    whole(Target::place(path, false)?, path, bytes)
+}
+
+/// Writes an output in one piece. `path`: the path of the output. A closed pipe behind standard output is not an error.
+///
+/// # Errors
+/// A message: the output can't be written.
+pub fn whole(mut target: Target, path: &Path, bytes: &[u8]) -> Result<(), String> {
+    match target.write(bytes).and_then(|()| target.complete()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe && path == Path::new("-") => Ok(()),
+        done => done.map_err(|error| io_message("write", path, &error)),
+    }
 }
 
 /// Writes a file that must not exist yet.

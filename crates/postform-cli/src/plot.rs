@@ -16,7 +16,7 @@ use super::Ending;
 use super::args::{ControlArgs, PlotArgs};
 use super::config::Config;
 use super::files::{self, io_message};
-use super::output::Target;
+use super::output::{self, Target};
 use super::prepare::prepare;
 use super::rendered::rendered;
 use super::report::{Reporter, place_in};
@@ -47,13 +47,7 @@ pub fn run(args: &PlotArgs, colour: bool) -> Result<Ending, String> {
     } else {
         still(&picture, title, args)
     };
-    let fail = |error| io_message("write", &args.output, &error);
-    let mut target = Target::open(&args.output, false)?;
-    target.write(text.as_bytes()).map_err(fail)?;
-    match target.complete() {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe && args.output == Path::new("-") => {}
-        done => done.map_err(fail)?,
-    }
+    output::whole(Target::open(&args.output, false)?, &args.output, text.as_bytes())?;
     // the picture up to the refused block is still useful
     let Some((mut diag, _)) = picture.refused.take() else { return Ok(Ending::Clean) };
     place_in(&name, &mut diag);
@@ -78,8 +72,8 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 /// The requested program, its picture and its text. `None`: there is no program, and the reason has been shown.
 fn picture(args: &PlotArgs, reporter: &Reporter) -> Result<Option<(Picture, File)>, String> {
     let config = Config::near(&args.file)?;
-    let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from.format() == Format::Nc) && {
-        args.read.from.is_some() || Format::of_name(&args.file.to_string_lossy()) == Some(Format::Nc)
+    let is_program = args.form.is_none() && args.read.from.is_none_or(|from| from == Format::Nc) && {
+        args.read.from.is_some() || files::format_of_name(&args.file) == Some(Format::Nc)
     };
     if is_program {
         let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };

@@ -47,7 +47,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
     let Some(mut prepared) = prepare(&form, &args.options, &args.job, reporter)? else { return Ok(Ending::Findings) };
     let named = machine::of_prepared(&args.machine, &form, &mut prepared, &config)?;
     let mut job = files::job(&args.job, &args.read, true)?;
-    let mut target = Target::open(&args.output, false)?;
+    let target = Target::open(&args.output, false)?;
     let (post, options) = (&prepared.post, &prepared.options);
     let mut sheet = match post.setup(job.again(), options) {
         Ok(sheet) => sheet,
@@ -102,12 +102,7 @@ pub fn run(args: &SheetArgs, colour: bool) -> Result<Ending, String> {
         SheetFormat::Md => markdown(&sheet),
         SheetFormat::Json => output::json(&serde_json::to_value(&sheet).map_err(|error| format!("error: {error}"))?),
     };
-    let fail = |error: std::io::Error| io_message("write", &args.output, &error);
-    target.write(page.as_bytes()).map_err(fail)?;
-    match target.complete() {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe && args.output == Path::new("-") => {}
-        done => done.map_err(fail)?,
-    }
+    output::whole(target, &args.output, page.as_bytes())?;
     if let Verdict::Different(findings) = &proven.verdict {
         sides.show(findings, postform::diag::Severity::Error, reporter);
         message("the sheet is written; it reports that the program is different from its job");

@@ -15,7 +15,7 @@ use postform::{Error, Job, Proof, Proven};
 use super::args::{ControlArgs, UnitsArg, VerifyArgs, VerifyFormat};
 use super::beside::{self, Printed};
 use super::config::Config;
-use super::files::{self, Again, io_message};
+use super::files::{self, io_message};
 use super::machine::{self, Fitting};
 use super::prepare::{Prepared, prepare};
 use super::rendered::{denied, rendered};
@@ -108,7 +108,7 @@ fn tried(
     let sides = Sides { jobs: &[job_path], program: &name, files };
     let (tried, program) = match (&args.nc, prepared) {
         (Some(path), prepared) => {
-            let file = Again::open(path)?.into_file()?;
+            let file = files::seekable(path)?;
             let program = file.try_clone().map_err(|error| io_message("read", path, &error))?;
             let proven = match prepared {
                 Some(prepared) => prepared.post.verify_with(job.again(), file, &prepared.options, &proof),

@@ -53,7 +53,7 @@ async function start(isOutdated: () => boolean): Promise<void> {
       { language: "nc", scheme: "file" },
       { language: "nc", scheme: SCHEME },
       { scheme: "file", pattern: "**/postform.toml" },
-      { scheme: "file", pattern: "**/*.{json,jsonl,cl,apt,aptsource,ncl,cls}" },
+      { scheme: "file", pattern: "**/*.{json,jsonl,ndjson,cl,apt,aptsource,ncl,cls,cldata,as,nci}" },
     ],
     initializationOptions: { ...settings(), virtualPrograms: true },
   };

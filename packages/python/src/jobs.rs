@@ -17,9 +17,6 @@ pub enum Given {
     Text(Vec<u8>, Format),
 }
 
-/// So much of a file tells what it is.
-const HEAD: usize = 4096;
-
 impl Given {
     /// What a caller gave.
     pub fn of(job: &Bound<'_, PyAny>) -> PyResult<Given> {
@@ -54,16 +51,14 @@ impl Given {
 
     /// A text in a format by its name.
     pub fn text(text: &str, format: &str) -> PyResult<Given> {
-        let format = match format {
-            "json" => Format::Json,
-            "jsonl" => Format::JsonLines,
-            "cl" => Format::Cl,
-            "nc" => Format::Nc,
-            "nci" => Format::Nci,
-            "freecad" => return Err(PyValueError::new_err("a FreeCAD document is no text: give its path to render")),
-            other => {
+        let format = match Format::parse(format) {
+            Some(Format::Freecad) => {
+                return Err(PyValueError::new_err("a FreeCAD document is not a text: give its path to render"));
+            }
+            Some(format) => format,
+            None => {
                 let known = "json, jsonl, cl, nc, nci";
-                return Err(PyValueError::new_err(format!("there is no format {other:?}: take one of {known}")));
+                return Err(PyValueError::new_err(format!("there is no format {format:?}: use one of {known}")));
             }
         };
         Ok(Given::Text(text.as_bytes().to_vec(), format))
@@ -95,7 +90,7 @@ fn format_of(path: &Path) -> PyResult<Format> {
     if let Some(format) = Format::of_name(&path.to_string_lossy()) {
         return Ok(format);
     }
-    let mut head = vec![0; HEAD];
+    let mut head = vec![0; Format::LOOKED_AT];
     let read = opened(path)?.read(&mut head)?;
     let unknown = || {
         let name = path.display();

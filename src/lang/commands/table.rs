@@ -17,21 +17,21 @@ macro_rules! command_rows {
                 "the type of machine; it decides which sequences and variables the form may use";
             Units "Units" (Choice(&["inch", "mm", "both"])) once (of("inch")) Ours {=> known_word}
                 "units of the lengths in the form; a job in other units needs a printed [unitmode]";
-            Control "Control" (Words(1, 1, "a control's name, or a file that describes one, as `haas` or `my-vf2.toml`"))
-                once (of("").told("much like fanuc")) Ours {control: Option<&'static Control>}
+            Control "Control" (Words(1, 1, "the name of a control, such as `haas`, or a control file, such as `my-vf2.toml`"))
+                once (of("").told("similar to fanuc")) Ours {control: Option<&'static Control>}
                 "the control for which the programs are checked";
-            MachineFile "MachineFile" (Words(1, 1, "the file of a machine, as `vf2.toml`"))
+            MachineFile "MachineFile" (Words(1, 1, "a machine file, such as `vf2.toml`"))
                 once (of("")) Ours {machine_file: Option<String>} eg "vf2.toml"
-                "the machine whose limits the programs must keep: its file, relative to the form's folder";
+                "machine file, relative to the form's folder; the programs must keep the limits of this machine";
             // codes
             Rapid "Rapid" (Motion(1, 1)) once (of("G0")) Doc {rapid: Code}
                 "motion word of generated rapids";
             Feed "Feed" (Motion(1, 1)) once (of("G1")) Doc {feed: Code}
                 "motion word of generated feed moves";
             CW "CW" (Motion(1, 2)) once (of("G2")) Ours {=> clockwise}
-                "motion word of generated clockwise arcs; an M code after it is the [direct] of a spindle that turns clockwise";
+                "motion word of generated clockwise arcs; an optional M code sets [direct] for a clockwise spindle";
             CCW "CCW" (Motion(1, 2)) once (of("G3")) Ours {=> counter_clockwise}
-                "motion word of generated counter-clockwise arcs; an M code after it is the [direct] of a spindle that turns counter-clockwise";
+                "motion word of generated counter-clockwise arcs; an optional M code sets [direct] for a counter-clockwise spindle";
             FeedCode "FeedCode" (Letters(1, 1)) once (of("F")) Doc {feed_code: u8}
                 "letter of generated feed words";
             SpeedCode "SpeedCode" (Letters(1, 1)) once (of("S")) Doc {speed_code: u8}
@@ -54,11 +54,11 @@ macro_rules! command_rows {
             CDCCode "CDCCode" (Letters(1, 1))
                 once (of("D")) Ours {cdc_code: u8} if (Unless(&[S::InFeed], "InFeed prints the compensation"))
                 "offset letter of generated compensation moves";
-            Dwell "Dwell" (Words(2, 3, "code letter unit, as `G4 P s` or `G4 P ms`"))
+            Dwell "Dwell" (Words(2, 3, "code, letter, unit, as `G4 P s` or `G4 P ms`"))
                 once (of("G4 P s")) Ours {dwell: DwellWord}
                 "generated dwell block, and the unit of [dwell]: seconds or milliseconds";
             Orient "Orient" (Words(2, 2, "code and letter, as `M19 R`")) once (of("M19 R")) Ours {orient: (Code, u8)}
-                "spindle orientation";
+                "words of a generated spindle orientation";
             StopCode "StopCode" (Codes('M', 2, 2)) once (of("0 1")) Ours {stop_code: [f64; 2]}
                 "values of [stop]: program stop, optional stop";
             LComp "LComp" (Number) once (of("0")) Ours {lcomp: f64} if (Printed(V::Lcomp))
@@ -71,11 +71,11 @@ macro_rules! command_rows {
                 "[work] of a job without a work offset";
             MoreWork "MoreWork" (Words(2, 3, "the first fixture of the range, and the words of that fixture, as `7 G54.1 P1`"))
                 many (of("")) Ours {more_work: Vec<MoreWork>} if (Printed(V::Work)) eg "7 G54.1 P1"
-                "words that `G[work]` prints for this fixture; for each next fixture their last number increases by 1";
+                "words that `G[work]` prints for the first fixture of the range; the last number increases by 1 for each further fixture";
             IncAbs "Inc/Abs" (Codes('G', 2, 2)) once (of("91 90")) Ours {inc_abs: [f64; 2]}
-                "values of [incmode]";
+                "values of [incmode]: incremental, absolute";
             InchMm "Inch/MM" (Codes('G', 2, 2)) once (of("20 21")) Ours {inch_mm: [f64; 2]} if (Printed(V::Unitmode))
-                "values of [unitmode]";
+                "values of [unitmode]: inch, millimetre";
             ReturnPlane "ReturnPlane" (Codes('G', 2, 2))
                 once (of("99 98")) Ours {return_plane: [f64; 2]} if (Cycles(V::Retplane))
                 "values of [retplane]: R level, initial level";
@@ -95,29 +95,29 @@ macro_rules! command_rows {
             Ignore "Ignore" (Letters(1, 1)) once (of("")) Ours {=> ignored_axis} eg "Z"
                 "an axis of a torch or a laser whose positions are neither printed nor compared";
             ByDiameter "ByDiameter?" (Switch) once (of("N").lathe("Y")) Ours {by_diameter: bool}
-                "X as a diameter";
+                "with `Y`, X words are diameters";
             RevSigns "RevSigns" (Letters(1, 15)) many (of("")) Ours {rev_signs: Vec<u8>} if (Letter) eg "Z"
-                "letters printed with the sign reversed";
+                "letters whose values are printed with the opposite sign";
             Incremental "Incremental?" (Switch) once (of("N")) Ours {incremental: bool}
-                "generated moves in increments";
+                "with `Y`, generated moves are increments";
             // arcs
             CtrCode "CtrCode" (Words(1, 3, "letters, `I J K` or `R`"))
                 once (of("I J K").lathe("K I")) Ours {centre: ArcCentre} if (Arcs)
-                "arc centre words";
+                "words of arc centres";
             CtrCode180 "CtrCode>180" (Words(1, 3, "letters, `I J K` or `R`"))
                 once (of("")) Ours {centre_over_180: Option<ArcCentre>} if (Arcs)
-                "centre words of arcs over 180 degrees; `R` prints the radius negative";
+                "centre words of arcs over 180 degrees; `R` prints a negative radius";
             CtrCode360 "CtrCode360" (Words(1, 3, "letters, `I J K`"))
                 once (of("")) Ours {=> centre_of_circles} if (Arcs)
                 "centre words of full circles";
             CtrIncremental "CtrIncremental?" (Switch) once (of("Y")) Ours {centre_incremental: bool} if (Arcs)
-                "`Y`: arc centres are relative to the start of the arc; `N`: they are absolute";
+                "with `Y`, arc centres are relative to the start of the arc; with `N`, arc centres are absolute";
             ByQuadrants "ByQuadrants?" (Switch) once (of("N")) Doc {by_quadrants: bool}
-                "split arcs at the quadrant lines";
+                "with `Y`, arcs are split at the quadrant lines";
             ArcPlane "ArcPlane" (Motion(1, 3)) once (of("17 18 19")) Ours {planes: Vec<Code>}
                 "plane words; an arc in another plane is linearised";
             Helical "Helical?" (Switch) once (of("Y")) Ours {helical: bool}
-                "`N`: arcs that also move along the tool axis are linearised";
+                "with `N`, arcs that also move along the tool axis are linearised";
             MinRad "MinRad" (Length) once (of("0.0005").mm("0.01")) Ours {min_radius: f64}
                 "arcs with a smaller radius are linearised";
             MaxRad "MaxRad" (Length) once (of("999").mm("25000")) Ours {max_radius: f64}
@@ -125,10 +125,10 @@ macro_rules! command_rows {
             Tolerance "Tolerance" (LengthAboveZero) once (of("0.0005").mm("0.01")) Ours {tolerance: f64}
                 "largest distance of lines from a linearised arc";
             ArcWithLine "ArcWithLine?" (Switch) once (of("Y")) Ours {arc_with_line: bool}
-                "an arc after a line leaves out its motion code if the code is still active";
+                "with `Y`, an arc after a line leaves out its motion code if the code is still active";
             ArcWithSame "ArcWithSame?" (Switch) once (of("Y")) Ours {arc_with_same: bool}
-                "an arc after an arc in the same direction leaves out its motion code";
-            CircDir "CircDir" (Words(2, 2, "two words, clockwise and counter-clockwise, as `DR- DR+`"))
+                "with `Y`, an arc after another arc in the same direction leaves out its motion code";
+            CircDir "CircDir" (Words(2, 2, "the words for clockwise and counter-clockwise arcs, as `DR- DR+`"))
                 once (of("")) Ours {circle_direction: Option<[String; 2]>} if (Arcs) eg "DR- DR+"
                 "direction word at the end of an arc block";
             SecondCircle "2ndCircleCode" (Words(1, 9, "one word, as `M99`"))
@@ -136,29 +136,29 @@ macro_rules! command_rows {
                 "word that begins the second block of an arc, which contains the centre";
             // leaving out unchanged words
             Modality "Modality?" (Switch) once (of("Y")) Ours {modality: bool}
-                "drop words that change nothing";
+                "with `Y`, words that change nothing are left out";
             ModalLetters "ModalLetters" (Letters(1, 26))
                 once (of("").told("axes, F and S")) Ours {modal_letters: Option<Vec<u8>>} if (Modal) eg "X Y Z F S"
-                "modal letters, which may be dropped";
+                "modal letters; postform leaves out words with these letters if the words change nothing";
             ModalGs "ModalGs" (Codes('G', 1, 15))
                 once (of("0 1 2 3 17 18 19")) Ours {modal_codes: Vec<control::Code>} if (Modal)
-                "modal codes, which may be dropped";
+                "modal codes; postform leaves out these codes while they are active";
             Force "Force" (Letters(1, 15)) once (of("")) Ours {force: Vec<u8>} if (Modal) eg "X Y Z"
                 "letters printed again after every tool change and every change from rapid to feed";
             // blocks and their text
-            SequenceNumbers "Sequence#s" (Words(1, 3, "letter start step, as `N 10 10`; `-` instead of a letter prints none; `None` prints no block numbers; a missing start or step is 10"))
+            SequenceNumbers "Sequence#s" (Words(1, 3, "letter, start, step, as `N 10 10`; `-` prints numbers without a letter; `None` prints no block numbers; a missing start or step is 10"))
                 once (of("None")) Ours {numbers: SequenceNumbers}
                 "block numbers";
             First "First#?" (Switch) once (of("Y")) Ours {number_first: bool} if (Numbered)
-                "number the first block";
+                "with `Y`, the first block has a number";
             Last "Last#?" (Switch) once (of("Y")) Ours {number_last: bool} if (Numbered)
-                "number the last block";
+                "with `Y`, the last block has a number";
             SpacesSwitch "Spaces?" (Switch) once (of("Y")) Ours {blanks: bool}
-                "a space between words";
+                "with `Y`, postform prints a space between words";
             Spaces "Spaces" (Whole(1, 15)) once (of("")) Ours {columns: Vec<usize>} eg "8"
-                "fixed columns: one width for all, or the column of each word";
+                "fixed columns: one width for all words, or the column of each word";
             LeadingZeros "Leading0s?" (Switch) once (of("N")) Ours {leading_zeros: bool}
-                "0.5 for .5";
+                "with `Y`, postform prints 0.5 instead of .5";
             Eob "EOB" (Text) once (of("")) Ours {eob: String}
                 "text at the end of every block";
             LineEnd "LineEnd" (Choice(&["lf", "crlf"])) once (of("lf")) Ours {line_end: LineEnd}
@@ -173,16 +173,16 @@ macro_rules! command_rows {
                 once (of("( )")) Ours {comment: [String; 2]}
                 "comment marks";
             UpperComments "UpperCaseComments?" (Switch) once (of("Y")) Ours {upper_comments: bool}
-                "comments of the job in capitals";
+                "with `Y`, comments of the job are printed in capitals";
             Replace "Replace" (Words(2, 2, "old and new text, in quotes if they contain spaces"))
                 many (of("")) Ours {replace: Vec<Replacement>} eg "\"M8 \" \"M88 \""
-                "text replacement in every output block";
+                "replaces a text in every printed block";
             Rename "Rename" (Letters(2, 2)) many (of("")) Ours {rename: Vec<(u8, u8)>} if (Letter)
                 "prints the second letter instead of the first letter";
             Dummy "Dummy" (Letters(1, 15)) many (of("")) Ours {dummy: Vec<u8>} if (Letter) eg "Q"
                 "prints the values of these letters without the letters";
             Mod "Mod" (Text) many (of("")) Ours {mod_text: Vec<String>}
-                "text printed once at the start (kept for old files)";
+                "text printed once at the start of the program (for old forms)";
             // questions and other forms
             Each "Each" (Words(1, 3, "variable, prompt in quotes, default"))
                 many (of("")) Ours {= prompts} eg "val1 \"Height of the vise\" 2.5"
@@ -199,16 +199,16 @@ macro_rules! command_rows {
                 "includes another form of the same folder";
             // subprograms, tool changes, limits
             SubsFirst "Subs1st?" (Switch)
-                once (of("N").told("with a Between Y")) Ours {subs_first: bool} if (With(&[S::SubStart]))
-                "subprograms before the main program";
+                once (of("N").told("Y with a Between sequence")) Ours {subs_first: bool} if (With(&[S::SubStart]))
+                "with `Y`, subprograms are printed before the main program";
             RenumSubs "RenumSubs?" (Switch) once (of("Y")) Ours {renumber_subs: bool} if (With(&[S::SubStart]))
-                "number subprograms from 1";
+                "with `Y`, subprograms are numbered from 1";
             VRapid "VRapid" (Motion(1, 1)) once (of("")) Ours {depth_rapid: Option<Code>} eg "G0"
-                "motion word of the depth part of a rapid; the rapid is then split";
+                "motion word of the depth part of a rapid; postform splits the rapid into a depth part and a part along the other axes";
             ZRestart "ZRestart?" (Switch) once (of("N")) Ours {restart_depth: bool}
-                "the move after a tool change prints the depth again";
+                "with `Y`, the move after a tool change prints the depth again";
             RevTurret2 "RevTurret2?" (Switch) once (of("N")) Ours {reverse_turret_2: bool}
-                "X reversed while [turret] is 2";
+                "with `Y`, X has the opposite sign while [turret] is 2";
             Tools "Tools" (Text) many (of("")) Ours {}
                 "a command of the original desktop product, without effect";
             Drive "Drive" (Text) many (of("")) Ours {}
@@ -223,33 +223,33 @@ macro_rules! command_rows {
                 once (of(""))
                 Doc {thread: Option<Code>}
                 if (Unless(&[S::AutoThread, S::CanThread], "AutoThread or CanThread prints all threads")) eg "G33"
-                "print each threading pass with this code";
+                "prints each threading pass with this code";
             ThreadPasses "ThreadPasses" (Choice(&["x", "full"])) once (of("x")) Ours {=> thread_passes} if (Threads)
-                "with `x`, the later passes print only X; with `full`, the later passes print approach, cut, clear and return";
+                "with `x`, later passes print only X; with `full`, later passes print approach, cut, clear and return";
             CycleClear "CycleClear" (Length) once (of("").by_units("0.1", "3")) Ours {cycle_clear: Option<f64>}
-                "clearance of cycles for which the job gives none";
+                "clearance of cycles without a clearance in the job";
             CycleStep "CycleStep" (Length) once (of("")) Ours {cycle_step: Option<f64>} eg "0.1"
-                "peck of cycles for which the job gives none";
+                "peck of cycles without a peck in the job";
             CycleMinStep "CycleMinStep" (Length) once (of("0")) Ours {cycle_min_step: f64}
                 "least peck";
             CycleBack "CycleBack" (Words(2, 2, "`deep`, `chipbreak` or `thru`, then a length"))
                 many (of("").by_units("deep 0.05, chipbreak 0.05, thru 0.05", "deep 1, chipbreak 1, thru 1"))
                 Ours {=> cycle_back} eg "deep 0.05"
-                "secondary clearance of cycles for which the job gives none";
+                "secondary clearance of cycles without a secondary clearance in the job";
             CycleDwell "CycleDwell" (Length) once (of("0.5")) Ours {cycle_dwell: f64}
-                "dwell, in seconds, of facing cycles for which the job gives none";
+                "dwell, in seconds, of facing cycles without a dwell in the job";
             CycleDwellAt "CycleDwellAt" (Words(1, 2, "`steps`, `retracts` or both"))
                 once (of("")) Ours {=> cycle_dwell_at} eg "steps"
-                "where a peck cycle dwells besides the bottom";
+                "points at which a peck cycle dwells, in addition to the bottom";
             CycleOrient "CycleOrient" (Number) once (of("0")) Ours {cycle_orient: f64}
-                "spindle angle for boring, degrees";
+                "spindle angle for boring, in degrees";
             CycleJog "CycleJog" (Length) once (of("").by_units("0.02", "0.5")) Ours {cycle_jog: Option<f64>}
-                "jog of a boring tool off the wall";
+                "distance that a boring tool moves off the wall";
             CycleSinkClear "CycleSinkClear" (Length)
                 once (of("").told("the clearance")) Ours {cycle_sink_clear: Option<f64>} eg "0.1"
                 "clearance above the cone of a countersink";
             RigidTap "RigidTap?" (Switch) once (of("N")) Ours {rigid_tap: bool} if (With(&[S::Tap, S::LTap]))
-                "the Tap sequences are rigid";
+                "with `Y`, the sequences Tap and LTap make rigid taps";
         }
     };
 }

@@ -1,8 +1,8 @@
 //! PF207: the comment after the name of a Custom cycle names an unknown kind of cycle.
 
 use crate::diag::{Code, Diag};
-use crate::lang::did_you_mean;
 use crate::lint::view::View;
+use crate::suggest::did_you_mean;
 use crate::toolpath::CycleKind;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {

@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let waits = |word: &Word| word.is_code(b'K', &[0.0]) || word.is_code(b'L', &[0.0]);
             let drills = |line: &&Line| {
                 let words = &line.words;
-                let depth = words.iter().any(|word| word.letter().and_then(|letter| view.axis(letter)) == Some(2));
+                let depth = words.iter().any(|word| view.is_depth(word));
                 words.iter().any(|word| view.starts_cycle(word)) && depth && !words.iter().any(waits)
             };
             let cycle = body.cycle_word().filter(|_| body.lines.iter().any(|line| drills(&line)));

@@ -43,9 +43,7 @@ fn down_to_a_turning_part(view: &View, diags: &mut Vec<Diag>) {
     };
     for body in view.these(&[SequenceId::FirstToolChange, SequenceId::ToolChange]) {
         let mut words = body.words().take_while(|word| !is_rotary(word));
-        let down = |word: &&Word| {
-            word.letter().is_some_and(|letter| view.axis(letter) == Some(2)) && word.printed_var() == Some(VarId::D)
-        };
+        let down = |word: &&Word| view.is_depth(word) && word.printed_var() == Some(VarId::D);
         if let Some(word) = words.find(down) {
             diags.push(
                 Diag::new(Code::PF420, format!("{} brings the tool down before it turns the part", body.name()))

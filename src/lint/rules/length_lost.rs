@@ -44,7 +44,7 @@ fn ends_length<'a>(body: &Body<'a>, view: &View) -> Option<&'a Word> {
             view.printed_letter(word) == Some(b'H')
                 || view.meaning(word).is_some_and(|meaning| meaning.turns_length_on())
         };
-        let goes_up = line.words.iter().any(|word| word.letter().is_some_and(|letter| view.axis(letter) == Some(2)));
+        let goes_up = line.words.iter().any(|word| view.is_depth(word));
         let ends = |word: &&Word| match view.ends_length(word) {
             0 => false,
             0b100 => goes_up,

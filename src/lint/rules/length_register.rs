@@ -30,7 +30,9 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 .help(format!("print `{better}` with the first depth of a tool")),
         );
     }
-    for (body, word) in view.bodies.iter().filter_map(|body| Some((body, body.code(b'G', &[44.0])?))) {
+    for (body, word) in
+        view.bodies.iter().filter_map(|body| Some((body, body.meaning(|meaning| meaning == Meaning::LengthMinus)?)))
+    {
         diags.push(
             Diag::new(Code::PF437, format!("{} subtracts the tool length with G44", body.name()))
                 .at(word.span, "lengths count upwards from the nose: the tool would go down by twice its length")

@@ -6,8 +6,8 @@ use crate::sema::MOST_LINES;
 use crate::span::Span;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
-    let lines: Vec<Span> = bodies.filter(|body| !body.words.is_empty()).map(|body| body.line.span).collect();
+    let lines: Vec<Span> =
+        view.written_lines().filter(|body| !body.words.is_empty()).map(|body| body.line.span).collect();
     if (MOST_LINES * 9 / 10 + 1..=MOST_LINES).contains(&lines.len()) {
         diags.push(
             Diag::new(Code::PF606, format!("the form has {} sequence lines: the limit is {MOST_LINES}", lines.len()))

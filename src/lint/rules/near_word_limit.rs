@@ -5,7 +5,7 @@ use crate::lint::view::View;
 use crate::sema::MOST_WORDS;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    for body in view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body) {
+    for body in view.written_lines() {
         let count = body.begins().count();
         if (MOST_WORDS - 1..=MOST_WORDS).contains(&count) {
             diags.push(

@@ -11,14 +11,13 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.settings.comment[1] != ")" {
         return; // the comments of this control need no closing mark, or another one
     }
-    let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
     // the closing mark may be in text that is not printed
     let lost = |tail: &Tail| match tail {
         Tail::Lost(_) => true,
         Tail::Comment(comment) => view.checked.files[comment.file as usize].slice(*comment).contains(')'),
         _ => false,
     };
-    let whole = bodies.filter(|body| !lost(&body.line.tail));
+    let whole = view.written_lines().filter(|body| !lost(&body.line.tail));
     for piece in whole.flat_map(|body| &body.words).flat_map(|word| &word.pieces) {
         let PieceKind::Note { parts, closed: false } = &piece.kind else { continue };
         if swallowed(parts).is_some() {

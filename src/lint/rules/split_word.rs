@@ -8,8 +8,7 @@ use crate::span::Span;
 use crate::syntax::{Piece, PieceKind, Word};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    let bodies = view.checked.trees.iter().flat_map(|tree| tree.sequences()).flat_map(|node| &node.body);
-    for words in bodies.map(|body| view.codes(&body.words)) {
+    for words in view.written_lines().map(|body| view.codes(&body.words)) {
         let texts = words.iter().filter(|word| !is_code(word)).count();
         for (i, word) in words.iter().enumerate() {
             let before = i.checked_sub(1).map(|before| &words[before]);

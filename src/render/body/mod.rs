@@ -172,7 +172,7 @@ struct Body<'r> {
     /// Text and values without a letter that the line printed since its last word with a letter.
     text: Vec<u8>,
     /// The operations of the comment that was printed last.
-    comment: std::ops::Range<usize>,
+    comment: Range<usize>,
 }
 
 impl Body<'_> {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::de;
 
 use crate::diag::{Code, Diag, Location};
-use crate::lang::did_you_mean;
+use crate::suggest::did_you_mean;
 use crate::toolpath::{ReadError, Stop};
 
 /// A step of the path inside the document: a key or an index.

@@ -9,7 +9,8 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, Visitor};
 use super::context::{Context, Step};
 use super::values::{Few, Kinds, Number, PeckMode, Position, SpeedMode, StepFrom, Word};
 use crate::diag::{Code, Diag};
-use crate::lang::{Machine, did_you_mean};
+use crate::lang::Machine;
+use crate::suggest::did_you_mean;
 use crate::toolpath::{CycleKind, EdmAction, MOST_PECKS};
 use crate::toolpath::{Direction, FeedMode, Given, Plane, Section, Side, SpindleTurn, StopKind, Units};
 

@@ -1,9 +1,11 @@
 //! Commands for jobs: render, check; and options for reading and rendering them.
 
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, Args, Command, ValueEnum};
 
 use postform::diag::{Diag, Severity};
 use postform::internals::cl::{Assumed, AssumedSpeed, Dialect, parse_position};
@@ -17,29 +19,29 @@ use postform::internals::nc::Unpointed;
 use super::super::clock;
 use super::{ControlArgs, ControlParser, LimitsArg, MachineArg, NoPoint};
 
-/// The format of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum From {
-    /// One JSON document
-    Json,
-    /// JSON Lines
-    Jsonl,
-    /// An APT CL file
-    Cl,
-    /// An NC program
-    Nc,
-    /// A FreeCAD document
-    Freecad,
-    /// A Mastercam NCI file
-    Nci,
+/// Reads the name of a format.
+#[derive(Clone)]
+pub struct FormatParser;
+
+impl TypedValueParser for FormatParser {
+    type Value = Format;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<Self::Value, clap::Error> {
+        let names = PossibleValuesParser::new(Format::ALL.map(Format::name));
+        names.try_map(|name| Format::parse(&name).ok_or("there is no such format")).parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(Format::ALL.into_iter().map(|format| PossibleValue::new(format.name()).help(format.about()))))
+    }
 }
 
 /// Options for reading a job.
 #[derive(Debug, Default, Args)]
 pub struct ReadArgs {
     /// Format of the job [default: given by the file extension]
-    #[arg(long, value_name = "FORMAT")]
-    pub from: Option<From>,
+    #[arg(long, value_name = "FORMAT", value_parser = FormatParser)]
+    pub from: Option<Format>,
     /// The job to read from a FreeCAD document with several, by its name or label
     #[arg(long = "job", value_name = "NAME")]
     pub job_name: Option<String>,
@@ -87,20 +89,6 @@ fn setup(text: &str) -> Result<usize, String> {
 fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
     number.ok_or_else(|| "write a number above zero".to_owned())
-}
-
-impl From {
-    /// Converts the choice to the library's type.
-    pub fn format(self) -> Format {
-        match self {
-            From::Json => Format::Json,
-            From::Jsonl => Format::JsonLines,
-            From::Cl => Format::Cl,
-            From::Nc => Format::Nc,
-            From::Freecad => Format::Freecad,
-            From::Nci => Format::Nci,
-        }
-    }
 }
 
 impl ReadArgs {

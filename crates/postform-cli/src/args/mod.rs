@@ -18,7 +18,7 @@ use super::colour::Colour;
 pub use controls::{ControlArgs, ControlParser, NoPoint};
 pub use editor::LspArgs;
 pub use forms::{ExplainArgs, FmtArgs, Format, LimitsArg, LintArgs, NewArgs, PropertiesArgs, PropertiesFormat};
-pub use jobs::{CheckArgs, From, ReadArgs, RenderArgs, RenderOptions, SplitArg, UnitsArg};
+pub use jobs::{CheckArgs, ReadArgs, RenderArgs, RenderOptions, SplitArg, UnitsArg};
 pub use machines::{FitArgs, MachineArg, MachineArgs, MachineCommand};
 pub use pictures::{PlotArgs, WatchArgs};
 pub use posts::NewPost;

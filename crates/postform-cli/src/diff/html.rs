@@ -8,7 +8,7 @@ use postform::internals::diff::{Comparison, Edit, Hunk, Options, Program, Summar
 use postform::internals::nc::RunSettings;
 use postform::internals::picture::{Sheet, View, draw, svg_over};
 use postform::internals::source::text_of;
-use postform::internals::terminal::escaped;
+use postform::internals::terminal::{escaped, without_markup};
 
 use super::sides::Side;
 use super::text::{grouped, sentence};
@@ -145,15 +145,5 @@ fn cell(line: Option<usize>, text: &[u8], marked: &[Range<usize>], class: &str) 
 
 /// Text of a program in a page, escaped so that it contains no markup.
 fn safe(text: &[u8]) -> String {
-    let mut out = String::new();
-    for c in escaped(&text_of(text)).chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c => out.push(c),
-        }
-    }
-    out
+    without_markup(&escaped(&text_of(text)))
 }

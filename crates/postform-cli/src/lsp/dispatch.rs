@@ -5,6 +5,8 @@ use lsp_server::ErrorCode;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use postform::Format;
+
 use super::server::{Client, Server, Settings};
 use super::{actions, convert, margin, places, programs, reading, structure, uri};
 
@@ -126,9 +128,10 @@ fn capabilities() -> lsp::ServerCapabilities {
     }
 }
 
-/// The files to watch for changes on the disk: forms, settings, jobs.
+/// The files to watch for changes on the disk: forms, jobs, and the TOML files of settings, controls and machines.
 pub fn watched() -> Value {
-    let globs = ["**/*.pf", "**/postform.toml", "**/*.{json,jsonl,cl,apt,aptsource,ncl,cls}"];
+    let jobs: Vec<&str> = Format::ALL.iter().flat_map(|format| format.extensions()).copied().collect();
+    let globs = ["**/*.pf".to_owned(), "**/*.toml".to_owned(), format!("**/*.{{{}}}", jobs.join(","))];
     let watchers = globs.map(|glob| serde_json::json!({ "globPattern": glob }));
     let options = serde_json::json!({ "watchers": watchers });
     let method = "workspace/didChangeWatchedFiles";

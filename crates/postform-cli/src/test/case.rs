@@ -165,7 +165,7 @@ impl Case {
         options.clock = Some(self.clock.clone());
         options.job_file = self.job.file_name().map(|name| name.to_string_lossy().into_owned());
         // a CL file contains no program number
-        if Format::of_name(&self.job.to_string_lossy()) == Some(Format::Cl) {
+        if files::format_of_name(&self.job) == Some(Format::Cl) {
             options.program = Some(1);
         }
         let (mut text, mut trace) = (Vec::new(), Vec::new());

@@ -10,7 +10,9 @@ use super::super::clock;
 use super::super::config::{Config, shortened};
 use super::super::diff::ignored;
 use super::super::files::{self, io_message};
-use super::super::folders::{DEEPEST, below, is_expected, is_job, jobs_expected, listed, stem_of_expected};
+use super::super::folders::{
+    DEEPEST, below, is_expected, is_job, jobs_expected, listed, stem_of_expected, stem_of_job,
+};
 use super::case::{Case, Wanted};
 use super::posts::Posts;
 
@@ -54,7 +56,7 @@ impl Found {
         let expected = jobs_expected(&entries);
         let jobs: Vec<&PathBuf> = entries.iter().filter(|path| is_job(path, &expected)).collect();
         for (at, job) in jobs.iter().enumerate() {
-            if let Some(other) = jobs[..at].iter().find(|other| other.file_stem() == job.file_stem()) {
+            if let Some(other) = jobs[..at].iter().find(|other| stem_of_job(other) == stem_of_job(job)) {
                 let (job, other) = (files::name(job), files::name(other));
                 self.problems.push(format!(
                     "{job} and {other} would have the same expected programs\n  help: rename one of them"
@@ -65,7 +67,7 @@ impl Found {
         }
         for path in entries.iter().filter(|path| is_expected(path)) {
             let stem = stem_of_expected(path);
-            if !jobs.iter().any(|job| job.file_stem().is_some_and(|own| own.to_string_lossy() == stem)) {
+            if !jobs.iter().any(|job| stem_of_job(job) == stem) {
                 self.problems.push(format!("{} has no job: there is no {stem} in its folder", files::name(path)));
             }
         }
@@ -78,7 +80,7 @@ impl Found {
     fn job(&mut self, job: &Path, beside: &[PathBuf], posts: &mut Posts, args: &TestArgs) -> Result<(), String> {
         let config = Config::near(job)?;
         let folder = files::folder(job);
-        let stem = job.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let stem = stem_of_job(job);
         let head = if stem == "job" { "expected.".to_owned() } else { format!("{stem}.expected.") };
         let own_form = folder.join("form.pf");
         let forms = posts.under(&config)?;

@@ -36,7 +36,7 @@ macro_rules! allowed {
 allowed! {
     pecks   "hole" "with other pecks" "holes.rs" "Holes with other pecks or retracts than in the job, and holes that the job drills in one stroke, but the program in pecks.";
     ways    "path" "between cuts with the axes in another order or at a greater height" "rapids.rs" "Paths between cuts that move the axes in another order than the job, or at a greater height.";
-    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions, but nowhere lower than the job's path.";
+    tails   "path" "to another position after the last cut" "rapids.rs" "Paths after the last cut that go to other positions, at the greatest height of the job's path or higher.";
     idle    "path" "to other positions by a tool or in a work offset without cuts" "rapids.rs" "Paths to other positions, but nowhere lower than the job's path, if the tool makes no cut or the work offset has no cut.";
     arcs    "arc" "made of parts" "arcs.rs" "Arcs made of several lines or arcs.";
     parts   "straight cut" "made of parts" "lines.rs" "Straight cuts made of several moves.";

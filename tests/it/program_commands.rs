@@ -198,6 +198,36 @@ fn a_full_disk_is_an_error_of_simulate() {
 }
 
 /// The job and the program come through pipes.
+/// The format of a job from standard input is found by its first bytes, as for a file without a known extension.
+#[test]
+fn a_job_from_standard_input_may_have_any_format() {
+    for (name, form, more) in [
+        ("samples/cl-drill/job.cl", "postforms/haas.pf", &["--program", "5"][..]),
+        ("samples/bracket/job.json", "postforms/haas.pf", &[]),
+        (
+            "samples/bracket/expected.haas.nc",
+            "postforms/fanuc.pf",
+            &["--job-control", "haas", "--assume-units", "inch"],
+        ),
+    ] {
+        let call = |job| [&["render", job, "--form", form, "--quiet"], more].concat();
+        let [piped, named] = [fed(&call("-"), &fs::read(root().join(name)).unwrap()), postform(&call(name))];
+        assert_eq!(text(&piped.stdout), text(&named.stdout), "{name}: {}", text(&piped.stderr));
+        assert!(!piped.stdout.is_empty(), "{name}: {}", text(&piped.stderr));
+    }
+    let refused = fed(&["check", "-"], b"hello");
+    assert!(text(&refused.stderr).contains("this is not JSON"), "{}", text(&refused.stderr));
+}
+
+/// A program with its job as `--job`: the message shows the correct call.
+#[test]
+fn verify_shows_the_call_for_a_program_and_its_job() {
+    let output = postform(&["verify", "samples/bracket/expected.haas.nc", "--job", "samples/bracket/job.json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let call = "`postform verify samples/bracket/job.json --nc samples/bracket/expected.haas.nc`";
+    assert!(text(&output.stderr).contains(call), "{}", text(&output.stderr));
+}
+
 #[test]
 fn verify_reads_standard_input() {
     let job = fs::read(root().join("samples/plate/job.json")).unwrap();

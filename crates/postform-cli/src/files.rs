@@ -1,7 +1,7 @@
 //! Input files.
 
 use std::fs::{self, File};
-use std::io::{self, Read, Seek};
+use std::io::{self, BufRead, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -103,7 +103,8 @@ impl Steady {
     }
 }
 
-/// Size and time of the last change; also the change time of the file's entry, which no program can set back.
+/// The size of a file, the time of its last change, and the time at which its directory entry changed. No program can
+/// set the last of these times back.
 pub type Stamp = (u64, SystemTime, (i64, i64));
 
 /// The state of an open file, if the system has it.
@@ -142,7 +143,7 @@ impl Seek for Steady {
     }
 }
 
-/// Is a file a form, by its name?
+/// Does a file have the name of a form?
 pub fn is_form(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
 }
@@ -216,7 +217,7 @@ pub fn control(path: &Path) -> Result<&'static Control, String> {
     Control::own(&name(path), &text).map_err(|wrong| format!("error: {}", escaped_lines(&wrong.to_string())))
 }
 
-/// The format of a job: from the option, else by its extension, else by its first bytes.
+/// The format of a job, given by the option, else by the file extension, else by the first bytes of the file.
 fn job_format(
     path: &Path,
     args: &ReadArgs,
@@ -308,7 +309,6 @@ fn format_of(
 ) -> Result<Format, String> {
     match from.or_else(|| format_of_name(path)) {
         Some(format) => Ok(format),
-        None if path == Path::new("-") => Ok(Format::Json),
         None => first()?.ok_or_else(|| {
             let name = name(path);
             let known = Format::ALL.map(Format::name).join(", ");
@@ -317,9 +317,15 @@ fn format_of(
     }
 }
 
-/// The format by the first bytes of a file; an input that is not seekable is not examined.
+/// The format by the first bytes of a file or of standard input. If the first bytes of standard input contain no mark
+/// of a format, it is JSON. Other inputs that are not seekable are not examined.
 fn by_content(path: &Path) -> Result<Option<Format>, String> {
     let fail = |error: io::Error| io_message("read", path, &error);
+    if path == Path::new("-") {
+        // the bytes stay in the buffer of standard input
+        let mut input = io::stdin().lock();
+        return Ok(Some(Format::of_content(input.fill_buf().map_err(fail)?).unwrap_or(Format::Json)));
+    }
     if !std::fs::metadata(path).map_err(fail)?.is_file() {
         return Ok(None);
     }
@@ -343,7 +349,8 @@ pub fn check_format(path: &Path, args: &ReadArgs) -> Result<(), String> {
     other.map_or(Ok(()), |only| Err(only.wrong(path)))
 }
 
-/// Checks that each option applies to at least one of several jobs. The option is not used for jobs in other formats.
+/// Checks that each option applies to at least one of several jobs. An option is ignored for jobs in formats to which
+/// it does not apply.
 pub fn check_formats(paths: &[PathBuf], args: &ReadArgs) -> Result<(), String> {
     let given: Vec<Only> = only(args).into_iter().filter(|only| only.is_given).collect();
     let Some(first) = paths.first().filter(|_| !given.is_empty()) else { return Ok(()) };

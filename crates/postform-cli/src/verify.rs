@@ -29,7 +29,7 @@ use super::{Ending, many, output};
 pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let reporter = &Reporter::new(colour);
     if let Some(job) = many::single(&args.jobs) {
-        files::check_format(job, &args.read)?;
+        files::check_format(job, &args.read).map_err(|why| turned_around(why, job, args))?;
         if job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
             return Err("error: job and program can't both be standard input".into());
         }
@@ -74,6 +74,17 @@ pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     )
 }
 
+/// Adds the correct call to the error for a program with `--job JOB`.
+fn turned_around(why: String, program: &Path, args: &VerifyArgs) -> String {
+    match args.read.job_name.as_deref().filter(|job| args.nc.is_none() && Path::new(job).is_file()) {
+        Some(job) => {
+            let [job, program] = [Path::new(job), program].map(files::name);
+            format!("{why}\n  help: `postform verify {job} --nc {program}` compares a program with its job")
+        }
+        None => why,
+    }
+}
+
 /// The form for a job's program. An existing program is proven with a form only if the command line names a form.
 fn form_of(args: &VerifyArgs, config: &Config) -> Option<PathBuf> {
     args.form.clone().or_else(|| config.form.clone().filter(|_| args.nc.is_none()))
@@ -100,7 +111,7 @@ fn tried(
     let control = ControlArgs { control: args.control.control.or(by_config), ..args.control.clone() };
     let mut proof = control.proof(args.tolerance);
     proof.units = args.options.units.map(UnitsArg::units);
-    // a printed program may need its job twice: for the survey, or for printing it again into a file
+    // the job of a printed program may be read twice: for the survey, or to print the program again into a file
     let twice = args.nc.is_none() || args.stock.is_some();
     let mut job = files::job(job_path, &args.read, twice)?;
     let name = args.nc.as_deref().map_or("the program".to_owned(), files::name);
@@ -184,7 +195,7 @@ fn tried(
         }
     };
     let ending = if proven.verdict.is_proven() && fits { Ending::Clean } else { Ending::Findings };
-    // of several jobs, --quiet leaves only those that fail
+    // if there are several jobs, --quiet shows only the jobs that fail
     let hidden = args.options.quiet
         && ending == Ending::Clean
         && args.format == VerifyFormat::Text
@@ -221,7 +232,8 @@ fn of_form(
     }
 }
 
-/// If a proof requires random access to the program, prints it again into a file, provided that the job can be read again.
+/// Prints the program again into a file if the proof requires random access to the program. The job must be readable
+/// again.
 pub fn in_a_file(
     proven: Result<Proven, Error>,
     job: &mut Job<'_>,

@@ -241,6 +241,9 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
             return if turns { Compared::Turning } else { Compared::AsGood { step_by_step: true } };
         }
     }
+    if let Some(to) = goes_upright_elsewhere(job, program, highest, tolerance) {
+        return Compared::Elsewhere(to);
+    }
     // if the corners differ, no move across may be below the job's greatest height; if the job does not move across, the program must not
     // either
     let stays = across(job, tolerance).next().is_none();
@@ -254,6 +257,19 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
         }
     }
     if turns { Compared::Turning } else { Compared::AsGood { step_by_step: false } }
+}
+
+/// The end of the first rapid straight up or down that is below the job's greatest height, at a position where the job
+/// has no corner. An example is a boring bar that leaves its hole at another distance from the wall.
+fn goes_upright_elsewhere(job: &[Rapid], program: &[Rapid], highest: f64, tolerance: f64) -> Option<Place> {
+    let is_there =
+        |at: &Rapid| job.iter().any(|own| own.unknown & 0b11 != 0 || same(&own.to, &at.to, ACROSS, tolerance));
+    let goes = |pair: &&[Rapid]| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let is_upright = (a.unknown | b.unknown) & 0b11 == 0 && same(&a.to, &b.to, ACROSS, tolerance);
+        is_upright && height(a).min(height(b)) < highest - tolerance && !is_there(b)
+    };
+    program.windows(2).find(goes).map(|pair| pair[1].to)
 }
 
 /// The position with full turns added to or subtracted from its angles, so that the angles are near the angles of
@@ -321,6 +337,9 @@ pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -
     });
     if let Some((_, b)) = low {
         return Some((b.to, crossing));
+    }
+    if let Some(to) = goes_upright_elsewhere(&job.corners, &program.corners, highest, tolerance) {
+        return Some((to, highest));
     }
     // The tool may go down only where the job goes down, and not lower. Elsewhere it must not be below the job's moves
     // across. If the job only goes up, the tool must not go down.
@@ -422,6 +441,20 @@ mod tests {
             compared(&diagonal, &[[0.0, 0.0, 5.0], [9.0, 0.0, 5.0], [9.0, 0.0, 0.5], [9.0, 0.0, 1.0]]),
             Compared::Lower(..)
         ));
+    }
+
+    /// A T-slot cutter leaves its slot at the end of the slot, and not before.
+    #[test]
+    fn a_rapid_straight_up_is_at_a_corner_of_the_job() {
+        let job = [[0.0, 0.0, -5.0], [10.0, 0.0, -5.0], [10.0, 0.0, 5.0]];
+        let before = [[0.0, 0.0, -5.0], [5.0, 0.0, -5.0], [5.0, 0.0, 5.0], [10.0, 0.0, 5.0]];
+        assert!(
+            matches!(compared(&job, &before), Compared::Elsewhere(to) if to == place(&[5.0, 0.0, 5.0, 0.0, 0.0, 0.0]))
+        );
+        assert!(leaves_low(&way(&job), &way(&before), 1e-4).is_some());
+        let divided = [[0.0, 0.0, -5.0], [5.0, 0.0, -5.0], [10.0, 0.0, -5.0], [10.0, 0.0, 5.0]];
+        assert!(matches!(compared(&job, &divided), Compared::Same | Compared::AsGood { .. }));
+        assert_eq!(leaves_low(&way(&job), &way(&divided), 1e-4), None);
     }
 
     /// The path out of the hole is the same, although the job counts all turns of the rotary axis and the form

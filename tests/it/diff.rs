@@ -31,7 +31,7 @@ fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison 
     compare(&program(old), &program(new), &Options { ignore, tolerance })
 }
 
-/// Do both programs make the machine do the same?
+/// Do both programs make the same motions?
 fn same_motion(old: &str, new: &str) -> bool {
     let settings = RunSettings::new(control("fanuc"));
     compare_motions([old, new].map(|text| (Cursor::new(text), settings)), Units::Mm, 1e-6).unwrap().difference.is_none()
@@ -74,7 +74,8 @@ fn pairs_and_their_verdicts() {
         assert!(BASE.contains(from), "{from}");
         BASE.replacen(from, to, 1)
     };
-    // the new program, the differences to ignore so that it counts as equal ("-": not possible), and whether the motions are the same
+    // each row: a name, the new program, the differences that must be ignored so that both programs count as equal
+    // ("-": not possible), and whether both programs make the same motions
     let pairs: Vec<(&str, String, &str, bool)> = vec![
         ("itself", BASE.into(), "", true),
         ("renumbered", renumbered(BASE), "numbers", true),
@@ -184,7 +185,7 @@ fn difference(name: &str, programs: [String; 2]) -> Option<String> {
     compare_motions(programs, Units::Mm, 1e-6).unwrap().difference.map(|found| found.message)
 }
 
-/// The positions of both programs are measured from a zero, which the programs may shift. The zeros are compared.
+/// Positions are measured from the program zero, which a program may shift. The zeros of both programs are compared.
 #[test]
 fn motions_differ_in_the_zero_of_the_program() {
     let part = |shift: &str| {
@@ -217,7 +218,7 @@ fn motions_differ_in_the_zero_of_the_program() {
         difference("siemens", ["TRANS X50", "TRANS X70"].map(shifted)).unwrap(),
         "the zero of the program is shifted to X70 Y0 Z0, but to X50 Y0 Z0 in the old program"
     );
-    // a cut along a rotary axis is named with this axis
+    // the message about a cut along a rotary axis names this axis
     let turned = |word: &str| {
         format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. A0.\nG43 H1 Z10.\nG1 Z-1. F100.\nX10.{word}\nG0 Z50.\nM30\n")
     };
@@ -225,8 +226,8 @@ fn motions_differ_in_the_zero_of_the_program() {
     assert_eq!(found, "a cut goes to X10 Y0 Z-1 A30, but to X10 Y0 Z-1 A0 in the old program");
 }
 
-/// The path after the last cut: a rapid at the depth of the cut must be a rapid of the old program, and the spindle must
-/// turn as in the old program.
+/// After the last cut, a rapid at the depth of the cut is allowed only if the old program has the same rapid. The
+/// spindle must turn as in the old program.
 #[test]
 fn motions_differ_after_the_last_cut() {
     let part =
@@ -238,6 +239,12 @@ fn motions_differ_after_the_last_cut() {
     for new in ["G0 X150.\nZ50.", "G0 X0.\nZ50.", "G0 X52.\nY3.\nZ50."] {
         assert_eq!(differs(old, new).unwrap(), "the path after the last cut is different", "{new}");
     }
+    let bored = |shift: &str| part(&format!("G0 Z10.\nG76 X10. Y0. Z-20. R2. Q{shift} F100.\nG80\nG0 Z50."));
+    assert_eq!(difference("haas", ["1.5", "1.5"].map(bored)), None);
+    assert!(
+        difference("haas", ["1.5", ".5"].map(bored)).is_some()
+            && difference("haas", [".5", "1.5"].map(bored)).is_some()
+    );
     let drilled = |code: &str| part(&format!("G0 Z10.\n{code} X10. Y0. Z-20. R2. F100.\nG80\nG0 Z50."));
     let found = difference("fanuc", ["G81", "G86"].map(drilled)).unwrap();
     assert_eq!(found, "the spindle leaves the last cut with stop, but with cw in the old program");
@@ -269,7 +276,7 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
     }
 }
 
-/// Threads are compared by the words that do not change their moves, too.
+/// Threads are also compared by the words that do not change the moves.
 #[test]
 fn motions_of_threads_differ_in_their_words() {
     let part =
@@ -292,7 +299,8 @@ fn motions_of_threads_differ_in_their_words() {
     assert_eq!(differs(cycle, cycle), None);
 }
 
-/// Unknown positions count as different if their reasons differ: an offset, a move home, or an axis left in another offset.
+/// Two unknown positions count as different if they are unknown for different reasons: an offset, a move home, or an
+/// axis that stayed in another offset.
 #[test]
 fn motions_differ_where_a_position_is_unknown_for_another_reason() {
     let part = |middle: &str| {
@@ -392,7 +400,7 @@ fn edits_far_apart_are_all_that_is_found() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
-    /// For a few edits in repeating blocks, the comparison has the least number of changes.
+    /// For a few edits in repeated blocks, the comparison finds the smallest number of changes.
     #[test]
     fn few_edits_have_the_shortest_answer(
         blocks in prop_oneof![Just(3), Just(12), Just(40)].prop_flat_map(|kinds| proptest::collection::vec((0..kinds, 0..3u8), 250..300)),
@@ -495,7 +503,7 @@ proptest! {
             let names: Vec<&str> = (0..6).filter(|i| bits & 1 << i != 0).map(|i| Ignore::NAMES[i]).collect();
             ignoring(&names.join(","))
         };
-        // counts removed and added lines; a changed line counts as one of each
+        // counts removed and added lines; a changed line counts as one removed and one added line
         let found = |bits: u8| -> usize {
             let weigh = |edit: &Edit| if matches!(edit, Edit::Changed(..)) { 2 } else { 1 };
             compared(&old, &new, ignore(bits), 0.0).edits().map(weigh).sum()

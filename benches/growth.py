@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How postform's work grows with its input: each row is one dimension, measured at two sizes.
+"""Measures how the time and the memory of postform grow with its input. Each row measures one kind of input at two sizes.
 
     growth.py BINARY [--only TEXT] [--markdown] [--slack FACTOR]
 
-Prints CPU seconds and peak memory of the whole process and the exponent between the two sizes, and exits with 1 when a
-row breaks its bound: an exponent over 1.1, over 1 s or 100 MB of the larger input (a few rows say otherwise), or another
-exit status than the one that is right. Needs Python 3.9 and a Unix system; nothing else.
+Prints the CPU seconds and the peak memory of the whole process, and the exponent between the two sizes. The exit status
+is 1 if a row exceeds a bound. The bounds are an exponent of 1.15, and 1 s and 100 MB for the larger input; a few rows have
+other bounds. A wrong exit status of postform also breaks a bound. Needs only Python 3.9 and a Unix system.
 """
 import argparse
 import json
@@ -102,15 +102,15 @@ def cl(tools):
 
 @dataclass
 class Row:
-    """One dimension: `make` returns files by name and arguments, in a folder of their own."""
+    """One kind of input. `make` returns the files by name, and the arguments of the command that runs in their folder."""
     name: str
     sizes: tuple
     make: Callable
     status: tuple = (0, 1)
     seconds: float = 1.0
     megabytes: float = 100.0
-    says: Optional[str] = None  # what standard error must hold at the larger size
-    linear: bool = True  # a refusal at a bound has no exponent
+    says: Optional[str] = None  # text that standard error must contain at the larger size
+    linear: bool = True  # False: no exponent is checked, because the command stops at a limit
 
 
 ROWS = []
@@ -320,7 +320,7 @@ def _(n):
     return ({"j.json": job(subs=subs, items=call % (n + 1)), "f.pf": form()},
             ["render", "j.json", "--form", "f.pf"])
 
-# both programs are larger than the buffer of 128 KB in which the proof jumps without reading again
+# both programs are larger than the buffer of 128 KB; jumps within this buffer need no further reading
 @row("render: calls of one subprogram", (20_000, 80_000), seconds=2)
 def _(n):
     calls = ',{"call":{"sub":2,"at":[0,0,50]}}' * n
@@ -432,7 +432,7 @@ def _(n):
     r = "M3 S500\nG0 X0. Y0. Z1.\nG98 G83 X0. Y0. Z-900. R0. Q0.001 F100.\n" + "".join(f"X{i}.\n" for i in range(n)) + "G80\nM30\n"
     return {"a.nc": f"G21 G17 G90 G94\n{r}"}, ["simulate", "a.nc", "--control", "fanuc", "--dry"]
 
-# far jumps read their part of the file again
+# after a far jump, that part of the file is read again
 @row("simulate fanuc: M98 of subprograms behind the program", (2_000, 20_000), linear=False)
 def _(n):
     calls = "".join(f"M98 P{i % 9000 + 1}\n" for i in range(n))
@@ -456,7 +456,7 @@ class Run:
 
 
 def written(folder, make, size):
-    """Writes a row's files in a process of its own: on Linux a program's peak memory begins with its parent's."""
+    """Writes a row's files in a separate process: on Linux, the peak memory of a program includes that of its parent."""
     pid = os.fork()
     if pid == 0:
         files, arguments = make(size)
@@ -503,7 +503,7 @@ def run(binary, make, size):
 
 
 def best(binary, make, size, runs):
-    """The quickest of a few runs: what disturbs only adds."""
+    """The fastest of a few runs, because other programs can only make a run slower."""
     results = [run(binary, make, size)]
     while len(results) < runs and results[-1].seconds < 2:
         results.append(run(binary, make, size))
@@ -539,7 +539,7 @@ def main():
         small, large = (best(binary, row.make, size, options.runs) for size in row.sizes)
         grown = max(large.seconds - idle, 1e-4) / max(small.seconds - idle, 5e-3)
         step = row.sizes[1] / row.sizes[0]
-        # below the clock's grain there is nothing to see
+        # a time that is too short is not measured exactly, so it gives no exponent
         seen = large.seconds - idle > 0.1 and step > 1 and row.linear
         exponent = math.log(grown) / math.log(step) if seen else None
         wrong = []

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""What the proof costs: render with it and with --no-verify, in turn, on all cores and on one.
+"""Measures the cost of the proof: renders with and without the proof, in turn, on all cores and on one core.
 
-`benches/proof.py POSTFORM FLOOR [ROUNDS]` makes the jobs with the example `floor` and prints for each of them the time of
---no-verify and what it is multiplied by: as it passes (wall) on all cores and on one, and as the processor is busy (CPU).
-The pairs run in turn and the best of each is taken, because machines are noisy. `two at once` is what two such renders
-without the proof take at the same time: 1.00 where there are two whole cores. Goals: 1.25 on two cores, 2.2 on one, 32 MB of memory at any length.
+`benches/proof.py POSTFORM FLOOR [ROUNDS]` makes the jobs with the example `floor`. For each job, it prints the time with
+--no-verify, and the time with the proof as a multiple of that time. The multiples are those of the elapsed time on all
+cores, of the elapsed time on one core, and of the processor time (CPU). Each command runs several times in turn, and the
+best time is used, because the times vary. `two at once` is the time of two renders without the proof that run at the same
+time, as a multiple of the time of one render: 1.00 if the machine has two free cores. Goals: 1.25 on two cores, 2.2 on one
+core, and 32 MB of memory for a program of any length.
 """
 
 import os
@@ -25,7 +27,7 @@ JOBS = [
 
 
 def run(command, source):
-    """Seconds that pass, seconds of the processor, and kilobytes of one run."""
+    """The elapsed seconds, the seconds of processor time, and the peak kilobytes of one run."""
     with open(source or os.devnull, "rb") as given:
         start = time.perf_counter()
         child = subprocess.Popen(command, stdin=given, stderr=subprocess.PIPE)
@@ -38,7 +40,7 @@ def run(command, source):
 
 
 def twice(commands, source):
-    """Seconds that pass until two commands that run at the same time are done."""
+    """The elapsed seconds until two commands that run at the same time have ended."""
     with open(source or os.devnull, "rb") as one, open(source or os.devnull, "rb") as other:
         start = time.perf_counter()
         given = zip(commands, (one, other))
@@ -50,12 +52,12 @@ def twice(commands, source):
 
 
 def best(runs):
-    """The best time of each kind, and the most memory."""
+    """The best elapsed time, the best processor time, and the highest memory of several runs."""
     return min(run[0] for run in runs), min(run[1] for run in runs), max(run[2] for run in runs)
 
 
 def measure(postform, job, piped, rounds, prefix, out):
-    """With and without the proof, in turn."""
+    """Renders a job without and with the proof, in turn, and returns the best results."""
     what = ["-", "--from", "jsonl"] if piped else [job]
     render = prefix + [postform, "render", *what, "--form", FORM, "--set", "header=off", "-o"]
     command = render + [out]

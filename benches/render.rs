@@ -19,7 +19,7 @@ fn main() {
 const MOVES: usize = 100_000;
 
 fn form() -> Checked {
-    // measures the printing of moves, without the second reading of the job that the header needs
+    // without the header, the job is read only once, so that only the printing of moves is measured
     let text =
         include_str!("../postforms/linuxcnc.pf").replace("Property header yesno yes", "Property header yesno no");
     analyse(Source::from_text("linuxcnc.pf", text), Default::default(), &mut |_| Err("none".into()))

@@ -1,9 +1,9 @@
-//! Makes jobs of any size, and measures lower limits for the time of rendering them. Used by `benches/throughput` and
-//! `benches/compare`.
+//! Makes jobs of any size, and measures lower limits for the time of rendering them. `benches/throughput` and
+//! `benches/compare` use this program.
 //!
-//! `floor make moves|holes N` writes a JSON Lines job to standard output, `floor make cl N` the same moves as a CL file,
-//! `floor make nc N` and `nc-holes N` programs for LinuxCNC; `floor serde FILE` parses a job with serde and discards it;
-//! `floor naive FILE` prints its cuts as a simple post does.
+//! `floor make moves|holes N` writes a JSON Lines job to standard output. `floor make cl N` writes the same moves as a
+//! CL file. `floor make nc N` and `floor make nc-holes N` write programs for LinuxCNC. `floor serde FILE` parses a job
+//! with serde and discards the result. `floor naive FILE` prints the cuts of a job as a simple post does.
 #![allow(clippy::unwrap_used)]
 
 use std::fmt::Write as _;
@@ -79,7 +79,7 @@ fn numbers() -> impl FnMut(f64) -> f64 {
     }
 }
 
-/// The moves of `make moves` as a CL file.
+/// Writes the moves of `make moves` as a CL file.
 fn make_cl(count: u64, out: &mut impl Write) -> Result<()> {
     writeln!(out, "UNITS/MM\nLOADTL/1\nSPINDL/9000,RPM,CLW\nRAPID\nGOTO/0,0,5\nFEDRAT/1500,MMPM")?;
     let mut next = numbers();

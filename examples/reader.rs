@@ -25,7 +25,7 @@ fn holes(table: &str, sink: &mut dyn Sink) -> Result<(), ReadError> {
         tool: Some(Tool { number: 5.0, diameter: Some(6.0), ..Tool::default() }),
         spindle: Some(Spindle { speed: Some(2400.0), turn: Some(SpindleTurn::Cw), ..Spindle::default() }),
         work: Some(54.0),
-        ..ToolChange::default() // the first move is filled in from the events that follow
+        ..ToolChange::default() // postform fills in the first move from the events that follow
     };
     sink.push(Event::ToolChange(&change), line(1))?;
     sink.push(

@@ -1,7 +1,9 @@
-//! `corpus COUNT SEED` prints the verdicts of COUNT random programs. Some are printed by a form, the others are changed in one place.
+//! `corpus COUNT SEED` prints the verdicts of COUNT random programs. Some of these programs are printed by a form; the
+//! others are printed programs that are changed in one place.
 //!
-//! `corpus COUNT SEED VERDICTS FOLDER` compares the verdicts with earlier output in the file VERDICTS. Of the first programs with a
-//! different verdict, it writes the shortest into FOLDER, with the earlier verdict. `mutants` makes the cases of `tests/data/proofs` with it.
+//! `corpus COUNT SEED VERDICTS FOLDER` compares the verdicts with earlier output in the file VERDICTS. The shortest of
+//! the first programs with a different verdict is written into FOLDER, with the earlier verdict. `mutants` runs
+//! `corpus` to make the cases of `tests/data/proofs`.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +14,7 @@ use postform_fuzz::case::{Asked, End};
 use postform_fuzz::forms::forms;
 use postform_fuzz::mutate::{mutant, with_block};
 
-/// Number of programs for each job: the printed one and changed ones.
+/// Number of programs for each job: the printed program and changed programs.
 const EACH: usize = 6;
 /// Number of programs with a different verdict from which the shortest is chosen.
 const FIRST: usize = 4;

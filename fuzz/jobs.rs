@@ -1,10 +1,11 @@
 //! Prints random jobs with the forms that ship and with unusual ones. Each program is compared with its job by postform, and by
 //! a judge that shares no code with it.
 //!
-//! The arguments are `jobs COUNT SEED KIND FORM`; each may be missing. `FOUND=FOLDER` keeps each fault. A fault is printed with
-//! a job that was made as small as possible, and its seed (`jobs 1 SEED` makes it again). The exit status is failure if a wrong
-//! program was proven, if a program that the judge accepts was called different, or if a program is wrong for another reason
-//! than lost digits about which lint or the renderer warns.
+//! The arguments are `jobs COUNT SEED KIND FORM`; each may be missing. `FOUND=FOLDER` keeps each fault. A fault is
+//! printed with its seed (`jobs 1 SEED` makes the fault again) and with a job that was made as small as possible. The
+//! exit status is failure in three cases: postform proves a wrong program, postform reports a difference in a program
+//! that the judge accepts, or a form prints a wrong program. The third case does not count if digits are lost and lint
+//! or the renderer warns about the lost digits.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -27,10 +28,10 @@ const INTERPRETED: u64 = 16;
 const BESIDE: u64 = 8;
 /// One job in this number is also printed with a form that contains one mistake.
 const WRONG_FORMS: u64 = 4;
-/// Differences that depend on typed words of a form alone: whether the spindle stops in Bore, how a wire is threaded,
-/// the codes of its coolant.
+/// Differences that depend only on words that are typed in a form: whether the spindle stops in Bore, how a wire is
+/// threaded, the codes of its coolant.
 const FORMS_OWN: [&str; 3] = ["out with the spindle turning", "Stop is missing", "coolant"];
-/// Two units of the last digit of an inch, in millimetres.
+/// Two units of the last digit of a length in inches, in millimetres.
 const DIGITS: f64 = 0.0052;
 /// Tolerance of positions in `verify`, in millimetres.
 const PLACES: f64 = 0.002;
@@ -137,8 +138,8 @@ impl Hunt {
         }
     }
 
-    /// Prints with a form that contains a mistake. The program may be refused or called different, but not proven if
-    /// the judge finds it wrong.
+    /// Prints with a form that contains a mistake. postform may refuse the program or find it different, but must not
+    /// prove a program that the judge finds wrong.
     fn wrong_form(&mut self, case: &Case) {
         let end = case.end();
         let End::Printed(program, proof, _) = &end else {
@@ -173,7 +174,7 @@ impl Hunt {
         }
     }
 
-    /// Handles the verdict `different`: it is a false alarm, or the program is wrong.
+    /// Handles the verdict `different`: either the verdict is a false alarm, or the program is wrong.
     fn different(&mut self, case: &Case, end: &End, name: &str) {
         let group = called(case, end);
         match group {
@@ -238,7 +239,7 @@ impl Hunt {
         }
     }
 
-    /// Records a fault. The first ones of each kind are made small and shown.
+    /// Records a fault. The first faults of each kind are made small and shown.
     fn found(&mut self, case: &Case, group: &'static str, what: &str, still: &mut dyn FnMut(&End, &Case) -> bool) {
         let name = format!("{} {what}", case.form.name);
         self.tally.count(group, name.clone());

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`kills.py POSTFORM COUNT [SEED]`: kills each command that writes at random moments. Afterwards an output must be whole or not there, what was
-there before must be there still, and no other file may be left behind. Prints a line for each command; the exit status is 1 where one fails."""
+"""`kills.py POSTFORM COUNT [SEED]` kills, at random moments, each command that writes files. Afterwards, an output must be complete or missing,
+earlier files must still exist, and no other file may remain. Prints a line for each command. The exit status is 1 if a command fails."""
 
 import random
 import shutil
@@ -22,7 +22,7 @@ def prepared(folder: Path) -> None:
     for sample in ("bracket", "plate"):
         shutil.copy(ROOT / f"samples/{sample}/job.json", folder / f"{sample}.json")
     shutil.copy(ROOT / "samples/bracket/expected.haas.nc", folder / "old.nc")
-    # a form with something for fmt and lint --fix to change
+    # a form that fmt and lint --fix change
     text = (folder / "haas.pf").read_text()
     (folder / "messy.pf").write_text(text.replace("M30", "M30   ").replace("End\n", "End \n"))
 

@@ -1,5 +1,5 @@
-//! The checks for every form, even a mutated one: it is read, linted, fixed and formatted, and its programs must stay
-//! the same.
+//! The checks for every form, even a mutated form. The form is read, linted, fixed and formatted, and its programs must
+//! stay the same.
 
 use postform::internals::compile::compile;
 use postform::internals::fmt::format;
@@ -11,7 +11,7 @@ use postform::internals::source::Source;
 
 const JOB: &str = include_str!("../samples/drill-machine/job.json");
 
-/// Checks a form from bytes; it calls no other form.
+/// Checks a form from bytes. The form calls no other form.
 fn checked(bytes: &[u8]) -> Checked {
     analyse(Source::from_bytes("form.pf", bytes), Limits::Classic, &mut |_| Err("can't be found".into()))
 }

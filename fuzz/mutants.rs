@@ -1,10 +1,10 @@
 //! `mutants FILE [TEST ...]`: does a test fail for every small change of a source file?
 //!
 //! All changes are compiled at once into a copy of the repository, each under a number. The environment variable
-//! `POSTFORM_MUTANT` selects one, so the given tests are built once and run once for each change. A change that no test notices
-//! is printed with its line. With `CASES=FOLDER`, a random program whose verdict the change alters is kept for each of them, with
-//! its job and its correct verdict. The changes are: a condition is always true or always false, `<` replaces `<=`, `+` replaces
-//! `-`, `/` replaces `*`, and a statement is left out.
+//! `POSTFORM_MUTANT` selects one change, so the given tests are built only once and run once for each change. A change
+//! that no test notices is printed with its line. With `CASES=FOLDER`, a random program whose verdict the change alters
+//! is kept for each such change, with the program's job and correct verdict. The changes are: a condition is always
+//! true or always false, `<` replaces `<=`, `+` replaces `-`, `/` replaces `*`, and a statement is left out.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -82,7 +82,7 @@ impl Changes {
     }
 }
 
-/// The comparison that differs from this one only if both sides are equal.
+/// The comparison that differs from the given comparison only if both sides are equal.
 fn comparison(op: &BinOp) -> Option<Option<BinOp>> {
     Some(match op {
         BinOp::Lt(_) => Some(parse_quote!(<=)),

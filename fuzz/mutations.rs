@@ -1,6 +1,8 @@
-//! Random mutations of the forms that ship, by the million: each is read and linted, every eighth is also fixed and formatted.
+//! Random mutations of the forms that ship, by the million: each mutated form is read and linted, and every eighth is
+//! also fixed and formatted.
 //!
-//! `mutations COUNT SEED`; after a panic, the seed of the mutation is printed. `mutations 1 SEED` makes it again.
+//! Run `mutations COUNT SEED`. After a panic, the seed of the mutation is printed. `mutations 1 SEED` makes this
+//! mutation again.
 
 use std::fs;
 use std::time::Instant;
@@ -11,7 +13,7 @@ mod look;
 use look::look;
 use postform_fuzz::random::Random;
 
-/// Pieces of forms that have a meaning in a wrong place.
+/// Pieces of forms that also have a meaning at a wrong position.
 const PIECES: &[&str] = &[
     "End",
     "End Cancel",

@@ -1,8 +1,8 @@
-//! Makes wrong programs by one change of correct ones. Their comparison with the job must find the change.
+//! Makes a wrong program from a correct program by one change. The comparison with the job must find the change.
 //!
 //! The arguments are `programs COUNT SEED KIND FORM`; each may be missing. With `insert` at the end, blocks are inserted at random
-//! positions, also in holes. `FOUND=FOLDER` keeps each fault. Programs that are called identical or equivalent, but do something
-//! else, are listed by the kind of difference.
+//! positions, also in holes. `FOUND=FOLDER` keeps each fault. Changed programs that postform proves although their
+//! motions differ are listed by the kind of difference.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;

@@ -1,7 +1,8 @@
 //! Random mutations of jobs in all formats, by the million: FreeCAD documents, CL files of all dialects, NC programs, JSON.
-//! Each is read to its end or to an error.
+//! Each mutated job is read to its end or to an error.
 //!
-//! `readers COUNT SEED`; after a panic, the seed of the mutation is printed. `readers 1 SEED` makes it again.
+//! Run `readers COUNT SEED`. After a panic, the seed of the mutation is printed. `readers 1 SEED` makes this mutation
+//! again.
 
 use std::fs;
 use std::io::{Cursor, Read, Write};
@@ -12,7 +13,7 @@ use postform::toolpath::{Event, Flow, Place, Sink, Stop, Units};
 use postform::{Format, Job};
 use postform_fuzz::random::Random;
 
-/// Pieces that have a meaning in a wrong place, by format.
+/// Pieces that also have a meaning at a wrong position, by format.
 const CL: &[&str] = &[
     "\n",
     "\r\n",
@@ -239,7 +240,7 @@ fn mutated(seeds: &[Seed], random: &mut Random) -> (Format, Vec<u8>) {
             let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
             for (i, (name, bytes)) in members.iter().enumerate() {
                 let mut bytes = bytes.clone();
-                // half of the time the list of objects, otherwise one path
+                // the chosen member is changed, and in half of the mutations the list of objects, too
                 if i == chosen || i == 0 && random.once_in(2) {
                     mutate(&mut bytes, if i == 0 { XML } else { PATH }, random);
                 }
@@ -254,7 +255,7 @@ fn mutated(seeds: &[Seed], random: &mut Random) -> (Format, Vec<u8>) {
 /// Counts events, and stops reading an input that produces too many.
 struct Count(u64);
 
-/// Maximum number of events of one input: ten times those of the largest seed.
+/// Maximum number of events of one input: ten times as many events as the largest seed has.
 const MOST: u64 = 200_000;
 
 impl Sink for Count {

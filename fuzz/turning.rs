@@ -47,7 +47,7 @@ fn main() -> ExitCode {
         }
     }
     hunt.tally.print();
-    // with changed programs, the list must be judged by the reader
+    // for changed programs, the user must judge the list
     let wrong = hunt.tally.total("wrong");
     if wrong > 0 && !changes { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
@@ -205,7 +205,8 @@ impl Hunt {
         }
     }
 
-    /// Checks that a program with its cycles written as moves is called the same.
+    /// Checks that postform finds no difference between a program and its copy without cycles, in which moves replace
+    /// the cycles.
     fn unrolled(&mut self, text: &str, seed: u64, control: &'static str, inch: bool, exact: bool) {
         let Ok(moves) = run(text, control == "haas-lathe", inch) else { return };
         if moves.iter().any(|one| one.speed.0.is_nan()) {
@@ -237,7 +238,7 @@ impl Hunt {
         }
     }
 
-    /// A changed program that stops with an alarm must not be called the same.
+    /// Checks that postform refuses a changed program that stops with an alarm, or finds a difference.
     fn alarm(&mut self, text: &str, other: &str, of: (u64, &'static str, bool), what: &str) {
         let (seed, control, inch) = of;
         let said = catch_unwind(AssertUnwindSafe(|| compared(text, other, settings(control, inch))));

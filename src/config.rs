@@ -1,4 +1,4 @@
-//! Settings in `postform.toml`, which hold for a whole shop. The caller finds and reads the file.
+//! Settings in `postform.toml`, which apply to a whole shop. The caller finds and reads the file.
 
 use std::collections::BTreeMap;
 
@@ -16,15 +16,15 @@ use crate::terminal::escaped;
 pub struct Config {
     /// The form of `render` and `verify`.
     pub form: Option<String>,
-    /// The control by whose rules programs are simulated.
+    /// The control that is simulated when postform runs programs.
     pub control: Option<ControlName>,
     /// Limits of forms.
     pub limits: Option<Limits>,
     /// The machine's file. [`render`](crate::Post::render) does not use this file; the command line does.
     pub machine: Option<String>,
-    /// Jobs that editors print with the forms of the folder.
+    /// Jobs that the language server and `watch` print with the forms of the folder.
     pub jobs: Vec<String>,
-    /// A program that is not proven is an error and is not printed.
+    /// Whether a program that is not proven is an error and is not printed.
     pub require_proof: bool,
     /// Severities of rules.
     pub levels: Levels,
@@ -51,7 +51,7 @@ pub struct Tests {
     pub date: Option<String>,
 }
 
-/// A control that is built into postform, or a shop's own.
+/// A control that is built into postform, or a shop's own control.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum ControlName {
@@ -103,7 +103,7 @@ impl WrittenValue {
     }
 }
 
-/// `control = "haas"`, or a file that describes one.
+/// The value of `control`: a name such as `"haas"`, or the path of a file that describes a control.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum WrittenControl {

@@ -98,7 +98,8 @@ impl Page<'_> {
         }
     }
 
-    /// `Rapid;G0`: an argument directly after the semicolon may begin with any character; other arguments may not.
+    /// Whether an argument directly follows the semicolon, as in `Rapid;G0`. Only this argument may begin with any
+    /// character.
     fn is_glued(&self, statement: &Statement) -> bool {
         let mut behind = self.source.text[statement.name.span.end as usize..].chars();
         behind.next() == Some(';') && behind.next().is_some_and(|c| !c.is_whitespace())
@@ -117,7 +118,7 @@ impl Page<'_> {
     fn name_line(&self, statement: &Statement) -> String {
         let mut words = vec![statement.name.text.as_str()];
         words.extend(statement.args.iter().map(|arg| arg.text.as_str()));
-        // text that is no variable stays as it is
+        // text that is not a variable stays as it is
         let named = |text: &str| {
             let inner = text.trim_matches(['[', ']', '<', '>']);
             VarId::parse(inner).map_or_else(|| text.to_owned(), |var| format!("[{}]", var.name()))
@@ -135,7 +136,7 @@ impl Page<'_> {
         let quoted = statement.args.iter().any(|arg| self.source.slice(arg.span) != arg.text);
         match used {
             Some((name, used)) if used >= words.len() && !quoted && !self.is_glued(statement) => name,
-            // more words than a name has: an error, left as it is
+            // the line has more words than a name, which is an error: the line stays as written
             _ => self.as_written(&statement.line),
         }
     }
@@ -167,7 +168,7 @@ impl Page<'_> {
         }
     }
 
-    /// `@if [cool] = through`: only the name `@if` changes, the rest stays as the author wrote it.
+    /// A directive, such as `@if [cool] = through`. Only the name `@if` changes; the rest stays as written.
     fn directive(&self, directive: &Directive) -> String {
         let name = match directive.kind {
             DirectiveKind::Unknown => directive.name.text.clone(),
@@ -191,7 +192,8 @@ impl Page<'_> {
             if i > 0 {
                 text.push(' ');
             }
-            // text that is no word stays as written: in the canonical layout it could become another word with its neighbour
+            // text that is not a word stays as written, because another layout could join this text and its neighbour
+            // into one word
             let stray = |piece: &Piece| matches!(piece.kind, PieceKind::Stray(_));
             if word.pieces.iter().any(stray) {
                 text.push_str(self.source.slice(word.span));
@@ -216,7 +218,7 @@ impl Page<'_> {
                     text.push_str(var.name());
                     text.push(']');
                 }
-                // unknown variable: it stays as written, because the intended one is unknown
+                // an unknown variable stays as written, because the intended variable is unknown
                 None => text.push_str(self.source.slice(piece.span)),
             },
             PieceKind::Note { parts, closed } => {
@@ -253,7 +255,7 @@ impl Page<'_> {
     }
 }
 
-/// `X->3.>4`, `F >3.>6`, `A010360`: the sign has its own column, which is a space if there is no sign.
+/// `X->3.>4`, `F >3.>6`, `A010360`: the sign has its own column. In a format without a sign, this column is a space.
 fn format_of(letter: &Spanned, spec: &Spanned) -> String {
     let digits = spec.text.trim();
     let packed = digits.len() >= 3 && digits.bytes().all(|b| b.is_ascii_digit());

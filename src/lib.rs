@@ -17,7 +17,7 @@
 //! # }
 //! ```
 //!
-//! - [`Post`] owns its form; a clone shares it, also with other threads. A form with errors makes no post.
+//! - [`Post`] owns its form. Clones share the form, also between threads. A form with errors makes no post.
 //! - [`Job`] is the work to be machined: JSON, JSON Lines, a CL file, an NC program, or events of your own.
 //! - [`Program`] is always complete: if something can't be printed, the result is an [`Error`] with its findings.
 //! - [`Verdict`] states whether a program makes the motions of its job. A program with other motions is an [`Error`], too.

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::span::Span;
 
 /// Interval in bytes at which the number of preceding characters is stored. With these numbers, a column of a long line
-/// is found as fast as one of a short line.
+/// is found as fast as a column of a short line.
 const STEP: usize = 1024;
 
 /// One form file, decoded.
@@ -72,7 +72,7 @@ impl Source {
                 return None; // there is no line after the last line end
             }
             let line = line.strip_suffix('\n').unwrap_or(line);
-            // more than one, or spaces after it: some file transfers add their own
+            // a line may end with several \r, or with spaces after a \r, because some file transfers add a \r
             let words = line.trim_end_matches([' ', '\t', '\r']);
             Some((start, if line[words.len()..].contains('\r') { words } else { line }))
         })

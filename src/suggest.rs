@@ -12,7 +12,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let (length, letters) = shape(&wrong);
     // allow one error in a short name, and errors in a third of the letters of a long name
     let allowed = (length / 3).clamp(1, 4);
-    // one error changes the length by at most one and the set of letters by at most two; this excludes most candidates quickly
+    // one error changes the length by at most one, and the set of letters by at most two; this fact excludes most
+    // candidates quickly
     let may_be = |candidate: &&str| {
         let (own_length, own_letters) = shape(candidate);
         own_length.abs_diff(length) <= allowed && (own_letters ^ letters).count_ones() as usize <= 2 * allowed

@@ -1,4 +1,4 @@
-# The cuts of a job in JSON Lines as blocks, in awk: words that did not change are left out, as are zeros at either end.
+# Prints the cuts of a job in JSON Lines as blocks, in awk. Unchanged words are left out, and numbers have no leading or trailing zeros.
 function number(value,    text) {
     text = sprintf("%.4f", value)
     sub(/0+$/, "", text)

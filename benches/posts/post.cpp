@@ -1,4 +1,4 @@
-// The cuts of a job in JSON Lines as blocks, in C++17: from_chars and to_chars, a buffer for the input and one for the output.
+// Prints the cuts of a job in JSON Lines as blocks, in C++17, with from_chars, to_chars, an input buffer and an output buffer.
 #include <charconv>
 #include <cstdio>
 #include <cstring>

@@ -1,4 +1,4 @@
-"""`python make_jobs.py FOLDER COUNT`: jobs of a few holes and cuts, each another one."""
+"""`python make_jobs.py FOLDER COUNT` writes COUNT different jobs of a few holes and cuts into FOLDER."""
 
 import json
 import sys

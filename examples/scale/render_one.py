@@ -1,4 +1,4 @@
-"""One job, as a pure function of files: what Dask, Ray and Slurm call. `python render_one.py FORM OUT JOB..` is the same by hand."""
+"""A function that prints one job, for Dask and Ray. `python render_one.py FORM OUT JOB..` calls this function for each JOB."""
 
 import os
 import sys
@@ -10,12 +10,12 @@ import postform
 
 @lru_cache(maxsize=8)
 def post(form):
-    """The form, read once by each process."""
+    """The compiled form. Each process reads a form only once."""
     return postform.Post.from_file(form)
 
 
 def render_one(job, form, out):
-    """Prints a job into the folder `out`: the verdict, or the error. A program that is there and newer is left as it is."""
+    """Prints a job into the folder `out`. Returns the verdict or the error. A program that is newer than its job and form is kept."""
     job, form, out = Path(job), Path(form), Path(out)
     to = out / f"{job.stem}.nc"
     if to.is_file() and to.stat().st_mtime > max(job.stat().st_mtime, form.stat().st_mtime):
@@ -24,7 +24,7 @@ def render_one(job, form, out):
         program = post(str(form)).render(job)
     except postform.Error as error:
         return job.name, f"error: {error}"
-    # whole or not at all, also where two workers get the same job
+    # the program is written completely or not at all, even if two workers get the same job
     part = out / f".{job.stem}.{os.getpid()}"
     part.write_text(program.program)
     os.replace(part, to)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 #SBATCH --job-name=postform
 #SBATCH --array=0-15
-# sbatch --array=0-15 slurm_array.sh FORM JOBS OUT: each task takes each 16th job. Without Slurm, its variables set by a loop do the same:
+# Run `sbatch --array=0-15 slurm_array.sh FORM JOBS OUT`: each task prints every 16th job. Without Slurm, a loop can set the variables of Slurm:
 #   for i in $(seq 0 15); do SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_COUNT=16 bash slurm_array.sh FORM JOBS OUT; done
 set -euo pipefail
 form=$1 jobs=$2 out=$3
@@ -10,5 +10,5 @@ mkdir -p "$out"
 mapfile -t all < <(printf '%s\n' "$jobs"/*.json)
 mine=()
 for ((i = task; i < ${#all[@]}; i += tasks)); do mine+=("${all[i]}"); done
-# a task that is started again goes on where it was
+# a task that is started again skips the programs that are up to date
 postform render "${mine[@]}" --form "$form" --out-dir "$out" --changed --jobs "${SLURM_CPUS_PER_TASK:-1}" --quiet

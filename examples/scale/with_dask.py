@@ -1,4 +1,4 @@
-"""`python with_dask.py FORM JOBS OUT [WORKERS]`: all jobs of a folder on the workers of Dask, here processes of this machine."""
+"""`python with_dask.py FORM JOBS OUT [WORKERS]` prints all jobs of a folder on workers of Dask, which are processes of this machine."""
 
 import sys
 from collections import Counter
@@ -12,13 +12,13 @@ from render_one import render_one
 def main():
     form, jobs, out, *workers = sys.argv[1:]
     Path(out).mkdir(exist_ok=True)
-    # an address of a scheduler in place of it uses a cluster
+    # to use a cluster, connect the client to the address of its scheduler instead
     with LocalCluster(
         n_workers=int(workers[0]) if workers else 2, threads_per_worker=1, dashboard_address=None, host="127.0.0.1"
     ) as cluster, Client(cluster) as client:
         client.upload_file(str(Path(__file__).with_name("render_one.py")))
         print("workers", *sorted(worker.pid for worker in cluster.workers.values()), flush=True)
-        # a killed worker's jobs go to another one
+        # the jobs of a killed worker go to another worker
         futures = client.map(render_one, sorted(map(str, Path(jobs).glob("*.json"))), form=form, out=out, retries=3, batch_size=500)
         verdicts = Counter(future.result()[1].split(":")[0] for future in as_completed(futures))
     print(dict(verdicts))

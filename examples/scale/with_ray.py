@@ -1,4 +1,4 @@
-"""`python with_ray.py FORM JOBS OUT [WORKERS]`: all jobs of a folder on the workers of Ray, here processes of this machine."""
+"""`python with_ray.py FORM JOBS OUT [WORKERS]` prints all jobs of a folder on workers of Ray, which are processes of this machine."""
 
 import os
 import sys
@@ -11,7 +11,7 @@ import ray  # noqa: E402
 from render_one import render_one  # noqa: E402
 
 
-# a killed worker's jobs are done again
+# the jobs of a killed worker are printed again
 @ray.remote(max_retries=3)
 def render_some(jobs, form, out):
     return os.getpid(), [render_one(job, form, out) for job in jobs]
@@ -21,7 +21,7 @@ def main():
     form, jobs, out, *workers = sys.argv[1:]
     Path(out).mkdir(exist_ok=True)
     here = str(Path(__file__).parent)
-    # an address of a cluster in place of it uses that
+    # to use a cluster, pass its address instead
     ray.init(
         num_cpus=int(workers[0]) if workers else 2, include_dashboard=False, _node_ip_address="127.0.0.1",
         runtime_env={"env_vars": {"PYTHONPATH": here}}, logging_level="error",

@@ -1,4 +1,4 @@
-//! Fuzzing of forms, guided by coverage. `fuzz/run 1800` runs it for half an hour (see CONTRIBUTING.md).
+//! Fuzzing of forms, guided by coverage. `fuzz/run 1800` runs this target for half an hour (see CONTRIBUTING.md).
 #![no_main]
 
 #[path = "../look.rs"]

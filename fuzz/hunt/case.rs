@@ -24,7 +24,7 @@ pub struct Asked {
     pub first: u64,
     kinds: Vec<Kind>,
     forms: Vec<Rc<Form>>,
-    /// All forms that can print a job which another form reads as a program.
+    /// All forms that can print the program of a job of the kind `Program`.
     writers: Vec<Rc<Form>>,
 }
 
@@ -81,7 +81,7 @@ impl Asked {
                 let text = written(&job, Format::Json);
                 let inch = other.inch.unwrap_or(job["units"] == "inch");
                 let (mut program, _) = other.render(Job::json(&text), inch).ok()?;
-                // sometimes a program that no form prints
+                // sometimes the program is changed, so that no form prints it
                 if random.once_in(3) {
                     program = mutant(&program, random)?.text;
                 }
@@ -112,7 +112,7 @@ pub struct Case {
     pub writer: Option<Rc<Form>>,
     /// The format of the job.
     pub format: Format,
-    /// The program is in inches, whatever the units of the job are.
+    /// Whether the program is in inches. The job may have other units.
     pub inch: bool,
     /// The job, as a document.
     pub job: Value,
@@ -130,7 +130,7 @@ pub enum End {
 }
 
 impl End {
-    /// The result in a few words. It must stay the same while a job is made smaller.
+    /// The result in a few words. While a job is made smaller, these words must stay the same.
     pub fn name(&self) -> String {
         match self {
             End::Refused((code, _)) => format!("refused {code}"),
@@ -200,7 +200,7 @@ impl Case {
         self.form.verdict(program, self.reads(&self.bytes()), self.inch)
     }
 
-    /// The verdict on the program when it is proven during printing, in parts of random size.
+    /// The verdict if the program is proven during printing, in parts of random size.
     pub fn proof_beside(&self, random: &mut Random) -> Proof {
         let bytes = self.bytes();
         let run = || self.form.prove_beside(self.reads(&bytes), self.inch, random);
@@ -225,7 +225,7 @@ impl Case {
     pub fn judged_within(&self, program: &str, within: f64) -> Option<Result<(), String>> {
         let wants = self.wants()?;
         let against = match self.run(program) {
-            // the judge reads only those words of these languages that the forms print for a job, and no text of the
+            // the judge reads only the words of these languages that the forms print for a job, and not the text of the
             // job
             Err(_) if crate::judge::languages::is_one(&self.form.control) => return None,
             Err((line, why)) => Some(format!("line {line}: {why}")),
@@ -260,8 +260,8 @@ impl Case {
         }
     }
 
-    /// Compares the result of LinuxCNC's interpreter for a program with the job. `None` if the interpreter is not used
-    /// for it.
+    /// Runs a program with LinuxCNC's interpreter and compares the result with the job. `None` if the interpreter is
+    /// not used for the program.
     pub fn interpreted(&self, program: &str) -> Option<Result<(), String>> {
         // the interpreter outputs the compensated path, and the pecks of its own cycles
         let own = ["G41", "G42", "G73", "G83"].iter().any(|code| program.contains(code));

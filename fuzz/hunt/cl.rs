@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use crate::text::list;
 
-/// The job as the CL text of [`written`] describes it: without everything that a CL file can't express, and with whole
-/// positions.
+/// The job without everything that a CL file can't express, and with all axes in each position. The CL text of
+/// [`written`] describes this job.
 pub fn for_cl(job: &Value) -> Value {
     let mut job = job.clone();
     let operations = job["operations"].as_array_mut().map(std::mem::take).unwrap_or_default();
@@ -117,7 +117,7 @@ fn hold(cycle: &mut Value, at: &mut [Option<f64>; 3]) -> bool {
         if cycle.contains_key("step") {
             cycle.insert("step_from".into(), json!("point"));
         }
-        // CLEAR and RETURN are written in every cycle, and the options of a tap in its own statement
+        // CLEAR and RETURN are written in every cycle; the options of a tap are written in the statement of the tap
         if matches!(kind.as_str(), "tap" | "ltap") && !cycle.contains_key("rigid") {
             cycle.insert("rigid".into(), json!(true));
         }

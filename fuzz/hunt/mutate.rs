@@ -24,7 +24,7 @@ pub const KINDS: &[&str] = &[
     "move block",
 ];
 
-/// Blocks with an effect of their own at every position: before the first cut, between cuts, inside a hole.
+/// Blocks that have an effect at every position: before the first cut, between cuts, and inside a hole.
 const INSERTED: &[&str] = &[
     "G91",
     "G90",

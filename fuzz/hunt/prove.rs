@@ -16,21 +16,22 @@ use crate::random::Random;
 pub struct Form {
     /// The file name without its extension.
     pub name: String,
-    /// The control that runs its programs.
+    /// The control that runs the form's programs.
     pub control: String,
-    /// The kinds of jobs that it can print.
+    /// The kinds of jobs that the form can print.
     pub kinds: Vec<Kind>,
-    /// The features of jobs that it supports.
+    /// The features of jobs that the form supports.
     pub takes: Takes,
-    /// The units of its programs, if the form fixes them: true for inches. Otherwise those of the job.
+    /// Whether programs are in inches, if the form fixes the units. `None`: a program has the units of its job.
     pub inch: Option<bool>,
-    /// Tolerance of positions in millimetres: the resolution of its digits, with an allowance for sums of positions.
+    /// Tolerance of positions in millimetres: the resolution of the form's digits, with an allowance for sums of
+    /// positions.
     pub within: f64,
-    /// The program has another letter for the job's A.
+    /// Whether the program has another letter for the job's A.
     pub renames: bool,
-    /// X of a lathe is a diameter.
+    /// Whether X of a lathe is a diameter.
     pub by_diameter: bool,
-    /// `lint` warns that its formats round away digits of a job.
+    /// Whether `lint` warns that the formats round away digits of a job.
     pub cuts_digits: bool,
     /// The text of the form.
     pub text: String,
@@ -176,7 +177,7 @@ impl Form {
     }
 }
 
-/// Options for printing; they set the program number, because a CL file has none.
+/// Options for printing. They set the program number, because a CL file has no program number.
 fn options(inch: bool) -> Options {
     let mut options = Options::default();
     options.program = Some(MAIN);

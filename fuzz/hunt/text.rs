@@ -18,7 +18,7 @@ pub fn ending(format: Format) -> &'static str {
     }
 }
 
-/// The job in this format. For a CL file, only what CL can express is written ([`crate::cl::for_cl`]).
+/// The job in this format. For a CL file, only the parts that CL can express are written ([`crate::cl::for_cl`]).
 pub fn written(job: &Value, format: Format) -> String {
     let lines_of = |job: &Value| {
         list(job, "lines").iter().filter_map(Value::as_str).fold(String::new(), |text, line| text + line + "\n")

@@ -19,7 +19,7 @@ import { base } from "./names.ts";
 import type { Finding, Place } from "./scene.ts";
 
 interface Lit {
-  /** Lines from 0: those of the selected block, and those of a difference. */
+  /** Lines, counted from 0: `lines` printed the selected block, and `bad` printed differences. */
   lines: number[];
   bad: number[];
 }
@@ -93,7 +93,7 @@ export class Editor {
   private names: string[] = [];
   private file = 0;
   private quiet = false;
-  /** What is shown besides the text, as JSON, with the text to which it belongs. */
+  /** The findings and the highlighted lines that are shown, as JSON, each with the text to which they belong. */
   private readonly shown: Record<string, { text: Text; what: string }> = {};
   onEdit: (name: string, text: string) => void = () => {};
   onLine: (file: number, line: number) => void = () => {};
@@ -103,7 +103,7 @@ export class Editor {
   onFormat: () => void = () => {};
   /** Called when the code of a finding is clicked. */
   onCode: (code: string) => void = () => {};
-  /** Esc was pressed once: the page explains the second press. */
+  /** Called when Esc was pressed once, so that the page explains the second press. */
   onHint: () => void = () => {};
   private escaped = -Infinity;
   /** The help for a location in the file that is shown. */
@@ -160,10 +160,10 @@ export class Editor {
     });
   }
 
-  /** Text was typed since the cursor entered the form. */
+  /** Whether text was typed since the cursor entered the form. */
   private writes = false;
 
-  /** Does Tab indent? Without a selection and without typed text, it moves to the next pane. */
+  /** Does Tab indent? Without a selection and without typed text, Tab moves to the next pane. */
   private indents(state: EditorState): boolean {
     return this.isEditable && (this.writes || !state.selection.main.empty);
   }
@@ -288,7 +288,7 @@ export class Editor {
     this.view.dispatch({ changes: here.map(({ at, text }) => ({ from: this.offset(at[1], at[2]), to: this.offset(at[3], at[4]), insert: text })) });
   }
 
-  /** Highlights the form lines that printed the selected block, and those with differences. Each is a file and a line. */
+  /** Highlights the form lines that printed the selected block (`lit`) and the form lines with differences (`bad`). */
   light(lit: { file: number; line: number }[], bad: { file: number; line: number }[], scrolls: boolean): void {
     const first = lit[0];
     if (scrolls && first && first.file !== this.file) this.open(first.file);
@@ -306,7 +306,7 @@ export class Editor {
     this.quiet = false;
   }
 
-  /** Whether this is shown already, for the same text. Showing it again would cost a layout of the page. */
+  /** Whether these findings or lines are shown already for the same text. Showing them again would cost a layout of the page. */
   private shows(kind: "findings" | "light", shown: unknown): boolean {
     const now = { text: this.view.state.doc, what: JSON.stringify(shown) };
     const before = this.shown[kind];

@@ -53,13 +53,13 @@ export class Header {
     return changed;
   }
 
-  /** Shows the number of findings, and the first one. */
+  /** Shows the number of findings, and the first finding. */
   private showLint({ form, notes: printed = [], picture }: Head): void {
     this.lint.hidden = !form;
     if (!form) return;
-    // findings of the form, and of printing the job with it
+    // findings of the form, and findings of printing the job with the form
     const of = (severity: Finding["severity"], ofForm: number) => ofForm + printed.filter((found) => found.severity === severity).length;
-    // and a block that the control refuses
+    // a block that the control refuses counts as an error
     const refused = picture?.refused;
     const [errors, warnings, notes] = [of("error", form.errors) + (refused ? 1 : 0), of("warning", form.warnings), of("note", form.notes)];
     const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
@@ -72,7 +72,7 @@ export class Header {
     this.lint.className = errors ? "lint bad" : warnings ? "lint warn" : "lint";
   }
 
-  /** Forgets the tabs: those of the new jobs come with the next scene. */
+  /** Forgets the tabs. The next scene contains the tabs of the new jobs. */
   forgetJobs(): void {
     this.tabs.replaceChildren();
   }
@@ -87,7 +87,7 @@ export class Header {
     this.tabs.children[job].setAttribute("title", verdict?.text ?? "");
   }
 
-  /** Shows the verdict of the current job, or why it has no program. */
+  /** Shows the verdict of the current job, or the reason why the job has no program. */
   tell(job: number, verdict: Verdict | undefined, stopped?: Head["stopped"]): void {
     const class_ = { proven: "ok", unproven: "warn", different: "bad", none: "dim" }[verdict?.kind ?? "none"];
     this.verdict.className = `verdict ${stopped ? "bad" : class_}`;

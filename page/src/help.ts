@@ -29,7 +29,7 @@ export function help(ask: Ask): Extension {
 async function complete(context: CompletionContext, ask: Ask): Promise<CompletionResult | null> {
   const line = context.state.doc.lineAt(context.pos);
   const before = line.text.slice(0, context.pos - line.from);
-  // only after the beginning of a word, bracket or code, or on explicit request
+  // completions are offered only after the beginning of a word, bracket or code, or on explicit request
   if (!context.explicit && !/\[[\w#]*$|(^|\s)[GM]\d+$|^\s*\w{2,}$|^\s*(End|Control|Machine|Units)\s+\w*$|@\w*$|^\s*@for\s+\w*$/.test(before)) return null;
   const told = await ask({ line: line.number - 1, column: before.length, ask: "complete" }).catch(() => null);
   const list = told?.list ?? [];

@@ -7,7 +7,7 @@ export interface Ask {
   job: number;
   /** Unsaved texts of forms, by their names. */
   texts: Record<string, string>;
-  /** The identifier of the program that the page already shows: it need not be sent again. */
+  /** The identifier of the program that the page already shows, so that this program is not sent again. */
   shown?: string | null;
   /** The hashes of the sections that the page has. */
   has?: Record<string, string>;
@@ -30,7 +30,7 @@ export interface Help {
   list?: { label: string; kind: string; detail: string; at: Place; text: string; snippet: string | null; info: string | null }[];
 }
 
-/** The tab of an opened job, and whether the job replaced one of the same name. */
+/** The tab of an opened job, and whether the job replaced a job of the same name. */
 export interface Added {
   tab: number;
   replaced: boolean;
@@ -43,13 +43,13 @@ export interface Host {
   help(ask: Ask, at: At): Promise<Help | null>;
   /** The verdict of a job with the saved forms. */
   verdict(job: number, properties: [string, string][]): Promise<Verdict>;
-  /** Writes a form. Null: it was written; otherwise the reason why not. */
+  /** Writes a form. Returns null, or the reason why the form was not written. */
   save?(name: string, text: string, was: string): Promise<string | null>;
   /** Opens another job. */
   add?(name: string, bytes: Uint8Array): Promise<Added>;
   /** Closes a job of this name. */
   close?(job: number, name: string): Promise<void>;
-  /** Typed text is kept even if it is not saved. */
+  /** Whether typed text is kept even if it is not saved. */
   readonly keeps?: boolean;
   /** Sets a function that is called when a file was changed elsewhere. */
   onChange?(changed: (connected: boolean) => void): void;

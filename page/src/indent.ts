@@ -11,7 +11,7 @@ export const indentation = [
     const { doc } = context.state;
     const unit = getIndentUnit(context.state);
     const own = doc.lineAt(at);
-    // a new line follows the part of its line that stays; while a line is typed, its indentation depends on the previous line with text
+    // the indentation of a new line depends on the text before the line break; the indentation of a typed line depends on the previous line with text
     const isNew = context.simulatedBreak === at;
     let before = isNew ? own.text.slice(0, at - own.from) : "";
     for (let line = own.number - 1; line > 0 && !before.trim(); line--) before = doc.line(line).text;

@@ -39,7 +39,7 @@ export function keys(page: Page): void {
   });
   document.addEventListener("keydown", (event) => {
     if (event.key === "s" && (event.ctrlKey || event.metaKey)) {
-      // if the form has the focus, its own key function saves it
+      // if the form has the focus, the key function of the form saves the form
       if (!event.defaultPrevented) void page.save();
       return event.preventDefault();
     }

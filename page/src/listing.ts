@@ -28,11 +28,11 @@ export class Listing {
   private line = 0;
   private lit = new Set<number>();
   private asked = 0;
-  /** The selected block was scrolled into view, and the user has not scrolled since then. */
+  /** Whether the selected block was scrolled into view and the user has not scrolled since then. */
   private follows = false;
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
-  /** Called when a line was found, which must be selected and shown. */
+  /** Called when the search has found a line, so that the line is selected and shown. */
   onFound: (line: number) => void = () => {};
   /** The file name for saving the program. */
   fileName = "program.nc";
@@ -62,7 +62,7 @@ export class Listing {
     this.rows.onclick = (event) => {
       const line = lineOf(event);
       if (!line) return;
-      // from here on, keys control the page
+      // after this call, keys control the page
       this.view.focus({ preventScroll: true });
       this.onPick(line);
     };

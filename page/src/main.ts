@@ -68,7 +68,7 @@ export class Page {
   private crashes = new Set<number>();
   /** Files that were changed both on the disk and here, until the user has chosen which text to keep. */
   private readonly conflicts = new Set<string>();
-  /** Replaces the verdict while the current text has none, because the check is running or has failed. */
+  /** Replaces the verdict while the current text has no verdict, because the check is running or has failed. */
   private unchecked: Verdict | null = null;
   private running = false;
   private again: { key: number } | null = null;
@@ -76,7 +76,7 @@ export class Page {
   /** The last keystrokes, with the milliseconds until the new picture and the new verdict were painted. */
   readonly painted: { key: number; picture: number; verdict: number }[] = [];
 
-  /** Without a host, the page shows one scene. Without a form side, it has two panes. */
+  /** Without a host, the page shows one scene. Without a form side, the page has two panes. */
   constructor(private readonly host: Host | null, private readonly form: FormSide | null) {
     this.editor = form?.editor ?? null;
     this.backplot = new Backplot(form?.solid ?? null);
@@ -168,7 +168,7 @@ export class Page {
     }));
   }
 
-  /** Requests a scene. If a request is running, another one follows after it. */
+  /** Requests a scene. If a request is running, another request follows. */
   async load(key = 0): Promise<void> {
     if (!this.host) return;
     this.pend(CHECKING);
@@ -207,7 +207,7 @@ export class Page {
     if (again) void this.load(again.key);
   }
 
-  /** Marks verdicts as pending: that of this job and, if the form has unsaved text, those of the other jobs. */
+  /** Marks the verdict of this job as pending. If the form has unsaved text, the verdicts of the other jobs are also marked. */
   private pend(text: Verdict): void {
     this.unchecked = text;
     document.body.classList.add("pending");
@@ -247,7 +247,7 @@ export class Page {
     await this.load();
   }
 
-  /** Handles later results for the shown program: the verdict and the changes, which take longer than its picture. */
+  /** Handles later results for the shown program: the verdict and the changes, which take longer than the picture. */
   private tellMore(scene: Scene): void {
     const { verdict = this.head!.verdict, fit = this.head!.fit, saved = this.head!.saved, against = this.head!.against, toolSizes = this.head!.toolSizes } = scene.head;
     Object.assign(this.head!, { verdict, fit, saved, against, toolSizes });
@@ -298,7 +298,7 @@ export class Page {
     if (first || tabsChanged) void this.otherVerdicts();
   }
 
-  /** The line to select first: the first difference, otherwise the first cut, preferably one that the form printed. */
+  /** The line to select first: the first difference, otherwise the first cut, preferably a cut that the form printed. */
   private firstLine(): number {
     const difference = this.head?.verdict?.findings[0]?.line || this.head?.picture?.refused?.line;
     if (difference) return difference;

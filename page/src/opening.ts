@@ -9,7 +9,7 @@ export const JOBS =
 /** The file name extensions of NC programs. */
 const PROGRAMS = /\.(nc|ngc|tap|cnc|eia|min|ssb|mpf|spf|h|i)$/i;
 
-/** Is the file an NC program, by its name? */
+/** Does the file have the extension of an NC program? */
 export function isProgram(name: string): boolean {
   return PROGRAMS.test(name);
 }

@@ -78,7 +78,7 @@ class Playground {
     files.forEach((file) => this.host.take(file));
   }
 
-  /** The introduction of the page: what it is, and what the user can do. */
+  /** The introduction of the page: a description of the page, and the possible actions of the user. */
   private front(): HTMLElement {
     const examples = element("select", { "aria-label": "Example" }, element("option", { value: "" }, "examples…"), ...Object.keys(EXAMPLES).map((name) => element("option", {}, name)));
     examples.onchange = async () => {

@@ -87,7 +87,8 @@ export class Program {
     return this.decoder.decode(this.bytes);
   }
 
-  /** The next line after (1) or before (-1) a line that contains a text, in upper or lower case, continuing at the other end. 0: there is none. */
+  /** Finds a text, in upper or lower case, after (1) or before (-1) the line `from`. At one end of the program, the search continues at the
+   * other end. Returns the number of the line; 0: no line contains the text. */
   find(text: string, from: number, by: 1 | -1): number {
     // one character per byte, so that positions in the text are bytes
     this.upper ??= new TextDecoder("latin1").decode(this.bytes).toUpperCase();
@@ -148,7 +149,7 @@ export class Program {
     return this.lineItem[i] === this.lineItem[j] && this.lineItem[i + 1] === this.lineItem[j + 1];
   }
 
-  /** The moves of a line: the first one, and the first one after the line. */
+  /** The moves of a line: its first move, and the first move after the line. */
   moves(line: number): [number, number] {
     return line >= 1 && line <= this.lines ? [this.moveFrom[line], this.moveTo[line]] : [0, 0];
   }

@@ -30,8 +30,8 @@ export function repeats(formLine: string, block: string, program: Program, line:
   return gone;
 }
 
-/** A literal code must be equal. A code from a variable may be any code, so it is missing only if the block contains no code of
- * its letter. */
+/** A literal code must be equal. A code from a variable may be any code, so the code is missing only if the block contains no
+ * code with this letter. */
 function hasCode(block: string, word: string, variable: string): boolean {
   if (variable.startsWith("[")) return block.includes(word[0]);
   return new RegExp(`${word[0]}0*${variable.replace(".", "\\.")}(?![0-9.])`).test(block);

@@ -2,10 +2,10 @@
 
 import type { Hunks } from "./scene.ts";
 
-/** Maximum number of rows of the old program; further ones are left out. */
+/** Maximum number of rows of the old program; further rows are left out. */
 const MOST = 10_000;
 
-/** Blocks of the old program that the new one lacks, and the line of the new one after which they are shown. */
+/** Blocks that only the old program has, and the line of the new program after which these blocks are shown. */
 interface Gone {
   after: number;
   /** The first of these lines in the old program, from 1, and their number. */

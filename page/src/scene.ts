@@ -109,7 +109,7 @@ export interface Head {
   notes?: Finding[];
   /** The identifier of the program. */
   program?: string;
-  /** The program is the one that the page already shows. */
+  /** Whether the page already shows this program. */
   same?: boolean;
   /** Tools of the job, with diameters in millimetres. */
   toolSizes?: ToolSize[];
@@ -136,7 +136,7 @@ export class Path {
   readonly ownTime: Float32Array;
   /** The times that are shown: those of the machine file, if there is one. */
   moveTime: Float32Array;
-  /** The times come from the machine file: they include accelerations, tool changes and the machine's rapid rates. */
+  /** Whether the times come from the machine file. Such times include accelerations, tool changes and the machine's rapid rates. */
   isTimed = false;
   /** For a program with rotary moves: X Y Z at the end of each move. Empty: the points are the positions. */
   readonly ends: Float64Array;
@@ -220,7 +220,7 @@ export function lengthOf(bytes: Uint8Array): number | null {
 /** A complete scene. */
 export class Scene {
   readonly head: Head;
-  /** The sections. Those of an earlier scene have their own buffers, so that the rest of that scene can be freed. */
+  /** The sections. Sections of an earlier scene have their own buffers, so that the rest of the earlier scene can be freed. */
   private readonly found = new Map<string, Uint8Array>();
 
   /** `before`: the scene whose sections were not sent again. */

@@ -37,7 +37,7 @@ export class Timeline {
   /** Seconds from the beginning. */
   private time = 0;
   private frame = 0;
-  /** Called with the tool's position while it plays or the slider moves. */
+  /** Called with the tool's position while the timeline plays or the slider moves. */
   onTime: (cursor: Cursor) => void = () => {};
   /** Called when the whole path is shown again. */
   onEnd: () => void = () => {};
@@ -127,7 +127,7 @@ export class Timeline {
     this.onEnd();
   }
 
-  /** Called when a block was selected: playing starts at its end. */
+  /** Called when a block was selected, so that playing starts at the end of this block. */
   chose(line: number): void {
     this.pause();
     const move = this.path?.moves ? this.program!.moveOf(this.program!.pointAfter(line)) : -1;

@@ -3,8 +3,8 @@
 import type { Path, Scene } from "./scene.ts";
 
 /**
- * Sets the times of a path to those of the machine file, if the scene contains them: the lines of blocks in the order in which they ran, and the
- * seconds to the end of each. The moves of a block share its time in the same proportions as in the program's own times.
+ * Sets the times of a path to the times of the machine file, if the scene contains these times. A scene contains the lines of blocks in the order in
+ * which the blocks ran, and the seconds to the end of each block. The time of a block is divided among its moves as in the program's own times.
  */
 export function takeTimes(path: Path, scene: Scene): void {
   if (!scene.has("timedLine")) return;
@@ -23,7 +23,7 @@ export function takeTimes(path: Path, scene: Scene): void {
     let end = begin;
     if (isTimed[line]) {
       while (block < lines.length && lines[block] !== line) begin = ends[block++];
-      // a block that repeats has the times of all its runs up to the next block that moves
+      // the time of a repeated block includes all its runs up to the next block that moves
       const next = last + 1 < moves ? moveLine[last + 1] : 0;
       for (let at = block; at < lines.length && lines[at] !== next; at++) {
         if (lines[at] === line) [end, block] = [ends[at], at + 1];

@@ -1,5 +1,5 @@
-//! Finds the values that a form uses and that are known only at the end of a job. Properties with known values may
-//! exclude some of these values.
+//! Finds the values that a form uses and that are known only at the end of a job. If a known property value excludes a
+//! branch of the form, the values in this branch are left out.
 
 use std::ops::Range;
 
@@ -8,10 +8,10 @@ use super::routine::{Branch, Node, Routine};
 use crate::lang::{AHEAD, Coolant, TOOLS_AHEAD, TextId, VarId, VarSet};
 use crate::sema::{PropertyKind, PropertyValue, Target, Values};
 
-/// Properties whose values do not change any more: each with its row and its value.
+/// Properties whose values no longer change, each with its row and its value.
 pub type Fixed = [(u16, PropertyValue)];
 
-/// Which values of a form are known only at the end of the job.
+/// The kinds of values that a form uses and that are known only at the end of the job.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Asks {
     /// Whether the form uses lists, extents or sums.
@@ -21,7 +21,8 @@ pub struct Asks {
 }
 
 impl Program {
-    /// Which values of the form are known only at the end of the job, if the properties have these fixed values.
+    /// The kinds of values that the form uses and that are known only at the end of the job. `fixed`: properties with
+    /// fixed values. Branches that these values exclude do not count.
     pub fn asks_ahead(&self, fixed: &Fixed) -> Asks {
         let lists = self.ops.iter().any(|op| matches!(op, Op::List { .. }));
         let asks = |vars: VarSet, lists: bool| Asks { all: lists || vars.meets(AHEAD), tools: vars.meets(TOOLS_AHEAD) };
@@ -47,7 +48,7 @@ impl Known<'_> {
     /// The value of a property; `None` if the value is unknown or the form changes it.
     fn get(&self, row: u16) -> Option<&PropertyValue> {
         let set = self.program.sets.iter().any(|(target, _)| *target == Target::Property(row));
-        // a length is in the units of the program, which depend on the job, so it is unknown
+        // a length is unknown, because the units of the program depend on the job
         let length = self.program.settings.properties[usize::from(row)].kind == PropertyKind::Length;
         let fixed = self.fixed.iter().rev().find(|(own, _)| *own == row && !set && !length);
         fixed.map(|(_, value)| value)
@@ -92,8 +93,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Collects the values that a part of a sequence uses: in its nodes, and in the operations outside of the nodes'
-    /// branches.
+    /// Collects the values that a part of a sequence uses, in branches and outside branches.
     fn part(&mut self, ops: &Range<usize>, nodes: &[Node]) {
         let mut at = ops.start;
         for node in nodes {

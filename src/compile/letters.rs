@@ -1,4 +1,5 @@
-//! How a form prints each letter: its format, the printed letter, its sign, and whether it may be left out.
+//! How a form prints words with each letter: the format of the number, the printed letter, the sign, and whether the
+//! word may be left out.
 
 use crate::number::{LetterFormat, Printing};
 use crate::sema::{Form, Settings};
@@ -43,7 +44,7 @@ pub struct LetterTable {
     rows: [Letter; 128],
     /// The format of a value without a letter.
     pub bare: LetterFormat,
-    /// Packed words by their letters, with the digits that `[tparams]` prints if it has no value.
+    /// Packed words by their letters, each with the digits that are printed if `[tparams]` has no value.
     pub packed: Vec<(u8, String)>,
 }
 
@@ -70,8 +71,8 @@ const BUILT_IN: &[(&[u8], &str, &str)] = &[
 /// The format of all other letters, and of values without a letter.
 const ANY: (&str, &str) = ("->6~>4", "->6~>4");
 
-/// The format of values after a text, for languages in whose cycles values have no letters. Cycles of these languages
-/// add and multiply heights and pitches, so more decimals are needed.
+/// The format of values after a text, for languages that write values without letters in cycles. Cycles of these
+/// languages add and multiply heights and pitches, so more decimals are needed.
 const FINE: &str = "->6~>6";
 
 impl LetterTable {

@@ -79,8 +79,8 @@ fn speaks_g(program: &Program) -> bool {
     generated || program.literals.iter().any(motion)
 }
 
-/// Whether the form switches its torch or laser itself: its sequences for parts of the path print M3 or M4 and also M5, or a sequence for
-/// moves prints the speed.
+/// Whether the form's own sequences switch the torch or laser. This is so in two cases: the sequences for parts of the
+/// path print both M5 and M3 or M4, or a sequence for moves prints the speed.
 fn switches_spindle(program: &Program) -> bool {
     use SequenceId as S;
     const PARTS: [SequenceId; 14] = [
@@ -183,7 +183,7 @@ fn lower_steps(program: &mut Program, lines: &[Line], steps: &[Step], branches: 
                 program.ops.push(Op::List { index });
                 program.spans.push(*span);
                 let start = program.ops.len();
-                // reserve the row now, because lists inside this one get later rows
+                // reserve the row now, because the lists inside this list get later rows
                 program.lists.push(List { each: *each, routine: routine(start..start, None, None, *span) });
                 let inner = lower_steps(program, lines, steps, branches);
                 let ops = start..program.ops.len();
@@ -267,7 +267,7 @@ fn push<T>(table: &mut Vec<T>, item: T) -> u32 {
     (table.len() - 1) as u32
 }
 
-/// Whether the word is one of G0 to G3, or no G or M code at all.
+/// Whether the word is G0, G1, G2 or G3, or is neither a G code nor an M code.
 fn is_motion_or_no_code(word: &WordKind) -> bool {
     match word {
         WordKind::Literal(b'G' | b'g', _, value) => [0.0, 1.0, 2.0, 3.0].contains(value),

@@ -1,4 +1,4 @@
-//! Compiles a checked form to a list of small operations, parts of which run for each event.
+//! Compiles a checked form to a list of small operations. For each event, the renderer runs a part of this list.
 
 mod ahead;
 mod find_work;

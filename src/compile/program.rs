@@ -11,10 +11,10 @@ use crate::sema::{Formula, Settings, Target};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Number of bytes of a form's hash that are printed.
+/// The number of printed bytes of a form's hash.
 const HASH_BYTES: usize = 6;
 
-/// One operation, which is kept small in memory, because a long job may run hundreds of millions of operations.
+/// One operation. The type is small in memory, because a long job may run hundreds of millions of operations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Op {
     /// Start of a line. `droppable`: the only codes in the line are G0 to G3, so a cycle may leave out unchanged words
@@ -150,13 +150,13 @@ pub struct List {
 /// How a canned cycle prints its holes (docs/rendering.md, "Canned cycles").
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CycleStyle {
-    /// One line, and `End Cancel`: the first hole prints the line, later holes print only changed words.
+    /// One line, with `End Cancel`: the whole line is printed at the first hole, and only changed words at later holes.
     Machine,
-    /// One line, and `End` alone: every hole prints the whole line.
+    /// One line, with `End` alone: the whole line is printed at every hole.
     WholeLine,
-    /// Several lines without a count: every hole prints all lines.
+    /// Several lines without a count: all lines are printed at every hole.
     Emulated,
-    /// Several lines with a count: the first lines print once, the others at every hole.
+    /// Several lines with a count: the first lines are printed once, and the other lines at every hole.
     Advanced,
     /// `None`: postform generates the moves.
     Generated,

@@ -30,12 +30,11 @@ pub struct Routine {
     pub vars: VarSet,
     /// The texts of the job that the routine prints.
     pub texts: TextSet,
-    /// Sources of the words that a cycle prints at its first hole only: the variables and properties on which the words
-    /// depend.
+    /// The sources (variables and properties) of the words that a cycle prints only at its first hole.
     pub first_only: Sources,
     /// Whether the sequence ends with `End Cancel`.
     pub cancel: bool,
-    /// Whether the control still moves by itself after the last line, as in a cycle or a macro.
+    /// Whether a cycle or a macro is still active after the last line, so that the control moves the axes by itself.
     pub stays: bool,
     /// How the sequence prints holes, if it is a canned cycle.
     pub style: CycleStyle,
@@ -84,7 +83,7 @@ impl Routine {
         self.vars.has(var) || self.tests(VarSet::of(&[var]), program)
     }
 
-    /// Does the routine use any of these variables in a condition?
+    /// Whether the routine uses any of these variables in a condition.
     pub fn tests(&self, vars: VarSet, program: &Program) -> bool {
         fn of(nodes: &[Node], vars: VarSet, program: &Program) -> bool {
             nodes.iter().any(|node| match node {
@@ -120,7 +119,7 @@ impl Routine {
                 let literal = &program.literals[index as usize];
                 returns |= literal.letter == b'G' && literal.value == program.settings.return_plane[1];
             }
-            // the last code decides this: a code that moves by itself, or a code that ends such a motion
+            // the last code decides: a code with which the control moves by itself, or a code that ends these motions
             if let Some(code) = typed_code(op, program) {
                 let moves = control.moves_by_itself(code);
                 if moves || control.meaning(code).is_some_and(Meaning::ends_cycle) {
@@ -228,7 +227,8 @@ fn vars_of(op: Op, program: &Program) -> VarSet {
     }
 }
 
-/// The G or M code of an operation if it is a number in the form. A slash for block delete may precede the code.
+/// The G or M code of an operation, if the form contains the code as a number. A slash for block delete may precede the
+/// code.
 fn typed_code(op: Op, program: &Program) -> Option<Code> {
     match op {
         Op::Literal { index, .. } => {

@@ -70,7 +70,7 @@ impl Carried {
     }
 }
 
-/// A step of a sequence: a printed value with its letter ([`BARE`] if it has none), or an assignment.
+/// A step of a sequence: a printed value with its letter ([`BARE`] if the value has no letter), or an assignment.
 pub(super) enum Step<'p> {
     Sets(Target, &'p Formula),
     Var(u8, VarId),
@@ -80,10 +80,10 @@ pub(super) enum Step<'p> {
 /// The letter of a step for values without a letter.
 pub(super) const BARE: u8 = b' ';
 
-/// The sources of the words that a cycle prints at its first hole only. In a cycle with a count, the first hole alone
-/// prints the words of the counted lines. In a cycle of one line, the first hole alone prints the values without a
-/// letter. Words that other lines print too are not included. `steps`: the steps of the cycle, each with a flag: every
-/// hole prints the line of the step. `counted`: whether the cycle has a count.
+/// The sources of the words that a cycle prints at its first hole only. In a cycle with a count, these words are the
+/// words of the counted lines. In a cycle of one line, they are the values without a letter. Words that other lines
+/// print too are not included. `steps`: the steps of the cycle, each with a flag that is true if the line of the step
+/// is printed at every hole. `counted`: whether the cycle has a count.
 pub(super) fn of_first_hole<'p>(steps: impl Iterator<Item = (Step<'p>, bool)>, counted: bool) -> Sources {
     let mut carried = Carried::default();
     let (mut first, mut again) = (Vec::new(), Vec::new());

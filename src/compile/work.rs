@@ -1,4 +1,5 @@
-//! How a form prints a work offset: by G codes, by other words (whose values may be calculated), or after a text.
+//! How a form prints a work offset: as a G code, as another word, or as a value after a text. The value of a word may
+//! be calculated.
 
 use crate::control::{Code, Control, Group, WorkOffset};
 use crate::lang::{VarId, additional_work};
@@ -29,8 +30,8 @@ pub struct WorkWords {
     /// The words from `MoreWork`. Each entry has the first value of `[work]` to which it applies, the word, and the
     /// number in the word for this offset.
     pub(super) more: Vec<(f64, WorkWord, f64)>,
-    /// Whether G54 to G59 also select offsets if the form has other words. False if one of these other words follows a
-    /// code: on an Okuma, where offsets follow G15, G56 is a length.
+    /// Whether G54 to G59 also select offsets if the form has other words for offsets. False if one of these other
+    /// words follows a code. For example, on an Okuma, offsets follow G15, and G56 is a code for tool lengths.
     pub shares_its_codes: bool,
 }
 
@@ -40,7 +41,7 @@ impl WorkWords {
         self.says.binary_search(&op).is_ok()
     }
 
-    /// Whether the form prints the work offset by G codes only, each of which selects an offset.
+    /// Whether the form can print a work offset as a G code. Also true if the form prints no offsets.
     pub fn by_code(&self) -> bool {
         self.ways.is_empty() || self.ways.iter().any(|way| way.is_code)
     }

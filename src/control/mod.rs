@@ -58,7 +58,7 @@ pub struct Row {
     pub pitch: Vec<Pitch>,
     /// A further description of the code.
     pub text: String,
-    /// If postform does not run the code although its meaning is known: the reason.
+    /// The reason why postform does not run the code although the meaning of the code is known.
     pub not_run: Option<String>,
     /// The words and values with which the code has this meaning; empty: the code has this meaning with any values.
     pub only: Vec<(u8, f64)>,
@@ -167,8 +167,8 @@ impl Control {
         }
     }
 
-    /// The lathe control by the maker of this control, if it has a control file. Forms for lathes name the mill
-    /// control.
+    /// The lathe control by the maker of this control, if the lathe control has a control file. Forms for lathes name
+    /// the mill control.
     pub fn of_lathe(&'static self) -> &'static Control {
         let lathe = |name: &String| Control::named(&format!("{name}-lathe"));
         if self.is_lathe() { self } else { self.chain.iter().find_map(lathe).unwrap_or(self) }
@@ -180,8 +180,8 @@ impl Control {
         self.traits.turns == Turns::Part
     }
 
-    /// The wire EDM control by the maker of this control, if it has a control file. Forms for wire EDM machines name
-    /// the mill control.
+    /// The wire EDM control by the maker of this control, if the wire EDM control has a control file. Forms for wire
+    /// EDM machines name the mill control.
     pub fn of_wire(&'static self) -> &'static Control {
         let wire = |name: &String| Control::named(&format!("{name}-wire"));
         if self.is_wire() { self } else { self.chain.iter().find_map(wire).unwrap_or(self) }
@@ -204,7 +204,7 @@ impl Control {
         self.chain.first().map_or("", String::as_str)
     }
 
-    /// The names of the controls that it inherits from, the nearest first.
+    /// The names of the controls that this control inherits from, the nearest first.
     pub fn like(&self) -> impl Iterator<Item = &str> {
         self.chain.iter().skip(1).map(String::as_str)
     }

@@ -14,7 +14,7 @@ pub enum Rules {
     Fanuc,
     /// LinuxCNC 2.9, as observed by running its interpreter.
     Linuxcnc,
-    /// EMC2: cycles as its manual of about 2005 describes them, everything else like LinuxCNC.
+    /// EMC2. Cycles are run as in its manual of about 2005, and everything else as on LinuxCNC.
     Emc2,
     /// Grbl 1.1, as observed by running its parser.
     Grbl,

@@ -1,4 +1,5 @@
-//! Converts canned cycles to motions: a planner that calculates the steps from the parameters only.
+//! The planner, which converts canned cycles to motions. The planner calculates the steps from the parameters of the
+//! cycle only.
 
 mod bore;
 mod check;

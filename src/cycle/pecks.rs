@@ -94,7 +94,8 @@ fn absolute(spec: &CycleSpec, plan: &Plan, list: &mut Vec<Peck>) -> Result<(), P
     Ok(())
 }
 
-/// Plans pecks from steps, which are measured from the clearance plane like a control's Q, or from the point as in APT.
+/// Plans pecks from steps. The steps are measured from the clearance plane, as for Q on a control, or from the point,
+/// as in APT.
 fn stepped(
     spec: &CycleSpec,
     plan: &Plan,
@@ -109,7 +110,7 @@ fn stepped(
     let decr = spec.decr.unwrap_or(0.0);
     let first = spec.first_step.unwrap_or(step);
     let least = spec.min_step.unwrap_or(defaults.min_step);
-    // distances below `from`; k * step instead of a running sum keeps the depths exact
+    // distances below `from`; the depths are exact, because k * step replaces a running sum
     let total = from - plan.bottom;
     let (mut reached, mut next, mut repeats) = (0.0, first, 0);
     while reached + next < total - SAME {
@@ -136,7 +137,7 @@ fn stepped(
 
 /// Converts a list of steps, each with its feed, to absolute pecks. The last step repeats until `depth` is reached.
 /// Each repeated step is smaller than the step before it by `decr`, but not smaller than `least`. Steps that are not
-/// needed are left out. Lengths are in any unit.
+/// needed are left out. The unit of the lengths does not matter.
 ///
 /// # Errors
 /// A step is zero or negative, or the steps shrink to zero.

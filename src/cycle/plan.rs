@@ -39,7 +39,7 @@ pub enum Step {
     Dwell(f64),
     /// Stop the spindle.
     SpindleStop,
-    /// Start the spindle with the direction and speed that it had before the cycle.
+    /// Start the spindle with the direction and speed from before the cycle.
     SpindleStart,
     /// Reverse the spindle, with its speed multiplied by this factor.
     SpindleReverse(f64),
@@ -52,7 +52,7 @@ pub enum Step {
 /// The cycle's planes and feed, with the defaults filled in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Height above the point at which the feed begins.
+    /// The height at which the feed begins, measured from the point.
     pub clear: f64,
     /// Height of the bottom relative to the point, usually negative.
     pub bottom: f64,
@@ -65,7 +65,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The planes of a cycle at a point; the depth is that of the point, or of the cycle if the point has none.
+    /// The planes and the feed of a cycle at a point. If the point has no depth, the depth of the cycle applies.
     ///
     /// # Errors
     /// The depth or the feed is missing, or the depth is above the clearance.

@@ -20,7 +20,7 @@ pub struct Steps {
 /// Plans the steps at one point. The tool begins above the point at the height `top` and returns to this height.
 ///
 /// # Errors
-/// Single moves can't make the motion, or the motion makes no sense.
+/// The cycle can't be made of single moves, or the values of the cycle contradict each other.
 pub fn plan(spec: &CycleSpec, plan: &Plan, top: f64, defaults: &Defaults, out: &mut Steps) -> Result<(), Problem> {
     use CycleKind as K;
     let Steps { list: steps, pecks } = out;
@@ -171,7 +171,7 @@ mod tests {
         assert_eq!(steps(|_| (), CycleKind::Back), Err(Code::PC012));
         assert_eq!(steps(|s| s.webs = vec![0.5, 1.0], CycleKind::Thru), Err(Code::PC022));
         assert_eq!(steps(|s| s.rapto = Some(2.0), CycleKind::Drill), Err(Code::PC013));
-        // into the first web, into the edge of the existing hole
+        // the extra rapid ends in the first web; in the next case, it ends in the edge of the existing hole
         let webs = |s: &mut CycleSpec, rapto| (s.depth, s.webs, s.rapto) = (None, vec![0.3, 0.6, 1.0], Some(rapto));
         assert!(steps(|s| webs(s, 0.4), CycleKind::Thru).is_ok());
         assert_eq!(steps(|s| webs(s, 0.5), CycleKind::Thru), Err(Code::PC013));
@@ -184,8 +184,8 @@ mod tests {
         assert_eq!(steps(|_| (), CycleKind::Custom1), Err(Code::PC001));
     }
 
-    /// Reference motions of threads that only a control can tap: a thread with two starts, the second start offset by
-    /// half a lead.
+    /// Reference motions of a thread that only a control can tap. The thread has two starts, and the second start is
+    /// offset by half a lead.
     #[test]
     fn rigid_taps_are_planned_for_comparison() {
         let mut spec = CycleSpec::new(CycleKind::Tap);

@@ -1,5 +1,5 @@
-//! Tapping: feed and spindle are synchronised. With a floating holder, single moves can make the tap; a rigid tap needs
-//! a tapping cycle of the control.
+//! Tapping: feed and spindle are synchronised. With a floating holder, single moves can tap the thread; rigid tapping
+//! requires a tapping cycle of the control.
 
 use super::pecks::{Peck, pecks};
 use super::plan::{Defaults, Plan, Step};

@@ -7,16 +7,16 @@ use crate::diag::Code;
 /// misplaced.
 const MOST_PASSES: usize = 1000;
 
-/// A last pass that would cut less than this fraction of the first pass is left out; the pass before it cuts the
-/// remainder.
+/// A last pass that would cut less than this fraction of the first pass is left out. The pass before this last pass
+/// then cuts the remainder.
 const REST: f64 = 1e-3;
 
-/// The depth of each pass of a thread below its crest, in the units of `depth`.
+/// The depth of each pass of a thread, measured from the crest, in the units of `depth`.
 ///
-/// If the last pass would cut only a rounding error of the job, it is left out, and the pass before it cuts to the
-/// whole depth.
+/// A last pass that would cut only a rounding error of the job is left out. The pass before this last pass then cuts to
+/// the whole depth.
 ///
-/// All passes have an equal chip area: pass k cuts to the depth `first * sqrt(k)`, and the last pass to the whole
+/// All passes have an equal chip area: pass k cuts to the depth `first * sqrt(k)`, and the last pass cuts to the whole
 /// depth. `passes` sets the first cut to `depth / sqrt(passes)`; without `passes`, `first` is required. Each pass
 /// except the last cuts at least `least`.
 ///

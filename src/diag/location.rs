@@ -16,7 +16,7 @@ pub struct Location {
     pub step: Option<String>,
     /// The number of the job among joined jobs, from 1; 0 if the job is not joined.
     pub part: u16,
-    /// If the finding is about the program that was printed from the job: the line of this program, from 1.
+    /// The line of the program, from 1, if the finding is about a program that was printed from the job.
     pub program_line: Option<u64>,
 }
 

@@ -1,4 +1,4 @@
-//! What is known about a control: as text for `explain`, as pages in docs/controls, and as a file to start from.
+//! The known facts about a control: as text for `explain`, as pages in docs/controls, and as a file to start from.
 
 use indexmap::IndexMap;
 
@@ -9,7 +9,7 @@ use crate::control::{
 /// The text for a fact that no public source states.
 const UNKNOWN: &str = "not known";
 
-/// The traits of a control, each with its name and what is known about it.
+/// The traits of a control, each with its name and its known value.
 fn facts(control: &Control) -> Vec<(&'static str, String)> {
     let traits = control.traits();
     let kept = |kept: Kept| match kept {
@@ -127,7 +127,8 @@ pub fn code(control: &Control, code: Code) -> Option<String> {
     control.row(code).map(about)
 }
 
-/// The functions of a code, each with the names of the controls that have it. `None`: no control has the code.
+/// The functions of a code, each with the names of the controls that use the code for this function. `None`: no control
+/// has the code.
 pub fn on_each(code: Code) -> Option<String> {
     let mut functions: IndexMap<String, Vec<&str>> = IndexMap::new();
     for control in names().filter_map(Control::named).filter(|control| !control.refuses(code)) {
@@ -197,14 +198,14 @@ pub fn list() -> String {
     text
 }
 
-/// The number of codes and of cycles of a control that postform can run.
+/// The number of codes, and the number of cycles among them, that postform can simulate for a control.
 fn counts(control: &Control) -> (usize, usize) {
     let has = |row: &&Row| row.not_run.is_none() && !control.refuses(row.code);
     let cycles = control.rows().filter(has).filter(|row| row.meaning.is_cycle()).count();
     (control.rows().filter(has).count(), cycles)
 }
 
-/// A commented control file to start from, for a control similar to this one.
+/// A control file with comments, as a start for the file of a control that is similar to this control.
 pub fn file(control: &Control) -> String {
     format!(
         "# A control file of your own. Put this file into the form's folder and write `Control my-control.toml` in the form. For simulate and

@@ -49,7 +49,7 @@ pub fn explain(what: &str) -> Result<String, String> {
     if asked == bare {
         texts.extend(words::cycle(asked));
     }
-    // for a line of a form such as `Back 3` or `Force X Z`, its first word is looked up
+    // for a line of a form, such as `Back 3` or `Force X Z`, the first word of the line is looked up
     if let Some((head, _)) = asked.rsplit_once(' ').filter(|_| texts.is_empty() && asked.len() < LONGEST_NAME) {
         texts.extend(explain(head));
     }
@@ -114,7 +114,7 @@ fn all_names() -> impl Iterator<Item = &'static str> {
         .chain(words::CYCLES.iter().map(|row| row.name))
 }
 
-/// The page of a code, or the section of a page about it.
+/// The page of a code, or the section of a page about the code.
 fn code(row: &CodeRow) -> String {
     let title = row.title.split_once(": ").map_or(row.title, |(_, title)| title);
     let head = format!("{} ({}): {title}\n", row.code.title(), row.severity.name());

@@ -122,7 +122,7 @@ pub fn command(id: CommandId) -> String {
     page(&format!("{} (command)", row.name), &lines, examples::command(row.name).or_else(|| as_it_would_be(row)))
 }
 
-/// An example for a command that no form has, made from its default or its arguments.
+/// An example for a command that no form contains, made from the command's default or arguments.
 fn as_it_would_be(row: &Command) -> Option<Example> {
     let default = Some(row.without.arguments(Machine::Mill, UnitChoice::Inch)).filter(|default| !default.is_empty());
     let value = row.example.or(match row.args {

@@ -12,8 +12,8 @@ pub(super) struct Job<'d> {
     pub object: &'d Object,
 }
 
-/// Whether an object is a job. The class of a job shows that it is a job. FreeCAD 1.1 may have removed the classes from
-/// a document of 0.20; then the properties of the object are checked.
+/// Whether an object is a job. The class of the object shows whether it is a job. FreeCAD 1.1 may have removed the
+/// classes from a document of 0.20; then the properties of the object are checked.
 fn is_job(object: &Object) -> bool {
     let properties = ["Operations", "Fixtures", "PostProcessor"];
     object

@@ -138,9 +138,9 @@ impl Cycle {
         (cycle, first.spec(top), first.hole(top, &first))
     }
 
-    /// Adds a hole if it belongs to this cycle. A hole belongs to the cycle if it has equal words and the rapids before
-    /// it only lead to this hole. A rapid above the return height avoids an obstacle, so the hole after it does not
-    /// belong to the cycle.
+    /// Adds a hole if it belongs to this cycle. A hole belongs to the cycle if its words are equal and the rapids
+    /// before the hole only lead to the hole. A rapid above the return height avoids an obstacle, so the hole after
+    /// such a rapid does not belong to the cycle.
     pub fn add(&mut self, next: &Drilling) -> Option<Hole> {
         let key = |d: &Drilling| (d.kind, [d.r, d.level, d.feed], [d.peck, d.dwell, d.speed]);
         let leads = |position: &[Option<f64>; 6]| {

@@ -103,7 +103,7 @@ impl Object {
         }
     }
 
-    /// The class of the object's Python code. `None` if 1.1 saved a document of 0.20 without having the old modules.
+    /// The class of the object's Python code. `None` if FreeCAD 1.1 saved a document of 0.20 without the old modules.
     pub fn class(&self) -> Option<&str> {
         match self.get("Proxy") {
             Some(Value::Class(class)) => Some(class),

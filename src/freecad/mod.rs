@@ -33,8 +33,8 @@ pub struct Options {
 /// Reads the job of a document.
 ///
 /// # Errors
-/// The input can't be read or is not a FreeCAD document. The job is missing, or there are several. An operation contains a
-/// command that jobs do not support, or has no tool, speed or feed.
+/// The input can't be read or is not a FreeCAD document. The document has no job, or several jobs. An operation
+/// contains a command that jobs do not support, or has no tool, speed or feed.
 pub fn read_freecad(
     input: impl Read + Seek,
     options: &Options,

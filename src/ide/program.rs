@@ -19,7 +19,8 @@ pub struct Checked {
     pub blocks: u64,
     /// Number of blocks with errors. Blocks without errors are simulated.
     pub refused: u64,
-    /// Whether the simulation stopped before the end of the program, because it would take too long while the user writes.
+    /// Whether the simulation stopped before the end of the program, because a longer simulation would delay the
+    /// editor.
     pub cut: bool,
 }
 

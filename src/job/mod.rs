@@ -180,8 +180,9 @@ impl<'a> Job<'a> {
         Job::new(Format::Json, Input::Events(Box::new(make)))
     }
 
-    /// One job made of several: their operations follow each other. Program number, name and other data of the head are
-    /// taken from the first job. Locations in errors have the names of the jobs ([`Job::named`]).
+    /// Joins several jobs to one job, in which the operations of the jobs follow each other. Program number, name and
+    /// other data of the head are taken from the first job. Locations in errors have the names of the jobs
+    /// ([`Job::named`]).
     ///
     /// Reading fails (PJ014) if a job has other units than the first job, or another tool with a number that an earlier
     /// job uses. Reading also fails if an earlier job left a state active that the first operation of a later job does

@@ -1,5 +1,5 @@
-//! Selects operations of a job: from one tool on, up to one tool, only those with some tools, or all except those with
-//! some tools.
+//! Selects operations of a job by their tools. The selection begins with a given tool, ends with a given tool, contains
+//! only given tools, or excludes given tools.
 //!
 //! Some values of a left-out operation stay in force: work offset, spindle, coolant and set values. These values are
 //! added to the next operation that is selected. That operation starts at the position that the tool would have
@@ -12,17 +12,18 @@ use crate::toolpath::{Axes, Event, First, Flow, Given, Hole, Place, Sink, Spindl
 /// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// From the first operation with this tool on.
+    /// Skips all operations before the first operation with this tool.
     pub from: Option<u32>,
-    /// Up to and including the operations with this tool.
+    /// Skips all operations after the operations with this tool.
     pub until: Option<u32>,
-    /// Only operations with these tools; an empty list selects all.
+    /// Selects only operations with these tools; an empty list selects all operations.
     pub only: Vec<u32>,
-    /// No operations with these tools.
+    /// Skips operations with these tools.
     pub skip: Vec<u32>,
-    /// Only the operation with this number, counted from 1.
+    /// Selects only the operation with this number, counted from 1.
     pub operation: Option<u64>,
-    /// Only operations that begin in this work offset; `Some(None)`: operations before the job's first work offset.
+    /// Selects only operations that begin in this work offset; `Some(None)`: operations before the job's first work
+    /// offset.
     pub work: Option<Option<f64>>,
 }
 

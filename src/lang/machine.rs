@@ -1,6 +1,6 @@
 //! Types of machine.
 
-/// Type of machine that a form or job is for.
+/// The type of machine for which a form or job is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Machine {
     /// Mill, drill, router.
@@ -31,7 +31,7 @@ impl Machine {
     }
 }
 
-/// Tools that the program switches on and off, instead of moving them up and down.
+/// Tools that the program switches on and off instead of moving the tools up and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beam {
     /// A torch for plasma or flame cutting.

@@ -2,8 +2,8 @@
 
 /// The form's code for a work offset of a job. `first` is the code of the form's first offset. A number below 50 is the
 /// number of a fixture, counted from 1. A number of 50 or more is the code itself. If the form's first offset is a
-/// small number, as in `G15 H1` or `E1`, the codes 54 to 59 select the first six offsets. No other codes exist for such
-/// a form.
+/// small number, as in `G15 H1` or `E1`, the codes 54 to 59 select the first six offsets. `None`: the form has no code
+/// for this offset.
 pub fn work_code(first: f64, work: f64) -> Option<f64> {
     const CODES: std::ops::RangeInclusive<f64> = 54.0..=59.0;
     match work {

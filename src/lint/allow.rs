@@ -91,8 +91,8 @@ fn head(items: &[Head]) -> Option<Span> {
     })
 }
 
-/// All comments that begin with `#`. Each comment has the range to which it applies: its own line, the item after it,
-/// or for a head comment the file.
+/// All comments that begin with `#`. Each comment is listed with its location and the range to which the comment
+/// applies.
 fn comments(items: &[Head]) -> Vec<(Span, Span)> {
     let mut found = Vec::new();
     let mut waiting: Vec<Span> = Vec::new();
@@ -109,7 +109,7 @@ fn comments(items: &[Head]) -> Vec<(Span, Span)> {
             }
         }
     };
-    // an indented line is a comment; if it looks like words, it may itself have a finding
+    // an indented line is a comment; a comment that looks like words may itself have a finding
     let own = |line: &Line| matches!(line.tail, Tail::Lost(_)).then_some(line.span);
     for item in items {
         match item {

@@ -58,7 +58,8 @@ pub(crate) type Edits<'a> = Vec<(Span, &'a str)>;
 /// Selects fixes that do not overlap. `unsafe_too`: also fixes that change the output. If two fixes change the same
 /// text, only the earlier fix is selected. The next round finds the later fix again.
 fn fixes_of(diags: &[Diag], unsafe_too: bool) -> Vec<&Diag> {
-    // by file, from start to end; the selected edits never overlap, so only the last one that begins before a span can touch it
+    // by file, from start to end; the selected edits never overlap, so only the last edit that begins before a span can
+    // touch the span
     let mut taken: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut chosen = Vec::new();
     for diag in diags {

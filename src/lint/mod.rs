@@ -1,4 +1,4 @@
-//! The lint rules for forms. Each rule finds one fault that can cost a part or a spindle. Each rule has its own file
+//! The lint rules for forms. Each rule finds one fault that can damage a part or a spindle. Each rule has its own file
 //! and a row in `rules`.
 
 mod allow;
@@ -63,8 +63,8 @@ pub struct Ready {
 /// Compiles an analysed form. The levels and the form's suppression comments are applied first.
 ///
 /// # Errors
-/// If there is at least one error, all errors and warnings. An error comes from the form itself, or the levels make a
-/// finding an error.
+/// At least one finding is an error, either from the form itself or because of the levels. The result contains all
+/// errors and warnings.
 pub fn ready(checked: &Checked, levels: &Levels) -> Result<Ready, Vec<Diag>> {
     ready_of(checked, lint(checked, levels).diags)
 }
@@ -81,8 +81,8 @@ pub fn ready_of(checked: &Checked, mut diags: Vec<Diag>) -> Result<Ready, Vec<Di
     Ok(Ready { program: compile(&checked.form), findings: diags })
 }
 
-/// Removes findings that only follow from another finding. If some words of a sequence were not understood, a finding
-/// that the sequence lacks a word may be wrong.
+/// Removes findings that are only consequences of another finding. If postform does not understand some words of a
+/// sequence, a finding about a missing word may be wrong.
 fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let lost = [Code::PF101, Code::PF104, Code::PF205, Code::PF206];
     let is_cause = |diag: &&Diag| stops_printing(diag) || lost.contains(&diag.code);
@@ -90,7 +90,7 @@ fn leave_causes(checked: &Checked, diags: &mut Vec<Diag>) {
     let causes: Places = diags.iter().filter(is_cause).filter_map(place).collect();
     let nodes = checked.trees.iter().flat_map(|tree| tree.sequences()).map(SequenceNode::span);
     let unclear: Cover = nodes.filter(|whole| causes.any_in(*whole)).collect();
-    // only codes from PF401 on report words that a sequence lacks
+    // only PF401 and higher codes report missing words of a sequence
     let may_follow = |diag: &Diag| diag.code >= Code::PF401 && !is_cause(&diag);
     diags.retain(|diag| !(may_follow(diag) && place(diag).is_some_and(|at| unclear.holds(at))));
 }

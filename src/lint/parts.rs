@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Finds the forms that are parts, which means that another form calls them. Each form is given with the names of the
-/// forms that it calls. A part is checked together with the form that calls it and with its settings. If two forms call
-/// each other, the first form is not a part.
+/// Finds the forms that are parts. A part is a form that another form calls. Each form is given with the names of the
+/// forms that it calls. A part is checked together with the calling form, and with the settings of the calling form. If
+/// two forms call each other, the first form is not a part.
 pub fn parts<K: Eq + Hash>(forms: &[(K, Vec<K>)]) -> Vec<bool> {
     let mut callers: HashMap<&K, Vec<usize>> = HashMap::new();
     for (at, (_, called)) in forms.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use crate::span::Span;
 
-/// A list of spans that finds quickly whether one of them covers a location.
+/// A list of spans, with a fast test whether one of the spans covers a location.
 pub struct Cover(Vec<Span>);
 
 impl FromIterator<Span> for Cover {
@@ -27,7 +27,7 @@ impl Cover {
     }
 }
 
-/// A list of starts of spans that finds quickly whether one of them is inside a given span.
+/// The starts of spans, with a fast test whether one of the starts is inside a given span.
 pub struct Places(Vec<(u32, u32)>);
 
 impl FromIterator<Span> for Places {

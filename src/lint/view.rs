@@ -36,7 +36,7 @@ pub struct View<'a> {
     has_cycles: bool,
 }
 
-/// What a body is for.
+/// The purpose of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A sequence or canned cycle.
@@ -161,7 +161,7 @@ impl<'a> View<'a> {
         self.settings.codes().meaning(word.code()?)
     }
 
-    /// As bits, the axes along which a move by this code ends the tool length on the form's control.
+    /// The axes along which a move by this code cancels the tool length offset on the form's control, as bits.
     pub fn ends_length(&self, word: &Word) -> u8 {
         let row = word.code().and_then(|code| self.settings.control().row(code));
         row.map_or(0, |row| row.runs.ends_length)
@@ -353,8 +353,8 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The sequence for the kind of hole that a canned cycle makes: the cycle itself, or for a Custom cycle the sequence
-/// that its comment names.
+/// The sequence for the kind of hole that a canned cycle makes. For a Custom cycle, this is the sequence that the
+/// comment of the cycle names. For any other cycle, this is the cycle itself.
 pub fn serves(sequence: &Sequence) -> SequenceId {
     let kind = sequence.custom_kind().and_then(CycleKind::parse);
     kind.and_then(CycleKind::sequence).unwrap_or(sequence.id)

@@ -12,7 +12,7 @@ pub struct Axis {
     pub feed: Option<f64>,
     /// Acceleration, in millimetres or degrees per second squared.
     pub acceleration: Option<f64>,
-    /// For a rotary axis, the part of the machine that it turns.
+    /// For a rotary axis, the part of the machine that the axis turns.
     pub kind: Option<Kind>,
     /// For a rotary axis, the direction of the axis of rotation.
     pub about: Option<[f64; 3]>,

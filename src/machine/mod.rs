@@ -1,7 +1,7 @@
 //! The machine as its file describes it: travels, offsets, tools, fixtures.
 //!
-//! The file may use any units; here lengths are in millimetres. If the file does not contain a value, the check that needs it is not
-//! made.
+//! The file may use any units; here lengths are in millimetres. If the file does not contain a value, the check that
+//! needs this value is not made.
 
 mod axis;
 mod file;
@@ -55,7 +55,7 @@ pub struct Machine {
     pub places: Option<u32>,
     /// Seconds of a tool change from chip to chip (from the end of one cut to the next).
     pub change: Option<f64>,
-    /// The tools, if the machine file or a file that it names lists them.
+    /// The tools, if the machine file lists tools or names a file that lists tools.
     pub tools: Option<ToolTable>,
     /// The work offsets, by their numbers as in `offsets::number`: G54 is 1, and the first additional offset is 10.
     pub offsets: Option<BTreeMap<usize, [Option<f64>; 6]>>,

@@ -29,7 +29,7 @@ pub enum Point {
     Always,
     /// `~`: printed only if a fraction follows.
     BeforeFraction,
-    /// The decimal point is not printed. The control knows the position of the point from the number of decimals.
+    /// The decimal point is not printed. The number of decimals gives the control the position of the point.
     Implied,
 }
 

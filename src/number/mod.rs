@@ -1,8 +1,8 @@
 //! Numbers as a control reads them.
 //!
-//! Each value is converted once to a whole number (quantised); its unit is the last decimal in the format of the
-//! letter. Rounding uses the shortest decimal number that reads back as the value, and halves are rounded away from
-//! zero. The whole number is used for comparing and for printing.
+//! Each value is converted once to a whole number (quantised). The unit of this whole number is the last decimal in the
+//! format of the letter. Rounding uses the shortest decimal number that reads back as the value, and halves are rounded
+//! away from zero. The whole number is used for comparing and for printing.
 
 mod format;
 mod quantise;

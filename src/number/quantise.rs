@@ -47,8 +47,9 @@ pub fn quantise(value: f64, decimals: u8) -> Option<i64> {
 pub(crate) fn nearest(scaled: f64) -> Option<i64> {
     let rounded = scaled + ROUNDER;
     let rest = (scaled - (rounded - ROUNDER)).abs();
-    // a value differs from its shortest decimal by at most half a unit in the last place, and the product is rounded once more;
-    // nearer to a half than that, the decimal digits decide. NaN and infinity make both comparisons false
+    // a value differs from its shortest decimal by at most half a unit in the last place, and the product is rounded
+    // once more; if the value is nearer to a half than this error, the decimal digits decide. For NaN and infinity,
+    // both comparisons are false
     (0.5 - rest > scaled.abs() * (4.0 * f64::EPSILON) && scaled.abs() < EXACT)
         .then(|| (rounded.to_bits() as i64).wrapping_sub(ROUNDER.to_bits() as i64))
 }

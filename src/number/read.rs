@@ -1,4 +1,4 @@
-//! Reads decimal numbers, the short ones eight bytes at a time.
+//! Reads decimal numbers. Short numbers are read eight bytes at a time.
 
 /// A decimal number without sign and exponent, of at most 15 digits.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl Decimal {
     }
 }
 
-/// Reads the number at the beginning of the text. `None`: there is no digit, or there are more than 15.
+/// Reads the number at the beginning of the text. `None`: there is no digit, or there are more than 15 digits.
 ///
 /// ```
 /// use postform::internals::number::decimal;
@@ -89,7 +89,7 @@ pub fn short_decimal(text: &[u8], at: usize) -> Option<Decimal> {
     }
     // bytes after the digits are shifted out, and zeros come in before the first digit
     let digits = (digits << (64 - 8 * count)) & 0x0f0f_0f0f_0f0f_0f0f;
-    // join neighbours: digits to pairs, pairs to groups of four, these to the number
+    // join neighbours: digits to pairs, pairs to groups of four digits, and the groups to the number
     let pairs = (digits.wrapping_mul(10 << 8 | 1) >> 8) & 0x00ff_00ff_00ff_00ff;
     let fours = (pairs.wrapping_mul(100 << 16 | 1) >> 16) & 0x0000_ffff_0000_ffff;
     let digits = i64::from((fours.wrapping_mul(10_000 << 32 | 1) >> 32) as u32);
@@ -110,7 +110,7 @@ fn eight_bytes(text: &[u8], at: usize) -> Option<u64> {
 /// The number of digits at the beginning of eight bytes.
 #[inline(always)]
 fn run_length(bytes: u64) -> usize {
-    // this changes digits to 0 to 9; adding 118 to them gives less than 128
+    // this changes the characters of digits to the values 0 to 9; such a value plus 118 is less than 128
     let bytes = bytes ^ 0x3030_3030_3030_3030;
     let others = (bytes.wrapping_add(0x7676_7676_7676_7676) | bytes) & 0x8080_8080_8080_8080;
     others.trailing_zeros() as usize / 8

@@ -14,7 +14,8 @@ pub enum Unprintable {
 
 /// Appends a number to `out`. `units` is the number in units of the format's last decimal. `leading_zero` prints `0.5` instead of `.5`.
 ///
-/// Zero is printed as `0`, never as `-0` or `0.`, and with more zeros if the format has fixed digits. After an error, `out` is unchanged.
+/// Zero is printed as `0`, never as `-0` or `0.`. If the format has fixed digits, zero is printed with more zeros.
+/// After an error, `out` is unchanged.
 pub fn write_number(
     out: &mut Vec<u8>,
     units: i64,

@@ -96,7 +96,8 @@ pub struct Picture {
     /// For each move, the minutes from the beginning of the program to the end of the move, calculated as in
     /// [`Tally::minutes`].
     pub minutes: Vec<f32>,
-    /// Positions of the rotary axes: a row for each move that turns them, in the order of the moves. Empty: no axis turns.
+    /// Positions of the rotary axes: one row for each move that turns a rotary axis, in the order of the moves. Empty:
+    /// no axis turns.
     pub turned: Vec<Turned>,
     /// Letters of the axes in `Move::to`: `XYZ`, or `XY` on a wire EDM machine.
     pub letters: &'static str,

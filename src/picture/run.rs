@@ -147,7 +147,7 @@ impl Pen {
                 let tools = &mut self.picture.tools;
                 self.tool = *self.indexes.entry(number.to_bits()).or_insert_with(|| {
                     tools.push(*number);
-                    // the tools after the last index share this index
+                    // all tools beyond the largest index share this index
                     u16::try_from(tools.len() - 1).unwrap_or(u16::MAX)
                 });
             }
@@ -254,7 +254,7 @@ impl Pen {
         self.picture.minutes.push(self.picture.tally.minutes() as f32);
     }
 
-    /// Updates the position after a block: if the frame was moved, the coordinates of the tool change without a move.
+    /// Updates the position after a block: if the frame was moved, the tool has new coordinates without a move.
     fn stands(&mut self, line: u32, position: &Position, machine: u8) {
         if self.upper.is_some() {
             self.upper = Some(self.guide(position, machine));

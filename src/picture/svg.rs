@@ -16,10 +16,11 @@ pub struct Sheet {
     pub width: f64,
 }
 
-/// The style class of the old program, which is drawn below the new one.
+/// The style class of the old program, which is drawn below the new program.
 const OLD: &str = "was";
 
-/// Colours of the tools: the first is for a white background, the second for a black one.
+/// Pairs of colours for the tools: the first colour is for a white background, the second colour for a black
+/// background.
 const COLOURS: [[&str; 2]; 8] = [
     ["#0b63ce", "#78b1ff"],
     ["#c2410c", "#ff9d66"],
@@ -158,7 +159,7 @@ fn style(out: &mut String) {
     _ = writeln!(out, "<style>{STYLE}{}@media(prefers-color-scheme:dark){{{DARK}{}}}</style>", rules(0), rules(1));
 }
 
-/// Corners of the bottom of the box around the cuts, for views that show this bottom.
+/// The bottom corners of the box around the cuts, for views that show the bottom of the box.
 fn floor(picture: &Picture, strips: &Strips, view: View) -> Vec<[f64; 3]> {
     let plain = picture.turned.is_empty() && picture.letters == "XYZ";
     let shown = matches!(view, View::Iso | View::Top) && picture.tally.units == picture.units && plain;

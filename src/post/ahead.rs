@@ -13,9 +13,9 @@ use crate::sema::{PropertyKind, PropertyValue};
 use crate::survey::{Survey, Surveyor};
 
 impl Post {
-    /// Whether the form needs values that are known only at the end of a job: tools, operations or extents, as
-    /// `@for tool` and `[hmin]`. If the form needs such values, a job is read twice, and a job from a stream is kept in
-    /// memory. Parts of the form that the properties in the options switch off are not considered.
+    /// Whether the form needs values that are known only at the end of a job: tools, operations or extents. Examples
+    /// are `@for tool` and `[hmin]`. If the form needs such values, a job is read twice, and a job from a stream is
+    /// kept in memory. Parts of the form that the properties in the options switch off are not considered.
     ///
     /// # Errors
     /// The form does not have one of the properties, or a property does not accept its value.
@@ -24,7 +24,7 @@ impl Post {
         Ok(self.asks(options)?.all)
     }
 
-    /// Whether a job may be read twice, because the form needs values from the rest of the job, or only the next tool.
+    /// Whether a job may be read twice, because the form needs the next tool or other values from the rest of the job.
     /// If the form needs only the next tool, a job that lists its tools in the head is read only once.
     ///
     /// # Errors

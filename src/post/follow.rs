@@ -1,4 +1,4 @@
-//! Prints a job and records what each line of the form prints. Editors use it.
+//! Prints a job and records what each line of the form prints. Editors use this record.
 
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -28,11 +28,11 @@ pub(super) struct Check<'m> {
     clock: Result<Clock, String>,
     /// The findings by code and subject. Several findings about one subject are joined to one finding.
     found: BTreeMap<(Code, String), Finding>,
-    /// For the points of G28, of G30 and of G30 with another P: the program moved there, but the machine's file does not
-    /// contain the position.
+    /// For each reference point (of G28, of G30, and of G30 with another P): whether the program moved to the point
+    /// although the machine's file does not contain the position.
     no_reference: [bool; 3],
     was_compensated: bool,
-    /// After the last block: the axes that are at a machine position which the program contains, as bits.
+    /// As bits, the axes that are at a machine position from the program after the last block.
     said: u8,
 }
 

@@ -1,7 +1,7 @@
 //! Checks whether a program fits into its machine: travels, fixtures, feeds, tools, offsets, memory.
 //!
 //! A machine position is the sum of the program position, the work offset, the shift of G52 or G92, and the tool length
-//! if one is active. To a position in machine coordinates, nothing is added. A position that depends on an unknown
+//! if one is active. Nothing is added to a position in machine coordinates. A position that depends on an unknown
 //! offset or length is stored relative to this offset or length.
 
 mod check;

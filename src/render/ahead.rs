@@ -29,16 +29,16 @@ pub fn is_reach(var: VarId) -> bool {
     REACH.iter().flatten().any(|(least, most)| var == *least || var == *most)
 }
 
-/// The settings of a form that a survey needs. `only_order`: the survey records only the order of the tools, nothing else about
-/// them.
+/// The settings of a form that a survey needs. `only_order`: the survey records the order of the tools and nothing
+/// else.
 pub fn survey_terms(program: &Program, sink_as_printed: bool, only_order: bool, rates: Option<Rates>) -> Terms {
     let settings = &program.settings;
     let defaults = [Units::Inch, Units::Mm].map(|units| cycle_defaults(settings, units, units, sink_as_printed));
     Terms { defaults, work: default_work(settings), first_work: settings.work, only_order, rates }
 }
 
-/// The work offset of a job that names no work offset. If the form counts its offsets from 1, the default code is
-/// converted to that count.
+/// The work offset of a job that names no work offset. The default code is converted if the form counts its offsets
+/// from 1.
 pub fn default_work(settings: &Settings) -> f64 {
     let default = settings.work_default;
     if default < 50.0 { default } else { work_code(settings.work, default).unwrap_or(default) }
@@ -123,8 +123,8 @@ fn operation(row: usize, survey: &Survey, shape: &Shape, want: &mut Want) {
     want.set(VarId::Work, operation.totals.works.first().map_or(operation.work, |work| f64::from_bits(*work)));
 }
 
-/// Sets whether the tool is the first or the last one, and the tools before and after it. After the last tool, the
-/// first tool comes next again.
+/// Sets whether the tool is the first or the last tool, and sets the previous and the next tool. After the last tool,
+/// the next tool is the first tool.
 fn place_in_order(at: usize, count: usize, number: impl Fn(usize) -> Option<f64>, want: &mut Want) {
     want.set(VarId::Isfirsttool, f64::from(u8::from(at == 0)));
     want.set(VarId::Islasttool, f64::from(u8::from(at + 1 == count)));
@@ -142,7 +142,7 @@ pub fn tool_variables(tool: &Tool, shape: &Shape, want: &mut Want) {
     want.set(VarId::Dcomp, tool.diameter_offset.unwrap_or(tool.number + settings.dcomp));
     want.put(VarId::Turret, tool.turret);
     if settings.machine == Machine::Lathe {
-        // if the T word has no valid value, the tool change reports it
+        // the tool change reports a T word without a valid value
         want.put(VarId::Comp, turret_word(tool, shape).ok());
     }
 }

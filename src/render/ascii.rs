@@ -1,10 +1,10 @@
-//! Conversion of text to ASCII, the only characters that controls have.
+//! Converts text to ASCII, because controls have only ASCII characters.
 
 use std::borrow::Cow;
 
 use any_ascii::any_ascii_char;
 
-/// Characters whose meaning for a machinist differs from the nearest ASCII shape.
+/// Characters for which a machinist expects another spelling than the ASCII character with the nearest shape.
 #[rustfmt::skip]
 const OWN: &[(char, &str)] = &[
     ('Ø', "D"), ('ø', "d"), ('⌀', "D"), ('Ä', "Ae"), ('Ö', "Oe"), ('Ü', "Ue"), ('ä', "ae"), ('ö', "oe"), ('ü', "ue"), ('ẞ', "SS"), ('°', " deg"),

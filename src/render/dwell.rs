@@ -7,7 +7,7 @@ use crate::render::targets::set_here;
 use crate::render::upon::run_with_upons;
 use crate::render::words::dwell_block;
 
-/// Prints a dwell in seconds: by `DwellBlock`, else as a generated block.
+/// Prints a dwell in seconds: by `DwellBlock`, otherwise as a generated block.
 pub fn dwell_here(seconds: f64, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     let Some(routine) = shape.program.routine(SequenceId::DwellBlock) else {
@@ -20,6 +20,6 @@ pub fn dwell_here(seconds: f64, cx: &mut Cx<'_>) -> Done {
     run_with_upons(routine, cx)?;
     let says = routine.vars.has(VarId::Dwell);
     cx.want.put(VarId::Dwell, None);
-    // if the selected branches do not print the dwell, it is still to be printed
+    // a dwell that the selected branches do not print must still be printed
     if says { Ok(()) } else { dwell_block(seconds, &mut cx.writer()) }
 }

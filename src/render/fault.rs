@@ -3,7 +3,7 @@
 use crate::diag::{Code, Diag};
 use crate::span::Span;
 
-/// What a step of rendering returns.
+/// The result of a step of rendering.
 pub type Done<T = ()> = Result<T, Box<Diag>>;
 
 /// An error without a location in the form.

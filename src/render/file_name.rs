@@ -13,8 +13,8 @@ use crate::toolpath::Start;
 /// Maximum length of a file name; every file system accepts this length.
 const LONGEST: usize = 100;
 
-/// The file name of a program, with its extension. If the form defines no name, or the job has none of the values in
-/// the name, the name of the job's file is used.
+/// The file name of a program, with its extension. The name of the job's file is used in two cases: the form defines no
+/// name, or the job has none of the values in the name.
 pub fn file_name(shape: &Shape, want: &Want) -> String {
     let settings = &shape.program.settings;
     let mut name = String::new();

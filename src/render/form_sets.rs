@@ -2,7 +2,7 @@
 
 use crate::sema::{Target, Value};
 
-/// Values that the form sets with `@set`. These values apply to the end of the program.
+/// Values that the form sets with `@set`. These values apply until the end of the program.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
     numbers: Vec<(Target, f64)>,

@@ -4,7 +4,8 @@ use crate::compile::LetterTable;
 use crate::sema::{LineEnd, Replacement, SequenceNumbers, Settings};
 use crate::span::Span;
 
-/// Block length limit for controls that accept long blocks; others accept between 80 and a few hundred characters.
+/// The limit of the block length for controls that accept long blocks. Other controls accept between 80 and a few
+/// hundred characters.
 pub const LONGEST: usize = 4096;
 
 /// Layout of blocks, computed once from the settings.

@@ -1,4 +1,5 @@
-//! Several coolants at once: `[cool]` prints the first kind of a list, and separate blocks print the others.
+//! Several coolants at once: `[cool]` prints the first kind of a list, and the other kinds are printed in separate
+//! blocks.
 
 use super::coolant::{codes, codes_of};
 use super::cx::Writer;
@@ -7,7 +8,7 @@ use super::said::Beside;
 use super::words::value_code;
 use crate::lang::{Coolant, VarId};
 
-/// Turns off the further kinds of coolant, except those in `keeps`.
+/// Turns off the further kinds of coolant, except the kinds in `keeps`.
 pub fn end_beside(keeps: Coolant, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let settings = &shape.program.settings;

@@ -5,7 +5,7 @@ use super::shape::Shape;
 use crate::control::Meaning;
 use crate::diag::Code;
 
-/// Codes that a control may lack: their purpose in a job, and what to do without them.
+/// Codes that a control may lack. Each code has its purpose in a job, and advice for controls without the code.
 const NEEDED: [(Meaning, &str, &str); 5] = [
     (
         Meaning::SideLeft,

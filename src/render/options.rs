@@ -76,9 +76,9 @@ pub struct Options {
     pub units: Option<Units>,
     /// Number of the program; default: the number in the job.
     pub program: Option<u32>,
-    /// Answers to prompts and values of variables. These values override those of the job.
+    /// Answers to prompts and values of variables. These values override the values of the job.
     pub set: Vec<(VarId, f64)>,
-    /// Values of properties that override all others, by row.
+    /// Values of properties that override all other values, by row.
     pub properties: Vec<(u16, PropertyValue)>,
     /// Values of properties that override only the form's defaults, by row.
     pub shop: Vec<(u16, PropertyValue)>,

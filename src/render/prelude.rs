@@ -1,4 +1,4 @@
-//! Prints codes before a sequence of moves that lacks them: plane, motion and feed.
+//! Prints the codes of plane, motion and feed before a sequence of moves that does not print them.
 
 use super::cx::Writer;
 use super::fault::{Done, fault_at};
@@ -33,7 +33,7 @@ pub fn enter_plane(plane: Code, writer: &mut Writer<'_>) -> Done {
 }
 
 /// Prints the motion code before a sequence of moves without a motion code, if the control is in another motion.
-/// Otherwise a cut would be a rapid. Returns whether the code was printed.
+/// Without the motion code, a cut could become a rapid. Returns whether the code was printed.
 fn motion_before(code: &sema::Code, routine: &Routine, writer: &mut Writer<'_>) -> Done<bool> {
     let shape = writer.shape;
     let lacks = !writer.said.motion_in_force(code) && shape.program.speaks_g && !prints_motion(routine, shape);

@@ -64,7 +64,8 @@ pub struct Printer {
     notes: Vec<Diag>,
 }
 
-/// Text with its source map: the program itself, or text that is stored until the program reaches its position.
+/// Text with its source map: the program itself, or text that is stored until the program reaches the position of the
+/// text.
 #[derive(Debug, Default)]
 pub struct Page {
     /// Finished blocks and the open one. The caller takes the finished blocks.
@@ -136,7 +137,7 @@ impl Printer {
         }
     }
 
-    /// The end of the text so far, if words are recorded: the start for [`Printer::trace_word`].
+    /// The end of the text so far, as the start for [`Printer::trace_word`]. `None`: words are not recorded.
     #[inline]
     pub fn mark(&self) -> Option<usize> {
         self.page.words.as_ref().map(|_| self.page.text.len())
@@ -193,7 +194,8 @@ impl Printer {
         if !info.dummy {
             lead.push(info.printed);
         }
-        // N wraps to its start when it exceeds its width; all other letters are errors
+        // a block number that exceeds its width starts again at its first value; for all other letters, such a value is
+        // an error
         match info.printing.write(&mut self.page.text, lead, units, self.layout.leading_zeros) {
             Ok(()) => Ok(()),
             Err(why) => self.not_written(why, info, units),

@@ -22,7 +22,7 @@ pub fn prints_letter(routine: &Routine, asked: u8, shape: &Shape) -> bool {
     })
 }
 
-/// Does a sequence print its motion code, as typed or by a variable?
+/// Does a sequence print its motion code, either typed or by a variable?
 pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     let by_variable = |i: usize| match shape.program.ops[i] {
         Op::Var { letter, var, .. } => {
@@ -61,7 +61,7 @@ pub fn says_work(routine: &Routine, shape: &Shape) -> bool {
     routine.steps().any(|op| shape.program.work.says(op))
 }
 
-/// Does a sequence print the speed mode (G96, G97), as typed or by a variable?
+/// Does a sequence print the speed mode (G96, G97), either typed or by a variable?
 pub fn says_speed_mode(routine: &Routine, shape: &Shape) -> bool {
     routine.vars.has(VarId::Speedtype)
         || prints_code(routine, |code| shape.group_of(code) == Some(Group::SpeedMode), shape)

@@ -20,14 +20,14 @@ pub struct Properties {
     now: Vec<Held>,
     /// Values for operations that set no values themselves.
     of_job: Vec<Held>,
-    /// Whether the caller set the value, which nothing overrides.
+    /// Whether the caller set the value. No other value overrides a value from the caller.
     fixed: Vec<bool>,
-    /// Number of properties that are fields of tools. They come first.
+    /// Number of properties that are fields of tools. The fields of tools are the first properties.
     of_tool: usize,
 }
 
 impl Properties {
-    /// Values from the form, the shop and the caller. Values from the caller override all others.
+    /// Values from the form, the shop and the caller. Values from the caller override all other values.
     pub fn new(settings: &Settings, shop: &[(u16, PropertyValue)], caller: &[(u16, PropertyValue)]) -> Properties {
         let own =
             settings.properties.iter().map(|property| Held { value: property.default.clone(), in_forms_units: true });
@@ -81,7 +81,7 @@ impl Properties {
         }
     }
 
-    /// Sets a value from the job. `scale`: factor from the job's lengths to the program's.
+    /// Sets a value from the job. `scale`: factor from the job's lengths to the program's lengths.
     pub fn set(&mut self, row: usize, property: &Property, given: &Given, scale: f64) -> Done {
         let value = match given {
             Given::Number(number) => property.kind.read(&number.to_string()),

@@ -99,7 +99,7 @@ pub fn print_conditions(cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Warns if a line of the form has set another value than the job requests for the condition that is printed next.
+/// Warns if a line of the form has set the next printed condition to another value than the job requests.
 fn takes_back(var: VarId, due: f64, shape: &Shape, said: &mut Said, out: &mut Printer) {
     let Some((typed, line)) = said.take_typed(var) else { return };
     let letter = if var == VarId::Speed { char::from(shape.program.settings.speed_code) } else { 'M' };
@@ -190,7 +190,7 @@ fn check_own_limit(shape: &Shape, want: &Want, said: &Said) -> Done {
     fault(Code::PR038, message, "give the operation's spindle its `max`")
 }
 
-/// Prints the speed mode before the speed, if the block with the speed does not print it.
+/// Prints the speed mode before the speed, if the block with the speed does not print the mode.
 pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
     let Some(mode) =
         writer.want.get(VarId::Speedtype).filter(|mode| writer.said.conditions.get(VarId::Speedtype) != Some(*mode))

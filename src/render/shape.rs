@@ -1,5 +1,5 @@
-//! The form, adapted to one job: its letters, axes, factors to the program's units, and the output that it needs. The
-//! head of the job completes the shape. A turret on the other side reverses one axis.
+//! The form, adapted to one job: its letters, its axes, its factors to the program's units, and the values that its
+//! output needs. The head of the job completes the shape. A turret on the other side reverses one axis.
 
 use super::defaults::{cycle_defaults, factor, form_units, no_defaults};
 use super::fault::{Done, fault};
@@ -33,9 +33,9 @@ pub(super) struct Shape<'p> {
     pub linear: usize,
     /// The axis along which the tool goes into a hole: Z, the first axis of a lathe.
     pub depth: usize,
-    /// Factor from the job's lengths to the program's.
+    /// Factor from the job's lengths to the program's lengths.
     pub scale: f64,
-    /// Factor from the form's lengths to the program's.
+    /// Factor from the form's lengths to the program's lengths.
     pub form_scale: f64,
     /// Units of the program.
     pub units: Units,
@@ -86,7 +86,7 @@ impl<'p> Shape<'p> {
         }
     }
 
-    /// Sets the units of the program for a job in these units, and all values that depend on them.
+    /// Sets the units of the program for a job in these units, and all values that depend on the units.
     pub fn choose_units(&mut self, job: Units) -> Done {
         let settings = &self.program.settings;
         self.units = self.options.units.unwrap_or(job);
@@ -118,8 +118,8 @@ impl<'p> Shape<'p> {
         self.plain_factors = self.factors();
     }
 
-    /// Factors from positions in the program's units to units of the letters h, v, d. `None`: in a straight cut, the
-    /// form prints or checks more than positions, its code and a feed.
+    /// Factors from positions in the program's units to units of the letters h, v, d. `None`: for a straight cut, the
+    /// form prints or checks more than positions, the motion code and a feed.
     fn factors(&self) -> Option<[f64; 3]> {
         let (program, settings) = (self.program, &self.program.settings);
         let cuts = settings.feed.code;

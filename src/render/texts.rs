@@ -73,7 +73,7 @@ impl Texts {
     }
 }
 
-/// Are all texts of a comment empty? `property`: is the text of a property empty?
+/// Are all texts of a comment empty? `property` returns whether the text of a property is empty.
 pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) -> bool {
     comment.iter().all(|op| match op {
         Op::TextVar { var, .. } => texts.get(var.id).is_empty(),
@@ -127,9 +127,9 @@ pub struct Text<'a> {
     pub text: &'a str,
 }
 
-/// Prints a text of the job. In a comment, its characters are converted for comments, and the text is cut to the control's line
-/// length. `behind`: the space that the rest of the block needs; `None` outside comments. Outside comments, only letters, digits
-/// and `_ - .` are kept, between quotation marks also spaces and signs.
+/// Prints a text of the job. In a comment, the characters of the text are converted for comments, and the text is cut
+/// to the control's line length. `behind`: the space that the rest of the block needs; `None` outside comments. Outside
+/// comments, only letters, digits and `_ - .` are kept. Between quotation marks, spaces and signs are kept too.
 pub fn print(text: &Text, behind: Option<usize>, glued: bool, shape: &Shape, out: &mut Printer) {
     let Text { name, width, text } = *text;
     let settings = &shape.program.settings;

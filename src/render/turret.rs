@@ -6,8 +6,8 @@ use crate::diag::Code;
 use crate::lang::VarId;
 use crate::toolpath::Tool;
 
-/// `[comp]`, the T word of a lathe: two digits for the station and two for the offset register. A tool number that already
-/// contains both is unchanged.
+/// `[comp]`, the T word of a lathe: two digits for the station and two for the offset register. A tool number that
+/// already contains station and register is unchanged.
 pub fn turret_word(tool: &Tool, shape: &Shape) -> Done<f64> {
     const STATIONS: f64 = 100.0;
     let whole = tool.number >= STATIONS;

@@ -1,4 +1,4 @@
-//! Upon sequences: printed when a variable changes, before the block that uses it.
+//! Upon sequences. An Upon sequence is printed when a variable changes, before the block that uses the variable.
 
 use super::body::run_all;
 use super::cx::Cx;
@@ -31,8 +31,8 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
 }
 
 /// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? Index replaces the
-/// `Upon` if Index retracts the tool and moves over the new position, and the Upon does nothing else. If Index replaces
-/// the `Upon`, only the code of the offset is printed.
+/// `Upon` if Index retracts the tool and moves over the new position, and if the Upon has no other effects. If Index
+/// replaces the `Upon`, only the code of the offset is printed.
 pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));
@@ -55,8 +55,8 @@ pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     retracts && shape.program.upons.iter().filter(|upon| upon.var == VarId::Work).all(only_moves)
 }
 
-/// Marks Upons that move the tool as printed if the tool change prints their variables. Otherwise these Upons would
-/// move the old tool.
+/// Records an Upon as already printed if the Upon moves the tool and the tool change prints its variable. Otherwise the
+/// Upon would move the old tool.
 pub fn upons_of_change(routine: &Routine, shape: &Shape, want: &Want, said: &mut Said) {
     for (i, upon) in shape.program.upons.iter().enumerate() {
         if routine.vars.has(upon.var) && prints_axis_words(&upon.routine, false, shape) {
@@ -116,7 +116,8 @@ pub fn upons(used: VarSet, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Makes increments count from the position that the sequence printed: along its axes, no distance remains.
+/// Makes increments count from the position that the sequence printed. Along the axes of this position, no distance
+/// remains.
 fn stands_where_it_was_put(shape: &Shape, want: &mut Want, said: &mut Said) {
     for (axis, (now, moved)) in NOW.into_iter().zip(MOVED).enumerate() {
         if said.stand.placed & 1 << axis != 0

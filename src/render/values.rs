@@ -84,7 +84,7 @@ pub fn property_text<'r>(row: u16, want: &'r Want, said: &'r Said) -> &'r str {
     said.kept.text_of(Target::Property(row)).unwrap_or_else(|| want.properties.get(row).text())
 }
 
-/// The spindle limit if the job gives no limit: the speed itself, unless it is a surface speed.
+/// The spindle limit if the job gives no limit: the speed itself. `None` for a surface speed.
 pub fn rpm_as_limit(shape: &Shape, want: &Want) -> Option<f64> {
     let turns = want.get(VarId::Speedtype) == Some(shape.program.settings.speed_type[1]);
     want.get(VarId::Speed).filter(|_| turns)

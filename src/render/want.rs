@@ -50,7 +50,7 @@ pub struct Want {
     pub in_operation: bool,
     /// Kinds of coolant that the job turned on.
     pub coolant: Coolant,
-    /// Whether the job has set the coolant; if it has not, the form may turn coolant on.
+    /// Whether the job has set the coolant. If false, the form may turn coolant on.
     pub coolant_is_said: bool,
     /// Code that turns off another kind of coolant and is not printed yet.
     pub ends_coolant: Option<f64>,
@@ -65,7 +65,7 @@ pub struct Want {
 }
 
 impl Want {
-    /// Values before the first event of the job: those of the form's commands.
+    /// Values before the first event of the job: the values of the form's commands.
     pub fn new(shape: &Shape) -> Want {
         let settings = &shape.program.settings;
         let mut want = Want {
@@ -341,7 +341,8 @@ impl Values for OfWork<'_> {
     }
 }
 
-/// Factor from the job's surface speed to the program's: feet per minute with inches, metres per minute with millimetres.
+/// Factor from the job's surface speed to the program's surface speed: feet per minute with inches, metres per minute
+/// with millimetres.
 fn surface_scale(shape: &Shape) -> f64 {
     const METRES_A_FOOT: f64 = 0.3048;
     match shape.scale {
@@ -351,7 +352,7 @@ fn surface_scale(shape: &Shape) -> f64 {
     }
 }
 
-/// Is this number no work offset code of the form's control?
+/// Does the form's control have no work offset code with this number?
 pub fn is_no_work(number: f64, shape: &Shape) -> bool {
     control::Code::of(b'G', number).and_then(|code| shape.group_of(code)) != Some(Group::Work)
 }

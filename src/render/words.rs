@@ -57,8 +57,8 @@ pub fn axis_words(target: &Axes, axes: &AxisUnits, shape: &Shape, said: &mut Sai
     Ok(())
 }
 
-/// Does the printed value of a target differ from that of the tool's position? A zero increment is no move, even if the last
-/// value of the letter is unknown.
+/// Does the printed value of a target differ from the printed value of the tool's position? A zero increment is no
+/// move, even if the last value of the letter is unknown.
 #[cold]
 fn has_increment(target: &Axes, shape: &Shape, said: &Said) -> Done<bool> {
     for axis in 0..6 {
@@ -76,7 +76,7 @@ fn has_increment(target: &Axes, shape: &Shape, said: &Said) -> Done<bool> {
     Ok(false)
 }
 
-/// Prints increments between rounded positions, so that they add up exactly.
+/// Prints increments between rounded positions, so that the increments add up exactly.
 pub fn increments(target: &Axes, axes: u8, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     for axis in 0..6 {
         if axes & 1 << axis == 0 {
@@ -111,7 +111,8 @@ pub fn motion_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     code_word(code, writer)
 }
 
-/// Prints a code as typed in its command, otherwise in its letter's format.
+/// Prints a code as typed in its command. A code that is typed without its letter is printed in the format of the
+/// letter.
 pub fn code_word(code: &sema::Code, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let info = &shape.letters[code.letter()];
@@ -141,12 +142,12 @@ pub fn parameter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, ou
     Ok(())
 }
 
-/// Prints the word of one axis, always.
+/// Prints the word of one axis, even if the value did not change.
 pub fn axis_word(axis: usize, target: &Axes, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     letter_word(shape.axes[axis], target.values[axis] * shape.scales[axis], shape, said, out)
 }
 
-/// Prints a letter with a value, always.
+/// Prints a letter with a value, even if the value did not change.
 pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: &mut Printer) -> Done {
     let info = &shape.letters[letter];
     let units = quantised(info, value)?;
@@ -155,7 +156,7 @@ pub fn letter_word(letter: u8, value: f64, shape: &Shape, said: &mut Said, out: 
     Ok(())
 }
 
-/// Prints the speed of the spindle, always.
+/// Prints the speed of the spindle, even if the speed did not change.
 pub fn speed_word(speed: f64, writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
     let letter = shape.program.settings.speed_code;
@@ -164,7 +165,7 @@ pub fn speed_word(speed: f64, writer: &mut Writer<'_>) -> Done {
     letter_word(letter, speed, shape, writer.said, writer.out)
 }
 
-/// Prints the feed if it changed; with inverse time always.
+/// Prints the feed if it changed. With inverse time, the feed is always printed.
 #[inline]
 pub fn feed_word(writer: &mut Writer<'_>) -> Done {
     let shape = writer.shape;
@@ -187,8 +188,8 @@ pub fn feed_word(writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Checks the rounding of a feed: rounding to zero is an error. A rounding error above 1 % is reported; for the pitch of a tap
-/// above 0.25 %.
+/// Checks the rounding of a feed: rounding to zero is an error. A rounding error above 1 % is reported. For the pitch
+/// of a tap, the limit is 0.25 %.
 #[inline]
 pub fn check_feed(info: &Letter, var: VarId, value: f64, units: i64, want: &Want, out: &mut Printer) -> Done {
     const OF_TAP: f64 = 0.0025;

@@ -44,7 +44,7 @@ fn compared(old: &[u8], new: &str, options: &Options) -> Option<Comparison> {
     Some(compare(&old?, &new?, options))
 }
 
-/// The differences as ranges of lines, counted from 0: lines of the old program, then lines of the new one.
+/// The differences as ranges of lines, counted from 0: lines of the old program, then lines of the new program.
 fn hunks(found: &Comparison) -> Value {
     let rows = found.hunks.iter().take(MOST);
     let rows: Vec<[usize; 4]> = rows.map(|hunk| [hunk.old.start, hunk.old.end, hunk.new.start, hunk.new.end]).collect();

@@ -1,4 +1,4 @@
-//! The result of the check whether the program fits into its machine, and the times of its blocks there.
+//! The result of the check whether the program fits into its machine, and the times of the blocks on this machine.
 
 use serde_json::{Value, json};
 

@@ -8,7 +8,7 @@ use crate::sema::{Checked, Property, PropertyKind};
 use crate::source::Source;
 use crate::span::Span;
 
-/// Maximum number of findings that are shown: no reader needs more at once.
+/// Maximum number of findings that are shown. More findings at once do not help a reader.
 const MOST: usize = 500;
 
 /// The files of a form, the findings of lint, the lines of the letter formats, and the properties. For a form without

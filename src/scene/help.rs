@@ -78,7 +78,8 @@ fn list(document: &Document, file: u32, place: u32, current: Option<&Current>) -
     let found = document.complete(file, place, current);
     let rows = found.into_iter().map(|found| {
         let info = match found.kind {
-            // an explanation needs a search for an example: this is fast for a few variables, but too slow for all commands
+            // an explanation needs a search for an example, which is fast for a few variables but too slow for all
+            // commands
             CompletionKind::Variable => about(found.kind, &found.label, document.control()),
             _ => None,
         };

@@ -2,7 +2,7 @@
 //!
 //! A [`Scene`] is a JSON head followed by named sections of numbers. Long data (points, blocks, their origins) are
 //! sections, so that a program with a million moves loads fast. `page/src/scene.ts` reads these bytes. `postform watch`
-//! sends them, a page of `postform plot` contains them, and the playground makes them in the browser.
+//! sends a scene, a page of `postform plot` contains a scene, and the playground makes a scene in the browser.
 
 mod compare;
 mod fit;
@@ -58,7 +58,7 @@ pub struct Request<'a> {
     pub job_name: &'a str,
     /// Options for printing the job.
     pub options: Options,
-    /// Values of the form's properties that were set in the page: names and texts. These values replace those in
+    /// Values of the form's properties that were set in the page: names and texts. These values replace the values in
     /// `options`.
     pub properties: Vec<(String, String)>,
     /// Settings for running the program.
@@ -139,7 +139,8 @@ impl Ready<'_> {
     }
 }
 
-/// The motions of a program, to be added to its scene. The program may still be printed while it is read.
+/// The motions of a program, to be added to its scene. This function may read the program while the program is still
+/// being printed.
 pub fn drawn(program: impl Read + Seek, settings: RunSettings) -> Scene {
     let mut scene = Scene::new();
     match draw(program, settings) {
@@ -197,7 +198,8 @@ impl Printed {
         verdict::verdict(proven, self.program.trace(), self.post.files())
     }
 
-    /// The check whether the program fits into a machine, and the time of each block there, for display in the page.
+    /// The check whether the program fits into a machine, and the time of each block on this machine, for display in
+    /// the page.
     pub fn fit(&self, job: Job<'_>, machine: &Machine) -> Scene {
         let tools = self.post.job_tools(job).unwrap_or_default();
         match preflight_by_block(Cursor::new(self.text()), self.settings, machine, &tools) {

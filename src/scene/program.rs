@@ -84,7 +84,7 @@ pub fn picture(scene: &mut Scene, of: &str, picture: &Picture) {
     scene.say(&format!("{of}picture"), head(picture, middle, strips.extents, strips.ceiling));
 }
 
-/// Adds indexes in the list of tools: one byte each if all indexes fit, else two.
+/// Adds indexes in the list of tools. Each index has one byte if all indexes fit into one byte, otherwise two bytes.
 fn tools(scene: &mut Scene, name: String, picture: &Picture, indexes: impl ExactSizeIterator<Item = u16>) {
     if picture.tools.len() <= 256 {
         scene.section(name, indexes.map(|index| [index as u8]));

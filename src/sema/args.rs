@@ -126,7 +126,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// Reads a number and checks that the command accepts it.
+    /// Reads a number, and checks that the command accepts the number.
     pub fn number(&self) -> Read<f64> {
         let takes = self.id.row().args;
         match takes {

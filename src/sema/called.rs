@@ -1,4 +1,4 @@
-//! Reads the other files of a form: those of `Call`, `Control` and `MachineFile`.
+//! Reads the files that a form names in the commands `Call`, `Control` and `MachineFile`.
 
 use super::check::Analysis;
 use super::limits::MOST_TEXT;

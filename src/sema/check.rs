@@ -37,7 +37,8 @@ impl Checked {
     }
 }
 
-/// Analyses a form. `load` returns a file that the form names (relative to the form's folder) or the reason why it can't be read.
+/// Analyses a form. `load` takes a file name relative to the form's folder, and returns the file or the reason why the
+/// file can't be read.
 pub fn analyse(main: Source, limits: Limits, load: &mut dyn FnMut(&str) -> Result<Source, String>) -> Checked {
     let mut analysis = Analysis { limits, ..Analysis::default() };
     analysis.add_file(main, &mut vec![], load);

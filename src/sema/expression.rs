@@ -44,8 +44,8 @@ pub fn number(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Di
     Some(formula)
 }
 
-/// Reads a condition. A variable without a comparison is true if the variable has a value. A variable that is 1 or 0 is
-/// true if it is 1.
+/// Reads a condition. A variable without a comparison is true if the variable has a value. A variable that can only be
+/// 1 or 0 is true if its value is 1.
 pub fn condition(expr: &Result<Expr, Unread>, context: &Context, diags: &mut Vec<Diag>) -> Option<Formula> {
     asked(read(expr, diags)?, context, diags)
 }
@@ -336,7 +336,8 @@ fn chosen(
     }
 }
 
-/// Reads comparisons like `[cool] = through`. Kinds of coolant are compared by name, because codes may differ.
+/// Reads comparisons like `[cool] = through`. Kinds of coolant are compared by name, because each form may have other
+/// codes for the kinds.
 fn cools(operator: Operator, left: &Expr, right: &Expr, context: &Context) -> Option<Formula> {
     let (ExprKind::Variable(name), ExprKind::Word(word)) = (&left.kind, &right.kind) else { return None };
     let kind = Coolant::parse(word).filter(|_| VarId::parse(name) == Some(VarId::Cool))?;

@@ -142,7 +142,7 @@ impl Flow {
                     }
                 };
                 wrong(format!("`{name}` is not a directive"), "unknown", &help);
-                // treat it as the intended directive, which avoids errors that would only follow from this one
+                // treat the line as the intended directive, to avoid errors that are only consequences of this error
                 match meant {
                     Some("@if" | "@for") if self.levels.len() == DEEPEST => self.too_deep += 1,
                     Some("@if") => {
@@ -213,8 +213,8 @@ impl Flow {
         self.levels.last().is_some_and(|level| matches!(level.kind, Kind::If { .. }))
     }
 
-    /// Whether a directive is beyond the maximum depth, or belongs to a directive beyond it. The lines of these
-    /// directives are added to the level above.
+    /// Whether a directive is beyond the maximum depth. The result is also true for the `@elif`, `@else` and `@end` of
+    /// a directive beyond the maximum depth. The lines of these directives are added to the level above.
     fn lies_too_deep(&mut self, directive: &Directive, diags: &mut Vec<Diag>) -> bool {
         if directive.kind.opens() && self.levels.len() == DEEPEST {
             if self.too_deep == 0 {

@@ -349,7 +349,7 @@ impl Formula {
     }
 }
 
-/// Evaluates a comparison. Values of different types are neither equal nor different, so every comparison of them is false.
+/// Evaluates a comparison. Every comparison of values of different types is false, even `<>`.
 fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
     use std::cmp::Ordering::{Equal, Greater, Less};
     let order = match (left, right) {
@@ -369,12 +369,13 @@ fn holds(comparison: Comparison, left: &Value, right: &Value) -> bool {
     }
 }
 
-/// Whether a text matches a pattern. `*` matches any text, `?` one character; upper and lower case are equal.
+/// Whether a text matches a pattern. `*` matches any text, and `?` matches one character; upper and lower case are
+/// equal.
 fn is_like(text: &str, pattern: &str) -> bool {
     let text: Vec<char> = text.chars().flat_map(char::to_lowercase).collect();
     let pattern: Vec<char> = pattern.chars().flat_map(char::to_lowercase).collect();
     let (mut at, mut asked) = (0, 0);
-    // the position of the last `*`, and where in the text its match ends so far
+    // the position of the last `*` in the pattern, and the end of its match in the text so far
     let mut star: Option<(usize, usize)> = None;
     while at < text.len() {
         match pattern.get(asked) {

@@ -30,7 +30,7 @@ pub(super) fn duplicate_sequence(name: &str, span: Span, first: Span) -> Diag {
         .help("keep one of them")
 }
 
-/// Adds the advice to write a line of text for the control in backquotes.
+/// Adds the advice to put a line of text for the control into backquotes.
 pub(super) fn in_backquotes(diag: Diag, span: Span) -> Diag {
     let [begin, end] = [span.start, span.end].map(|at| (Span { start: at, end: at, ..span }, "`".to_owned()));
     diag.help("put text of the control in backquotes, from the beginning of the line to its end").fix(
@@ -44,7 +44,7 @@ pub(super) fn unknown_name(name: &str, span: Span) -> Diag {
     let own = || ["Upon", "End"].into_iter();
     let names = || SEQUENCES.iter().map(|s| s.name).chain(COMMANDS.iter().map(|c| c.name)).chain(own());
     let mut diag = Diag::new(Code::PF201, format!("`{}` is not a command or a sequence", name)).at(span, "unknown");
-    // an abbreviation is not a misspelling, but suggest the name that begins with it
+    // the name may be an abbreviation: suggest the known name that begins with this text
     let begins_with = |n: &str| n.get(..name.len()).is_some_and(|head| head.eq_ignore_ascii_case(name));
     let begins = || names().find(|n| name.len() > 2 && begins_with(n));
     // names that are reserved for a later version

@@ -87,7 +87,7 @@ pub enum LineEnd {
     CrLf,
 }
 
-/// A variable whose value the user is asked for.
+/// A variable whose value the user enters at a prompt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prompt {
     /// The variable that the answer sets.
@@ -153,13 +153,14 @@ macro_rules! settings {
             pub centre_full: Option<ArcCentre>,
             /// Prompts for variables.
             pub prompts: Vec<Prompt>,
-            /// Whether the later passes of a thread print approach, cut, clear and return, and not only X.
+            /// Whether postform prints approach, cut, clear and return for every pass of a thread. If false, postform
+            /// prints only X for the later passes.
             pub thread_full: bool,
-            /// Secondary clearance of deep cycles for which the job gives no clearance of this kind.
+            /// The default secondary clearance of deep cycles.
             pub cycle_back_deep: Option<f64>,
-            /// Secondary clearance of chip-breaking cycles for which the job gives no clearance of this kind.
+            /// The default secondary clearance of chip-breaking cycles.
             pub cycle_back_chipbreak: Option<f64>,
-            /// Secondary clearance of cycles through webs for which the job gives no clearance of this kind.
+            /// The default secondary clearance of cycles through webs.
             pub cycle_back_thru: Option<f64>,
             /// Whether a peck cycle dwells after each step.
             pub cycle_dwell_steps: bool,
@@ -246,7 +247,7 @@ impl Settings {
         if self.machine == Machine::Mill { self.control() } else { Control::of_no_name() }
     }
 
-    /// The codes that a variable may print by the commands of the form; empty for a variable without codes.
+    /// The codes that a variable may print, as defined by the commands of the form; empty for a variable without codes.
     pub fn codes_of(&self, var: VarId) -> Vec<f64> {
         match var {
             VarId::Work => vec![self.work, self.work_default],

@@ -176,8 +176,8 @@ impl Setting for Vec<Prompt> {
 }
 
 impl Settings {
-    /// Checks the word of `Machine` or `Units`. `Machine` and `Units` were read before all other commands, whose
-    /// defaults depend on these two.
+    /// Checks the word of `Machine` or `Units`. `Machine` and `Units` were read before all other commands, because
+    /// other defaults depend on these two commands.
     pub(super) fn known_word(&mut self, args: &Arguments) -> Read<()> {
         args.choice().map(|_| ())
     }

@@ -93,7 +93,7 @@ impl Analysis {
         }
     }
 
-    /// Reports a line that begins with no command, with advice on what was probably intended.
+    /// Reports a line that does not begin with a command, and proposes the text that the user probably intended.
     fn no_command(&mut self, statement: &Statement) {
         let (name, span) = (&statement.name.text, statement.name.span);
         let whole = statement.args.iter().fold(span, |all, arg| all.to(arg.span));
@@ -119,8 +119,8 @@ impl Analysis {
     }
 }
 
-/// Finds a control character in a text that is printed. `Name` is not checked, because it is not printed and old forms
-/// may have control characters in it.
+/// Finds a control character in a text that is printed. `Name` is not checked, because this text is not printed. In old
+/// forms, the name may contain control characters.
 fn printed_control(id: CommandId, args: &[Spanned]) -> Option<(&Spanned, char)> {
     use CommandId::{Comment, Eob, Mod, Replace};
     if !matches!(id, Comment | Eob | Mod | Replace) {

@@ -164,7 +164,7 @@ fn text_variable(name: &Spanned, diags: &mut Vec<Diag>) -> Option<TextVar> {
     var
 }
 
-/// Checks that a text of the job outside a comment follows text of the form. Without text of the form, the control
+/// Checks that text of the form precedes each text of the job outside comments. Without text of the form, the control
 /// could read a name such as M30 as a code. A space, a point or the slash of block delete does not count as text here.
 fn check_texts(pieces: &[Piece], context: &Context, diags: &mut Vec<Diag>) {
     let holds = |piece: &Piece| match &piece.kind {

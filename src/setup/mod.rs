@@ -112,8 +112,8 @@ fn seconds<S: serde::Serializer>(times: &Option<Times>, serializer: S) -> Result
 pub struct Work {
     /// Name of the offset in the program.
     pub name: String,
-    /// Least and greatest X, Y, Z of the cuts. On a lathe, X is a radius or a diameter, whichever the program uses, and
-    /// Y is `None`.
+    /// Least and greatest X, Y, Z of the cuts. On a lathe, X is a radius or a diameter, as in the program, and Y is
+    /// `None`.
     pub cuts: [Option<[f64; 2]>; 3],
     /// Least and greatest X, Y, Z of cuts and rapids.
     pub moves: [Option<[f64; 2]>; 3],
@@ -146,7 +146,7 @@ pub struct ToolRow {
     pub lowest: Option<f64>,
     /// Minutes of the tool's cuts, calculated with the machine's accelerations if they are known.
     pub minutes: Option<f64>,
-    /// Seconds on the machine from the change to the tool until the next tool change.
+    /// Seconds on the machine from the tool change to this tool until the next tool change.
     pub seconds: Option<f64>,
 }
 

@@ -159,15 +159,15 @@ pub struct Directive {
 /// The kinds of directives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DirectiveKind {
-    /// `@if`: the lines after it print if its condition is true.
+    /// `@if`: the next lines print if the condition is true.
     If(Result<Expr, Unread>),
-    /// `@elif`: the lines after it print if its condition is true and no earlier condition is true.
+    /// `@elif`: the next lines print if the condition is true and no earlier condition is true.
     Elif(Result<Expr, Unread>),
-    /// `@else`: the lines after it print if no earlier condition is true.
+    /// `@else`: the next lines print if no earlier condition is true.
     Else,
     /// `@end`, which ends the lines of `@if` or `@for`.
     End,
-    /// `@for`: the lines after it print once for each item of a list.
+    /// `@for`: the next lines print once for each item of a list.
     For,
     /// `@set NAME = value`, which sets a variable or property.
     Set(Spanned, Result<Expr, Unread>),
@@ -203,7 +203,7 @@ pub struct End {
 pub struct Word {
     /// Location.
     pub span: Span,
-    /// The parts of the word. A word has several parts if a space is missing, or if it is a text with variables.
+    /// The parts of the word. A word has several parts if a space is missing, or if the word is a text with variables.
     pub pieces: Box<[Piece]>,
 }
 
@@ -263,7 +263,8 @@ pub enum PieceKind {
 }
 
 impl Body {
-    /// The first part of each printed word. Text in backquotes and the parts joined to it count as one word.
+    /// The first part of each printed word. Text in backquotes counts as one word together with the parts joined to
+    /// this text.
     pub fn begins(&self) -> impl Iterator<Item = &Piece> {
         self.words.iter().flat_map(|word| {
             let is_first = move |at: usize| at == 0 || word.pieces[at].lacks_blank_after(&word.pieces[at - 1]);

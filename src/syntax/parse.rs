@@ -16,7 +16,7 @@ const LEAST_STACK: usize = 128 << 10;
 /// Size of the new stack that is allocated if less than the minimum is free.
 const STACK: usize = 1 << 20;
 
-/// Parses a file. `file`: its number. Each byte of the text belongs to some line of the result.
+/// Parses a file. `file`: its number. Each byte of the text belongs to a line of the result.
 pub fn parse(source: &Source, file: u32) -> Form {
     stacker::maybe_grow(LEAST_STACK, STACK, || lines(source, file))
 }
@@ -194,7 +194,7 @@ impl Around<'_> {
     }
 }
 
-/// The kind of a line, as far as it matters for an unknown name above it.
+/// The kind of a line. The kind determines whether an unknown name above the line begins a sequence.
 #[derive(Clone, Copy)]
 enum Mark {
     /// The line is an `End`.
@@ -249,7 +249,8 @@ fn names_sequence(statement: &Statement) -> bool {
     SequenceName::parse(&words).is_some()
 }
 
-/// Whether a line inside a sequence is the name line of the next sequence: its words are a name and at most a count.
+/// Whether a line inside a sequence is the name line of the next sequence. A name line contains only a name, or a name
+/// and a count.
 fn begins_sequence(body: &Body, text: &str, start: usize) -> bool {
     let Some(last) = body.words.last() else { return false };
     let words: Vec<&str> = text[..last.span.end as usize - start].split_whitespace().collect();

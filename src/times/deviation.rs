@@ -5,7 +5,8 @@ use super::leg::Leg;
 use super::queue::Queue;
 use super::rates::{Rates, Way, size};
 
-/// From this cosine on, two directions count as the same or as opposite. The value is Grbl's.
+/// Limit of the cosine at a corner. Above this value, the directions count as opposite. Below the negative value, the
+/// directions count as equal. Grbl uses the same value.
 const SAME: f64 = 0.999_999;
 
 /// The state between two legs.

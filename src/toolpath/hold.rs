@@ -124,7 +124,7 @@ impl<'s> Hold<'s> {
 
     /// Records the target of a rapid. For each axis, the first position is kept. The height of a new tool is unknown
     /// until a rapid gives a height. Until a rapid gives a height, the last rapid across counts, because the tool goes
-    /// down at its end.
+    /// down at the end of this rapid.
     fn reaches(&mut self, to: &Axes) {
         if self.is_way() && self.first.given & to.given & !self.depth != 0 {
             self.first.given &= !to.given;
@@ -157,7 +157,8 @@ impl<'s> Hold<'s> {
     #[cold]
     fn held(&mut self, event: Event<'_>, place: Place) -> Result<(), Stop> {
         match event {
-            // earlier rapids gave positions in the previous work offset, so the tool moves to them in that offset
+            // earlier rapids gave positions in the previous work offset, so the tool moves to these positions in that
+            // offset
             Event::Work(_) if self.first.given != 0 && !self.is_way() => {
                 self.release_before(event, place, First::Nothing)
             }

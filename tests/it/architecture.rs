@@ -1,5 +1,6 @@
-//! Checks that imports go in one direction: the `crate::` paths of each module against the table in ARCHITECTURE.md,
-//! and the files of a module against one another. Checks that no source file is longer than 500 lines.
+//! Checks that imports go in one direction. The `crate::` paths of each module must agree with the table in
+//! ARCHITECTURE.md. A circle of imports between the files of a module contains at most two files. Checks that no source
+//! file is longer than 500 lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -139,8 +140,8 @@ fn paths(text: &str) -> Vec<String> {
     found
 }
 
-/// The files that each file of a module imports. A file is named within its module, as `moves/arc`. The module's own
-/// `mod.rs` only declares the other files, so it is left out.
+/// The files that each file of a module imports. The name of a file is its path in the module, such as `moves/arc`. The
+/// module's own `mod.rs` only declares the other files, so it is left out.
 fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
     let folder = root().join("src").join(module);
     let mut sources = Vec::new();
@@ -170,7 +171,7 @@ fn imports(module: &str) -> BTreeMap<String, BTreeSet<String>> {
                         steps.remove(0);
                     }
                 }
-                // a file imports the files below it without a prefix
+                // a path without a prefix leads to a file below the importing file
                 _ => {}
             }
             place.extend(steps);

@@ -1,4 +1,4 @@
-//! Wrong input of every kind: it gives a code, a location and exit status 1, causes no panic, and leaves no output file.
+//! Wrong input of every kind gives a code, a location and exit status 1. It causes no panic and leaves no output file.
 
 use std::fs;
 use std::path::Path;
@@ -487,7 +487,8 @@ fn outputs_do_not_replace_their_inputs() {
         fs::remove_file(folder.0.join("x.svg")).unwrap();
     }
     expect("standard input", &run("- --from json -o job.json", "< job.json"), 2, &["is an input"]);
-    // both outputs in one file: by another name, through a link without a target, and by a redirection of the shell
+    // program and source map in the same file: by another name, through a link without a target, or by a redirection of
+    // the shell
     symlink("new.nc", folder.0.join("link")).unwrap();
     for (arguments, redirect) in
         [("-o new.nc --trace ./new.nc", ""), ("-o link --trace new.nc", ""), ("--trace new.nc", "> new.nc")]
@@ -548,7 +549,8 @@ fn forms_have_a_size() {
 #[test]
 fn a_program_far_longer_than_its_job_is_asked_about() {
     let folder = Folder::new("huge");
-    // blocks with a comment of 200 characters are printed faster than the same number of characters in short blocks
+    // the test uses long comments, because long blocks print faster than short blocks with the same number of
+    // characters
     let comment = "A".repeat(200);
     let form = folder.write("form.pf", mill("", &format!("LineCode\nG1 X[h] Y[v] Z[d] F[frate] ({comment})\nEnd")));
     let points = vec!["[0,0,0]"; 1_000].join(",");
@@ -556,7 +558,7 @@ fn a_program_far_longer_than_its_job_is_asked_about() {
         "{{\"cycle\":{{\"kind\":\"deep\",\"depth\":99,\"clear\":1,\"feed\":100,\"step\":0.01,\"emulate\":true,\"points\":[{points}]}}}}"
     );
     let job = folder.write("job.json", job(&cycle));
-    // without the proof of 100 MB, which this test does not need
+    // `--no-verify`, because this test does not need a proof of 100 MB
     let output = render_with(&folder, &job, &form, &["--no-verify"]);
     expect("a huge program", &output, 1, &["PR028", "100 MB of program", "--huge", "job.json:"]);
 }
@@ -584,7 +586,7 @@ fn no_file_and_no_argument_steers_the_terminal() {
     }
 }
 
-/// A folder in place of a job: the option for folders is named.
+/// For a folder in place of a job, the message names the option for folders.
 #[test]
 fn a_folder_is_not_a_job() {
     let folder = folder::Folder::new("folder-not-job");
@@ -595,7 +597,7 @@ fn a_folder_is_not_a_job() {
     assert!(said.contains("it is a folder") && said.contains("--out-dir OUT"), "{said}");
 }
 
-/// A job in place of a program was read as codes.
+/// A job in place of a program is refused. Earlier versions read the job as codes.
 #[test]
 fn a_job_is_not_a_program() {
     let job = root().join("samples/bracket/job.json");
@@ -614,7 +616,7 @@ fn a_job_is_not_a_program() {
     }
 }
 
-/// A comment of an old program in Windows-1252 lost its letters in every command that shows it.
+/// Commands show all letters of comments in Windows-1252, as in old programs. Earlier versions lost these letters.
 #[test]
 fn letters_of_old_programs_are_shown() {
     let folder = folder::Folder::new("old-letters");

@@ -51,7 +51,7 @@ fn the_standard_cases_see_a_change_of_the_form() {
     }
     let last = said.lines().last().unwrap();
     assert!(last.starts_with("56 cases, 1 form: 56 programs, ") && last.ends_with(" differ"), "{last}");
-    // a different order of words is ignored if postform.toml lists it under `ignore`
+    // a different order of words is ignored if postform.toml lists `order` under `ignore`
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\nignore = [\"order\", \"spaces\"]\n");
     ends(&folder.run(&["test"]), 0, "56 cases, 1 form: 56 programs, all as expected");
     folder.write("tests/postform.toml", "[test]\nforms = [\"../haas.pf\"]\n");
@@ -88,7 +88,7 @@ fn is_block(line: &str) -> bool {
         && letters.next().is_some_and(|next| next == '[' || next.is_ascii_digit())
 }
 
-/// Variants of the line with a mistake: without its last word, without its first word, with another typed digit.
+/// Wrong variants of the line: without the last word, without the first word, and with another typed digit.
 fn mistakes(line: &str) -> Vec<String> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let mut list = vec![words[..words.len() - 1].join(" "), words[1..].join(" ")];
@@ -104,7 +104,7 @@ fn mistakes(line: &str) -> Vec<String> {
     list
 }
 
-/// If a form loses a word or a digit changes, the cases that print the line fail, or the proof does.
+/// If a line of a form loses a word or has a wrong digit, the cases that print the line fail, or the proof fails.
 #[test]
 fn the_standard_cases_see_broken_forms() {
     let most: usize = std::env::var("BROKEN").map_or(2, |count| count.parse().unwrap());
@@ -131,7 +131,8 @@ fn the_standard_cases_see_broken_forms() {
             text[*at] = broken;
             fs::write(folder.0.join(form), text.join("\n") + "\n").unwrap();
             tried += 1;
-            // a coolant that a tool change does not print is printed before the first cut, so the program is unchanged
+            // if a tool change does not print the coolant, postform prints it before the first cut, so this mistake has
+            // no effect
             let is_said_again = lines[*at].trim() == "M[cool]";
             if folder.run(&["test", "--format", "json"]).status.code() == Some(0) && !is_said_again {
                 unseen.push(format!("{form}:{}: `{}` became `{broken}`", at + 1, lines[*at]));
@@ -208,7 +209,7 @@ fn forms_and_jobs_of_any_kind() {
     ends(&folder.run(&["test", "parts", "--jobs", "1"]), 0, "2 cases, 2 forms: 4 programs, all as expected");
     ends(&folder.run(&["test", "parts/drill.cl"]), 0, "1 case, 2 forms: 2 programs, all as expected");
     ends(&folder.run(&["test", "parts", "--form", "fanuc.pf"]), 0, "2 cases, 1 form: 2 programs, all as expected");
-    // the cases of a form with an error fail; those of other forms do not
+    // the cases of a form with an error fail; the cases of other forms do not
     folder.write("fanuc.pf", "Machine Mill\nNonsense\n");
     let output = folder.run(&["test", "parts"]);
     assert!(out(&output).contains("fanuc.pf has errors"), "{}", out(&output));
@@ -279,7 +280,7 @@ fn an_expected_program_without_its_job_is_a_problem() {
     assert!(said.lines().last().unwrap().starts_with("55 cases, 1 form: 55 programs, 2 failed; 2 problems"), "{said}");
 }
 
-/// A broken job and a program with other motions can never be an expected result.
+/// A broken job, or a program with other motions than its job, is never written as an expected result.
 #[test]
 fn what_is_wrong_can_not_be_expected() {
     let folder = Folder::new("cases-wrong");
@@ -327,8 +328,8 @@ fn the_file_of_the_cases_says_day_post_and_proof() {
     assert!(said.contains("none.pf") && said.contains("tests/postform.toml names this form under [test]"), "{said}");
 }
 
-/// A program that calls itself is proven from a file, as in `render`. A program that is not proven is reported with the
-/// reason.
+/// A program that calls its own subprograms is proven from a file, as in `render`. A program that is not proven is
+/// reported with the reason.
 #[test]
 fn what_is_not_proven_is_named() {
     let folder = kept("unproven", "siemens.pf");
@@ -372,7 +373,7 @@ fn what_differs_alone_is_said() {
     let program = fs::read_to_string(&path).unwrap();
     fs::write(&path, program.replace('\n', "\r\n")).unwrap();
     assert!(out(&folder.run(&["test", "tests/drill"])).contains("only spaces or line ends differ\n"));
-    // a missing block: the block numbers after it are not shown as differences
+    // if the form prints an additional block, the changed block numbers after it are not shown as differences
     fs::write(&path, program).unwrap();
     change(&folder, "haas.pf", "G[unitmode] G17 G40 G49 G80 G90\n", "G[unitmode] G17 G40 G49 G80 G90\nG64\n");
     let said = out(&folder.run(&["test", "tests/drill"]));

@@ -12,7 +12,7 @@ use postform::toolpath::{Event, Flow, Place, ReadError, Sink, Summary, Units};
 
 const DRILL: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 
-/// The blocks of a file between tool change and end, followed by its warnings; or its error.
+/// The blocks of a file between the tool change and the end, followed by the warnings. For a refused file: the error.
 fn read(text: &str, options: Options) -> Vec<String> {
     static PROGRAM: LazyLock<Program> = LazyLock::new(|| {
         let form = mill("Units mm", DRILL).replace("G[work] X[h] Y[v] Z[d]\nEnd", "G[work]\nEnd");
@@ -78,7 +78,7 @@ fn feeds_are_those_of_their_units() {
     assert!(error("FEDRAT/10,FURLONGS").starts_with("PL002 a FEDRAT"));
 }
 
-/// A tool change is complete when its spindle speed is known, which may be after the first rapids.
+/// A tool change is complete when its spindle speed is known. The speed may come after the first rapids.
 #[test]
 fn the_spindle_may_come_after_the_first_rapids() {
     let text =
@@ -101,7 +101,7 @@ fn arcs_turn_as_their_system_means_them() {
     };
     assert_eq!(by(Dialect::SolidWorksCam), "G17 G3 X2. Y1. I0 J1.");
     assert_eq!(by(Dialect::Makino), "G17 G2 X2. Y1. I0 J1.");
-    // for a file of an unknown system, the arc direction follows from the tangent of the line before it
+    // in a file of an unknown CAM system, the direction of an arc follows from the direction of the line before the arc
     assert_eq!(body(arc)[1], "G17 G3 X2. Y1. I0 J1.");
     assert!(error("GOTO/1,0,10\nCIRCLE/2,0,10,0,0,1,1\nGOTO/3,0,10").starts_with("PL006 the direction of this CIRCLE"));
     assert!(
@@ -170,7 +170,7 @@ fn what_moves_the_part_or_is_cut_off_is_refused() {
     );
 }
 
-/// Every mutated file gives a result or an error, and never a panic.
+/// Every randomly changed file gives a result or an error, and never a panic.
 #[test]
 fn mutated_files_get_an_answer() {
     let mut state = 7u64;
@@ -233,7 +233,7 @@ fn mutated_files_get_an_answer() {
     }
 }
 
-/// A value that a file lacks is an error that names an option. With the option, the job is printed.
+/// If a file lacks a value, the error names the option for this value. With the option, the job is printed.
 #[test]
 fn what_a_file_leaves_open_has_an_option() {
     let file = "LOADTL/1\nSPINDL/900,CLW\nFROM/0,0,20\nFEDRAT/50\nGOTO/0,0,1\nFINI\n";
@@ -308,7 +308,8 @@ fn whatever_keeps_a_file_from_being_printed_is_said_at_once() {
     );
 }
 
-/// GOHOME with a position is a rapid to it, up before across. TIMES of NX and ANGLE of Autodesk give the turns of a helix.
+/// GOHOME with a position is a rapid to this position. The tool moves up before it moves across. TIMES of NX and ANGLE
+/// of Autodesk give the number of turns of a helix.
 #[test]
 fn places_and_turns_are_those_that_are_written() {
     assert_eq!(body("GOTO/1,0,2\nGOHOME/5,5,40"), ["G1 X1. Z2. F100.", "G0 Z40.", "X5. Y5."]);
@@ -324,7 +325,8 @@ fn places_and_turns_are_those_that_are_written() {
     assert!(error("NURBS/1,2").starts_with("PL004 NURBS: a spline"));
 }
 
-/// Compensation that is turned off before an arc ends in the next straight motion in the plane. A motion along the depth axis does not end it.
+/// Compensation that is turned off before an arc ends in the next straight motion in the plane. A motion along the
+/// depth axis does not end the compensation.
 #[test]
 fn compensation_waits_for_a_straight_motion_in_the_plane() {
     let lines = body(
@@ -335,7 +337,8 @@ fn compensation_waits_for_a_straight_motion_in_the_plane() {
     assert!(error("CUTCOM/LEFT\nMOVARC/0,1,10,0,0,1,1\nGOTO/1,1,10").starts_with("PL004 cutter compensation can't"));
 }
 
-/// Rapids before the first tool are left out. A tool that is loaded twice in a row is loaded once.
+/// Rapids before the first tool are left out. If a file loads the same tool twice in a row, the job has one tool
+/// change.
 #[test]
 fn what_stands_before_the_first_tool_is_not_its_path() {
     let text = "UNITS/MM\nRAPID\nGOTO/0,0,100\nRAPID\nGOTO/9,9,100\nLOADTL/1\nLOADTL/1,1\nSPINDL/9,CLW\nRAPID\nGOTO/1,1,50\nFINI\n";
@@ -345,7 +348,8 @@ fn what_stands_before_the_first_tool_is_not_its_path() {
     );
 }
 
-/// Autodesk's cycles contain the bottom and absolute heights. Read as depths below the points, they would drill twice as deep.
+/// Cycles of Autodesk contain the bottom and the other heights as absolute positions. If postform read these values as
+/// depths below the points, the holes would be twice as deep.
 #[test]
 fn holes_of_autodesk_begin_above_their_points() {
     let options = || Options { dialect: Some(Dialect::Autodesk), ..Options::default() };
@@ -367,7 +371,8 @@ fn holes_of_autodesk_begin_above_their_points() {
     assert!(read(&format!("{HEAD}SPINDL/ON\nFINI"), options())[0].starts_with("PL004 SPINDL/ON: Autodesk's"));
 }
 
-/// BORE of NX feeds out, and with DRAG retracts at rapid. In files of other systems, BORE stops the spindle.
+/// BORE of NX feeds out of the hole. BORE with DRAG retracts at rapid. In files of other systems, BORE stops the
+/// spindle.
 #[test]
 fn bores_of_nx_come_out_as_they_are_named() {
     let kind = |cycle: &str| {
@@ -393,7 +398,7 @@ fn coordinate_systems_agree_with_the_tool() {
         error(&format!("{turned}\nGOTO/1,0,10"))
             .starts_with("PL004 the tool axis is not the z axis of the CSYS of line 7:")
     );
-    // the same with a hole as the first point, and for a small angle
+    // the same error with a hole as the first point, and with a small angle
     let hole = format!("{turned}\nCYCLE/DRILL,DEPTH,1,MMPM,9,CLEAR,2\nGOTO/1,0,10\nCYCLE/OFF");
     assert!(error(&hole).starts_with("PL004 the tool axis is not the z axis of the CSYS of line 7:"));
     let little = "CSYS/1,0,.005,0,0,1,0,0,-.005,0,1,0";
@@ -405,7 +410,7 @@ fn coordinate_systems_agree_with_the_tool() {
     assert!(body(moved)[2].starts_with("PL008 this CSYS differs from the CSYS of line 7"));
 }
 
-/// Turning: Z and the radius, feeds per revolution, constant surface speed.
+/// A turning file becomes a job for a lathe: with Z and the radius, feeds per revolution and constant surface speed.
 #[test]
 fn turning_is_a_job_for_a_lathe() {
     let text = fs::read_to_string(support::root().join("tests/data/cl/catia-turning.aptsource")).unwrap();
@@ -416,7 +421,7 @@ fn turning_is_a_job_for_a_lathe() {
     for block in ["G96", "Z-1.5748", "F.0118"] {
         assert!(rendered.contains(block), "{block} in\n{rendered}");
     }
-    // CATIA describes a turning tool in the words after its number
+    // CATIA describes a turning tool in the words after the tool number
     let told = "TOOLNO/1,TURN,1,0,3,0.4,$\n0.0,0.0,0.1,MMPR,500.0,SFM,$\nCCLW,ON,0.0,NOTE";
     assert!(text.contains("TOOLNO/1,TURN"));
     let described = text.replace("TOOLNO/1,TURN", told);
@@ -433,7 +438,8 @@ fn turning_is_a_job_for_a_lathe() {
     assert_eq!(diag.message, "a turning tool at y 1");
 }
 
-/// Real files, if they are next to the checkout: each is read, or refused because it lacks a value.
+/// Each real file is read, or is refused because it lacks a value. The test runs only if the files are next to the
+/// checkout.
 #[test_with::path(../shared/data/cl)]
 #[test]
 fn real_files_are_read_or_refused_for_a_reason() {
@@ -511,7 +517,7 @@ fn nothing_is_lost_between_statements() {
     assert!(read("PARTNO A\rUNITS/MM\rFINI\r", Options::default())[0].starts_with("PL001 the lines end"));
 }
 
-/// Surface speeds are converted from the file's units, and their code is printed before them.
+/// Surface speeds are converted from the units of the file. The code of the speed mode is printed before the speed.
 #[test]
 fn surface_speeds_have_units_and_their_code() {
     let text = "UNITS/MM\nLOADTL/1\nSPINDL/SFM,100,CLW\nRAPID\nGOTO/0,0,10\nFINI\n";
@@ -540,17 +546,18 @@ fn what_is_said_once_holds() {
 fn units_and_dialect_are_known_before_they_are_needed() {
     let early = "LOADTL/1\nSPINDL/1,CLW\nFEDRAT/5,IPM\nUNITS/MM\nRAPID\nGOTO/0,0,1\nFINI\n";
     assert!(read(early, Options::default())[0].starts_with("PL005 the units of the file are not known yet at 3:1"));
-    // the units in the file override the assumed ones
+    // the units in the file override the assumed units
     let own =
         early.replace("LOADTL", "UNITS/INCHES\nLOADTL").replace("UNITS/MM\n", "").replace("FINI", "GOTO/1,0,1\nFINI");
     let lines = read(&own, Options { units: Some(Units::Mm), ..Options::default() });
     assert_eq!(lines, ["G0 X0 Y0 Z1.", "G1 X1. F5."]);
-    // the mark of another system in a later text is ignored; its circles would turn in the opposite direction
+    // the mark of another system in a later text is ignored; with this system, circles would turn in the opposite
+    // direction
     let arc = "GOTO/1,0,10\nPPRINT/APTCL-SPEC\nCIRCLE/1,1,10,0,0,1,1\nGOTO/2,1,10";
     assert_eq!(body(arc).last().unwrap(), "G17 G3 X2. Y1. I0 J1.");
 }
 
-/// No statement between the points of a cycle makes a hole disappear.
+/// A statement between the points of a cycle never removes a hole.
 #[test]
 fn text_between_holes_loses_none() {
     let words =
@@ -581,11 +588,11 @@ fn solidworks_inserts_are_stops_and_tools() {
     assert_eq!(lines[stop - 1..=stop + 1], ["(CHANGE FIXTURE)", "M0", "(MIND THE CLAMP)"]);
     assert_eq!(lines.last().unwrap(), "PL008 INSERT/mind the clamp is printed as a comment");
     assert!(lines.contains(&"S3500 M3".to_owned()), "the spindle turns again: {lines:?}");
-    // for other systems, INSERT is printed unchanged
+    // in files of other systems, the text of INSERT is printed unchanged
     assert_eq!(body("INSERT/M88"), ["M88"]);
 }
 
-/// A tool change ends a cycle. Points after it are refused until a feed or another cycle follows.
+/// A tool change ends a cycle. Points after the tool change are refused until a feed or another cycle follows.
 #[test]
 fn points_after_a_tool_change_that_ended_a_cycle_are_refused() {
     let drill = "CYCLE/DRILL,DEPTH,5,MMPM,100,CLEAR,2";
@@ -598,7 +605,7 @@ fn points_after_a_tool_change_that_ended_a_cycle_are_refused() {
     }
 }
 
-/// NX may name tools without loading them: each name needs a number. Two MSYS statements are two setups.
+/// NX may name tools without loading them. Each of these names needs a tool number. Two MSYS statements are two setups.
 #[test]
 fn tools_that_are_only_named_need_numbers() {
     let path = |tool: &str, x: u8| {
@@ -683,10 +690,10 @@ fn setups_are_listed_whatever_is_in_them() {
     assert_eq!(postform::internals::cl::setups(arc.as_bytes(), &Options::default()).unwrap().len(), 3);
 }
 
-/// If the file contains the view of the CAM system for a setup, the setup uses its X axis.
+/// If the file contains a CSYS for a setup, the X axis of the setup is that of the CSYS.
 #[test]
 fn a_setup_lies_as_its_csys_does() {
-    let csys = "CSYS/0,1,0,0,0,0,-1,0,-1,0,0,0\n"; // row by row: its X is -Z of the part, its Z is -Y
+    let csys = "CSYS/0,1,0,0,0,0,-1,0,-1,0,0,0\n"; // row by row: X of the CSYS is -Z of the part, Z is -Y
     let text = TWO_SIDES.replace("RAPID\nGOTO/10,-30,5,0,-1,0", &format!("{csys}RAPID\nGOTO/10,-30,5,0,-1,0"));
     let front = front_of(&text, 2);
     assert_eq!(front[0], "G0 X-5. Y10. Z30.");
@@ -703,7 +710,8 @@ fn a_setup_does_not_begin_inside_a_cut() {
     assert!(refused[0].starts_with("PL004 the tool axis turns under cutter compensation"), "{refused:?}");
 }
 
-/// The format of a job without a known file name extension is found by its first bytes: an example of each format.
+/// If the file name extension is not known, postform finds the format of a job by the first bytes. The test has an
+/// example of each format.
 #[test]
 fn jobs_are_known_by_how_they_begin() {
     use postform::{Format, Job};
@@ -737,13 +745,14 @@ fn a_return_plane_holds_for_the_whole_cycle() {
         assert_eq!(body(&format!("{drill},{returns}\n{points}")), kept, "{returns}");
     }
     assert_eq!(body(&format!("CYCLE/RETURN,3\n{drill}\n{points}")), kept);
-    // no return plane: none given, or OFF before the cycle; OFF inside a cycle applies to the next one
+    // there is no return plane if the file gives none, or gives OFF before the cycle; OFF inside a cycle applies to the
+    // next cycle
     assert_eq!(body(&format!("{drill}\n{points}")), low);
     assert_eq!(body(&format!("CYCLE/RETURN,OFF\n{drill},RETURN\n{points}")), low);
     assert_eq!(body(&format!("{drill},RETURN\nCYCLE/RETURN,OFF\n{points}")), kept);
     let catia = Options { dialect: Some(Dialect::Catia), ..Options::default() };
     assert_eq!(read(&format!("{HEAD}{drill},RETURN,0\n{points}\nFINI\n"), catia)[1..], low);
-    // statements between holes, before a hole above the plane
+    // statements between holes; the next hole is above the return plane
     for between in [
         "RAPID\nGOTO/2,2,40",
         "CYCLE/AUTO,OFF\nCYCLE/AUTO,ON",
@@ -761,7 +770,8 @@ fn a_return_plane_holds_for_the_whole_cycle() {
     assert!(manual.contains(&"M0".to_owned()), "{manual:?}");
 }
 
-/// A CSYS that turns back is refused if the points after it do not turn back: the side of the part is then unknown.
+/// A file is refused if a CSYS turns back to the first side, but the tool axis does not. The side of the part is then
+/// unknown.
 #[test]
 fn a_setup_ends_where_a_csys_turns_back() {
     let up = "CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n";
@@ -772,7 +782,8 @@ fn a_setup_ends_where_a_csys_turns_back() {
     assert_eq!(front_of(&said, 3), ["G0 X0 Y0 Z50.", "G1 Z1. F100."]);
 }
 
-/// If a file has the mark of a system, the meaning of CIRCLE is still checked at its arcs, as in a file without a mark.
+/// The arcs of a file show the meaning of CIRCLE. postform checks this meaning even if the file has the mark of a CAM
+/// system.
 #[test]
 fn the_arcs_of_a_marked_file_agree_with_its_mark() {
     let csi = |k: i32| format!("CSI_TOOL_PATH/A\n{HEAD}GOTO/1,0,10\nCIRCLE/1,1,10,0,0,{k},1\nGOTO/2,1,10\nFINI\n");

@@ -40,8 +40,8 @@ fn after(words: &[&str], word: &str) -> Option<f64> {
     words.get(at + 1)?.parse().ok()
 }
 
-/// The depth of a cycle below its point, and the height above it at which the feed begins; for Autodesk, the two
-/// heights.
+/// A cycle: its depth below the point, and the height above the point at which the feed begins. For Autodesk, both are
+/// absolute heights.
 #[derive(Clone, Copy)]
 enum Cycle {
     Below(f64, f64),
@@ -249,8 +249,8 @@ fn programs_of_written_files_cut_and_drill_what_the_files_say() {
     assert_eq!(count, 7);
 }
 
-/// The comparison of this test finds each kind of fault: a wrong point, depth or clearance, a missing item, an
-/// additional one.
+/// The comparison of this test finds each kind of fault: a wrong point, a wrong depth, a wrong clearance, a missing
+/// item, or an additional item.
 #[test]
 fn the_judge_finds_each_kind_of_fault() {
     let text = fs::read_to_string(root().join("tests/data/cl/solidworks.apt")).unwrap();

@@ -1,6 +1,6 @@
-//! Compares the state that the renderer assumes after each code of each control with the state in the simulator. A
-//! sequence prints the code between two cuts. The blocks after it must make the motions of the job in the simulator.
-//! Only effects of the code itself are allowed: a stop, a dwell, a moved frame.
+//! After each code of each control, the renderer must assume the same state as the simulator. A sequence prints the
+//! code between two cuts. In the simulator, the blocks after the code must make the motions of the job. The only
+//! allowed findings are effects of the code itself: a stop, a dwell, a moved frame.
 
 use postform::diag::Code;
 use postform::internals::control::{Control, Meaning, names};
@@ -33,14 +33,14 @@ fn own_doing(meaning: Meaning) -> &'static [Code] {
     match meaning {
         M::Dwell => &[Code::PV010],
         M::StopProgram | M::StopOptional | M::Pallet => &[Code::PV019],
-        // Grbl continues after it, with all modal states reset
+        // Grbl continues after this code, with all modal states reset
         M::End | M::Return => &[Code::PV017, Code::PV011],
-        // the move of its axis words is not in the job's path
+        // the code moves the axes of its axis words; this move is not in the job's path
         M::Reference | M::Machine | M::ToolChange => &[Code::PV001],
-        // from here on, the job's positions are in another frame
+        // after this code, the job's positions are in another frame
         M::Frame | M::Preset | M::Data => &[Code::PV021, Code::PV001],
         M::LengthOn | M::LengthOff | M::LengthData => &[Code::PV014, Code::PV001],
-        // a cycle is not allowed after it
+        // a cycle is not allowed after this code
         M::SideLeft | M::SideRight => &[Code::PV018, Code::PV015],
         _ => &[],
     }
@@ -51,7 +51,7 @@ fn refuses(finding: &Finding, block: &str) -> bool {
     finding.code == Code::PV015 && finding.message.contains(&format!("in `{block}"))
 }
 
-/// The first finding after a typed block that the code itself does not explain.
+/// After a typed block: the first finding that is not an effect of the code itself.
 fn disagreement(control: &Control, meaning: Meaning, typed: &str) -> Option<String> {
     let text = form(control, typed);
     let post = Post::compile(Source::from_text("form.pf", &text), &NoFiles).ok()?;

@@ -1,4 +1,4 @@
-//! Tests every command of forms that affects generated moves and blocks, by the printed program.
+//! Tests the printed program for every command of forms that affects generated moves and blocks.
 
 use crate::support::{job, mill, path_lines, program};
 
@@ -21,7 +21,7 @@ fn motion_words() {
     let numbers = "G 2\nM 2";
     assert_eq!(path_lines(numbers, "", "{\"rapid\":[0,0,0.5]}"), ["G00 Z.5"]);
     assert_eq!(program(&mill(numbers, ""), &job("{\"rapid\":[0,0,0.5]}"))[2], "S1000 M03");
-    // the spindle code may come after the arc's: `[direct]` has its value from CW and CCW
+    // in CW and CCW, the spindle code may come after the arc code; `[direct]` prints this spindle code
     let both = program(&mill("CW G2 M13\nCCW G3 M14", ""), &job(CORNER));
     assert_eq!(both[2], "S1000 M13");
     assert!(both.iter().any(|line| line.contains("G3 X2. Y1.")), "{both:?}");
@@ -32,8 +32,8 @@ fn arc_centres_in_three_forms() {
     assert_eq!(arcs("CtrCode I J K", CORNER), ["G17 G3 X2. Y1. I0 J1.", "G1 Y2."]);
     assert_eq!(arcs("CtrCode R", CORNER), ["G17 G3 X2. Y1. R1.", "G1 Y2."]);
     assert_eq!(arcs("CtrIncremental? N", CORNER), ["G17 G3 X2. Y1. I1. J1.", "G1 Y2."]);
-    // for over 180 degrees, a positive radius means the other arc: the arc is split, or printed in the form's format
-    // for it
+    // a positive radius means an arc of less than 180 degrees: a longer arc is split, or printed in the form's own
+    // format for longer arcs
     assert_eq!(arcs("", LONG), ["G17 G3 X0 Y-1. I-1. J0"]);
     assert_eq!(arcs("CtrCode R", LONG), ["G17 G3 X-.7071 Y.7071 R1.", "X0 Y-1. R1."]);
     assert_eq!(arcs("CtrCode R\nCtrCode>180 R", LONG), ["G17 G3 X0 Y-1. R-1."]);
@@ -134,7 +134,7 @@ fn block_numbers() {
         lines("Sequence#s N 1 1\nN 3\nFirst#? N\nLast#? N")[1..],
         ["T1 M6", "N001 S1000 M3", "N002 G0 G54 X0 Y0 Z1.", "N003 G1 X1. F10.", "M30"]
     );
-    // when the block number exceeds its width, it starts again
+    // when the block number exceeds its width, the numbering starts again
     assert_eq!(lines("Sequence#s N 8 1\nN >1")[1..4], ["N8 T1 M6", "N9 S1000 M3", "N8 G0 G54 X0 Y0 Z1."]);
     assert_eq!(lines("Sequence#s N 10 10\nSpaces? N")[1], "N10T1M6");
     let own = mill("Sequence#s N 10 10", "").replacen("T[tool] M6", "N[block] T[tool] M6", 1);
@@ -230,7 +230,7 @@ fn the_next_tool_comes_from_the_list_of_tools() {
     let lines = program(&form, &two("\"tool_order\":[1,2],"));
     assert_eq!(lines[1], "T1 M6 (next 2, first 1)");
     assert_eq!(lines[5], "T2 M6 (next 1, first 1)");
-    // a job without the order of its tools is read twice
+    // a job without `tool_order` is read twice
     assert_eq!(program(&form, &two(""))[1], "T1 M6 (next 2, first 1)");
     let word = form.replace("(next [nexttool], first [tool1])", "H[nexttool]");
     assert_eq!(program(&word, &two(""))[1], "T1 M6 H2");

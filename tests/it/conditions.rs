@@ -65,7 +65,8 @@ fn a_speed_that_the_form_limits_stays() {
     assert_eq!(speeds, ["S800 M3"]);
 }
 
-/// A calculated word counts as printing its condition, so no other word for the condition follows.
+/// A calculated word may print a condition, such as the work offset. postform then prints no other word for this
+/// condition.
 #[test]
 fn a_calculated_condition_is_said() {
     let offsets = [
@@ -101,7 +102,7 @@ fn what_a_list_sets_is_asked_behind_it() {
     assert_eq!(program(&text, &two)[1..3], ["(2 TOOLS)", "(MANY)"]);
 }
 
-/// All conditions of a sequence are evaluated before the Upon in front of it prints, so they can't use a value that the Upon sets.
+/// The conditions of a sequence can't use a value that an Upon sets, because they are evaluated before the Upon prints.
 #[test]
 fn what_an_upon_sets_is_not_asked_before_it() {
     let upon = |set: &str, asks: &str| {
@@ -146,7 +147,7 @@ fn a_number_is_set_behind_its_line() {
     assert_eq!(printed[1..3], ["N1 (A)", "N2 (2)"]);
 }
 
-/// On a lathe, one word selects station and offset register. It may be calculated.
+/// On a lathe, one word selects station and offset register. This word may be calculated.
 #[test]
 fn a_calculated_word_says_which_tool() {
     let form = "Machine Lathe\n1stToolChange\nT[tool*101]\nG97 S[speed] M[direct]\nEnd";
@@ -272,7 +273,7 @@ fn numbers_are_compared_as_they_print() {
     let drill = "Drill\n@if [vclear] = 0.3\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\n@else\nG82 X[h] Y[v] Z[d] R[vclear] F[frate]\n@end\nEnd Cancel\n";
     let path = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.2,\"feed\":5,\"points\":[[1,0,0.1]]}}";
     assert!(path_lines("", drill, path).iter().any(|line| line.starts_with("G81")));
-    // a rounding error is not a divisor: it counts as zero
+    // a divisor that is only a rounding error counts as zero
     let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] Q[1/(vclear-0.3)] F[frate]\nEnd Cancel\n";
     assert_eq!(path_lines("", drill, path), ["PR051 a division by zero"]);
 }
@@ -333,7 +334,7 @@ fn a_hole_of_another_branch_begins_the_cycle_anew() {
 const STEPPED: &str =
     "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":[[1,0,0],[2,0,-2],[3,0,-2]]}}";
 
-/// The blocks of these holes that begin with `Q` or `C`, and the height at the end of the cycle.
+/// The blocks of these holes that begin with `Q`, `C` or `P`, and the blocks `G80`.
 fn of_stepped_holes(head: &str, drill: &str) -> Vec<String> {
     let mut printed = path_lines(head, &format!("Drill{drill}\nEnd Cancel\n"), STEPPED);
     printed.retain(|line| line.starts_with(['Q', 'C', 'P']) || line == "G80");
@@ -513,7 +514,7 @@ fn a_condition_that_never_changes_is_a_warning() {
     assert_eq!(warning.message, "a condition that is always true");
 }
 
-/// Deeply nested directives are each processed once, so they take little time.
+/// Each directive is processed only once, so even deeply nested directives take little time.
 #[test]
 fn directives_that_lie_too_deep_cost_no_time() {
     for (open, levels) in [("@if [val1]", 30), ("@if [val1]", 20_000), ("@for tool", 20_000), ("@iff [val1]", 20_000)] {

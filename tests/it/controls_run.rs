@@ -1,4 +1,4 @@
-//! The shipped controls: codes, words and settings by which one control differs from another when programs run.
+//! Runs programs on the shipped controls: codes, words and settings whose effect differs from control to control.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -13,7 +13,8 @@ fn run(control: &str, program: &str) -> Result<String, String> {
     if run.status.success() { Ok(out(&run)) } else { Err(err(&run)) }
 }
 
-/// Runs one block each after a usual head. Each case has the expected message; if it is empty, the block must run.
+/// Runs the block of each case after a usual head. Each case has the expected message. If the message is empty, the
+/// block must run without an error.
 fn blocks(head: &str, end: &str, cases: &[(&str, &str, &str)]) {
     for (control, block, said) in cases {
         let ran = run(control, &format!("{head}{block}\n{end}"));
@@ -29,7 +30,7 @@ const HEAD: &str = "G21 G90 G94 G17\nT1 M6\nS900 M3\nG0 X0 Y0 Z20.\n";
 #[test]
 fn mills_differ_by_their_files() {
     let cases = [
-        // a setting of the machine decides
+        // the meaning depends on a setting of the machine
         ("mach3", "G4 P2", "the control file of mach3 does not give the unit of P of a dwell"),
         ("mach3", "G1 F90.\nG2 X10. I5.", "the control file of mach3 does not give the origin of I and J"),
         ("mach3", "G91.1\nG1 F90.\nG2 X10. I5.", ""),
@@ -116,8 +117,8 @@ fn a_program_may_have_comments_before_its_first_percent() {
     assert!(run("fanuc", &cut).unwrap_err().contains("the program ends at `%`"));
 }
 
-/// In a cut of a lathe, `C0.4` is a chamfer on many machines and an axis on others, and `A30.` is an angle. Both are
-/// refused.
+/// In a cut of a lathe, `C0.4` is a chamfer on many machines and an axis on other machines. `A30.` is an angle. Both
+/// words are refused.
 #[test]
 fn a_chamfer_of_a_lathe_is_no_axis() {
     let head = "G18 G99\nT0101\nG97 S900 M3\nG0 X50. Z5.\nG1 Z0 F.2\n";

@@ -47,14 +47,14 @@ fn each_kind_has_its_code() {
     assert!(print("foam")[0].starts_with("PJ003"));
 }
 
-/// `[coolantoff]` turns off the coolant that is on, not an earlier one.
+/// `[coolantoff]` turns off the kind of coolant that is on, not an earlier kind.
 #[test]
 fn each_kind_is_ended_by_its_own_code() {
     let ends = mill(KINDS, "").replace("ToolChange\nT[tool] M6\n", "ToolChange\nM[coolantoff]\nT[tool] M6\nM[cool]\n");
     let text = ends.replace("1stToolChange\nM[coolantoff]\n", "1stToolChange\n");
     let tools = job(&[(1, "through", LINE), (2, "on", LINE), (1, "on", LINE), (2, "through", LINE)]);
     assert_eq!(codes(&text, &tools), ["M88", "M89", "M8", "M9", "M8", "M9", "M88"]);
-    // changed during an operation, and turned off before a stop
+    // the coolant is changed during an operation, and turned off before a stop
     let stops = form(KINDS, "M[cool]").replace("EndCode\n", "Stop\nM[coolantoff]\nM0\nEnd\n\nEndCode\n");
     let changed =
         "{\"coolant\":\"through\"},{\"line\":[1,0,0]},{\"coolant\":\"on\"},{\"line\":[0,0,0]},{\"stop\":\"program\"}";
@@ -65,10 +65,10 @@ fn each_kind_is_ended_by_its_own_code() {
 #[test]
 fn what_has_a_code_of_its_own_to_end_it_is_ended_by_that() {
     let two = job(&[(1, "through", LINE), (2, "on", LINE)]);
-    // turned off by the form's sequence
+    // a sequence of the form turns the coolant off
     let text = mill(KINDS, "").replace("ToolChange\nT[tool] M6\n", "ToolChange\nM[coolantoff]\nT[tool] M6\nM[cool]\n");
     assert_eq!(codes(&text.replace("1stToolChange\nM[coolantoff]\n", "1stToolChange\n"), &two), ["M88", "M89", "M8"]);
-    // otherwise in a separate block before the next cut
+    // if no sequence turns the coolant off, a separate block before the next cut does it
     assert_eq!(codes(&form(KINDS, "M[cool]"), &two), ["M88", "M8", "M89"]);
     let off = job(&[(
         1,
@@ -76,7 +76,7 @@ fn what_has_a_code_of_its_own_to_end_it_is_ended_by_that() {
         "{\"coolant\":\"off\"},{\"line\":[1,0,0]},{\"coolant\":\"air\"},{\"line\":[0,0,0]},{\"coolant\":\"on\"},{\"line\":[1,0,0]}",
     )]);
     assert_eq!(codes(&form(KINDS, "M[cool]"), &off), ["M88", "M89", "M12", "M8"]);
-    // at the end of the program
+    // at the end of the program, EndCode turns the coolant off
     let text = form(KINDS, "M[cool]").replace("EndCode\n", "EndCode\nM[coolantoff]\n");
     assert_eq!(codes(&text, &job(&[(1, "through", LINE)])), ["M88", "M89"]);
 }
@@ -89,7 +89,7 @@ fn conditions_ask_for_the_kind() {
     for (coolant, code) in [("through", "M101"), ("mist", "M102"), ("on", "M103"), ("air", "M103"), ("off", "M104")] {
         assert_eq!(print(&[(1, coolant, LINE)]), code, "{coolant}");
     }
-    // `[cool]` is off even if the previous kind has its own "off" code
+    // `[cool]` counts as `off` even if the previous kind has its own "off" code
     let two = job(&[(1, "through", LINE), (2, "off", LINE)]);
     assert!(codes(&form(KINDS, lines), &two).contains(&"M104".to_owned()));
     let unknown = check(&form("", "@if [cool] = through\nM1\n@end"));
@@ -107,7 +107,7 @@ fn several_kinds_are_on_at_once() {
     };
     let ends = form(KINDS, "M[cool]").replace("EndCode\n", "EndCode\nM[coolantoff]\n");
     let print = |operations: &[(u32, &str, &str)]| codes(&ends, &list(operations));
-    // `[cool]` prints the first kind, separate blocks print the others; M9 turns off kinds without an own "off" code
+    // `[cool]` prints the first kind, separate blocks print the others; M9 turns off kinds without their own "off" code
     assert_eq!(print(&[(1, "through,air", LINE)]), ["M88", "M12", "M9", "M89"]);
     assert_eq!(print(&[(1, "air,through", LINE)]), ["M12", "M88", "M89", "M9"]);
     assert_eq!(print(&[(1, "through", LINE)]), ["M88", "M89"]);
@@ -189,19 +189,19 @@ fn codes_of_kinds_that_are_typed_are_said() {
     assert_eq!(codes(&form(KINDS, lines), &two), ["M88", "M89", "M8"]);
 }
 
-/// If the job has no coolant, coolant that the form turns on stays on. Coolant from the job ends with its tool.
+/// If the job gives no coolant, the coolant that the form turns on stays on. Coolant from the job ends with its tool.
 #[test]
 fn the_forms_own_coolant_stands() {
     let silent = |jobs: &[(u32, &str, &str)]| job(jobs).replace("\"coolant\":\"none\",", "");
     let own = form("", "M8");
     assert_eq!(codes(&own, &silent(&[(1, "none", LINE), (2, "none", LINE)])), ["M8", "M8"]);
-    // after a stop it is printed again
+    // after a stop, the coolant is printed again
     let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
     assert_eq!(codes(&own, &silent(&[(1, "none", stop)])), ["M8", "M0", "M8"]);
     // coolant from the job ends with its tool
     assert_eq!(codes(&form("", "M[cool]"), &silent(&[(1, "on", LINE), (2, "none", LINE)])), ["M8", "M9"]);
     assert_eq!(codes(&form("", ""), &silent(&[(1, "on", LINE), (2, "none", LINE)])), ["M8", "M9"]);
-    // if both set the coolant, the job's value applies, with a warning
+    // if the form and the job both set the coolant, the job's value applies, and there is a warning
     let rendered = render(&own, &job(&[(1, "off", LINE)])).unwrap();
     assert!(rendered.text.contains("M8\n") && rendered.text.contains("\nM9\n"), "{}", rendered.text);
     let told: Vec<_> = rendered.notes.iter().map(|note| (note.code.name(), note.labels.len())).collect();
@@ -223,7 +223,7 @@ fn the_forms_own_speed_stands() {
     assert_eq!(speeds(&typed, later), ["S700", "S1200"]);
     let stop = "{\"line\":[1,0,0]},{\"stop\":\"program\"},{\"line\":[0,0,0]}";
     assert_eq!(speeds(&typed, stop), ["S700", "S700"]);
-    // in another sequence, the job's speed is printed again after it
+    // if another sequence prints a speed, the job's speed is printed again after the sequence
     let row = mill("", "BeginRow\nS300\nEnd");
     let path = "{\"begin\":\"row\"},{\"line\":[1,0,0]},{\"end\":\"row\"}";
     assert_eq!(speeds(&row, path), ["S1000", "S300", "S1000"]);
@@ -244,7 +244,8 @@ fn a_code_that_stops_the_spindle_is_followed_by_the_spindle() {
     assert_eq!(print("fanuc"), "M6 M9 S1000 M3 M88 M30");
 }
 
-/// The shipped form prints coolant through the spindle before it starts the spindle, so that nothing is printed twice.
+/// The shipped form prints the code for coolant through the spindle before it starts the spindle, so that no code is
+/// printed twice.
 #[test]
 fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
     let printed = program(

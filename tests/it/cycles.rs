@@ -1,5 +1,6 @@
-//! Worked CYCLE statements: a CL file, printed as single moves, must give the expected motions. Coordinates must agree
-//! to the last printed decimal. A rapid may be printed in two parts, up first or down last.
+//! Worked examples of CYCLE statements: if a CL file is printed as single moves, the program must make the expected
+//! motions. Coordinates must agree to the last printed decimal. A rapid may be printed in two parts, up first or down
+//! last.
 
 use crate::support;
 use std::fs;
@@ -106,8 +107,8 @@ fn near(a: &[f64; 3], b: &[f64; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1.1e-6)
 }
 
-/// Compares the motions. A rapid may have two parts, the first only in Z, or only in X and Y. A rapid to the current
-/// position is not printed.
+/// Compares the motions. A rapid may have two parts. The first part is only in Z, or only in X and Y. A rapid to the
+/// current position is not printed.
 fn agree(id: &str, mut at: [f64; 3], expected: &[Motion], printed: &[Motion]) {
     // after a stop, the spindle is started again before the tool moves across; the examples leave this to the post
     let stop = printed.iter().position(|motion| *motion == Motion::Code("stop".into())).unwrap_or(printed.len());
@@ -148,7 +149,7 @@ fn worked_examples_agree() {
         let id = example["id"].as_str().unwrap();
         let setup = &example["setup"];
         if setup["config"].get("rigid_available").is_some() {
-            continue; // only a control can make this cycle; a test in the planner covers it
+            continue; // single moves can't make this cycle; a test in the planner covers it
         }
         let inches = setup["units"] == "IN";
         let units = if inches { Units::Inch } else { Units::Mm };

@@ -60,7 +60,7 @@ fn file_name_extensions_are_those_of_the_table() {
     let of = |formats: &[Format]| -> Vec<String> {
         formats.iter().flat_map(|format| format.extensions()).map(|extension| format!(".{extension}")).collect()
     };
-    // the extensions between two texts of a file, with a point before each
+    // the file name extensions between two texts of a file; each extension begins with a point
     let listed = |file: &str, start: &str, end: &str| -> Vec<String> {
         let text = fs::read_to_string(root().join(file)).unwrap();
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");

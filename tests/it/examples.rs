@@ -1,4 +1,5 @@
-//! For users of the library: the examples print what they should, and the public interface keeps its guarantees.
+//! Tests for users of the library: the examples print the expected output, and the public interface keeps its
+//! guarantees.
 
 use std::error::Error as _;
 use std::io::{self, Cursor};
@@ -70,7 +71,7 @@ fn an_error_shows_the_line_that_it_is_about() {
     let (first, marked) = (error.to_string(), format!("{error:#}"));
     let margin = " ".repeat(line.to_string().len());
     assert_eq!(marked, format!("{first}\n{line} | X[hh]\n{margin} |   ^^"));
-    // an error in a job contains no line of the form
+    // the message about an error in a job contains no line of the form
     let error = post().render(Job::json("{}").named("part.json"), &Options::default()).unwrap_err();
     assert_eq!(format!("{error:#}"), error.to_string());
 }

@@ -79,7 +79,7 @@ fn a_file_of_several_posts_prints_by_one_of_them() {
     let none = render(&folder, &both, &job, &["--post", "Mazak"]);
     let said = String::from_utf8_lossy(&none.stderr).into_owned();
     assert!(none.status.code() == Some(2) && said.contains("Haas one, Haas two"), "{said}");
-    // locations are those in the file
+    // locations count the lines of the whole file, not of the selected post
     let broken = format!("{}\n{}", post("A", "M30"), post("B", "M30 X["));
     let line = broken.lines().position(|line| line.contains("M30 X[")).unwrap() + 1;
     let said = render(&folder, &broken, &job, &["--post", "B"]);

@@ -110,7 +110,7 @@ fn change(line: &str, kind: u8) -> String {
         4 => format!("\n{line}"),
         5 => format!("{line}\n\n# on its own"),
         6 => format!("{line}\n   a remark by indenting"),
-        // in sequences, commands and variables, but not in letters
+        // changes the case of sequences, commands and variables, but not of letters
         7 => line.replace("End", "END").replace("StartCode", "STARTCODE").replace("[h]", "[H]"),
         8 => line.replace('[', "<").replace(']', ">"),
         9 => line.replace("] F[", "]F[").replace("] Y[", "]Y["),
@@ -153,7 +153,8 @@ fn names_with_blanks_around_them_are_names() {
     }
 }
 
-/// Text that is no word stays as typed, with the words that touch it. Alone, `a<0>` would lose its brackets.
+/// Text that is not a word stays as typed, together with the words that touch it. If `a<0>` were changed alone, it
+/// would lose its brackets.
 #[test]
 fn text_that_is_no_word_stays_as_typed() {
     let form = "Drill\n>a<0>0\nEnd\n";
@@ -196,7 +197,7 @@ proptest! {
     }
 }
 
-/// A file that is not a form is left unchanged: by its name, or because one of its lines makes no sense.
+/// `fmt` leaves a file unchanged if the file name or a line shows that the file is not a form.
 #[test]
 fn what_is_no_form_is_left_alone() {
     use crate::support::folder::{Folder, err};
@@ -217,7 +218,7 @@ fn what_is_no_form_is_left_alone() {
     }
     folder.run(&["lint", "--fix", "Makefile"]);
     assert_eq!(folder.read("Makefile"), "all:\n\tgcc x.c\n");
-    // files that are formatted: one that a form calls, one with --force, and standard input
+    // these inputs are formatted: a file that a form calls, a file with `--force`, and standard input
     folder.write("form.pf", support::mill("Call part.inc", ""));
     folder.write("part.inc", "RapidCode\nG0 X<h> Y[v] Z[d]\nEnd\n");
     assert_eq!(folder.run(&["fmt", "part.inc"]).status.code(), Some(0));

@@ -1,5 +1,5 @@
-//! Forms written for the older compiler have the same meaning here. Statements of its users in CL files are tested in
-//! tests/data/cycles.json, files with several posts in texts.rs and file_names.rs.
+//! Forms for the older compiler have the same meaning in postform. tests/data/cycles.json contains CL statements from
+//! users of the older compiler. texts.rs and file_names.rs test files with several posts.
 
 use crate::support::{check, program};
 
@@ -50,7 +50,7 @@ End
 
 #[test]
 fn a_form_of_the_older_compiler_prints() {
-    // angle brackets are brackets, text after two blanks is a comment, and nothing in the form is an error
+    // angle brackets count as brackets, text after two blanks is a comment, and the form has no error
     let found = check(FORM);
     let serious: Vec<_> = found.diags.iter().filter(|diag| diag.is_error()).collect();
     assert!(serious.is_empty(), "{serious:?}");
@@ -88,7 +88,7 @@ fn a_form_of_the_older_compiler_prints() {
     assert!(printed.iter().any(|line| line == "G99 G82 X1. Y1. Z-5. R1. P1000 F100."), "{printed:?}");
 }
 
-/// Variable names that the older compiler abbreviated or had in addition.
+/// Abbreviated and additional variable names of the older compiler.
 #[test]
 fn variables_of_the_older_compiler_are_known() {
     for name in ["endh", "endv", "hcdc", "vcdc", "lastrotang", "etplane", "arcrad", "endang", "depth", "cool"] {

@@ -142,7 +142,8 @@ fn dumped(dump: &Value) -> Vec<String> {
         if item["kind"] != "operation" {
             continue;
         }
-        // 0.20 omits comments and stops from its own list: they are taken from the list of operations
+        // FreeCAD 0.20 leaves comments and stops out of its own list, so the test takes them from the list of
+        // operations
         while old && bare.peek().is_some_and(|next| next["controller"].is_null()) {
             stops(&mut steps, &bare.next().unwrap()["commands"]);
         }
@@ -193,7 +194,7 @@ fn path(steps: &mut Steps, commands: &Value, feeds: &[f64; 2]) {
         let word = |letter: &str| command[1].get(letter).and_then(Value::as_f64);
         let to = ["X", "Y", "Z"].map(word);
         if let (Some(f), true) = (word("F"), name != "G0") {
-            // a controller's feed; saving has rounded it to six decimals
+            // the feed is that of a tool controller; FreeCAD rounds this feed to six decimals in the file
             steps.feed = 60.0 * feeds.iter().copied().find(|own| (own - f).abs() < 1.5e-6).unwrap_or(f);
         }
         let [x, y, z] = steps.at;
@@ -370,7 +371,8 @@ fn typed(path: &str) -> Vec<u8> {
     archive(&[("Document.xml", text.as_bytes()), ("Op.nc", path.as_bytes())])
 }
 
-/// A command without an equivalent in a job is printed as typed. After an unknown G code, the rest is text too.
+/// A command without an equivalent in a job is printed as typed. After an unknown G code, the rest of the operation is
+/// printed as typed, too.
 #[test]
 fn a_custom_operation_prints_what_was_typed() {
     let folder = Folder::new("freecad-custom");
@@ -444,7 +446,7 @@ fn broken_documents_are_refused() {
         assert!(said.starts_with(text), "{said}, not {text}");
     };
     starts(b"", "PD001 the file can't be unpacked");
-    // over 1,000 times its packed size
+    // the unpacked document has more than 1,000 times its packed size
     let bomb = with_path(&format!("G0 X0 Y0 Z5\n{}", "\n".repeat(16 << 20)));
     starts(&bomb, "PD001 `Op.nc` can't be unpacked: its unpacked size is too large");
     starts(b"{\"postform\": 1}", "PD001 the file can't be unpacked");
@@ -459,7 +461,7 @@ fn broken_documents_are_refused() {
     let entities = b"<!DOCTYPE d [<!ENTITY a \"aaaa\">]><Document ProgramVersion=\"&a;\"/>";
     starts(&archive(&[("Document.xml", entities)]), "PD001 Document.xml can't be read: it declares entities");
     starts(&archive(&[("Document.xml", b"<Document ProgramVersion=\"&a;\"/>")]), "PD001 Document.xml can't be read");
-    // packed to a few kilobytes
+    // 65 MB of blanks, packed to a few kilobytes
     let large = vec![b' '; 65 << 20];
     starts(
         &archive(&[("Document.xml", &large)]),
@@ -579,7 +581,8 @@ impl Sink for Cycles {
     }
 }
 
-/// Documents are printed with four posts as a user does it. Each program makes the motions of its document.
+/// The test prints documents with four posts, by the same commands as a user. Each program makes the motions of its
+/// document.
 #[test]
 fn documents_are_posted_and_proven() {
     for name in DOCUMENTS {
@@ -628,7 +631,7 @@ fn cuts(program: &str, name: &str) -> Vec<[f64; 3]> {
     ends
 }
 
-/// FreeCAD's own programs and ours, run by the interpreter: all cuts end at the same positions.
+/// LinuxCNC's interpreter runs FreeCAD's own programs and postform's programs. All cuts must end at the same positions.
 #[test_with::executable(rs274)]
 #[test]
 fn the_interpreter_cuts_what_freecads_own_program_cuts() {

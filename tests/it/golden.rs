@@ -1,5 +1,5 @@
-//! The worked examples of the POSTFORM manual. From the example's own sequence, the sample of each example must print
-//! exactly the expected lines.
+//! The worked examples of the POSTFORM manual. The sample of each example must print exactly the expected lines, and
+//! print them with the sequence of the example.
 
 use crate::support;
 use std::fs;
@@ -37,7 +37,7 @@ fn worked_examples_are_exact() {
     assert!(seen == cases.len() && seen > 10, "{seen}");
 }
 
-/// The program lines that come from this sequence of the form; for a cycle also those of Cancel.
+/// The program lines that come from this sequence of the form; for a cycle, also the lines of Cancel.
 fn lines_of(sequence: &Value, cycle: bool, form: &std::path::Path, rendered: &support::Rendered) -> Vec<String> {
     let checked = check_file(form);
     let source = &checked.files[0];

@@ -1,5 +1,5 @@
-//! Programs with the results of Grbl 1.1h's own parser. The simulator must make the same motions and refuse the same
-//! block first.
+//! Programs with the results of Grbl 1.1h's own parser. The simulator must make the same motions, and stop at the same
+//! refused block.
 
 use std::fs;
 use std::io::Cursor;
@@ -56,7 +56,7 @@ struct Run {
     simulator: Simulator<'static>,
     scale: f64,
     at: [f64; 3],
-    /// The program zero of the line before.
+    /// The program zero at the end of the previous line.
     frame: [f64; 3],
     mode: FeedMode,
     spindle: Done,
@@ -96,7 +96,8 @@ impl Run {
         }
     }
 
-    /// Handles the actions of a line. The frame at the end of the line applies to all its moves.
+    /// Handles the actions of a line. The frame at the end of the line applies to the moves, except to moves before a
+    /// change of the frame.
     fn take(&mut self, items: &[Item]) {
         let (mut turning, mut coolant, line) = (self.spindle.clone(), self.coolant, self.simulator.line());
         let frame = self.frame();
@@ -277,7 +278,7 @@ fn programs_do_what_grbl_does() {
     assert!(cases.len() >= 449);
 }
 
-/// The Grbl post prints the samples; a sample that it can't print must be an error of the job.
+/// The Grbl post prints the samples. If it can't print a sample, the error must be an error of the job.
 #[test]
 fn grbl_takes_every_sample_that_its_post_prints() {
     let form = root().join("postforms/grbl.pf");
@@ -318,7 +319,7 @@ fn what_grbl_lacks_is_an_error_of_the_job() {
     assert!(rendered(&job(start)).is_ok());
 }
 
-/// A program that ends without an end code: Grbl accepts it, and the spindle keeps turning.
+/// Grbl accepts a program without an end code, and the spindle keeps turning. The simulator gives a warning.
 #[test]
 fn a_spindle_without_an_end_is_told() {
     let warned = |program: &str| {

@@ -13,7 +13,7 @@ fn every_step_does_what_the_guide_shows() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("guide");
     _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    // until the guide writes its own postform.toml, an empty one hides those of folders above
+    // until the guide writes its own postform.toml, an empty postform.toml hides the files of the folders above
     fs::write(folder.join("postform.toml"), "").unwrap();
     let path = root().join("docs/guide.md");
     let text = fs::read_to_string(&path).unwrap();

@@ -55,7 +55,7 @@ fn a_header_is_comments_alone() {
     let words = |text: &str, mark: char| -> Vec<String> {
         let block = |line: &str| {
             let block = line.split(mark).next().unwrap_or_default().trim_end();
-            // block numbers also count comments
+            // the comments of the header change the block numbers, so the numbers are not compared
             let is_number = |word: &str| word.starts_with('N') || word.bytes().all(|byte| byte.is_ascii_digit());
             let words = block.split(' ').skip_while(|word| is_number(word));
             words.collect::<Vec<_>>().join(" ")
@@ -121,7 +121,7 @@ fn a_header_keeps_nobody_from_streaming() {
         assert_eq!(post.reads_once_with().as_deref(), Some("header=no"), "{name}");
         options.properties.push(("header".into(), "off".into()));
         assert!(!post.reads_ahead(&options).unwrap(), "{name}");
-        // the next tool, which some jobs list in their head, does not belong to the header
+        // a form with `T[nexttool]` may need to read the job twice, but not because of the header
         assert_eq!(post.may_read_twice(&options).unwrap(), form.contains("T[nexttool]"), "{name}");
         options.one_pass = true;
         options.proof = None;

@@ -9,7 +9,7 @@ fn increments(sequences: &str, path: &str) -> Vec<String> {
 #[test]
 fn increments_count_from_what_the_tool_change_printed() {
     assert_eq!(increments("", "{\"line\":[1,0,1]},{\"line\":[1,2,0.5]}"), ["G1 X1. F10.", "Y2. Z-.5"]);
-    // this tool change does not print the height, so it is unknown
+    // this tool change does not print the height, so the height is unknown
     let low = mill("Incremental? Y", "").replace(" Z[d]", "");
     assert!(program(&low, &job("{\"line\":[1,0,0]}"))[0].starts_with("PR001 an increment of Z"));
 }

@@ -1,4 +1,5 @@
-//! Runs the tests of the posts inside CAM systems. They are in the posts' own languages and do not need the systems.
+//! Runs the tests of the posts inside CAM systems. The tests are in the languages of these posts and do not need the
+//! CAM systems.
 #![allow(clippy::unwrap_used)]
 
 use std::process::Command;

@@ -47,7 +47,7 @@ fn the_second_job_follows_the_first() {
     assert!(!second.contains("M8"), "{text}");
 }
 
-/// A job is refused if a state that the job before it leaves active would change its meaning.
+/// A job is refused if its meaning would change because of a state that the previous job leaves active.
 #[test]
 fn a_job_that_would_change_its_meaning_is_refused() {
     let first = job(HEAD, FIRST);
@@ -148,7 +148,7 @@ fn errors_name_their_job() {
     let missing = run("c.json", "my.pf");
     assert_eq!(missing.status.code(), Some(2));
     assert!(err(&missing).contains("can't read c.json"), "{}", err(&missing));
-    // without --join, several jobs need a folder
+    // without `--join`, several jobs need an output folder
     let several = folder.run(&["render", "a.json", "b.json", "--form", "my.pf"]);
     assert!(
         several.status.code() == Some(2) && err(&several).contains("or --join to make one program"),
@@ -208,8 +208,8 @@ fn operations() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// The joined program makes the cuts of the separate programs in order, and is proven. If both jobs use the same
-    /// tool, the first one ends with `home`; without it, the jobs are refused.
+    /// The joined program makes the cuts of the separate programs in order, and is proven. If two jobs in a row use the
+    /// same tool, the first job must end with `home`. Without `home`, the jobs are refused.
     #[test]
     fn a_joined_program_makes_the_cuts_of_its_parts(parts in prop::collection::vec(operations(), 2..4), home in prop::bool::weighted(0.7)) {
         let folder = Folder::new("joined-random");

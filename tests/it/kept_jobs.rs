@@ -7,7 +7,7 @@ use crate::support::root;
 use postform::internals::post::KeptJob;
 use postform::{Format, Job, NoFiles, Options, Post, Source};
 
-/// The program of a job, or its errors; and the warnings.
+/// The program of a job or its errors, and the warnings.
 fn printed(post: &Post, job: Job<'_>) -> (Result<String, String>, String) {
     match post.render(job, &Options::default()) {
         Ok(program) => (Ok(program.text().to_owned()), format!("{:?}", program.notes())),

@@ -1,4 +1,4 @@
-//! The shipped forms: their output for a tap, a thread and a long travel, and its proof.
+//! Prints jobs with a tap, a thread and a long travel by the shipped forms. Checks the programs and their proofs.
 
 use std::fs;
 
@@ -81,7 +81,8 @@ fn a_lathe_cuts_threads_in_both_units() {
     assert!(said.contains("identical") || said.contains("equivalent"), "{said}");
 }
 
-/// A program without a code for its units is not proven without `--units`. With the wrong units it is different.
+/// A program that has no code for its units is proven only with `--units`. With the wrong units, the program is
+/// reported as different.
 #[test]
 fn the_units_of_a_program_are_said_by_it_or_by_an_option() {
     let folder = Folder::new("kit-units");

@@ -1,5 +1,5 @@
-//! Programs in the languages of Siemens, Heidenhain and Okuma: the effect of each call, from the makers' texts and
-//! public programs (tests/data/languages; each case names its source), and the order of execution.
+//! Programs in the languages of Siemens, Heidenhain and Okuma: the effect of each call, and the order of execution. The
+//! expected effects are from the makers' texts and public programs (tests/data/languages). Each case names its source.
 
 use std::fs;
 use std::io::Cursor;
@@ -37,7 +37,8 @@ fn is_place(said: &Value, at: &[f64; 6]) -> bool {
         && said["at_most"].as_f64().is_none_or(|most| at[2] <= most + 1e-9)
 }
 
-/// Does an action match a row of expectations? Feeds per revolution are expected per minute.
+/// Does an action match a row of expectations? The rows give all feeds per minute, even if the program has feeds per
+/// revolution.
 fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
     match (said["kind"].as_str().unwrap(), action) {
         ("rapid" | "retract", Action::Rapid { to, machine, .. }) => *machine & 0b100 == 0 && is_place(said, to),
@@ -64,7 +65,7 @@ fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
     }
 }
 
-/// Is an action of a kind that the case lists?
+/// Must the case list this action? A move, a dwell and a stop always; an orientation only if the case lists any.
 fn counts(action: &Action, listed: &[Value]) -> bool {
     let lists = |kind: &str| listed.iter().any(|said| said["kind"] == kind);
     match action {
@@ -225,7 +226,7 @@ fn an_okuma_jumps_and_calls() {
     }
 }
 
-/// An unknown word stops the run with an error that names the word. It is never skipped silently.
+/// An unknown word stops the run with an error that names the word. Unknown words are never skipped silently.
 #[test]
 fn what_is_not_read_is_refused_by_name() {
     let table = [
@@ -286,7 +287,7 @@ fn bad_programs_are_refused() {
     }
 }
 
-/// Features of Siemens programs that postform does not run are refused by their own names, not as missing subprograms.
+/// If postform does not run a feature of Siemens programs, the message names the feature, and not a missing subprogram.
 #[test]
 fn what_is_not_run_is_named() {
     let refused = |block: &str| actions(&format!("G17 G54\n{block}\nG0 X1\nM30"), "siemens").1;
@@ -303,7 +304,7 @@ fn what_is_not_run_is_named() {
     assert_eq!(refused("FNORM"), None);
 }
 
-/// A mistyped parameter of a cycle was ignored, because it was read as a part of the cycle's name.
+/// A mistyped parameter of a cycle is refused. Earlier versions ignored it as a part of the cycle's name.
 #[test]
 fn mistyped_parameters_of_a_cycle_are_refused() {
     let cycle = |words: &str| {
@@ -326,7 +327,7 @@ fn mistyped_parameters_of_a_cycle_are_refused() {
     }
 }
 
-/// A program without a named control is run by the control that its language indicates.
+/// If no control is named, postform runs a program by the rules of the control for its language.
 #[test]
 fn the_language_of_a_program_is_found() {
     for (program, name) in [
@@ -340,14 +341,14 @@ fn the_language_of_a_program_is_found() {
         let mut input = Cursor::new(program.as_bytes());
         let found = postform::internals::nc::settings_for(&mut input, std::path::Path::new(""), settings).unwrap();
         assert_eq!(found.control.name(), name, "{program}");
-        // another control refuses the program and names the language
+        // with another control, the program is refused, and the message names the language
         let (_, refused) = actions(program, "grbl");
         assert_eq!(refused.is_some_and(|message| message.contains("reads another")), name != "fanuc", "{program}");
     }
 }
 
-/// After a return to home the height is unknown. A rapid sequence of the form printed the height of the hole's bottom
-/// instead.
+/// After a return to home the height is unknown. Earlier versions printed the bottom of the hole as the height in a
+/// rapid sequence of the form.
 #[test]
 fn a_rapid_of_the_forms_own_has_no_height_of_a_hole() {
     let form = fs::read_to_string(root().join("postforms/heidenhain.pf")).unwrap();
@@ -373,7 +374,8 @@ fn resets_and_ways_home_are_run() {
     }
 }
 
-/// One part for two controls. Other pecks and rounded feeds are no difference; another depth, position or feed is one.
+/// Two programs make one part on two controls. Other pecks and rounded feeds are no difference. Another depth, position
+/// or feed is a difference.
 #[test]
 fn one_part_for_two_controls_is_compared_by_its_holes() {
     use postform::internals::verify::compare_motions;
@@ -405,7 +407,7 @@ fn one_part_for_two_controls_is_compared_by_its_holes() {
     }
 }
 
-/// A program for one machine is printed for another one in another language. Cuts and holes stay the same.
+/// A program for one machine is printed for another machine in another language. Cuts and holes stay the same.
 #[test]
 fn a_program_is_printed_for_another_machine() {
     for from in ["haas", "okuma", "heidenhain"] {
@@ -464,7 +466,8 @@ fn a_refused_call_hides_nothing() {
     }
 }
 
-/// Codes that change positions without a word about it: the program is refused there, and not run on.
+/// Some codes change positions in a way that postform does not know. The program is refused at such a code and not run
+/// further.
 #[test]
 fn codes_that_move_the_frame_or_the_tool_are_refused() {
     let klartext = |block: &str| {
@@ -490,7 +493,7 @@ fn codes_that_move_the_frame_or_the_tool_are_refused() {
     };
     assert_eq!(bore("1"), None);
     assert!(bore("1.7").unwrap().contains("Q214=1.7 is not a whole number"));
-    // axis words beside a code that may use them itself: G22 X Y Z I J K sets stroke limits, and moves nothing
+    // axis words in a block with a code that may use them: G22 X Y Z I J K sets stroke limits and moves no axis
     let codes = |control: &str, block: &str| actions(&format!("G21 G90\nG0 X1. Y1. Z1.\n{block}\nM30\n"), control).1;
     for block in
         ["G22 X20. Y0 Z20. I-10. J-10. K-10.", "G23 X20.", "G5.1 Q1 X20.", "G8 P1 Y2.", "G103 P1 Z2.", "G187 P1 G0 X2."]
@@ -501,13 +504,13 @@ fn codes_that_move_the_frame_or_the_tool_are_refused() {
             block.split(' ').filter(|word| !word.starts_with(['X', 'Y', 'Z'])).collect::<Vec<_>>().join(" ");
         assert_eq!(codes("fanuc", &alone), None, "{alone}");
     }
-    // a Haas repeats a cycle by L, and not by K
+    // a Haas repeats a cycle by L, not by K
     let cycle = |word: &str| codes("haas", &format!("G91 G99 G81 X1. Z-1. R-.5 {word} F100."));
     assert_eq!(cycle("L3"), None);
     assert!(cycle("K3").unwrap().contains("the block has K"), "K3");
 }
 
-/// Rules of Siemens controls that a formula of another language does not have.
+/// Rules for formulas of Siemens controls that other languages do not have.
 #[test]
 fn a_siemens_ranks_operators_and_rounds_whole_numbers() {
     let runs = |blocks: &str| actions(&format!("G17 G54 G90\nG0 X0 Y0 Z0\nG1 F100 X1\n{blocks}\nM30\n"), "siemens");
@@ -520,7 +523,7 @@ fn a_siemens_ranks_operators_and_rounds_whole_numbers() {
         });
         last.unwrap()
     };
-    // AND before XOR before OR: the jump is made
+    // AND is evaluated before XOR, and XOR before OR: the jump is made
     assert_eq!(goes("R1=1 R2=0 R3=0\nIF R1 OR R2 AND R3 GOTOF SKIP\nX9\nSKIP:"), 1.0);
     assert_eq!(goes("R1=1 R2=1 R3=1\nIF R1 XOR R2 OR R3 GOTOF SKIP\nX9\nSKIP:"), 1.0);
     assert_eq!(goes("R1=5 R2=7\nIF (R1==5) AND (R2==7) GOTOF SKIP\nX9\nSKIP:"), 1.0);
@@ -532,7 +535,7 @@ fn a_siemens_ranks_operators_and_rounds_whole_numbers() {
     assert_eq!(goes("DEF BOOL B=5\nX=B*4"), 4.0);
     assert_eq!(goes("DEF REAL N=2.5\nX=N*4"), 10.0);
     assert!(runs("X2 M70").1.unwrap().contains("M70"));
-    // while MCALL is active, a block with S or F drills again if G0 or G1 is active, also beside other words
+    // while MCALL and G0 or G1 are active, a block with S or F drills again, even if the block has other words
     let holes = |block: &str| {
         let program = format!("S900 M3\nG0 Z50\nMCALL CYCLE81(50,0,2,-10)\nX10 Y20\n{block}\nMCALL");
         let (actions, refused) = runs(&program);
@@ -552,7 +555,7 @@ fn a_siemens_ranks_operators_and_rounds_whole_numbers() {
     assert!(modes("G97 S2000 M3") && modes("G96 S200 M3") && !modes("G94 G97 S2000 M3") && !modes("S2000 M3"));
 }
 
-/// Words of a lathe that were run with another meaning than on the control.
+/// Words of a lathe to which earlier versions gave another meaning than the control.
 #[test]
 fn a_lathe_reads_increments_and_g76_as_its_control() {
     let runs =
@@ -565,14 +568,14 @@ fn a_lathe_reads_increments_and_g76_as_its_control() {
             _ => None,
         })
     };
-    // the tool stands at X42 Z5.5 after the shift, and moves by 2 in X to X44
+    // after the shift, the tool is at X42 Z5.5; it then moves by 2 in X, to X44
     let moved = runs("G50 U2. W.5\nG0 X44. Z5.5");
     assert!(moved.0.iter().any(|action| matches!(action, Action::Frame)), "{moved:?}");
     assert_eq!(at("G0 U2. Z5."), Some((21.0, 5.0, 0)));
     for (block, message) in [("G0 X44. U2.", "X and U in one block"), ("G1 Z-1. W-.1 F.1", "Z and W in one block")] {
         assert!(runs(block).1.unwrap().contains(message), "{block}");
     }
-    // G76 takes effect only in its blocks: a block after it is a rapid, as before it
+    // G76 applies only to its own blocks: a block after G76 is a rapid again
     let thread = "G76 P010060 Q100 R.05\nG76 X36. Z-20. R0 P1200 Q400 F1.5\nX50.";
     let (actions, refused) = runs(thread);
     assert_eq!(refused, None);

@@ -14,8 +14,8 @@ const SEQUENCES: &str = "LineCode\nGl X<h> Y[v] Z[d]F[frate]\nEnd";
 fn schema(path: &str) -> jsonschema::Validator {
     let text = fs::read_to_string(root().join(path)).unwrap();
     let mut schema: Value = serde_json::from_str(&text).unwrap();
-    // the published SARIF schema contains a pattern for languages that strict validators refuse; our reports contain no
-    // language
+    // strict validators refuse the pattern for languages in the published SARIF schema; the reports of postform contain
+    // no language
     for holder in ["run", "toolComponent"] {
         if let Some(language) = schema.pointer_mut(&format!("/definitions/{holder}/properties/language")) {
             language.as_object_mut().unwrap().remove("pattern");
@@ -30,8 +30,8 @@ fn valid(schema: &jsonschema::Validator, value: &Value) {
     assert!(errors.is_empty(), "{}", errors.join("\n"));
 }
 
-/// Forms with findings of all kinds: file names that need escaping, locations in two files, findings without a
-/// location.
+/// Forms with findings of all kinds. Some file names need escaping. Some findings have locations in two files, others
+/// have no location.
 fn many() -> Folder {
     let folder = Folder::new("many");
     folder.write("b.pf", mill("Call common, 1%.inc", SEQUENCES));
@@ -134,7 +134,7 @@ fn configuration_gives_the_form_the_control_and_the_limits() {
     let output = folder.run(&["render", "jobs/job.json"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(out(&output).contains("G1 X1. Y1. Z0 F10.") && err(&output).contains("PF601"), "{}", err(&output));
-    // an option on the command line ranks before postform.toml
+    // an option on the command line overrides postform.toml
     assert_eq!(folder.run(&["render", "jobs/job.json", "--limits", "classic"]).status.code(), Some(1));
     // LinuxCNC accepts numbers without a decimal point, Fanuc does not
     folder.write("program.nc", "G21\nG0 X1\nM2\n");
@@ -270,7 +270,7 @@ fn unsafe_fixes_show_the_program_before_and_after() {
     serde_json::from_str::<Value>(&out(&json)).unwrap();
 }
 
-/// A fix of a called file is safe only for the form that calls it, with that form's comment marks and control.
+/// A fix of a called file depends on the comment marks and the control of the form that calls the file.
 #[test]
 fn parts_are_mended_where_they_are_called() {
     let folder = Folder::new("parts");
@@ -284,14 +284,14 @@ fn parts_are_mended_where_they_are_called() {
     }
     folder.run(&["lint", "--fix", "--unsafe-fixes", "posts"]);
     assert_eq!(folder.read("posts/part.pf"), part.replace("GO", "G0"));
-    // two forms that call each other: one finding, and no form is left unchecked
+    // two forms that call each other give one finding, and both forms are checked
     folder.write("ring/a.pf", mill("Call b.pf", ""));
     folder.write("ring/b.pf", "Call a.pf\n");
     let output = folder.run(&["lint", "ring", "--format", "github"]);
     assert_eq!((output.status.code(), out(&output).matches("PF009").count()), (Some(1), 1), "{}", out(&output));
 }
 
-/// Unsafe fixes are applied only after their effect on a program was shown.
+/// postform applies unsafe fixes only after it has shown their effect on a program.
 #[test]
 fn unsafe_fixes_that_nobody_can_see_are_not_made() {
     let folder = Folder::new("unseen");
@@ -300,7 +300,7 @@ fn unsafe_fixes_that_nobody_can_see_are_not_made() {
     folder.write("broken.json", "{");
     let missing = folder.run(&["lint", "--fix", "--unsafe-fixes", "form.pf", "--job", "missing.json"]);
     assert_eq!((missing.status.code(), folder.read("form.pf")), (Some(2), text.clone()));
-    // locations are those in the file, and safe fixes are not listed as unsafe
+    // locations are positions in the file, and safe fixes are not listed as unsafe
     let shown = out(&folder.run(&["lint", "--unsafe-fixes", "form.pf"]));
     assert!(shown.starts_with("form.pf: 1 unsafe fix (made by --fix --unsafe-fixes):\n"), "{shown}");
     let line = text.lines().position(|line| line.starts_with("Gl")).unwrap() + 1;
@@ -344,8 +344,8 @@ fn called_files_are_named_by_their_paths() {
     folder.write("posts/part.inc", "Upon [work]\nG91\nEnd\n");
     let github = out(&folder.run(&["lint", "posts/form.pf", "--format", "github"]));
     assert!(github.contains("file=posts/part.inc,line=2"), "{github}");
-    // a called file is checked with its caller, even if it ends with .pf and is named on the command line; it is
-    // checked alone only if no form calls it
+    // a called file is checked with the form that calls it, even if the name ends with .pf and is on the command line;
+    // only a file that no form calls is checked alone
     folder.write("posts/form.pf", mill("Call part.pf", ""));
     folder.write("posts/part.pf", "Leading0s? Y\n");
     let github = out(&folder.run(&["lint", "posts", "--format", "github"]));
@@ -413,7 +413,7 @@ fn shells_and_manuals() {
     }
 }
 
-/// Of thousands of findings, only the first are drawn, but all are counted.
+/// If there are thousands of findings, only the first are shown with their lines, but all are counted.
 #[test]
 fn thousands_of_findings_are_counted() {
     let folder = Folder::new("thousands");

@@ -15,7 +15,7 @@ use postform::toolpath::Sink;
 
 /// The interpreter's output for a program: its canonical calls, or its error.
 fn interpreted(program: &Path, tools: &str) -> String {
-    // all processes of the interpreter share one file for its tools
+    // all processes of the interpreter share one tool table file
     let table = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tools.tbl");
     let arguments = ["-t".as_ref(), table.as_os_str(), "-g".as_ref(), program.as_os_str()];
     let output = nc::rs274(&[(&table, tools)], &arguments);
@@ -39,8 +39,8 @@ fn the_bracket_runs_to_its_end() {
     assert!(!fed("2.6250", "2.1250", "-0.8000"), "and no deeper");
 }
 
-/// Positions of the motions before the end, each with whether it is a feed. Parts of one straight rapid are joined: up
-/// and across becomes one position.
+/// Positions of the motions before the end of the program; true: a feed. The parts of one straight rapid are joined: a
+/// move up and a move across become one position.
 fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
     let mut list: Vec<(bool, [f64; 3])> = Vec::new();
     for line in calls.lines() {
@@ -61,7 +61,7 @@ fn places(calls: &str) -> Vec<(bool, [f64; 3])> {
     list
 }
 
-/// The interpreter must drill the same bottoms and planes by its own cycles as by single moves.
+/// With its own cycles, the interpreter must reach the same bottoms and planes as with single moves.
 #[test_with::executable(rs274)]
 #[test]
 fn cycles_of_the_control_go_where_the_moves_go() {
@@ -87,8 +87,8 @@ fn cycles_of_the_control_go_where_the_moves_go() {
     }
 }
 
-/// For every sample that this post can print, the interpreter's motions must be those of the simulator, and the
-/// simulator's those of the job. The real interpreter then carries out the job.
+/// For every sample that this post can print, the interpreter must make the same motions as the simulator, and the
+/// simulator must make the motions of the job. So the real interpreter makes the motions of the job.
 #[test_with::executable(rs274)]
 #[test]
 fn samples_run_in_the_interpreter_as_their_jobs_ask() {
@@ -117,10 +117,10 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
         let tools: String = (1..40).map(|n| format!("T{n} P{n} Z0 D0.0001\n")).collect();
         for cycles in [Cycles::Form, Cycles::Emulated] {
             let options = Options { cycles, program: Some(1), ..Options::default() };
-            // jobs for other machines, and jobs that this post refuses
+            // skips jobs for other machines, and jobs that this post refuses
             let Ok(rendered) = support::render_sample_with(&folder, &form, options) else { continue };
             if rendered.notes.iter().any(|note| note.code == postform::diag::Code::PR023) {
-                continue; // ends with compensation on, in which case no control moves home
+                continue; // the program ends with compensation on, and no control then moves home
             }
             let name = folder.file_name().unwrap().to_string_lossy().into_owned();
             let mut comparer = Comparer::new(
@@ -142,7 +142,7 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
             assert!(calls.contains("PROGRAM_END()"), "{name}: {}\n{calls}", rendered.text);
             let (ours, ended, _) = simulated(rendered.text.as_bytes(), RunSettings::new(control("linuxcnc")));
             assert_eq!(ended, Ok(()), "{name}");
-            // the interpreter outputs the compensated path, the simulator the programmed one
+            // the interpreter outputs the compensated path, the simulator outputs the programmed path
             if rendered.text.contains("G41") || rendered.text.contains("G42") {
                 compensated += 1;
             } else {
@@ -155,7 +155,8 @@ fn samples_run_in_the_interpreter_as_their_jobs_ask() {
     assert!(run >= 20, "{run} programs compared, {compensated} with compensation");
 }
 
-/// Rigid taps by G33.1: the interpreter's single call must match the simulator's moves in and out.
+/// The interpreter gives a single call for a rigid tap by G33.1. This call must match the moves in and out of the
+/// simulator.
 #[test_with::executable(rs274)]
 #[test]
 fn rigid_taps_run_as_in_the_interpreter() {

@@ -28,7 +28,8 @@ impl Random {
 fn program(number: u64) -> String {
     let mut random = Random(number * 7919 + 13);
     let mut text = String::from("G21 G17 G90 G40 G49 G80 F200 S1000\nG0 X1 Y2 Z3\n");
-    // the interpreter has faults if a shift meets a rotation, and if a change of units meets a dynamic tool offset
+    // the interpreter has faults if a program has a shift and a rotation, or a change of units and a dynamic tool
+    // offset
     let (shifts, units) = (random.below(2) == 0, random.below(2) == 0);
     for line in 0..random.below(14) + 3 {
         let mut words: Vec<String> = Vec::new();
@@ -75,7 +76,7 @@ fn program(number: u64) -> String {
                 ));
             }
             17 => {
-                // half circles about a centre in the plane, so that the radii agree; and full circles
+                // half circles and full circles; the centre of a half circle is in the plane, so that the radii agree
                 let (i, j) = (random.below(9) + 1, random.below(9));
                 let word = random.pick(&["G2", "G3"]);
                 let end = random.pick(&["", "X[#5420 + 2 * I] ", "P2 "]).replace('I', &i.to_string());

@@ -1,4 +1,4 @@
-//! Values from later in the job: lists of tools, operations and work offsets, extents and sums, the next tool; and
+//! Values from later parts of the job: lists of tools, operations and work offsets; extents, sums, the next tool;
 //! errors.
 
 use crate::support::{check, mill, program};
@@ -116,7 +116,7 @@ fn each_work_offset_has_extents_of_its_own() {
     assert_eq!(lines("(X[hmin])", &job), [error]);
     assert_eq!(lines("X[hmin]", &job), [error]);
     assert_eq!(lines("@if [hmin]\n(X[hmin])\n@else\n(TWO PARTS)\n@end", &job), ["(TWO PARTS)"]);
-    // fixture number 1 and its code are the same offset, and so is the form's own number
+    // the fixture number 1, its code 54 and the form's default are the same work offset
     let one = job.replacen("\"work\":54", "\"work\":1", 1).replacen("\"work\":55", "\"work\":54", 1);
     assert_eq!(lines("(X[hmin] TO [hmax])", &one), ["(X0 TO 20)"]);
     let none = job.replacen(",\"work\":54", "", 1).replacen("\"work\":55", "\"work\":54", 1);
@@ -174,7 +174,7 @@ fn a_work_offset_that_a_subprogram_says_is_its_own() {
     let own = job_with(sub, path);
     assert_eq!(lines_with_subs(each, &own), ["(G54: X0 TO 100 Y0 TO 0, 1)", "(G56: X0 TO 7 Y0 TO 7, 1)"]);
     assert_eq!(lines_with_subs("(X[hmin])", &own), ["PR052 [hmin] in a job with several work offsets"]);
-    // work offsets of a subprogram inside a subprogram, of a call, and of a call in a subprogram
+    // the work offset is given in a nested subprogram, in a call, or in a call inside a subprogram
     let plain = sub.replace("{\"work\":56},", "");
     let calls = |before: &str| format!("{{\"number\":6,\"path\":[{before}{{\"call\":{{\"sub\":5}}}}]}}");
     let (knows, through) = (calls("{\"work\":54},"), path.replace("\"sub\":5", "\"sub\":6"));
@@ -221,7 +221,7 @@ fn a_point_without_its_height_is_as_high_as_the_one_before() {
         lines("([dmin] TO [dmax], [rdmax], [cutlength])", &job(&[(1, 54, &cycle(more, points))]))
     };
     assert_eq!(heights("", "[0,0,0],[10,0],[20,0]"), ["(-5 TO 2, 5, 21)"]);
-    // the return plane is that of the first point for all points
+    // the return plane of the first point applies to all points
     assert_eq!(heights(",\"return\":20", "[0,0,0],[10,0,10]"), ["(-5 TO 12, 20, 14)"]);
 }
 
@@ -334,8 +334,8 @@ fn an_operation_without_moves_has_its_offset() {
     assert_eq!(lines("@for operation\n([opname] G[work])\n@end", &job), ["(OP 0 G55)", "(NOTE G56)"]);
 }
 
-/// If a job is read only once and does not list its tools, a form that uses the next tools gives an error, not another
-/// program.
+/// A form that uses the next tools gives an error if the job is read only once and does not list its tools. It never
+/// prints another program.
 #[test]
 fn tools_ahead_are_not_guessed() {
     let text = mill(
@@ -369,8 +369,8 @@ fn a_rigid_tap_has_its_time() {
     );
 }
 
-/// `[tool.holder]` is the value under `data` of the tool. It is empty for a tool without the value, also after a tool
-/// that has it.
+/// `[tool.holder]` is the value of `holder` under `data` of the tool. For a tool without this value, the variable is
+/// empty, even after a tool with the value.
 #[test]
 fn fields_of_tools_are_those_of_the_tool() {
     let jobs = [LINE, LINE, LINE].map(|path| path.to_owned());

@@ -88,7 +88,7 @@ fn a_form_is_linted_as_it_is_typed_with_the_levels_of_its_folder() {
     assert_eq!((codes(&found), &found[0]["severity"]), (vec!["PF202"], &json!(1)));
     let asked = |message: &&Value| message["method"] == "client/registerCapability";
     assert!(desk.editor.others.iter().find(asked).is_some_and(|message| message.to_string().contains("**/*.toml")));
-    // with another level in postform.toml after it was saved
+    // after postform.toml is saved with another level, the finding has this level
     desk.folder.write("postform.toml", format!("{SETTINGS}[rules]\nPF102 = \"error\"\n"));
     desk.editor.tell("workspace/didChangeWatchedFiles", &json!({ "changes": [] }));
     let uri = desk.editor.uri("my.pf");
@@ -105,7 +105,7 @@ fn a_part_is_looked_at_where_it_is_called() {
     folder.write("my.pf", format!("{}{tail}", head.replacen("Units both", "Units both\nCall cycles.pf", 1)));
     let mut editor = Editor::open(&folder.0, &able(), &Value::Null);
     folder.write("cycles.pf", "");
-    // alone it is not a whole form: no StartCode is required, and the caller's open text is used
+    // a called file is not a whole form: it needs no StartCode, and the open text of the calling form is used
     let found = editor.show("cycles.pf", "postform", "# cycles of all mills\n");
     assert_eq!(codes(&found), Vec::<&str>::new(), "{found:?}");
     folder.write("cycles.pf", "Q >3.>3\nX[h\n");
@@ -141,7 +141,7 @@ fn a_program_is_read_as_its_control_reads_it() {
     editor.quit();
 }
 
-/// A program of a folder whose postform.toml names a machine must fit into it.
+/// If postform.toml names a machine, the programs of its folder must fit into this machine.
 #[test]
 fn a_program_must_fit_into_the_machine_of_its_folder() {
     let folder = shop("machine");
@@ -350,7 +350,7 @@ fn hints_show_what_words_print_and_lenses_the_verdict() {
     assert_eq!(desk.editor.ask("textDocument/inlayHint", &params), json!([]));
     desk.editor.tell("workspace/didChangeConfiguration", &json!({ "settings": { "inlayHints": "on" } }));
     assert!(desk.editor.ask("textDocument/inlayHint", &params).as_array().unwrap().len() > 50);
-    // a form with errors shows that it has errors
+    // for a form with errors, the lens shows that the form has errors
     desk.editor.change("my.pf", &HAAS.replacen("X[h]", "X[hh]", 1));
     let lens = desk.editor.ask("textDocument/codeLens", &desk.whole());
     assert_eq!(lens[0]["command"]["title"], "1 error: prints nothing");
@@ -529,7 +529,7 @@ fn a_line_leads_to_its_blocks_and_a_block_to_its_line_and_its_item() {
     let program = fs::read_to_string(&path).unwrap();
     let number = blocks[0]["range"]["start"]["line"].as_u64().unwrap() as usize;
     assert!(program.lines().nth(number).unwrap().contains("G98 G81 X1.5 Y.3"), "{program}");
-    // the command of the lens opens the same file: the editor is asked to show it
+    // the command of the lens opens the same file: the server asks the editor to show this file
     let params = json!({ "command": "postform.openProgram", "arguments": [desk.editor.uri("my.pf"), 0] });
     assert_eq!(desk.editor.ask("workspace/executeCommand", &params), json!(name));
     assert!(desk.editor.others.iter().any(|message| message["method"] == "window/showDocument"));
@@ -586,7 +586,7 @@ fn an_extension_asks_for_programs_itself() {
     editor.quit();
 }
 
-// ---- what comes in may be anything
+// ---- unexpected input
 
 #[test]
 fn places_count_utf_16_units() {

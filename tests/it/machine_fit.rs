@@ -40,8 +40,8 @@ fn finds(program: &str, more: &str, expected: &[&str]) {
 }
 
 /// An axis without a position in the block continues from its current position, regardless of the offsets that were
-/// active when it moved there. Each case was found by comparison with LinuxCNC's interpreter, whose machine positions
-/// these are.
+/// active when it moved there. Each case was found by comparison with LinuxCNC's interpreter. The expected positions
+/// are those of the interpreter.
 #[test]
 fn what_a_block_does_not_say_stays_or_moves_on() {
     let file = "control = \"linuxcnc\"\n[axes.X]\ntravel = [-1000, 1000]\n[axes.Y]\ntravel = [-1000, 1000]\n[axes.Z]\ntravel = [-1000, 1000]\n[axes.A]\ntravel = [10, 100]\n[reference]\nG28 = [-1, -2, -3]\n[offsets]\nG54 = [-100, -100, -100]\nG55 = [-200, -200, -200]\n[tools]\nfile = \"tool.tbl\"\n";
@@ -102,12 +102,12 @@ fn an_axis_ends() {
         &["PM001 7 T5 needs X5 in machine coordinates, but the travel ends at X0: 5 mm too short; it fits with G54 \
              X 5 lower; beyond the travel from line 6 on"],
     );
-    // the middle of an arc about 390, 0 with a radius of 20, from Y-20 to Y20
+    // the middle of an arc from Y-20 to Y20, with the centre X390 Y0 and the radius 20
     finds("X390 Y-20 Z1\nG1 Z-1 F100\nG3 X390 Y20 J20", "", &["PM001 7 T5 needs X10 "]);
     finds("X370 Y0 Z1\nG1 Z-1 F100\nG3 X370 Y0 I10", "", &[]);
     // a cycle and its return height
     finds("G98 G81 X1 Y1 Z-251 R2 F100\nG80", "", &["PM001 5 T5 needs Z-511 "]);
-    // machine coordinates: without work offset and length
+    // machine coordinates do not contain the work offset and the tool length
     finds("G53 G0 Z0\nG53 X-762 Y-406", "", &[]);
     finds("G53 G0 Z0\nG53 X-763", "", &["PM001 6 T5 needs X-763 "]);
     finds("G53 G0 Z10", "", &["PM001 5 T5 needs Z10 "]);
@@ -143,7 +143,7 @@ fn what_is_not_known_is_an_interval() {
     let (all, codes) = sentences("", "[tools.6]\nlength = 100\n[offsets]\nG54 = [-400, -200, -380]\n");
     assert_eq!(all, "this program fits if the length H5 lies between -178 and 330");
     assert_eq!(codes, "PM011");
-    // longer than the travel: no offset would fit
+    // the path is longer than the travel, so no work offset would fit
     let (all, codes) = sentences("X800", "");
     assert!(codes == "PM001" && !all.contains("G54 X"), "{codes}\n{all}");
     // the program sets its own work offset
@@ -159,7 +159,7 @@ fn a_rapid_goes_through_a_clamp() {
     finds("Y16 Z10\nX60", clamp, &[]);
     finds("Y14.9 Z10\nX60", clamp, &["PM002 6"]);
     finds("Z10\nG1 X60 F100", clamp, &[]);
-    // from another work offset; both are known
+    // a rapid in another work offset; the values of both offsets are known
     let other = format!("G55 = [-380, -200, -380]\n{clamp}");
     finds("G55\nX-20 Y0 Z10\nX40", &other, &["PM002 7"]);
     // down onto the clamp in machine coordinates, with the tool's length
@@ -215,7 +215,8 @@ fn a_wrong_file_is_named_by_line_and_column() {
     assert!(read("vf2.toml", "", &|_| Err(String::new())).is_ok(), "a file may say nothing");
 }
 
-/// Commands with a program that does not fit: it is not printed, and the message explains what can be done.
+/// If a program does not fit into the machine, the commands do not print the program. The message explains what can be
+/// done.
 #[test]
 fn a_program_that_does_not_fit_is_not_printed() {
     let folder = Folder::new("machine-fit");
@@ -237,7 +238,7 @@ fn a_program_that_does_not_fit_is_not_printed() {
     let document: serde_json::Value = serde_json::from_str(&out(&verify)).unwrap();
     assert_eq!(document["machine"]["findings"][0]["code"], "PM001");
     assert_eq!(document["verdict"], "identical");
-    // a longer machine as an option, which ranks before the form's machine
+    // the option `--machine` overrides the machine of the form
     folder.write("long.toml", "units = \"inch\"\n[axes.X]\ntravel = [-30, 30]\n[offsets]\nG54 = [-15, 0, 0]\n");
     let printed = folder.run(&[&render[..], &["--machine", "long.toml"]].concat());
     assert_eq!(printed.status.code(), Some(0), "{}", err(&printed));
@@ -369,15 +370,15 @@ fn reach(steps: &[Step]) -> Reach {
     Reach { program, reached }
 }
 
-/// Writes a machine position into a comment, as information about a failing program.
+/// Writes a machine position into a comment, to explain a failing program.
 fn reached_at(program: &mut String, axis: usize, value: f64) {
     _ = writeln!(program, "({} {value})", ["X", "Y", "Z"][axis]);
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
-    /// Compares with the test's own extents: travels that end at the program's extents are enough, and slightly shorter
-    /// ones are not.
+    /// The test computes the extents of a program itself. Travels that end at these extents are long enough, slightly
+    /// shorter travels are not.
     #[test]
     fn travels_are_judged_as_by_hand(steps in prop::collection::vec(step(), 1..25), which in 0..6usize, over in prop_oneof![Just(0.0), -0.5..0.5f64]) {
         let Reach { program, reached } = reach(&steps);
@@ -412,8 +413,8 @@ proptest! {
     }
 }
 
-/// grblHAL reads programs by the rules of LinuxCNC, but plans its moves as Grbl does. So the time on it is that on a Grbl with the
-/// same accelerations and blocks ahead, and not that on a LinuxCNC.
+/// grblHAL reads programs by the rules of LinuxCNC, but plans its moves as Grbl does. So its times are those of a Grbl
+/// with the same accelerations and the same number of blocks ahead, not those of LinuxCNC.
 #[test]
 fn grblhal_slows_down_at_corners_as_grbl_does() {
     let corners: String = (0..40).map(|i| format!("X{}. Y{}.\n", i, i % 2)).collect();
@@ -432,7 +433,8 @@ fn grblhal_slows_down_at_corners_as_grbl_does() {
     assert!((time("grblhal") - time("linuxcnc")).abs() > 0.1, "{} {}", time("grblhal"), time("linuxcnc"));
 }
 
-/// G30 P3 moves to a point that no machine file contains, and not to the point of G30.
+/// G30 P3 does not move to the position of `G30` in the machine file. A machine file can't contain the position of G30
+/// P3.
 #[test]
 fn other_reference_points_are_unknown() {
     let program = |p: &str| format!("{HEAD}G91 G30{p} X0\nG90\nM30\n");

@@ -41,7 +41,8 @@ fn a_call_is_known_to_move_the_tool() {
     assert_eq!(lines[4..6], ["M98 P1 L3", "G0 X1."]);
 }
 
-/// A subprogram is printed before the operations. Its changes do not apply in the main program before it is called.
+/// The subprograms are rendered before the operations. Changes in a subprogram do not apply in the main program before
+/// the call.
 #[test]
 fn a_subprogram_changes_nothing_but_where_it_is_called() {
     let inside = "{\"work\":55},{\"coolant\":\"off\"},{\"spindle\":{\"speed\":500}},{\"rapid\":[0,0,1]}";
@@ -50,7 +51,7 @@ fn a_subprogram_changes_nothing_but_where_it_is_called() {
     assert_eq!(lines[4..10], ["M98 P1 L1", "G54", "S1000 M3", "M98 P1 L1", "G54", "S1000 M3"]);
     assert_eq!(lines[10..14], ["M98 P1 L1", "G54", "S1000 M3", "G0 X1. Y1. Z1."]);
     assert_eq!(lines[15..], ["O1", "G55", "S500", "M9", "G0 X0 Y0 Z1.", "M99"]);
-    // a subprogram that calls another one must contain the values to restore
+    // a subprogram that calls another subprogram must contain the values to restore
     let nested = format!("{},{}", sub(7, "{\"call\":{\"sub\":8}}"), sub(8, inside));
     let form = mill("RenumSubs? N", SUBS);
     assert!(program(&form, &with_subs(&nested, CALL))[0].starts_with("PR033 subprogram 8 changes"));
@@ -76,7 +77,7 @@ fn a_call_says_how_often_and_where() {
     assert_eq!(program(&mill("", &says), &with_subs(&sub(7, MOVE), at))[4..6], ["G0 X5. Y6.", "M98 P1 L2"]);
 }
 
-/// A call from any plane first selects the XY plane, which is also active after it.
+/// Before a call, postform selects the XY plane. This plane is also active after the call.
 #[test]
 fn calls_are_made_in_the_first_plane_without_compensation() {
     let arc = "{\"arc\":{\"to\":[1,0,0],\"center\":[0,0,0],\"direction\":\"cw\",\"plane\":\"xz\"}}";
@@ -168,7 +169,7 @@ fn more_starts_begin_a_pitch_further_back_and_tapers_are_radii() {
     assert_eq!(lines[1..], ["G33 X.84 Z-1. I0 F.2", "G0 Z.3 X1.", "G33 X.84 Z-1. I0 F.2"]);
     let taper = THREAD.replace("\"to\":[-1]", "\"to\":[-1,0.45]");
     assert_eq!(turned("Thread G33", "", &taper)[1], "G33 X.82 Z-1. I.05 F.1");
-    // with a taper, the radius is that at the end; further starts begin further back on the cone
+    // the radius of a tapered thread is the radius at the end; each further start begins farther back on the cone
     let cone = THREAD.replace("\"to\":[-1]", "\"to\":[-1],\"taper\":0.12,\"starts\":2").replace("4", "1");
     let lines = turned("Thread G33", "", &cone);
     assert_eq!(lines[1..], ["G33 X.6 Z-1. I.12 F.2", "G0 Z.3 X1.", "G33 X.6 Z-1. I.13 F.2"]);
@@ -258,7 +259,7 @@ fn a_lathe_drills_beside_its_axis_only_where_the_tool_goes() {
     assert_eq!(lines[2..], ["Z.1", "G81 Z-1. R.1 F5.", "G80", "G0 X1.", "G81 Z-1. R.1 F5.", "G80"]);
 }
 
-/// For a turret on the other side, arcs and compensation are mirrored.
+/// For a turret on the other side of the axis, arcs and compensation are mirrored.
 #[test]
 fn a_mirrored_turret_turns_arcs_round() {
     let arc = "{\"arc\":{\"to\":[0.1,0.6],\"center\":[0.1,0.5],\"direction\":\"cw\"}}";
@@ -303,8 +304,8 @@ fn threads_are_approached_from_their_own_side() {
     assert!(found.starts_with("PR031 the tool is at the radius 0.5, inside the crest of an outer thread"), "{found}");
 }
 
-/// A vertical wire has no words for its upper guide. A tilted one has them, even in the block that turns on
-/// compensation.
+/// A vertical wire has no words for its upper guide. For a tilted wire, the form prints these words, even in the block
+/// that turns on compensation.
 #[test]
 fn a_leaning_wire_leans_from_its_lead_in() {
     let form =
@@ -318,7 +319,7 @@ fn a_leaning_wire_leans_from_its_lead_in() {
     assert_eq!(program(form, &text("[5,0,4,1]"))[2], "G1 G41 X5. Y0 U4. V1. F2.");
 }
 
-/// A speed in revolutions is its own limit. A surface speed without a limit is an error.
+/// A speed in revolutions needs no limit. A surface speed without a limit is an error.
 #[test]
 fn revolutions_need_no_limit() {
     let form = lathe("", "").replace("S[speed] M[direct]\nEnd", "G50 S[maxrpm]\nG[speedtype] S[speed] M[direct]\nEnd");
@@ -337,7 +338,7 @@ fn revolutions_need_no_limit() {
     }
 }
 
-/// An action on the wire is printed or refused. Without it, the wire would be dragged to the next start hole.
+/// An action on the wire is printed or refused. Without the action, the wire would be dragged to the next start hole.
 #[test]
 fn wire_actions_need_their_sequences() {
     let form = |sequences: &str| format!("Machine EDM\nStartCode\n%0\nEnd\nEndCode\nM2\nEnd\n{sequences}");
@@ -362,7 +363,7 @@ fn a_thread_cycle_is_cancelled() {
     }
 }
 
-/// A form with a Between sequence prints subprograms first.
+/// If the form has a Between sequence, the program begins with the subprograms.
 #[test]
 fn between_means_subprograms_first() {
     let form = mill("", &format!("{SUBS}\nBetween\nM17\nEnd"));
@@ -371,8 +372,8 @@ fn between_means_subprograms_first() {
     assert!(at("M17").is_some() && at("M17") < at("T1 M6") && at("M99") < at("M17"), "{lines:?}");
 }
 
-/// The tool change prints the speed mode, typed or not. In a separate block, the mode is printed together with its
-/// speed.
+/// If the tool change prints the speed mode, no other block prints the mode. Otherwise a separate block prints the mode
+/// together with its speed.
 #[test]
 fn a_surface_speed_is_not_said_without_its_speed() {
     let text = job("{\"line\":[-1,0.5]}")
@@ -386,7 +387,7 @@ fn a_surface_speed_is_not_said_without_its_speed() {
     assert_eq!(program(&lathe("", ""), &text)[1..4], ["G96 S100", "T1", "S100 M3"]);
 }
 
-/// A wire has no tool with an offset register: the job contains the register.
+/// A wire machine has no tools, so the job gives the offset register.
 #[test]
 fn a_wire_without_a_tool_has_its_offset_from_the_job() {
     let form = "Machine EDM\nStartCode\n%0\nEnd\nInFeed\nG1 G[side] D[dcomp] X[h] Y[v] F[frate]\nEnd\nOutFeed\nG1 G40 X[h] Y[v] F[frate]\nEnd\nEndCode\nM2\nEnd\n";

@@ -1,4 +1,5 @@
-//! Lathes, rotary axes, subprograms: correct programs must be proven, and each kind of wrong program must not.
+//! Programs for lathes, with rotary axes and with subprograms. Correct programs must be proven. No kind of wrong
+//! program may be proven.
 
 use std::fs;
 
@@ -14,7 +15,7 @@ fn form(name: &str) -> String {
     fs::read_to_string(root().join(folder).join(name)).unwrap()
 }
 
-/// The program of each form is proven, and each changed program is called different.
+/// Checks that the program of each form is proven, and that each changed program is reported as different.
 #[track_caller]
 fn changes_are_found(job: &str, changes: &[Change<'_>]) {
     let mut options = Options::default();

@@ -1,4 +1,5 @@
-//! Features of machines beyond the manual's words. Each is tested with two posts: one with G codes and one in Klartext.
+//! Features of machines that the manual does not describe. Each is tested with two posts: one with G codes and one in
+//! Klartext.
 
 use crate::support::{check, render_checked};
 use postform::internals::render::{Clock, Options};

@@ -68,7 +68,7 @@ fn equal_program_numbers_are_warned_of() {
     let said = run("haas.pf", &[]);
     let warning = "warning: nc/cover.nc and nc/plate.nc have the same program number";
     assert!(said.contains(warning) && said.contains("number all programs upwards: --program"), "{said}");
-    // no warning with different numbers, and for a form that prints no number
+    // there is no warning if the numbers differ, or if the form prints no number
     assert!(!run("haas.pf", &["--program", "10"]).contains("same program number"));
     assert!(!run("haas.pf", &["--quiet"]).contains("same program number"));
     fs::copy(root().join("postforms/grbl.pf"), folder.0.join("grbl.pf")).unwrap();
@@ -136,7 +136,7 @@ fn changed_leaves_out_what_is_newer_than_job_and_form() {
     set("haas.pf", 20);
     set("nc/bracket.nc", 10);
     assert_eq!(last(&run()), "1 program, none failed");
-    // a file with the same time does not count as newer
+    // a program with the same time as its form does not count as newer than the form
     let moment = SystemTime::now() - Duration::from_secs(5);
     for file in ["haas.pf", "nc/plate.nc"] {
         fs::File::options().write(true).open(folder.0.join(file)).unwrap().set_modified(moment).unwrap();
@@ -212,7 +212,8 @@ fn verify_and_check_take_several_jobs() {
     assert!(err(&output).contains("standard input can't be one of several jobs"), "{}", err(&output));
 }
 
-/// With several jobs, an option for reading is used for the jobs to whose format it applies. If it applies to none, it is an error.
+/// An option for reading one format applies only to the jobs in this format. If no job has the format, the option is an
+/// error.
 #[test]
 fn options_of_a_format_leave_the_other_jobs_alone() {
     let folder = shop("mixed");
@@ -266,7 +267,7 @@ fn a_change_of_a_form_is_shown_by_its_kinds() {
     );
 }
 
-/// Attempts to break the commands: each is reported by name, and no job is skipped silently.
+/// Each wrong use of the commands is reported by name, and no job is skipped silently.
 #[test]
 fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
     let folder = shop("wrong");
@@ -296,7 +297,7 @@ fn wrong_uses_are_named_and_nothing_is_left_out_unseen() {
         assert_eq!(output.status.code(), Some(1), "{}", err(&output));
         assert_eq!(folder.read("target.nc"), "mine");
     }
-    // file names are converted as in names from a form
+    // characters in file names are replaced as in names from a form
     folder.write("odd/it's a part.json", folder.read("jobs/plate/job.json"));
     let output = run(&["odd", "--form", "haas.pf", "--out-dir", "odd-nc", "--name", "{job}.nc.gz"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
@@ -321,10 +322,10 @@ fn compressed_jobs_and_programs() {
     let output =
         folder.run(&["diff", "bracket.nc.gz", root().join("samples/bracket/expected.haas.nc").to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
-    // a compressed program can be a job, and a compressed job can be proven
+    // a compressed program can be read as a job, and a compressed job can be proven
     let output = folder.run(&["check", "bracket.nc.gz", "--job-control", "haas"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    // a compressed program needs no form for its picture, and a compressed CL file gets a program number as a case
+    // a compressed program can be plotted without a form, and a compressed CL file becomes a case with a program number
     let output = folder.run(&["plot", "bracket.nc.gz", "-o", "bracket.svg"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     let cl = fs::read(root().join("samples/cl-drill/job.cl")).unwrap();

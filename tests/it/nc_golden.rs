@@ -1,5 +1,5 @@
-//! Programs with recorded results of LinuxCNC 2.9's interpreter. The simulator must make the same motions and refuse at
-//! the same block.
+//! Programs with recorded results of LinuxCNC 2.9's interpreter. The simulator must make the same motions, and stop at
+//! the same refused block.
 
 use crate::support::{control, root};
 use std::fs;
@@ -48,7 +48,7 @@ fn every_rule_has_its_case() {
     let mut wrong = Vec::new();
     for (case, problem) in &cases {
         let text = |key: &str| case[key].as_str().unwrap();
-        // the simulator tracks the compensated path, but does not offset it
+        // the simulator tracks the state of the compensation, but does not offset the path
         let offset = text("name").starts_with("comp_");
         if let Some(problem) = problem.as_ref().filter(|problem| !(offset && problem.starts_with("call"))) {
             wrong.push(format!("{} ({}): {problem}", text("name"), text("pins")));

@@ -92,7 +92,7 @@ impl Values {
         self.0
     }
 
-    /// Values as in jobs: few decimals, some of them ties or carries, and the double next to such a value.
+    /// Values as in jobs, with few decimals. Some values are ties or carries, or the next `f64` after such a value.
     fn value(&mut self) -> f64 {
         let bits = self.next();
         let places = bits % 8;

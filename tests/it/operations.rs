@@ -87,7 +87,7 @@ fn changes_of_conditions_are_the_forms_own() {
     for line in ["(NEW SPEED) S500", "M8 (COOLANT)", "G55 (OFFSET)"] {
         assert_eq!(printed.iter().filter(|own| *own == line).count(), 1, "{line}: {printed:?}");
     }
-    // not printed by the sequence, so generated once after it
+    // the sequence does not print the coolant code, so postform generates the code once after the sequence
     let printed = path("CoolantChange\n(COOLANT)\nEnd", &job);
     let at = printed.iter().position(|line| line == "(COOLANT)").unwrap();
     assert_eq!(printed[at + 1], "M8", "{printed:?}");
@@ -119,17 +119,17 @@ fn a_comment_that_only_another_branch_says_is_not_lost() {
     assert_eq!(comments, ["(MIND THE CLAMP)", "(X)"]);
 }
 
-/// Only the form defines the home position. Afterwards the position is unknown, so every axis is printed again.
+/// Only the form defines the home position. After a move home, the position is unknown, so every axis is printed again.
 #[test]
 fn home_is_a_place_of_the_machine() {
     let home = |form: &str, items: &str| path(form, &job(&[(1, TURNS, items)]));
     let goes = "MoveHome\nG91 G28 Z0\nG90\nEnd";
     let path = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"home\":true}},{{\"rapid\":[1,0,1]}},{LINE}");
     assert_eq!(home(goes, &path), ["G1 X1. Z0 F10.", "G0 Z1.", "G91 G28 Z0", "G90", "X1. Y0 Z1.", "G1 Z0"]);
-    // waiting changes are printed before it
+    // changes that wait for the next move are printed before the move home
     let off = format!("{LINE},{{\"rapid\":[1,0,1]}},{{\"spindle\":{{\"direction\":\"off\"}}}},{{\"home\":true}}");
     assert_eq!(home(goes, &off)[1..], ["G0 Z1.", "M5", "G91 G28 Z0", "G90"]);
-    // a cut directly after it has no known start
+    // a cut directly after a move home has no known start
     let cut = format!("{LINE},{{\"home\":true}},{{\"line\":[0,0,0]}}");
     assert!(home(goes, &cut)[0].starts_with("PR012 the operation begins with a cut"), "{:?}", home(goes, &cut));
     assert!(home("", &path)[0].starts_with("PR008 the tool goes home here"), "{:?}", home("", &path));

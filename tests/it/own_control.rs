@@ -1,4 +1,4 @@
-//! A shop's own control: only a control file is needed. Lint, render, simulate and verify all use it.
+//! A shop's own control needs only a control file. `lint`, `render`, `simulate` and `verify` all use this file.
 
 use std::fs;
 
@@ -65,7 +65,7 @@ fn every_command_goes_by_the_file() {
     }
 }
 
-/// The file that `new` writes is valid, and so are the rows in its comments.
+/// The file that `new` writes is valid. The rows in its comments are valid, too.
 #[test]
 fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     let folder = folder("own_control_new");
@@ -96,7 +96,8 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     );
 }
 
-/// A language without G codes that postform can't read: the form prints it, no word is taken for a code, and nothing is proven.
+/// A control file may have `rules = "none"`, for a language that postform can't read. Forms print programs in this
+/// language, but no word is taken for a code, and nothing is proven.
 #[test]
 fn a_control_whose_language_is_not_read_is_printed_and_not_proven() {
     let folder = folder("own_control_none");
@@ -187,7 +188,8 @@ fn what_is_wrong_in_the_file_is_said_with_line_and_column() {
     }
 }
 
-/// The meaning of a code determines its effect, not its number: a program with other numbers makes the same motions.
+/// The effect of a code depends on its meaning in the control file, not on its number. A program with other numbers
+/// makes the same motions.
 #[test]
 fn codes_of_other_numbers_do_what_their_meaning_says() {
     let folder = Folder::new("own_control_numbers");
@@ -357,7 +359,8 @@ fn a_form_of_other_numbers_is_proven() {
     );
 }
 
-/// If the file lacks a property of a code, the error names the property. It is never guessed from the number.
+/// If the file lacks a property of a code, the error names the property. postform never guesses the property from the
+/// number of the code.
 #[test]
 fn a_row_that_lacks_something_is_not_run_and_says_what() {
     let folder = Folder::new("own_control_lacks");
@@ -455,7 +458,8 @@ fn no_meaning_is_passed_over() {
                 }
                 ended => {
                     let passed_over = here.clone().any(|action| matches!(action, Action::LeftOut(..)));
-                    // a dwell without a time is refused as a dwell, a length without H as a length
+                    // a dwell without a time is refused as a dwell, and a tool length without H is refused as a tool
+                    // length
                     let lacks_word = matches!(&ended, Err(RunError::Refused(diag, 4)) if ["PN006", "PN007"].contains(&diag.code.name()));
                     assert!(ended.is_ok() || lacks_word, "{row}: {ended:?}");
                     assert!(!passed_over || nothing.contains(&meaning), "{row} is passed over");
@@ -488,7 +492,7 @@ fn dwells_of_cycles_count_as_the_file_says() {
     assert_eq!([dwell("s"), dwell("ms")], [Some(2.0), Some(0.002)]);
 }
 
-/// Tool lengths are turned on as the control's file defines.
+/// The control file defines how a program turns on tool lengths.
 #[test]
 fn lengths_of_tools_are_those_of_the_file() {
     let folder = folder("own_lengths");
@@ -512,7 +516,8 @@ fn lengths_of_tools_are_those_of_the_file() {
     }
 }
 
-/// An address of another language next to the axes of an arc belongs to the move, so no words are printed again after it.
+/// An arc may have an address of another language, such as `I=AC(5)`. The address belongs to the arc, so no words are
+/// printed again after the arc.
 #[test]
 fn an_address_with_its_value_is_part_of_its_move() {
     let folder = folder("own_arcs");
@@ -594,7 +599,7 @@ fn a_code_brings_in_a_tool_of_a_bank() {
     folder.write("wrong.nc", program.replace("M204", "M205"));
     let run = folder.run(&["verify", "job.json", "--form", "router.pf", "--nc", "wrong.nc"]);
     assert!(!run.status.success() && out(&run).contains("PV012") || err(&run).contains("PV012"), "{}", err(&run));
-    // a code with this meaning must have its tool in the file
+    // the control file must give the tool of each code with this meaning
     folder.write("router.toml", bank.replace(", tool = 101", ""));
     let run = folder.run(&["simulate", "out.nc", "--control", "router.toml"]);
     assert!(err(&run).contains("the control file of router does not give its tool"), "{}", err(&run));
@@ -655,7 +660,7 @@ fn what_nothing_public_says_is_not_run() {
     );
 }
 
-/// A code that the control file marks as absent is unknown, also if the form names it as its coolant.
+/// A code that the control file marks as absent is unknown, even if the form uses the code for coolant.
 #[test]
 fn coolant_that_the_control_does_not_have_is_not_proven() {
     let folder = Folder::new("own_control_absent");

@@ -62,7 +62,7 @@ fn the_first_who_says_it_counts() {
     let of_shop = shop("through", "high");
     assert_eq!(print(&plain, of_shop.clone()), ["(HIGH)", "(HIGH)"]);
     assert_eq!(print(&of_job, of_shop), ["(ON)", "(ON)"]);
-    // a value of an operation ends with it
+    // a value of an operation applies only to this operation
     assert_eq!(print(&of_operation, Options::default()), ["(HIGH)", "(ON)"]);
     let caller = caller("through", "OFF");
     assert_eq!(print(&of_operation, caller), ["(OFF)", "(OFF)"]);
@@ -221,8 +221,8 @@ fn a_choice_is_one_of_its_words() {
     assert_eq!(print(&form(THROUGH, lines), &job, caller("through", "high")).unwrap(), ["M88", "M88"]);
 }
 
-/// The form's default is in the form's units, which are inches for a form of both units. Other values are in the
-/// program's units.
+/// The form's default is in the units of the form, which are inches for a form of both units. Values from the caller
+/// and from the shop are in the units of the program.
 #[test]
 fn lengths_of_a_form_for_both_units() {
     let form = form("Units both\nProperty gap length .25 Gap\nX->4.>4\nQ->4.>3", "Q[gap]");

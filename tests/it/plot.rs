@@ -38,7 +38,7 @@ fn the_bracket_is_drawn_as_in_the_readme() {
     assert!(fs::read(&path).unwrap() == output.stdout, "docs/images/bracket.svg is another picture");
 }
 
-/// Programs of all samples, in all views: every point is on the sheet, and every coordinate is a number.
+/// For the programs of all samples in all views, every point is on the sheet, and every coordinate is a number.
 #[test]
 fn what_is_drawn_is_on_the_sheet() {
     let mut programs = 0;
@@ -137,7 +137,8 @@ fn every_part_of_the_state_has_its_block() {
     assert_eq!((found.holes[1].line, found.holes[1].bottom), (6, [2.0, 1.0, -0.1]));
 }
 
-/// U and V of a wire are the upper guide. It is drawn as a second line at an unknown height, above the part.
+/// U and V of a wire machine are the position of the upper guide. Its height is unknown, so the picture shows the guide
+/// as a second line above the part.
 #[test]
 fn a_wire_has_two_guides() {
     let program = "G21 G90\nG0 X0 Y0 U0 V0\nG1 X10. Y0 U11. V1. F3.\nG3 X10. Y10. I0 J5. U11. V11.\nM2\n";
@@ -194,7 +195,7 @@ fn every_post_has_a_picture() {
             let Ok(program) = form.render(Job::json(&bytes), &Options::default()) else { continue };
             let settings = form.run_settings(&Proof::default(), Units::Mm);
             let found = draw(Cursor::new(program.text()), settings).unwrap();
-            // if the control's file leaves the meaning of a word open, the picture ends there, as the proof does
+            // the picture ends at a word whose meaning the control file does not give; the proof ends at the same word
             let refused = found.refused.filter(|(diag, _)| !diag.message.contains("does not give"));
             assert!(refused.is_none(), "{}: {sample}: {refused:?}", post.display());
             assert!(found.moves.len() > 3, "{}: {sample}", post.display());

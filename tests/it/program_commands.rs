@@ -35,7 +35,7 @@ fn a_program_for_a_lathe_asks_which_one() {
     let message = text(&refused.stderr);
     assert!(message.contains("the program is for a lathe, but no lathe control is named"), "{message}");
     assert!(message.contains("`--control fanuc-lathe` or `haas-lathe`"), "{message}");
-    // X as the program contains it
+    // X is shown as in the program: a diameter
     let run = fed(&["simulate", "-", "--control", "fanuc-lathe"], program);
     let shown = "     1  units   mm\n     2  tool    1\n     3  spindle cw S800\n     4  rapid   X50 Z2\n     5  feed    X50 Z-18 F0.2\n\
         \u{20}    5  cw      X54 Z-20 F0.2  centre X54 Z-18 in zx\n     6  feed    X60 Z-20 F0.2\n     7  end\n";
@@ -197,7 +197,6 @@ fn a_full_disk_is_an_error_of_simulate() {
     assert!(text(&output.stderr).contains("can't write"));
 }
 
-/// The job and the program come through pipes.
 /// The format of a job from standard input is found by its first bytes, as for a file without a known extension.
 #[test]
 fn a_job_from_standard_input_may_have_any_format() {
@@ -228,6 +227,7 @@ fn verify_shows_the_call_for_a_program_and_its_job() {
     assert!(text(&output.stderr).contains(call), "{}", text(&output.stderr));
 }
 
+/// The job and the program come through pipes.
 #[test]
 fn verify_reads_standard_input() {
     let job = fs::read(root().join("samples/plate/job.json")).unwrap();
@@ -237,7 +237,7 @@ fn verify_reads_standard_input() {
     let program = fs::read(root().join("samples/bracket/expected.fanuc.nc")).unwrap();
     let output = fed(&["verify", "samples/bracket/job.json", "--nc", "-"], &program);
     assert!(text(&output.stdout).starts_with("equivalent: standard input"), "{}", text(&output.stdout));
-    // a program that calls parts of itself is printed again into a file
+    // for a program that calls its own subprograms, postform prints the program again into a file
     let job_of_subs = fs::read(root().join("samples/pattern/job.json")).unwrap();
     let output = fed(&["verify", "-", "--form", "postforms/fadal-subs.pf"], &job_of_subs);
     assert!(text(&output.stdout).starts_with("identical: "), "{}", text(&output.stdout));
@@ -278,7 +278,7 @@ fn render_says_what_a_form_loses() {
     assert!(text(&output.stderr).contains("warning PF101: `T[tool] M6` is lost"), "{}", text(&output.stderr));
 }
 
-/// The manual's tool change, used on a lathe, prints Z for X. `render` warns about each of these words.
+/// On a lathe, the tool change of the manual prints Z in place of X. `render` warns about each of these words.
 #[test]
 fn render_says_that_lathe_axes_are_the_other_way_round() {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -306,8 +306,8 @@ fn verify_hears_what_the_renderer_warns_of() {
     assert!(!text(&run(&[]).stderr).contains("PR025"), "{}", text(&run(&[]).stderr));
 }
 
-/// Without any sign of its control, a program is read as Fanuc's only if each word is certain: `G56 H1` may be a
-/// length.
+/// If nothing shows the control of a program, postform reads it as a Fanuc program, but only if each word is certain.
+/// `G56 H1` is not certain, because it may be a tool length.
 #[test]
 fn an_assumed_control_reads_no_word_of_another() {
     let program = b"G21\nG0 G56 H1 X1.\nM30\n";

@@ -42,8 +42,8 @@ fn path(blocks: &str) -> Vec<String> {
     lines[..end].to_vec()
 }
 
-/// G43 stays active after a tool change. A tool that cuts with another tool's length does so in the new program too,
-/// with a warning.
+/// G43 stays active after a tool change. If a tool cuts with the length offset of another tool, the new program keeps
+/// this offset, and there is a warning.
 #[test]
 fn a_tool_keeps_the_length_offset_that_it_cuts_with() {
     let second = "G1 Z-.1 F5.\nG0 Z1.\nT2 M6\nS500 M3\nG0 X1. Y1.\n";
@@ -89,8 +89,8 @@ fn motions_feeds_and_switches_stay_what_they_were() {
     }
 }
 
-/// Stops are kept, even where a feed mode changes. Before a stop, the tool moves up, as it went home in the old
-/// program.
+/// Stops are kept, even where a feed mode changes. If the tool moved home before a stop in the old program, it moves up
+/// before the stop in the new program.
 #[test]
 fn stops_and_the_way_before_them_stay() {
     let lines = path("G81 X1. Z-1. R.1 F5.\nG80 G94\nM1\nG81 X2. Z-1. R.1");
@@ -156,8 +156,8 @@ fn what_is_left_out_is_warned_of() {
     assert!(warnings.iter().any(|warning| warning.contains("M99")), "{warnings:?}");
 }
 
-/// If a program ends its cycle between the holes of a pattern and moves by rapids at the return height, the holes still
-/// become one cycle.
+/// The holes of a pattern become one cycle, even if the program ends the cycle after each hole and moves at rapid at
+/// the return height.
 #[test]
 fn a_pattern_of_holes_stays_one_cycle() {
     let each = |x: u32| format!("G81 X{x}. Z-1. R.1 F5.\nG80\n");
@@ -174,7 +174,7 @@ fn a_pattern_of_holes_stays_one_cycle() {
     let lines = path(&format!("G0 X1.\n{}G0 X2.\nG55\nZ1.\n{}", each(1), each(2)));
     let [moved, work] = ["X2.", "G55"].map(|word| lines.iter().position(|line| line.contains(word)).unwrap());
     assert!(moved < work, "{lines:?}");
-    // a hole with another depth belongs to the pattern, one with another feed does not
+    // a hole with another depth belongs to the pattern, but a hole with another feed does not
     let deeper = path(&format!("G0 X1.\n{}G0 X2.\nG81 X2. Z-2. R.1 F6.\nG80", each(1)));
     assert_eq!(deeper.iter().filter(|line| line.contains("G81")).count(), 2, "{deeper:?}");
     // moves after the last hole are kept
@@ -206,8 +206,8 @@ fn a_warning_is_counted() {
     assert!(both[0].ends_with("(3 times, the first here)"), "{both:?}");
 }
 
-/// A program may begin with a cut, or cut from the machine's Z0, as with Fusion's free licence. The caller gives the
-/// start position.
+/// A program may begin with a cut, or may cut directly from the machine's Z0. Programs from Fusion's free licence do
+/// so. The caller gives the start position.
 #[test]
 fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
     let read = |program: &str, start| {
@@ -236,8 +236,8 @@ fn a_cut_from_an_unknown_place_begins_where_the_caller_says() {
     assert_eq!(cuts[..6], ["G0 G54 X0 Y0", "Z40. M9", "G1 X10. Y5. F500.", "X20.", "Z0 F50.", "X30."], "{lines:?}");
 }
 
-/// A frame that G52 or G92 moves between moves is converted: all positions of the job are in the frame of the first
-/// move.
+/// G52 or G92 may shift the frame between two moves. postform converts the positions, so all positions of the job are
+/// in the frame of the first move.
 #[test]
 fn frames_that_move_between_moves_are_followed() {
     let lines = path(

@@ -1,6 +1,6 @@
-//! Random programs with their jobs and verdicts, a file each in `tests/data/proofs`. Each was kept because a small
-//! change of the comparison would change its verdict. A file contains `form NAME`, `units UNITS` (of the program),
-//! `verdict WORDS`, the job on one line, and the program.
+//! Random programs with their jobs and verdicts. Each program has its own file in `tests/data/proofs`. Each program was
+//! kept because a small change of the comparison would change its verdict. A file contains `form NAME`, `units UNITS`
+//! (of the program), `verdict WORDS`, the job on one line, and the program.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,4 +1,5 @@
-//! Wrong verdicts that must not occur: correct programs called different, and wrong programs called correct.
+//! Two kinds of wrong verdicts must not occur: a correct program is reported as different, or a wrong program is
+//! proven.
 
 use std::fs;
 use std::io::Cursor;
@@ -61,7 +62,7 @@ fn all_are_right(jobs: &[(&str, String)], posts: &[&str]) {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// Correct programs of the posts that were once called different.
+/// Correct programs of the posts that earlier versions reported as different.
 #[test]
 fn right_programs_are_proven() {
     let jobs = [
@@ -243,7 +244,8 @@ fn right_programs_are_proven() {
     all_are_right(&oriented, &["fanuc.pf", "haas.pf", "linuxcnc.pf"]);
 }
 
-/// Paths on a lathe that are no longer than its last digit, or that continue straight through a corner.
+/// Correct paths on a lathe: cuts that are not longer than the last digit, and cuts that continue straight through a
+/// corner.
 #[test]
 fn right_ways_of_lathes_are_proven() {
     let job = |path: &str| {
@@ -268,7 +270,7 @@ fn right_ways_of_lathes_are_proven() {
     all_are_right(&jobs.map(|(name, path)| (name, job(&path))), &["fanuc-lathe.pf", "haas-lathe.pf"]);
 }
 
-/// Two threads in a row: the passes of the second belong to the second.
+/// If two threads follow each other, the passes of the second thread belong to the second thread.
 #[test]
 fn right_threads_are_proven() {
     let job = |path: &str| {
@@ -298,7 +300,8 @@ fn right_threads_are_proven() {
     }
 }
 
-/// A helix of almost no width. A form with radius words divides it, because rounding would move its centre.
+/// A helix with a very small radius. A form with radius words divides the helix, because rounding would move its
+/// centre.
 #[test]
 fn a_steep_helix_in_parts_is_proven() {
     let helix = r#"{"rapid":[1,1,1]},{"rapid":[0.9621,-0.05,0.1]},{"line":[0.9620692,-0.05,-0.1432692]},{"arc":{"to":[0.96283,-0.0500907,-0.2],"center":[0.91,-0.49,-0.1432692],"direction":"cw"}}"#;
@@ -317,7 +320,7 @@ fn right_programs_of_other_forms_are_proven() {
     let (program, verdict) = of_form(&spin_up, &one(path));
     assert_eq!(verdict, Verdict::Equivalent(Equivalences { dwells: 1, ..Equivalences::default() }), "{program}");
 
-    // a feed of the form's own, from 0.2 to 2 times the job's feed of 100
+    // the form has its own feed: from 0.2 to 2 times the job's feed of 100
     for (word, printed) in [("F150.", "F150."), ("F200.", "F200."), ("F20.", "F20."), ("F[frate*2]", "F200.")] {
         let typed = fanuc.replacen("EndCode", &format!("LineCode\nG1 X[h] Y[v] Z[d] {word}\nEnd\n\nEndCode"), 1);
         let (program, verdict) = of_form(&typed, &one(path));
@@ -332,7 +335,7 @@ fn right_programs_of_other_forms_are_proven() {
         |by: &str| of_form(&fanuc.replace("S[speed] M[direct]", &format!("S[speed*{by}] M[direct]")), &one(path)).1;
     assert!(matches!(faster("2"), Verdict::Equivalent(_)) && matches!(faster("2.1"), Verdict::Different(_)));
 
-    // a form that limits the speed, and one that reduces feeds: both changes are the form's and are counted
+    // one form limits the speed, another form reduces the feeds: both changes belong to the form and are counted
     let limited = fanuc.replace("S[speed] M[direct]", "S[min(speed,800)] M[direct]");
     let (program, verdict) = of_form(&limited, &one(path));
     let speeds = matches!(verdict, Verdict::Equivalent(Equivalences { speeds: 2, .. }));
@@ -360,7 +363,7 @@ fn right_programs_of_other_forms_are_proven() {
     );
     is_right("another offset with another tool", of_form(&home, &offsets));
 
-    // a last part of an arc that is shorter than the last digit, followed by a full circle in the other direction
+    // the last part of an arc is shorter than the last digit; a full circle in the other direction follows
     let unusual = |name: &str| std::fs::read_to_string(root().join(format!("tests/data/forms/{name}.pf"))).unwrap();
     let inch = |path: &str| {
         format!(
@@ -377,14 +380,16 @@ fn right_programs_of_other_forms_are_proven() {
     )
     .replacen("\"units\":\"inch\"", "\"units\":\"mm\"", 1);
     is_right("a cut across one that no digits show", of_form(&unusual("metric"), &across));
-    // from home first down, then across: the start is unknown. This control keeps the tool length at home
+    // after the move home, the tool moves down and then across. The start is unknown. This control keeps the tool
+    // length at home
     let home = inch(
         r#"{"rapid":[0.7375,-2.0667,1.6584]},{"home":true},{"rapid":[null,null,1.0876]},{"rapid":[0.6466,-2.2204,1.6921]},{"line":[-3.1394,-1.7077,-0.3154]}"#,
     );
     let keeps = unusual("no-return-plane").replace("Control fanuc", "Control linuxcnc");
     let keeps = keeps.replace("AfterHome\nG0 X[h] Y[v]\nG43 H[lcomp] Z[d]\nEnd\n", "");
     is_right("down after home", of_form(&keeps, &home));
-    // the control leaves the hole higher than the job does, and moves back for a cut that is shorter than the last digit
+    // after the hole, the tool is higher than in the job; it moves back down for a cut that is shorter than the last
+    // digit
     let tapped = inch(
         r#"{"rapid":[1.0698,1.7598,0.8441]},{"cycle":{"kind":"tap","clear":0.2746,"depth":0.7718,"feed":18.9,"points":[[-0.7609,0.351,-0.2594]]}},{"line":[-0.7609,0.351,0.01521]},{"rapid":[-0.7609,0.351,1.7092]}"#,
     );
@@ -400,7 +405,7 @@ fn right_programs_of_other_forms_are_proven() {
     is_right("an axis by another name", (program, verdict));
 }
 
-/// A program is identical to itself as a job.
+/// If postform reads a program as a job, the same program is proven for this job.
 #[test]
 fn programs_are_identical_to_themselves() {
     let head = "%\nO1\nG20 G17 G40 G49 G80 G90\nT1 M6\nG0 G54 X0. Y-3.9 S1000 M3\nG43 H1 Z1.\n";
@@ -423,14 +428,14 @@ fn programs_are_identical_to_themselves() {
     }
 }
 
-/// Correct programs, changed in one place. Each was once called identical or equivalent.
+/// Correct programs, changed in one place. Earlier versions reported each changed program as identical or equivalent.
 #[test]
 fn wrong_programs_are_different() {
     let back = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"back","depth":0.5,"rapto":0.9,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[null,null,2]},{"line":[3,3,1.9]},{"rapid":[3,3,2]}"#;
     let bore = r#"{"rapid":[0,0,2]},{"cycle":{"kind":"bore","depth":0.5,"clear":0.1,"feed":5,"orient":90,"offset":0.05,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let deep = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"step":0.4,"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
     let pecks = r#"{"rapid":[1,1,2]},{"cycle":{"kind":"deep","emulate":true,"depth":1,"clear":0.1,"feed":5,"pecks":[{"to":0.4,"feed":5},{"to":0.7,"feed":4},{"to":1,"feed":3}],"points":[[1,1,0]]}},{"rapid":[1,1,2]}"#;
-    // each peck begins higher than the one before, so only its first part is in the material
+    // each peck begins above the bottom of the previous peck, so its first part is not in the material
     let chips = pecks.replace("deep", "chipbreak").replace("\"clear\"", "\"back\":0.05,\"clear\"");
     let chips = chips.as_str();
     let gap = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"dwell":3},{"rapid":[0,0,2]},{"rapid":[1,1,2]},{"dwell":2},{"rapid":[1,1,1]},{"line":[1,1,-1]},{"rapid":[1,1,2]}"#;
@@ -494,7 +499,7 @@ fn wrong_programs_are_different() {
     assert!(quiet.is_empty(), "{quiet}");
 }
 
-/// A low rapid in a work offset in which nothing is cut.
+/// The proof finds a low rapid in a work offset without cuts.
 #[test]
 fn low_rapids_of_other_offsets_are_found() {
     let job = r#"{"postform":1,"program":1,"units":"inch","tools":[{"number":1,"diameter":0.5}],"operations":[{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":10,"path":[{"rapid":[0,0,2]},{"work":55},{"rapid":[2,2,2]},{"line":[2,2,-1]},{"rapid":[2,2,2]}]}]}"#;
@@ -559,14 +564,15 @@ fn unknown_codes_are_not_proven() {
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
     assert_eq!(unproven.why, "G201 is unknown for fanuc");
     assert!(unproven.from().starts_with(" from N") && unproven.line > 0, "{unproven:?}");
-    // LinuxCNC has only the codes of its file, and refuses all others itself
+    // LinuxCNC has only the codes of its control file, and refuses all other codes
     let form = check(&post("linuxcnc.pf"));
     let program = rendered(&form, &job, Cycles::Form);
     let changed = program.replacen("G1 Z-1.", "G201 P1\nG1 Z-1.", 1);
     assert!(matches!(verified(&form, &changed, &job), Verdict::Different(_)), "{changed}");
 }
 
-/// A program of a form without a control is not proven, and never different, because the rules of its control are unknown.
+/// If a form has no control, its programs are reported as not proven, and never as different, because the rules of the
+/// control are unknown.
 #[test]
 fn forms_without_a_control_are_not_proven() {
     let run = |more: &[&str]| {
@@ -598,7 +604,7 @@ fn custom_cycles_are_holes() {
     assert!(matches!(verified(&form, &changed, &job), Verdict::NotProven(_)), "{changed}");
 }
 
-/// Programs of unusual forms that were once called different.
+/// Correct programs of unusual forms that earlier versions reported as different.
 #[test]
 fn right_programs_of_unusual_forms_are_proven() {
     let inch = |path: &str| one(path).replace("\"mm\"", "\"inch\"");
@@ -662,7 +668,7 @@ fn docs_list_what_is_proven() {
     }
 }
 
-/// Real programs and paths that were once called different.
+/// Real programs and paths that earlier versions reported as different.
 #[test]
 fn findings_of_others_stay_found() {
     let lines = r#"{"start":{"units":"mm","program":1,"tools":[{"number":1,"length_offset":1}]}}
@@ -685,7 +691,7 @@ fn findings_of_others_stay_found() {
     }
 }
 
-/// A proof during printing, with events and text in small pieces, has the same verdict.
+/// The verdict is the same if the proof runs during printing and gets events and text in small pieces.
 #[test]
 fn a_proof_beside_the_renderer_is_the_same() {
     struct Tap<'p> {
@@ -717,7 +723,7 @@ fn a_proof_beside_the_renderer_is_the_same() {
         let outcome = beside(tap.batches.clone());
         assert!(outcome.verdict.is_proven() && outcome.counts.holes == 20, "{name}: {outcome:?}");
         assert_eq!(outcome.verdict, verified(&form, std::str::from_utf8(&text).unwrap(), &job), "{name}");
-        // a digit that changes between the renderer and the proof
+        // changes a digit between the renderer and the proof
         let wrong = |batch: Batch| {
             let text = batch.text.iter().map(|&byte| if byte == b'5' { b'6' } else { byte }).collect();
             Batch { text, ..batch }
@@ -726,7 +732,7 @@ fn a_proof_beside_the_renderer_is_the_same() {
     }
 }
 
-/// Memory does not grow if a program prints nothing for a long part of its job.
+/// The proof needs no more memory if a long part of the job prints nothing.
 #[test]
 fn a_proof_beside_the_renderer_holds_no_long_job() {
     let form = check(&post("fanuc.pf"));
@@ -767,15 +773,15 @@ fn a_proof_holds_no_long_way_of_the_program() {
         let Verdict::NotProven(unproven) = verified(&form, &many, &job) else { panic!("{block}") };
         assert_eq!(unproven.why, "too many rapids, stops and dwells between two cuts");
     }
-    // each change of the work offset is compared with each other one
+    // each change of the work offset is compared with every other change
     let there = r#"{"work":55},{"rapid":[0,0,50]},{"work":54},{"rapid":[0,0,50]},"#.repeat(2000);
     let job =
         one(&format!(r#"{{"rapid":[0,0,25]}},{{"line":[0,0,1]}},{{"rapid":[0,0,50]}},{there}{{"line":[0,0,40]}}"#));
     assert!(matches!(of_post("fanuc.pf", &job).1, Verdict::NotProven(_)));
 }
 
-/// If a cycle of the job can't be planned, the proof ends there, and the rest is not proven: a control drills what the
-/// planner refuses.
+/// If the planner refuses a cycle of the job, the proof ends there, and the rest is not proven. A control may still
+/// drill such a cycle.
 #[test]
 fn a_job_that_is_not_compared_to_its_end_is_not_proven() {
     let job = one(
@@ -821,7 +827,7 @@ fn a_back_bore_may_come_first() {
     let form = fs::read_to_string(root().join("tests/data/forms/advanced.pf")).unwrap();
     let (program, verdict) = of_form(&form, &job);
     assert!(verdict.is_proven(), "{verdict:?}\n{program}");
-    // without the move off the wall, straight down
+    // without the move away from the wall, the tool moves straight down
     let (form, job) = (check(&form), document(&job));
     let down = program.lines().filter(|line| !line.contains("X-61.9")).collect::<Vec<_>>().join("\n");
     assert!(matches!(verified(&form, &down, &job), Verdict::Different(_)), "{down}");
@@ -851,7 +857,7 @@ fn stops_before_the_first_cut_are_the_forms() {
         assert_ne!(form, fanuc);
         is_right(own, of_form(&form, &cut));
     }
-    // after the cut has begun
+    // a stop or dwell after the cut has begun
     let (program, _) = of_form(&fanuc, &cut);
     let (form, job) = (check(&fanuc), document(&cut));
     for own in ["M1", "G4 P2000"] {
@@ -909,7 +915,7 @@ fn drilled_holes_may_be_pecked() {
     }
 }
 
-/// With a floating holder, the spindle must already turn. For a rigid tap, the control turns it.
+/// For a tap in a floating holder, the spindle must already turn. For a rigid tap, the control turns the spindle.
 #[test]
 fn floating_taps_want_the_spindle_turning() {
     let text = post("fanuc.pf");
@@ -939,7 +945,7 @@ fn floating_taps_want_the_spindle_turning() {
     }
 }
 
-/// A tap that the control pecks ends with its cycle. A feed move up after it is the next cut.
+/// If the control pecks a tap, the tap ends with the cycle. A feed move up after the cycle is the next cut.
 #[test]
 fn a_feed_after_a_pecking_tap_is_the_next_cut() {
     let job = one(
@@ -995,7 +1001,7 @@ fn the_feed_of_a_short_last_peck_is_its_own() {
     is_right("pecks with feeds", of_post("fanuc.pf", &job));
 }
 
-/// G43 without H uses the length of the tool in the spindle, not that of a tool selected for later.
+/// G43 without H uses the length of the tool in the spindle, not the length of a preselected tool.
 #[test]
 fn a_length_without_its_register_is_that_of_the_tool_in_the_spindle() {
     let form = check(&post("linuxcnc.pf"));
@@ -1012,7 +1018,7 @@ fn a_length_without_its_register_is_that_of_the_tool_in_the_spindle() {
     assert!(found.iter().all(|found| found.code.name() == "PV014"), "{found:?}");
 }
 
-/// A missing value of a job is the form's default for the job's units, whatever the program's units are.
+/// If a job lacks a value, the form's default for the units of the job applies, whatever the units of the program are.
 #[test]
 fn defaults_are_those_of_the_jobs_units_in_any_program() {
     let posts = ["fanuc.pf", "haas.pf", "linuxcnc.pf", "grbl.pf"];

@@ -22,7 +22,8 @@ fn after(post_name: &str, job: &str, changes: &[(&str, &str)]) -> String {
     }
 }
 
-/// Paths without a cut are compared, too: a tool or work offset that only moves, and whole programs without cuts.
+/// Paths without a cut are compared, too: moves of a tool or in a work offset that has no cut, and whole programs
+/// without cuts.
 #[test]
 fn ways_to_no_cut_are_compared() {
     let last = mm(
@@ -58,7 +59,7 @@ fn ways_to_no_cut_are_compared() {
     );
 }
 
-/// Stops and dwells must be at the job's positions: at home, or elsewhere on the path to the next cut, which is
+/// A stop at home must stay at home. Other stops and dwells may be elsewhere on the path to the next cut, and are then
 /// counted.
 #[test]
 fn pauses_keep_their_places() {
@@ -76,7 +77,7 @@ fn pauses_keep_their_places() {
     assert_eq!(after("grbl.pf", &way, &[("M1\n", "(none)\n"), ("X10. Y10.\n", "X10. Y10.\nM1\n")]), behind);
 }
 
-/// If the job sends the tool home, the tool moves across the part only afterwards.
+/// If the job moves the tool home, the tool must not move across the part before the move home.
 #[test]
 fn nothing_crosses_the_part_before_the_way_home() {
     let home = one(
@@ -124,7 +125,8 @@ fn cuts_behind_a_difference_are_compared() {
     assert_eq!(after("linuxcnc.pf", &job, &[("G0 Z20.\nX", "G1 Z20.\nG0 X")]), "PV008 4");
 }
 
-/// No stop or other action may be inside a cut that is printed in parts; between two cuts, only those of the job.
+/// No stop or other action may be inside a cut that is printed in parts. Between two cuts, only the stops and actions
+/// of the job are allowed.
 #[test]
 fn nothing_stands_inside_a_cut() {
     let cuts =
@@ -159,7 +161,7 @@ fn nothing_stands_inside_a_cut() {
     assert_eq!(after("haas.pf", &pauses, &[("M1\n", "(none)\n")]), "PV019 1");
 }
 
-/// A reamed hole may be left at feed up to the highest position of the job with this tool since its last cut.
+/// The tool may leave a reamed hole at feed, up to the highest position of this tool in the job since its last cut.
 #[test]
 fn holes_are_left_at_feed_up_to_the_return_plane() {
     let ream =
@@ -219,7 +221,8 @@ fn nothing_waits_in_a_hole() {
     let between = |what: &str| after("haas.pf", &cuts, &[("Y30.\n", &format!("{what}Y30.\n"))]);
     assert_eq!(between("M5\nM3\nG4 P1.\n"), "equivalent: 1 dwell added by the form");
     assert_eq!(between("M4\nG4 P1.\nM3\n"), "PV010 1");
-    // between webs, at the bottom of a bore, below a back bore; outside the hole it is counted
+    // a stop or dwell between webs, at the bottom of a bore or below a back bore is a difference; outside the hole it
+    // is counted
     let hole = |cycle: &str| {
         one(&format!(
             r#"{{"rapid":[0,0,50]}},{{"cycle":{{{cycle},"clear":5,"feed":300,"points":[[10,10,0]]}}}},{{"rapid":[10,10,50]}}"#
@@ -289,7 +292,7 @@ fn a_short_line_at_an_arc_lies_on_it() {
     }
 }
 
-/// S alone does not start the spindle. Without an M3 before, the spindle is stopped after a tap.
+/// S alone does not start the spindle. If no M3 came before a tap, the spindle is stopped after the tap.
 #[test]
 fn a_speed_alone_starts_no_spindle() {
     let taps = mm(
@@ -302,7 +305,7 @@ fn a_speed_alone_starts_no_spindle() {
     }
 }
 
-/// On the path to its first position, the tool moves down only over that position.
+/// On the path to its first position, the tool moves down only directly above this position.
 #[test]
 fn the_tool_comes_down_over_the_first_place() {
     let low = mm(
@@ -359,7 +362,7 @@ fn a_length_where_there_are_none_is_wrong() {
     assert!(changed.contains("PV014"), "{changed}");
 }
 
-/// After the last cut, the tool moves down only where the job does.
+/// After the last cut, the tool moves down only at positions where the tool also moves down in the job.
 #[test]
 fn the_way_out_goes_down_where_the_jobs_does() {
     let leave = mm(
@@ -372,8 +375,8 @@ fn the_way_out_goes_down_where_the_jobs_does() {
     }
 }
 
-/// A move to the machine zero ends the tool length on many controls. Without another G43, the tool would go down by its
-/// length too far.
+/// On many controls, a move to the machine zero cancels the tool length. Without another G43, the tool would move down
+/// too far, by its whole length.
 #[test]
 fn the_length_is_turned_on_again_after_home() {
     let offsets = one(
@@ -402,7 +405,8 @@ fn the_length_is_turned_on_again_after_home() {
             assert!(!verdict.contains("PV"), "{post} {kind}: {verdict}");
         }
     }
-    // the same program on other controls: G28 ends the length on a Haas, G53 does not; LinuxCNC keeps it
+    // the same program on other controls: on a Haas, G28 cancels the tool length and G53 does not; LinuxCNC keeps the
+    // tool length
     let verdict = |control: &str, program: &str| {
         let mut proof = Proof::default();
         proof.control = Some(crate::support::control(control));
@@ -475,7 +479,7 @@ fn nothing_moves_between_m29_and_its_tap() {
     assert!(moved.starts_with("PV011"), "{moved}");
 }
 
-/// The offset register stays the same while the compensation is on, also if the job names no register.
+/// The offset register stays the same while the compensation is on, even if the job names no register.
 #[test]
 fn a_contour_keeps_its_offset_register() {
     let contour = mm(
@@ -489,7 +493,7 @@ fn a_contour_keeps_its_offset_register() {
     }
 }
 
-/// A value that the job does not contain may have any value in the program, but only one.
+/// If the job does not give a value, any value is allowed in the program, but the value must not change.
 #[test]
 fn what_a_job_leaves_open_does_not_change() {
     let job = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[{"tool":1,

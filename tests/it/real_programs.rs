@@ -1,5 +1,6 @@
-//! Programs of several CAM systems, if they are next to the checkout. Each runs under `fanuc`, or is refused for a
-//! reason that a machinist accepts. Printed by another form, it makes the same motions.
+//! Programs of several CAM systems; the test runs only if they are next to the checkout. Each program runs on the
+//! control `fanuc`, or is refused for a reason that a machinist accepts. If another form prints the program, the
+//! motions stay the same.
 
 use crate::support;
 use crate::support::control;
@@ -19,7 +20,7 @@ type Outcome = Result<(u64, u64), (&'static str, u64)>;
 /// A program, its settings, and the expected outcome.
 type Program = (&'static str, Vec<u8>, RunSettings, Option<Units>, Outcome);
 
-/// File, its units if it contains none, and the number of holes and tools or the refusal.
+/// The file; its units, if it has no code for them; the number of holes and tools, or the refusal.
 const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
     ("gct_CGIP09902-2.NC", Some(Units::Inch), Ok((24, 5))),
     ("gct_CGIP09902.NC", Some(Units::Inch), Ok((633, 4))),
@@ -35,7 +36,7 @@ const PROGRAMS: [(&str, Option<Units>, Outcome); 7] = [
 fn programs() -> Vec<Program> {
     let folder = root().join("../shared/data/nc");
     let with = |(name, units, expected): (&'static str, Option<Units>, _)| {
-        // two of them end with G53 X12, whose meaning without a decimal point only the shop knows
+        // two programs end with G53 X12; the meaning of the number without a decimal point depends on the machine
         let unpointed = if units.is_some() { Unpointed::Whole } else { Unpointed::Refused };
         let settings =
             RunSettings { units: units.unwrap_or(Units::Mm), unpointed, ..RunSettings::new(control("fanuc")) };

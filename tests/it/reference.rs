@@ -93,7 +93,8 @@ fn everything_is_explained() {
     assert!(explain("None").unwrap().contains("prints no block"));
 }
 
-/// Any text as one argument of a command, alone, before it or after its first letter, gives findings and never a panic.
+/// A wrong text replaces an argument of a command, stands before it, or replaces one of its parts. The check gives
+/// findings and never a panic.
 #[test]
 fn every_argument_of_a_command_may_be_wrong() {
     let wrong = ["\u{a1}", "", "\"", "1e999", "-1", "99999999999999999999", ".", "\u{1f529}", "NaN"];
@@ -150,7 +151,7 @@ fn cells(line: &str) -> Vec<&str> {
 
 /// The commands for a cell of defaults, such as `X; lathe Z`, `inch deep 1, thru 1; mm deep 2, thru 2`.
 fn commands_of(name: &str, cell: &str, machine: &str, units: &str) -> Vec<String> {
-    // their defaults are described in words, or depend on other commands
+    // the defaults of these commands are described in words, or depend on other commands
     if ["Machine", "Units", "Control", "ModalLetters", "CycleSinkClear"].contains(&name) || cell == "-" {
         return vec![];
     }

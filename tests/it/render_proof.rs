@@ -7,7 +7,7 @@ use postform::{ErrorKind, Job, NoFiles, Options, Post, Source, Verdict};
 use crate::support::folder::{Folder, err, out};
 use crate::support::{job, mill, plain_post, root};
 
-/// Two posts: the drill cycle of one begins to feed at another height than the job; the other one is correct.
+/// Two posts. The drill cycle of `wrong.pf` begins to feed at another height than the job. `right.pf` is correct.
 fn posts(folder: &Folder) {
     let right = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
     folder.write("wrong.pf", right.replace("R[vclear]", "R[rplane]"));
@@ -23,7 +23,7 @@ fn what_differs_is_not_printed() {
     let output = folder.run(&["render", "job.json", "--form", "wrong.pf", "-o", "out.nc"]);
     let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    // the finding names job item, form line and program block, and the result
+    // the message names the job item, the form line, the program block and the result
     for part in [
         "PV005",
         "operations[2].path[0].cycle.points[0]",
@@ -74,8 +74,8 @@ fn what_is_right_is_printed_with_a_line_that_says_so() {
     assert!(err(&output).contains("[wrong.pf:"), "{}", err(&output));
 }
 
-/// For a long job, printer and proof exchange about thirty batches. Program and source map must be the same as without
-/// a proof, and an error at the end must be found.
+/// For a long job, the renderer sends about thirty batches to the proof. Program and source map must be the same as
+/// without a proof, and an error at the end must be found.
 #[test]
 fn a_long_job_is_proven_in_parts() {
     let folder = Folder::new("proof-long");
@@ -117,12 +117,12 @@ fn what_is_not_proven_is_printed_unless_a_proof_is_required() {
     folder.write("postform.toml", "require-proof = true\n");
     assert_eq!(run(&[]).status.code(), Some(1));
     assert_eq!(out(&run(&["--no-verify"])), program);
-    // the control is then known, and its rules do not allow this tool change without G43
+    // with `--control`, the control is known, and its rules do not allow this tool change without G43
     let output = run(&["--control", "fanuc"]);
     assert!(err(&output).contains("different: "), "{}", err(&output));
 }
 
-/// A call of the program's own subprograms needs to go back in the program.
+/// To run a call of the program's own subprograms, the proof must go back in the program.
 #[test]
 fn a_program_that_calls_parts_of_itself_is_gone_through_as_a_file() {
     let folder = Folder::new("proof-file");

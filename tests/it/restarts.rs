@@ -12,7 +12,8 @@ fn restarted(folder: &Folder, control: &str, at: &[&str]) -> Result<(String, Str
     if run.status.success() { Ok((out(&run), err(&run))) } else { Err(err(&run)) }
 }
 
-/// Every line of the samples' programs as an entry: the rest of the program is unchanged, or there is a message.
+/// Tries every line of the samples' programs as an entry. The rest of the program must be unchanged, or there must be a
+/// message.
 #[test]
 fn every_line_of_the_samples_is_an_entry_or_has_a_reason() {
     let folder = Folder::new("restart-samples");
@@ -55,7 +56,7 @@ fn what_is_in_force_is_put_in_force() {
     let folder = Folder::new("restart-force");
     folder.write("a.nc", PROGRAM);
     let at = |at: &[&str]| restarted(&folder, "fanuc", at).unwrap();
-    // in the middle of a compensated contour: the entry is before the tool moves down
+    // for a line in the middle of a compensated contour, the entry is before the tool moves down
     let (program, said) = at(&["--at", "N13"]);
     assert!(said.contains("the program begins at line 13, where the tool is clear, not at line 15"), "{said}");
     let own: Vec<&str> = program.lines().skip(3).take_while(|line| !line.starts_with("N11")).collect();
@@ -81,7 +82,7 @@ fn what_is_in_force_is_put_in_force() {
     assert!(program.contains("G98\nN17 G90 T2 M6\nN18 G55"), "{program}");
     assert!(!program.contains("T1 M6"), "the tool before is not loaded");
     assert!(!program.contains("G0 X"), "the blocks after the change say where they go");
-    // a hole of a cycle: the tool starts at the height before it
+    // at a hole of a cycle, the tool starts at the height before the hole
     let (program, _) = at(&["--at", "21"]);
     assert!(program.contains("G55\nS2000 M3\nM9\nG0 X5. Y5.\nG43 H2 Z20.\n"), "{program}");
     assert!(program.contains("\nN20 G98 G81"), "{program}");
@@ -95,7 +96,8 @@ fn way_in(program: &str, first_old: &str) -> String {
     own.split(first_old).next().unwrap().lines().skip(1).collect::<Vec<_>>().join(" / ")
 }
 
-/// The tool retracts before the spindle or coolant starts. Blocks that start them do not belong to the head.
+/// The tool retracts before the spindle or coolant starts. Blocks that start the spindle or coolant do not belong to
+/// the head.
 #[test]
 fn nothing_turns_before_the_tool_is_out() {
     let folder = Folder::new("restart-still");
@@ -150,7 +152,8 @@ fn a_stop_for_a_tool_is_an_entry_where_no_code_changes_it() {
     assert!(long.contains("is a height of the tool tip") && long.contains("leave --clear-z out"), "{long}");
 }
 
-/// A state that the old program never set is not written. A lathe moves home along one axis after the other.
+/// A state that the old program never set is not written into the new program. A lathe moves home along one axis after
+/// the other.
 #[test]
 fn what_was_never_said_is_not_written() {
     let folder = Folder::new("restart-unsaid");
@@ -165,7 +168,8 @@ fn what_was_never_said_is_not_written() {
     assert!(said.contains("first goes home along X:"), "{said}");
 }
 
-/// If a cut takes its X and Y from before the entry, the new program moves to them. If they are unknown, it is refused.
+/// If X and Y of a cut come from blocks before the entry, the new program first moves to this position. If the position
+/// is unknown, the entry is refused.
 #[test]
 fn a_cut_is_where_it_was() {
     let folder = Folder::new("restart-where");
@@ -179,13 +183,13 @@ fn a_cut_is_where_it_was() {
         said.contains("the tool moves down, but the X and Y of the move are given only before the entry"),
         "{said}"
     );
-    // before a program end, the modal state at the entry is restored
+    // if the entry is the program end, the new program still restores the modal state
     folder.write("a.nc", "G21 G90 G17 G94\nG0 G56 X0 Y0 S1000 M3\nZ5.\nX10.\nM30\n");
     let (new, _) = restarted(&folder, "grbl", &["--line", "5"]).unwrap();
     assert!(way_in(&new, "M30").contains("G56 / S1000 M3"), "{new}");
 }
 
-/// Subprograms, a T word long before its M6, and lists of operations in a header.
+/// These do not prevent a restart: subprograms, a T word long before its M6, and a list of operations in the header.
 #[test]
 fn subprograms_and_tools_named_before_are_no_obstacle() {
     let folder = Folder::new("restart-subs");
@@ -245,7 +249,7 @@ fn what_cant_be_rebuilt_is_refused() {
     assert_eq!(folder.run(&["restart", "a.nc", "--control", "fanuc"]).status.code(), Some(2), "nowhere");
     let same = folder.run(&["restart", "a.nc", "--control", "fanuc", "--tool", "2", "-o", "a.nc"]);
     assert!(same.status.code() == Some(2) && folder.read("a.nc") == PROGRAM, "{}", err(&same));
-    // before a block that computes values or moves the frame: this block is run again
+    // the entry is before a block that computes values or moves the frame, so the block is run again
     for block in ["#1=5", "G52 X1."] {
         folder.write("a.nc", PROGRAM.replace("N9 (SECOND)", &format!("N9 {block}")));
         let (_, said) = restarted(&folder, "fanuc", &["--tool", "2"]).unwrap();
@@ -285,7 +289,7 @@ fn the_interpreter_goes_on_as_in_the_whole_program() {
         let Ok((program, _)) = restarted(&folder, "linuxcnc", &["--line", &line.to_string()]) else { continue };
         let own = calls(&program);
         let same = own.iter().rev().zip(whole.iter().rev()).take_while(|(one, two)| one == two).count();
-        // before them are only the approach moves, which do not cut
+        // before these equal calls, there are only the approach moves, which do not cut
         let before = &own[..own.len() - same];
         assert!(same > 0 && before.len() < 7, "{line}: {before:?}\n{program}");
         assert!(!before.iter().any(|call| call.contains("FEED")), "{line}: {before:?}");
@@ -294,7 +298,8 @@ fn the_interpreter_goes_on_as_in_the_whole_program() {
     assert!(made > 15, "{made}");
 }
 
-/// Part of a job, selected by tools. It is proven like a job, and includes the modal state of the operations before it.
+/// A part of a job, selected by tools, is proven like a whole job. It includes the modal state of the operations before
+/// it.
 #[test]
 fn a_part_of_a_job_is_taken() {
     let folder = Folder::new("select");

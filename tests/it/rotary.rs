@@ -36,7 +36,7 @@ fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
     assert_eq!(lines[5..], ["G0 Z1.", "G1 A50. F10."]);
 }
 
-/// A form whose tool change moves down must turn the part before.
+/// If the tool change of a form moves down, the form must turn the part before this move.
 #[test]
 fn a_tool_change_turns_the_part_before_it_goes_down() {
     let turned = job("{\"line\":[1,0,1]}").replace("[0,0,1]", "[0,0,1,90]");
@@ -49,7 +49,7 @@ fn a_tool_change_turns_the_part_before_it_goes_down() {
     assert_eq!(program(&high, &turned)[3..8], ["G0 G54 X0 Y0", "G0 Z9.", "A90.", "X0 Y0", "Z1."]);
 }
 
-/// Axes that Index does not print are moved after it. An angle that it does not print is an error.
+/// Axes that Index does not print are moved after Index. If Index does not print the angle, there is an error.
 #[test]
 fn index_loses_no_axis() {
     let short = "Index\nG0 Z9.\nA[rotangle]\nEnd";
@@ -102,8 +102,8 @@ fn an_angle_is_known_behind_a_cycle() {
     assert_eq!(lines.last().unwrap(), "G0 X3. Y0 Z2.", "{lines:?}");
 }
 
-/// Another work offset may need another turn at the same angle. The Haas post prints the angle again while the tool is
-/// up.
+/// In another work offset, the part may need a turn even if the angle stays the same. The Haas post prints the angle
+/// again while the tool is up.
 #[test]
 fn another_work_offset_turns_the_part_before_the_tool_goes_down() {
     let operation = |work: u8| {

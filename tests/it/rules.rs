@@ -218,7 +218,7 @@ fn misprints_and_dangerous_examples_of_the_manual_have_their_rules() {
         let diags = found(&checked(mill("", sequences).as_bytes())).diags;
         assert!(codes(&diags).contains(&code), "{what}: {:?}", codes(&diags));
     }
-    // the fifth one: a tool change that prints H without G43
+    // the fifth dangerous example: a tool change that prints H without G43
     let text = mill("", "").replace("X[h] Y[v] Z[d]", "X[h] Y[v]\nZ[d] H[Lcomp]");
     assert!(codes(&found(&checked(text.as_bytes())).diags).contains(&"PF426"));
 }
@@ -257,9 +257,9 @@ fn a_comment_at_the_head_allows_findings_of_the_whole_file() {
     assert!(plain.0.contains(&"PF418") && plain.1 == 0, "{plain:?}");
     let head = "# our router\n\n# postform: allow-file PF418 its feed is set by hand\n";
     assert_eq!(allowed(head, twice), (vec![], plain.0.len()));
-    // an allowance for another location next to it is not lost
+    // an additional allowance for one line is not reported as unused
     assert_eq!(allowed(head, &format!("# postform: allow PF418\n{twice}")), (vec![], plain.0.len()));
-    // nothing to allow, an error, and a comment at a wrong position
+    // three wrong allowances: without a finding, for an error, and at a wrong position
     assert_eq!(allowed(head, "").0, ["PF108"]);
     let error = "LineCode\nG1 X[h] Y[v]. Z[d] F[frate]\nEnd";
     assert_eq!(allowed("# postform: allow-file PF001\n", error).0, ["PF001", "PF108"]);
@@ -284,8 +284,8 @@ static FORMS: std::sync::LazyLock<Vec<(String, Vec<u8>)>> = std::sync::LazyLock:
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
-    /// For randomly changed shipped forms, lint, fixes and layout all end without a panic. The fuzz target tests this
-    /// by the million.
+    /// For randomly changed shipped forms, lint, fixes and layout all end without a panic. The fuzz target tests
+    /// millions of changed forms.
     #[test]
     fn mutated_forms_are_looked_at_to_their_end(
         which in any::<prop::sample::Index>(),
@@ -391,7 +391,7 @@ fn a_dwell_by_its_sequence_needs_no_format() {
     assert!(seconds(&plain) && !seconds(&format!("{plain}\nDwellBlock\n(WAIT [dwell])\nEnd\n")));
 }
 
-/// Variants of the same mistakes.
+/// The rules also find variants of the mistakes on the pages.
 #[test]
 fn mistakes_are_found_in_other_words_too() {
     let table = [
@@ -464,7 +464,7 @@ fn mistakes_are_found_in_other_words_too() {
         ("PF503", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[depth] F[frate]\nG0 Z[rplane]\nEnd"),
         ("PF505", "Drill\nG[retplane] G80 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel"),
         ("PF015", "EndCode\nM9\n%0\nM30\nEnd"),
-        // words after a mark that makes the rest of the block a comment have no effect
+        // words in a comment that goes to the end of the block have no effect
         ("PF014", "Comment ;\n\nEndCode\nM9\n; no M30 here\nEnd"),
         ("PF017", "Comment ;\n\nSubStart\nO[sub]\nEnd\nSubCall\nM98 P[sub]\nEnd\nSubEnd\n; end of sub\nEnd"),
         (
@@ -491,7 +491,7 @@ fn mistakes_are_found_in_other_words_too() {
     }
 }
 
-/// A very long line, and a comment with as many values, are processed. benches/growth.py measures how the time grows.
+/// A very long line and a comment with very many values are processed. benches/growth.py measures how the time grows.
 #[test]
 fn long_lines_are_answered() {
     let parts = ["M0 ", "X[h] ", "[h]", "(a) ", "a#b ", "G ", "S[speed] "];

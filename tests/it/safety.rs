@@ -12,14 +12,15 @@ use postform::{NoFiles, Post, Source};
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 const RETURNS: &str = "Drill\nG[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
 
-/// After a tool change, the first position is not printed again, but the motion code is: the tool change may have left another motion.
+/// After a tool change, the motion code is printed again, because the tool change may have left another motion active.
+/// The first position is not printed again.
 #[test]
 fn motion_code_is_unknown_after_a_tool_change() {
     assert_eq!(path_lines("", "", "{\"rapid\":[0,0,0.5]}"), ["G0 Z.5"]);
 }
 
-/// A position that a tool change prints in another frame, or before the machine is moved, is printed again by the next
-/// move. A position that nothing invalidates is not.
+/// If a tool change prints a position in another frame, or moves the machine after the position, the next move prints
+/// the position again. A position that is still valid is not printed again.
 #[test]
 fn positions_in_another_frame_are_unknown() {
     const CHANGE: &str = "G0 G[work] X[h] Y[v] Z[d]";
@@ -29,10 +30,10 @@ fn positions_in_another_frame_are_unknown() {
         lines[from..lines.len() - 1].to_vec()
     };
     let cut = "G1 X1. F10.";
-    // the reference point comes before the position, and the increments are ended
+    // the move to the reference point comes before the position, and G90 ends the increments
     assert_eq!(after(&format!("G91 G28 Z0\nG90\n{CHANGE}")), [cut]);
     assert_eq!(after(&format!("G53 G0 Z0\n{CHANGE}")), [cut]);
-    // increments that stay active, another frame, a position that the machine leaves
+    // another frame, and moves after the position
     assert_eq!(after(&format!("G92 X0\n{CHANGE}")), ["G0 X0 Y0 Z1.", cut]);
     assert_eq!(after(&format!("{CHANGE}\nG28 X0")), ["G28 X0", "G0 X0", cut]);
     assert_eq!(after(&format!("{CHANGE}\nG28")), ["G28", "G0 X0 Y0 Z1.", cut]);
@@ -123,7 +124,7 @@ fn changes_that_an_upon_serves_are_printed_by_it() {
     assert_eq!(path_lines("", upon, path), ["G1 X1. Z0 F10.", "G4 P1", "S2000", "X2."]);
 }
 
-/// A work offset for which the form has no word is an error. It must never become G1 for fixture 1.
+/// A work offset for which the form has no word is an error. Fixture 1 must never become the code G1.
 #[test]
 fn a_work_offset_without_a_word_is_an_error() {
     let form = mill("Work 1\nWorkDefault 1", "").replace(" G[work]", "");
@@ -141,7 +142,8 @@ fn the_same_tool_again_prints_only_changes() {
     assert_eq!(program(&mill("", ""), &text)[4..7], ["G1 X1. Z0 F10.", "S1500 M3", "X2. F7."]);
 }
 
-/// A cycle of the control begins with the tool at the return plane: the tool first moves up alone, or first across and down last.
+/// A cycle of the control begins with the tool at the return plane. The tool first moves up and then across, or first
+/// across and then down.
 #[test]
 fn a_cycle_begins_at_its_return_plane() {
     let cycle =
@@ -152,7 +154,8 @@ fn a_cycle_begins_at_its_return_plane() {
     assert_eq!(path_lines("", RETURNS, &format!("{{\"line\":[0,0,0]}},{cycle}")), up);
 }
 
-/// The control would move at rapid through the material to a higher hole: the cycle is ended, the tool raised, and the cycle started again.
+/// The control would move at rapid through the material to a higher hole. So postform ends the cycle, raises the tool,
+/// and starts the cycle again.
 #[test]
 fn a_cycle_is_raised_to_a_higher_hole() {
     let cycle =
@@ -170,7 +173,7 @@ fn a_cycle_is_raised_to_a_higher_hole() {
     assert_eq!(path_lines("", DRILL, cycle), expected);
 }
 
-/// The height of the previous hole counts: after a higher hole, the tool is already above the next one.
+/// The height of the previous hole counts: after a higher hole, the tool is already above the next hole.
 #[test]
 fn generated_holes_go_up_first_and_down_last() {
     let cycle =
@@ -201,7 +204,8 @@ fn a_changed_depth_is_printed_at_each_hole_that_changes_it() {
     assert_eq!(path_lines("", DRILL, &cycle), expected);
 }
 
-/// Two cycles of one kind in a row: the first one is cancelled, and the second one prints its whole first line.
+/// If two cycles of one kind follow each other, the first cycle is cancelled, and the second cycle prints its whole
+/// first line.
 #[test]
 fn a_new_cycle_starts_with_its_whole_line() {
     let cycle = |depth: &str| {
@@ -317,7 +321,7 @@ fn comments_keep_their_marks() {
     assert_eq!(path_lines("Comment ;", "", "{\"comment\":\"a (b)\"}"), [";A (B)"]);
 }
 
-/// After a mark that makes the rest of the block a comment, words have no effect and do not prevent other words.
+/// Words in a comment that goes to the end of the block have no effect, and do not prevent other words.
 #[test]
 fn values_in_a_comment_to_the_end_of_the_block_are_not_positions() {
     let drill = "Drill\n; HOLE AT X[h] Y[v]\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate] ; to Z[d]\nG0 Z[rplane]\nEnd";
@@ -364,7 +368,8 @@ fn a_radius_sequence_prints_long_arcs_in_parts() {
     assert_eq!(path_lines("", sequence, path)[1..], ["G3 X-.7071 Y.7071 R1.", "X0 Y-1. R1."]);
 }
 
-/// If an arc sequence prints no plane, the plane's code is printed before it, and also before a later block in another plane.
+/// If an arc sequence prints no plane, a separate block before the arc prints the code of the plane. The same applies
+/// before a later block in another plane.
 #[test]
 fn planes_are_said_where_a_sequence_does_not() {
     let sequence = "CwCode\nG2 X[h] Y[v] Z[d] R[arcrad]\nEnd";
@@ -389,7 +394,7 @@ fn a_motion_sequence_must_print_what_moves() {
     let sequence = "RapidCode\nG0 X[h] Y[v]\nEnd";
     assert!(path_lines("", sequence, "{\"rapid\":[0,0,2]}")[0].starts_with("PR017"));
     assert_eq!(path_lines("", sequence, "{\"rapid\":[1,0]}"), ["G0 X1."]);
-    // if the sequence has no feed, it is printed before it
+    // if the sequence has no feed, the feed is printed before the sequence
     let line = "LineCode\nG1 X[h] Y[v] Z[d]\nEnd";
     assert_eq!(path_lines("", line, "{\"line\":[1,0,1]},{\"line\":[2,0,1]}"), ["F10.", "G1 X1.", "X2."]);
 }
@@ -419,7 +424,7 @@ fn a_new_tool_does_not_keep_the_last_ones_depth() {
     assert!(program(&mill("", ""), &text)[0].starts_with("PR001 [d]"), "{:?}", program(&mill("", ""), &text));
 }
 
-/// Missing or contradictory values of a cycle that are no errors give a warning.
+/// Some missing or contradictory values of a cycle are not errors. They give a warning.
 #[test]
 fn odd_cycles_are_warned_of() {
     let warned = |cycle: &str, code: &str| {
@@ -452,7 +457,7 @@ fn upon_every_prints_at_uses_alone() {
     assert_eq!(feeds, ["G0 X1.", "(FEED)", "G1 X2. F10."]);
 }
 
-/// With VRapid, the depth part has its own code, even if the form has a RapidCode.
+/// With VRapid, the part of a rapid along the depth axis has its own code, even if the form has a RapidCode.
 #[test]
 fn vrapid_splits_before_a_rapid_sequence() {
     let sequence = "RapidCode\nG0 X[h] Y[v] Z[d]\nEnd";
@@ -483,7 +488,8 @@ fn a_surface_speed_follows_the_units() {
     assert!(rendered.text.contains("\nG96 S30.5 M3\n"), "{}", rendered.text);
 }
 
-/// If the tool change prints no work offset, it is printed before, because the position is relative to it.
+/// If the tool change prints no work offset, the work offset is printed before the tool change, because the position
+/// depends on it.
 #[test]
 fn a_tool_change_goes_to_its_own_work_offset() {
     let form = mill("", "").replace("G0 G[work] X[h]", "G0 X[h]");
@@ -537,7 +543,7 @@ fn a_cut_does_not_begin_with_an_upon_that_moves() {
     assert_eq!(lines[1..], ["G0 G53 Z0", "G55 X4. Y4.", "M0"]);
 }
 
-/// An increment is left out if it is zero, not if the position was printed before.
+/// An increment is left out only if it is zero. An increment that equals the previous increment is printed again.
 #[test]
 fn increments_of_a_sequence_are_no_positions() {
     let sequence = "LineCode\nG91 G1 X[hdist] Y[vdist] F[frate]\nG90\nEnd";
@@ -598,7 +604,7 @@ fn a_tap_turns_the_spindle_its_own_way() {
     assert!(path_lines("", ltap, &off)[0].starts_with("PR032 the spindle does not turn"));
 }
 
-/// If a sequence switches something off, it is switched on again before the next move.
+/// If a sequence switches off the spindle or the coolant, postform switches it on again before the next move.
 #[test]
 fn what_a_sequence_switches_is_put_back() {
     let lines = path_lines("", "EndRow\nM5 M9\nM0\nEnd", "{\"begin\":\"row\"},{\"end\":\"row\"},{\"line\":[1,0,1]}");
@@ -648,7 +654,7 @@ fn a_tool_change_needs_no_upon_that_moves() {
     assert_eq!(program(&mill("", upon), &text)[5..8], ["T2 M6", "S1 M3", "G0 G55 X3. Y3. Z1."]);
 }
 
-/// In a control's cycle, every axis word makes a hole, so an Upon first ends the cycle.
+/// In a control's cycle, every axis word makes a hole, so the cycle is ended before an Upon prints.
 #[test]
 fn an_upon_stands_outside_the_cycle() {
     let upon = format!("{DRILL}\nUpon [vclear]\nM8 X[h] Y[v]\nEnd");
@@ -684,7 +690,8 @@ fn spindle_and_coolant_are_said_again_after_a_stop() {
     assert_eq!(path_lines("", "", path), ["M8", "G1 X1. F10.", "M0", "S1000 M3", "M8", "X2."]);
 }
 
-/// The full turns of a helix end at their start to the last digit. Otherwise a turn would be printed as an arc of zero length.
+/// In the plane of a helix, each full turn ends exactly at its start, to the last digit. Otherwise a turn would be
+/// printed as an arc of zero length.
 #[test]
 fn whole_turns_end_where_they_begin() {
     let path = r#"{"rapid":[3.25,3.78125,0.1]},{"arc":{"to":[3.25,3.78125,-0.6],"center":[3.75,3.78125],"direction":"cw","turns":5}}"#;
@@ -694,7 +701,8 @@ fn whole_turns_end_where_they_begin() {
     assert!(arcs.iter().all(|line| !line.contains('X') && !line.contains('Y')), "{lines:?}");
 }
 
-/// After a full circle, the next one prints its code too: controls need a code in a block without axis words.
+/// After a full circle, the next full circle also prints its code, because controls need a code in a block without axis
+/// words.
 #[test]
 fn a_whole_circle_says_its_code() {
     let circles = r#"{"rapid":[2,0,1]},{"arc":{"to":[2,0],"center":[1,0],"direction":"ccw"}},{"arc":{"to":[2,0],"center":[1.5,0],"direction":"ccw"}}"#;
@@ -732,7 +740,8 @@ fn nothing_stands_between_the_holes_of_a_cycle() {
     assert_eq!(lines[at..], ["G95 G84 X1. Y1. Z-.5 R.1 F.05", "X2.", "G80", "G94", "G1 X3. Z0 F10."]);
 }
 
-/// A fixture number that is the parameter of a code is always printed with the code. A code with the same number is something else then.
+/// A fixture number may be the parameter of a code, as in `G15 H2`. The number is always printed with this code. A code
+/// with the same number then has another meaning.
 #[test]
 fn a_work_offset_is_said_with_its_code() {
     let form =
@@ -741,7 +750,8 @@ fn a_work_offset_is_said_with_its_code() {
     assert_eq!(lines[3..], ["G15 H1 G56", "G0 X0 Y0 Z1.", "G15 H2", "G0 X1. Y0 Z1.", "M30"]);
 }
 
-/// If Cancel switches something off, it is switched on again before the control enters the next cycle.
+/// If Cancel switches off the spindle or the coolant, postform switches it on again before the next cycle of the
+/// control.
 #[test]
 fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
     let form = mill("", RETURNS).replace("Cancel\nG80", "Cancel\nG80 M5");
@@ -753,7 +763,7 @@ fn a_cancel_in_the_middle_of_a_cycle_switches_nothing_for_good() {
     assert!(shifted[0].starts_with("PR040"), "{shifted:?}");
 }
 
-/// If work offsets have their own word, another code that selects an offset makes the word necessary again.
+/// If a form has its own word for work offsets, the word is printed again after another code that selects an offset.
 #[test]
 fn codes_of_work_offsets_beside_a_word_of_their_own() {
     let changes = "G0 G[work] X[h] Y[v] Z[d]";
@@ -792,7 +802,8 @@ fn block_delete_leaves_nothing_known() {
     assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);
 }
 
-/// Events that a reader must not push are refused: a hole that is not printed would be missing.
+/// postform refuses events that a reader must not push. If postform ignored a hole, the hole would be missing in the
+/// part.
 #[test]
 fn events_that_can_not_be_are_faults_of_postform() {
     let checked = support::check(&mill("", DRILL));
@@ -827,7 +838,8 @@ fn an_oriented_bore_is_oriented_at_any_angle() {
     }
 }
 
-/// After holes of several heights, the control is higher than the job. The next cut begins at the job's height.
+/// After holes of several heights, the tool is higher in the program than in the job. The next cut begins at the job's
+/// height.
 #[test]
 fn a_cut_after_a_cycle_begins_at_the_jobs_height() {
     let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"return\":0.3,\"feed\":5,\
@@ -876,7 +888,8 @@ fn some_cycles_are_made_as_others() {
     assert!(moves.starts_with('['), "moves: {moves}");
 }
 
-/// A facing cycle without a dwell uses the last dwell of an earlier cycle, else the form's default. Pecks use their default depths.
+/// A facing cycle without a dwell uses the last dwell of an earlier cycle, or else the form's default. Pecks without a
+/// depth use the default depths.
 #[test]
 fn what_a_cycle_leaves_out_is_known() {
     let cycle = |kind: &str, x: u8| {
@@ -891,7 +904,7 @@ fn what_a_cycle_leaves_out_is_known() {
     assert!(pecks.iter().any(|line| line.starts_with("G1 Z-.4")), "{pecks:?}");
 }
 
-/// The form has no word for how a tap pecks: there is a note.
+/// If the form has no word for the pecking mode of a tap, there is a note.
 #[test]
 fn how_a_tap_pecks_is_the_controls_setting() {
     let form = mill("RigidTap? Y", "Tap\nG84 X[h] Y[v] Z[d] R[vclear] Q[vbite] F[frate]\nEnd Cancel");
@@ -912,7 +925,7 @@ fn a_tap_of_several_starts_is_made_once_for_each() {
     assert_eq!(taps, ["G84 X1. Y1. Z-.5 R.2 F100.", "X1. Y1. R.15"], "{lines:?}");
 }
 
-/// A cycle of the control in several lines is cancelled too; otherwise the next position would be a hole.
+/// A cycle of the control that has several lines is also cancelled. Otherwise the next position would be a hole.
 #[test]
 fn a_cycle_on_several_lines_is_cancelled() {
     let cycle = "{\"cycle\":{\"kind\":\"drill\",\"depth\":0.5,\"clear\":0.1,\"feed\":5,\"points\":[[1,1,0],[2,2,0]]}}";

@@ -62,7 +62,7 @@ fn a_sheet_has_what_a_job_says_of_tools_and_their_times() {
     assert!((tools - whole).abs() < 1e-6 && whole > seconds(&json["minutes"]) * 60.0, "{json:#}");
 }
 
-/// The sheet of a lathe has X as in its programs, no Y, and the time of cuts at a constant surface speed.
+/// The setup sheet of a lathe shows X as in the programs, and no Y. Its times include cuts at a constant surface speed.
 #[test]
 fn the_sheet_of_a_lathe_has_its_own_axes() {
     let folder = Folder::new("sheet-lathe");
@@ -74,8 +74,8 @@ fn the_sheet_of_a_lathe_has_its_own_axes() {
     assert_eq!(json["x"], "diameters");
     assert_eq!(json["works"][0]["cuts"], serde_json::json!([[0.0, 1.2], null, [-1.125, 0.2]]));
     assert_eq!(json["tools"][0]["length_register"], serde_json::Value::Null);
-    // 400 ft/min at 0.008 inch per revolution: 1.1 inch at a radius of 0.375, a quarter of 0.125 inch at its middle,
-    // 0.1 inch at 0.55
+    // 400 ft/min at 0.008 inch per revolution: 1.1 inch at the radius 0.375, a quarter circle with the radius 0.125 at
+    // its middle radius, and 0.1 inch at the radius 0.55
     let turns = |radius: f64| 400.0 * 12.0 / (std::f64::consts::TAU * radius);
     let quarter = std::f64::consts::FRAC_PI_2 * 0.125;
     let minutes = 1.1 / turns(0.375) + quarter / turns(0.4375) + 0.1 / turns(0.55);
@@ -120,8 +120,8 @@ fn what_a_sheet_cant_be_is_said() {
     assert!(code == Some(2) && folder.read("job.json") == "{", "an input stays");
 }
 
-/// Every file that was read has its hash: also the machine of postform.toml, its tool table, and the control. A pipe has
-/// none.
+/// The sheet has the hash of every file that was read, also of the machine in postform.toml, its tool table, and the
+/// control. A pipe has no hash.
 #[test]
 fn a_sheet_has_the_hash_of_each_file_that_was_read() {
     let folder = Folder::new("sheet-hashes");

@@ -1,4 +1,4 @@
-//! Programs that were once wrong without a message, each with the block that must be in it.
+//! Programs that were wrong in earlier versions, without a message. Each test checks the block that was wrong.
 
 use crate::support;
 use crate::support::{job, mill, path_lines, program, root};
@@ -12,7 +12,8 @@ fn post(name: &str, text: &str) -> Vec<String> {
     }
 }
 
-/// After a stop from a cycle, the job's text or a sequence of the form, the spindle is started before the next cut.
+/// The spindle is started again between a stop and the next cut. The stop may come from a cycle, a text of the job, or
+/// a sequence of the form.
 #[test]
 fn after_every_stop_the_spindle_turns_again() {
     let manual = "{\"cycle\":{\"kind\":\"manual\",\"clear\":0.1,\"points\":[[1,1,0]]}},{\"line\":[1,1,-1]}";
@@ -35,7 +36,7 @@ fn after_every_stop_the_spindle_turns_again() {
     assert_eq!(path_lines("", "", off), ["M5", "M0", "G0 X1. Y0 Z1."]);
 }
 
-/// A sequence of moves without a motion code must cut, whatever motion came before it.
+/// A cutting sequence without a motion code must cut, whatever motion was active before.
 #[test]
 fn a_cut_is_no_rapid() {
     let infeed = "InFeed\nG[side] X[h] Y[v] D[dcomp] F[frate]\nEnd\nOutFeed\nG40 X[h] Y[v]\nEnd";
@@ -55,7 +56,8 @@ fn a_cut_is_no_rapid() {
     assert_eq!(lines[lines.len() - 2], "L X1. F10.");
 }
 
-/// A torch that the form switches, and a laser whose moves contain its power: no generated block of the spindle is printed.
+/// No spindle block is generated if the form switches the torch itself, or if it prints the power of the laser in the
+/// moves.
 #[test]
 fn forms_that_switch_the_tool_themselves_do_so_alone() {
     let torch = "BeginLeadin\nM3\nG4 P.4\nEnd\nEndLeadout\nM5\nEnd";
@@ -69,7 +71,7 @@ fn forms_that_switch_the_tool_themselves_do_so_alone() {
     assert_eq!(lines[4..7], ["G1 X1. F10. S1000", "G0 X2. S0", "G1 X3. S1000"]);
 }
 
-/// Values at the beginning of an operation apply to its tool change, also as a key of the operation.
+/// Values at the beginning of an operation apply to its tool change. They may also be a key of the operation.
 #[test]
 fn values_come_with_their_tool_change() {
     let form = mill("", "").replace("T[tool] M6", "T[tool] M6\nM[val1]");
@@ -107,7 +109,8 @@ fn a_tool_change_waits_for_the_axes_that_it_prints() {
     assert!(program(&mill("", ""), &path(items))[0].starts_with("PR001 [h] has no value here"));
 }
 
-/// A job has the number or the code of a fixture. The form's word prints its own number, never 54, and never a number that does not exist.
+/// A job gives the number or the code of a fixture. A form with its own word prints its own number: never the code 54,
+/// and never a number that does not exist.
 #[test]
 fn work_offsets_are_counted_as_the_form_counts() {
     let form = mill("Work 1", "").replace("G0 G[work]", "G15 H[work]\nG0");
@@ -119,7 +122,7 @@ fn work_offsets_are_counted_as_the_form_counts() {
     assert_eq!(error, ["PR037 the work offset 59.1 is a code, but this form counts its offsets from 1"]);
 }
 
-/// A call in another work offset selects it first. The Upon before it is not left out.
+/// Before a call in another work offset, the work offset is selected, and the Upon for the work offset prints.
 #[test]
 fn a_call_in_another_work_offset_goes_up_first() {
     let subs = "Upon [work]\nG53 G0 Z0\nG[work] X[h] Y[v]\nEnd\nSubStart\nO[sub]\nEnd\nSubEnd\nM99\nEnd\nSubCall\nG[work] M98 P[sub]\nEnd";
@@ -130,7 +133,7 @@ fn a_call_in_another_work_offset_goes_up_first() {
     assert!(lines[at + 1].starts_with("G55 X1. Y1."), "{lines:?}");
 }
 
-/// In a cycle, a block without an axis word makes no hole on some controls.
+/// On some controls, a block without an axis word makes no hole in a cycle. So each hole prints its position.
 #[test]
 fn a_hole_that_differs_in_its_clearance_has_its_place() {
     let drill = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -162,7 +165,8 @@ fn feeds_that_lose_digits_are_said() {
     assert!(notes("drill").iter().all(|note| note.code.name() != "PR025"));
 }
 
-/// A tap in a subprogram must be right-handed for every caller, and the caller's spindle must turn in that direction.
+/// A right-handed tap in a subprogram must suit every caller. Either the caller's spindle turns clockwise, or the
+/// subprogram sets the direction.
 #[test]
 fn a_tap_in_a_subprogram_needs_its_turn() {
     let tap = "{\"rapid\":[0,0,1]},{\"cycle\":{\"kind\":\"tap\",\"depth\":1,\"feed\":5,\"points\":[[0,0,0]]}}";
@@ -198,7 +202,8 @@ fn a_lathe_indexes_its_turret() {
     }
 }
 
-/// Near half a turn, the last digit of R moves the centre. The arc is printed in parts for which R is exact enough.
+/// For an arc of nearly half a turn, a change of R by one last digit moves the centre much farther. The arc is printed
+/// in parts for which R is exact enough.
 #[test]
 fn arcs_by_their_radius_stay_on_the_circle() {
     let head = "Units mm\nX->4.>3\nY->4.>3\nZ->4.>3\nR->4.>3\nCtrCode R";
@@ -218,7 +223,7 @@ fn arcs_by_their_radius_stay_on_the_circle() {
             let word = |letter: char| line.split(' ').find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok());
             let to = [word('X').unwrap_or(at[0]), word('Y').unwrap_or(at[1])];
             if let Some(r) = word('R') {
-                // the control's centre is to the left of the chord, at more than half its length
+                // the control computes the centre from R and the chord, to the left of the chord
                 let chord = (to[0] - at[0]).hypot(to[1] - at[1]);
                 let height = (r * r - chord * chord / 4.0).sqrt() * r.signum();
                 let centre = [
@@ -236,7 +241,8 @@ fn arcs_by_their_radius_stay_on_the_circle() {
     assert_eq!(arc(180.0, [0.0, 0.0], 28.0).iter().filter(|line| line.contains('R')).count(), 1);
 }
 
-/// A new work offset together with a new angle: Index retracts the tool, and the tool moves over the new position.
+/// If the work offset and the angle change together, Index retracts the tool, and the tool then moves over the new
+/// position.
 #[test]
 fn an_index_serves_a_new_work_offset() {
     let text = "{\"postform\":1,\"program\":7,\"units\":\"inch\",\"tools\":[{\"number\":1}],\"operations\":[{\"tool\":1,\"work\":54,\
@@ -259,7 +265,7 @@ fn a_tool_change_goes_down_at_the_last_place() {
     assert_eq!(lines[3..5], ["G0 G54 X5. Y6. Z.1", "G1 Z-1. F5."]);
 }
 
-/// Values before the first move keep their order with the blocks between them.
+/// Values before the first move, and the blocks between these values, keep their order.
 #[test]
 fn values_before_the_first_move_keep_their_order() {
     let form = mill("", "BeginRow\nM[val1]\nEnd");
@@ -277,7 +283,7 @@ fn with_sub(sub: &str, path: &str) -> String {
     job(path).replace("\"operations\"", &format!("\"subprograms\":[{{\"number\":1,\"path\":[{sub}]}}],\"operations\""))
 }
 
-/// The move to a call, and that of an Upon, is a rapid even if the form prints no motion code.
+/// The move to a call is a rapid, even if the form prints no motion code. The move of an Upon is a rapid, too.
 #[test]
 fn the_way_to_a_call_is_a_rapid() {
     let text = with_sub("{\"rapid\":[3,3,1]}", "{\"line\":[1,0,0]},{\"call\":{\"sub\":1,\"at\":[3,3]}}");
@@ -290,7 +296,8 @@ fn the_way_to_a_call_is_a_rapid() {
     assert_eq!(lines[1..3], ["G0", "G55 X5. Y5."]);
 }
 
-/// A stop in a subprogram also stops the caller's spindle. A cut after the stop in the subprogram needs its own spindle values.
+/// A stop in a subprogram also stops the caller's spindle. If the subprogram cuts after the stop, it must contain its
+/// own spindle values.
 #[test]
 fn a_stop_in_a_subprogram_is_known_behind_its_call() {
     let path = "{\"call\":{\"sub\":1}},{\"rapid\":[0,0,1]},{\"line\":[1,0,0]}";
@@ -317,12 +324,12 @@ fn a_turret_has_no_other_registers() {
     {
         assert!(post("fanuc-lathe", &text(tool, number))[0].starts_with("PR039"), "{tool}");
     }
-    // the position of another tool is unknown, so it can't begin with a cut
+    // the position of a new tool is unknown, so the tool can't begin with a cut
     for path in ["{\"line\":[-1,0.5]}", "{\"rapid\":[null,0.5]},{\"line\":[-1]}"] {
         let job = text("{\"number\":1}", 1).replace("{\"rapid\":[0.1,1]}", path);
         assert!(post("haas-lathe", &job)[0].starts_with("PR012"), "{path}");
     }
-    // nor with a cut along an axis for which only the previous tool had a position
+    // a new tool can't begin with a cut along an axis for which only the previous tool had a position
     let two = text("{\"number\":1},{\"number\":2}", 1);
     for path in ["{\"line\":[null,0.2]}", "{\"arc\":{\"to\":[null,0.2],\"radius\":0.3,\"direction\":\"cw\"}}"] {
         let second = format!(
@@ -353,7 +360,7 @@ fn after_a_macro_the_place_is_said_again() {
 }
 
 /// The effect of a code that the control's file lacks is unknown: the next block prints its motion code again, even if
-/// the code was next to axis words.
+/// the unknown code was in a block with axis words.
 #[test]
 fn after_an_unknown_code_the_motion_is_said_again() {
     for code in ["G6", "G6 X[h]", "G199 X[h]"] {
@@ -377,7 +384,7 @@ fn reversed_axes_reverse_their_arcs() {
     assert!(path_lines("RevSigns X I", own, arc)[0].starts_with("PR036"));
 }
 
-/// An arc of the lower wire guide during a move of the upper one is not a helix.
+/// If the upper wire guide moves during an arc of the lower guide, the arc is printed as lines, not as a helix.
 #[test]
 fn an_arc_of_one_guide_is_printed_as_lines() {
     let text = "{\"postform\":1,\"program\":7,\"units\":\"mm\",\"machine\":\"edm\",\"operations\":[{\"work\":54,\"feed\":3,\"path\":[\
@@ -402,7 +409,7 @@ fn increments_of_a_sequence_add_up() {
 
 const HOLES: &str = "{\"cycle\":{\"kind\":\"drill\",\"depth\":1,\"clear\":0.1,\"feed\":5,\"points\":";
 
-/// If Cancel stops the spindle between two holes, it is started again before the next hole.
+/// If Cancel stops the spindle between two holes, the spindle is started again before the next hole.
 #[test]
 fn a_cancel_between_holes_leaves_the_spindle_turning() {
     let drill = "Drill\nG0 X[h] Y[v]\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -412,7 +419,7 @@ fn a_cancel_between_holes_leaves_the_spindle_turning() {
     assert!(lines[stop.unwrap()..hole.unwrap()].iter().any(|line| line.ends_with("M3")), "{lines:?}");
 }
 
-/// If the first lines of a counted cycle only set it up, its other lines drill the first hole.
+/// If the counted first lines of a cycle only set up the cycle, the other lines drill the first hole, too.
 #[test]
 fn a_cycle_that_waits_for_its_holes_drills_the_first() {
     let first_hole = |first: &str| {
@@ -437,7 +444,7 @@ fn no_increment_from_a_height_that_nobody_knows() {
     assert_eq!(lines[lines.len() - 4..lines.len() - 1], ["G80 G91", "G0 Z1.9", "G1 X2. Z-2.5 F10."]);
 }
 
-/// If an arc is in another plane than its sequence types, the sequence is not used.
+/// A sequence that contains the code of one plane is not used for an arc in another plane.
 #[test]
 fn an_arc_of_another_plane_is_not_printed_in_the_sequences_own() {
     let arc =
@@ -456,7 +463,7 @@ fn the_default_offset_is_counted_as_the_form_counts() {
     assert_eq!(lines[3], "G15 H1");
 }
 
-/// To a hole after an Index, the tool moves across first and down last, and the part does not turn under a low tool.
+/// After an Index, the tool moves to the hole first across and then down. The part does not turn while the tool is low.
 #[test]
 fn a_hole_behind_an_index_is_reached_across_first() {
     let form = "Index\nG0 G53 Z0\nA[rotangle]\nEnd\nDrill\nG98 G81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -508,7 +515,7 @@ fn places_belong_to_the_offset_in_which_they_are_told() {
     assert_eq!(lines[at + 1], "G55", "{lines:?}");
 }
 
-/// A G90 before the move to an emulated hole is not a motion code.
+/// G90 is not a motion code, so the move to an emulated hole also needs G0.
 #[test]
 fn the_way_to_an_emulated_hole_is_a_rapid_behind_g90() {
     let drill = "Drill\nG90 X[h] Y[v] Z[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd";
@@ -535,7 +542,7 @@ fn increments_left_on_are_ended_by_the_sequence_itself() {
     assert!(lines("G90 G0 G53 Z0").contains(&"M30".to_owned()) && lines("M9").contains(&"M30".to_owned()));
 }
 
-/// An Upon of a cut moves at feed, never at rapid into the part.
+/// If an Upon makes a part of a cut, it moves at feed, never at rapid into the part.
 #[test]
 fn an_upon_of_a_cut_cuts() {
     let path = "{\"line\":[1,0,0]},{\"line\":[2,0,-1]},{\"line\":[3,0,-1]}";
@@ -553,12 +560,12 @@ fn the_arguments_of_a_macro_are_no_position() {
     for line in ["G65 P9010 X1. Y2.", "G65 P9010 Z2.", "G66 P9010 X2."] {
         assert!(lines(line).iter().any(|line| line == "G0 X0 Y0 Z1."), "{line}: {:?}", lines(line));
     }
-    // and it may leave any motion, feed mode, speed and work offset
+    // a macro may leave any motion, feed mode, speed and work offset active
     let row = "{\"line\":[1,0,0]},{\"begin\":\"row\"},{\"line\":[2,0,0]},{\"end\":\"row\"}";
     assert_eq!(path_lines("", "BeginRow\nG65 P9010\nEnd", row)[2..], ["G54", "S1000 M3", "G94", "G1 X2. Y0 Z0 F10."]);
 }
 
-/// The move to a call, and that of an Upon, is a rapid after another call, after a text, and after a cycle.
+/// The move to a call and the move of an Upon are rapids, also after another call, after a text, and after a cycle.
 #[test]
 fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     let subs = SUBS.replace("M98", "X[h] Y[v]\nM98");
@@ -569,7 +576,7 @@ fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     };
     let calls = "{\"call\":{\"sub\":1,\"at\":[3,3]}},{\"call\":{\"sub\":1,\"at\":[4,4]}},{\"rapid\":[0,0,1]}";
     assert_eq!(before(&program(&mill("", &subs), &with_sub(cuts, calls)), "X4. Y4."), "G0");
-    // the first run begins at the position of the call; before the next run, the tool moves back there from the end of the first
+    // the first run begins at the position of the call; the next run begins at the end position of the first run
     let times = "{\"call\":{\"sub\":1,\"at\":[4,4],\"times\":2}},{\"rapid\":[0,0,1]}";
     let lines = program(&mill("", &subs), &with_sub(cuts, times));
     let at = lines.iter().position(|line| line == "M98 P1").unwrap();
@@ -588,7 +595,8 @@ fn the_way_to_a_call_is_a_rapid_whatever_came_before() {
     assert_eq!(before(&program(&mill("", &upon), &with_sub(cuts, path)), "G55 X5. Y5."), "G0");
 }
 
-/// Each run of a subprogram that stops begins in the same state. A cut after the stop needs spindle and coolant; a rapid does not.
+/// If a subprogram contains a stop, each of its runs begins in the same state. After the stop, a cut needs spindle and
+/// coolant; a rapid does not.
 #[test]
 fn a_stop_in_a_subprogram_is_one_for_its_next_run() {
     let cut = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5},{\"rapid\":[0,0,1]},{\"stop\":\"program\"}";
@@ -607,7 +615,7 @@ fn a_stop_in_a_subprogram_is_one_for_its_next_run() {
     assert!(program(&mill("", SUBS), &with_sub(&on, path))[0].starts_with("PR033"));
 }
 
-/// After a subprogram that ends low, the tool moves up first.
+/// If a subprogram ends with the tool low, the tool moves up before it moves across.
 #[test]
 fn behind_a_call_the_tool_goes_up_before_it_crosses() {
     let low = "{\"rapid\":[0,0,1]},{\"line\":[0,0,-1],\"feed\":5}";
@@ -653,7 +661,7 @@ fn increments_count_from_a_height_that_is_certain() {
     }
 }
 
-/// A part of the path after an arc must not continue as an arc.
+/// A sequence of moves without a motion code must not continue an arc that came before.
 #[test]
 fn a_part_behind_an_arc_is_no_arc() {
     let arc = "{\"arc\":{\"to\":[2,0],\"center\":[1,0],\"direction\":\"ccw\"}}";
@@ -689,7 +697,8 @@ fn a_mirrored_turret_has_mirrored_angles() {
     assert!(lines.iter().any(|line| line.starts_with("G0 X1.2 Z.2")), "{lines:?}");
 }
 
-/// Rapids of a new tool before a change of the work offset are skipped: the tool change moves directly to the position in the last offset.
+/// Rapids of a new tool before a change of the work offset are skipped. The tool change moves directly to the position
+/// in the new offset.
 #[test]
 fn ways_before_another_offset_are_those_of_the_tool_change() {
     let items = "{\"rapid\":[1,1]},{\"work\":55},{\"rapid\":[2,2,1]},{\"line\":[2,2,0]}";
@@ -697,7 +706,8 @@ fn ways_before_another_offset_are_those_of_the_tool_change() {
     assert_eq!(lines[3..], ["G0 G55 X2. Y2. Z1.", "G1 Z0 F10.", "M30"]);
 }
 
-/// A rigid tap turns the spindle in both directions without printing either, so the direction is printed before the next cut.
+/// A rigid tap turns the spindle in both directions without a code, so the direction is printed again before the next
+/// cut.
 #[test]
 fn after_a_tap_against_the_spindle_its_direction_is_said() {
     let rigid = "Tap\nM29\nG[retplane] G84 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -710,7 +720,8 @@ fn after_a_tap_against_the_spindle_its_direction_is_said() {
     assert!(lines[tap..cut].iter().any(|line| line.contains("M3")), "{lines:?}");
 }
 
-/// If the form prints no return plane, the control leaves a cycle lower than the job. The next rapid in X and Y first moves up.
+/// If the form prints no return plane, the tool is lower after a cycle than in the job. The tool moves up before the
+/// next rapid in X and Y.
 #[test]
 fn a_rapid_after_a_hole_is_as_high_as_the_jobs() {
     let form = support::check_file(&root().join("tests/data/forms/no-return-plane.pf"));
@@ -744,7 +755,8 @@ fn each_hole_has_its_own_clearance() {
     assert_eq!(heights, ["Z.1", "G0 Z.1", "Z-.4", "G0 Z-.4", "Z.35", "G0 Z.35"], "{lines:?}");
 }
 
-/// The last start of a thread begins lower, and the control returns to that height: the tool moves up before it moves across or stops.
+/// The last start of a thread begins lower, and the control returns to this lower height. So the tool moves up before
+/// it moves across or stops.
 #[test]
 fn the_last_start_of_a_thread_goes_up() {
     let taps = |after: &str| {
@@ -761,7 +773,8 @@ fn the_last_start_of_a_thread_goes_up() {
     }
 }
 
-/// If the control does not turn the spindle for a rigid tap, the spindle is started in the tap's direction before it.
+/// If the control does not turn the spindle for a rigid tap, the spindle is started in the tap's direction before the
+/// tap.
 #[test]
 fn a_tap_by_g33_1_turns_the_spindle_its_way() {
     let path = r#"{"spindle":{"direction":"ccw"}},{"rapid":[0,0,2]},{"cycle":{"kind":"tap","rigid":true,"depth":0.8,"clear":0.1,"feed":9,"points":[[0,1,0]]}}"#;

@@ -1,4 +1,5 @@
-//! The motions that controls make of programs: canned cycles of Fanuc mills and of EMC2's manual, subprograms, refusals.
+//! The motions of programs on different controls: canned cycles of Fanuc mills and of EMC2's manual, subprograms,
+//! refusals.
 //!
 //! LinuxCNC's own rules are tested with recorded programs (`nc_golden.rs`) and with its interpreter (`linuxcnc_random.rs`).
 
@@ -64,7 +65,7 @@ fn fanuc(blocks: &str) -> Vec<String> {
 #[test]
 fn cycles_of_a_fanuc() {
     let drill = |blocks| fanuc(blocks);
-    // G98 is the default: back to the height of the tool before the first block of the series
+    // G98 is the default: the tool returns to the height that it had before the first block of the cycle
     assert_eq!(
         drill("G81 X1. Y1. Z-5. R2. F100.\nX2.\nG80"),
         ["T 1 1 10", "T 1 1 2", "F 1 1 -5", "T 1 1 10", "T 2 1 10", "T 2 1 2", "F 2 1 -5", "T 2 1 10"]
@@ -152,7 +153,8 @@ fn lengths_without_a_point() {
     assert_eq!(motions(control("linuxcnc"), program), ["T 1000 0 0"]);
 }
 
-/// Differences in the old manual: the height before each block counts, and pecks dwell and retract completely.
+/// Rules of EMC2's old manual that differ from LinuxCNC: the height before each block counts, and pecks dwell and
+/// retract completely.
 #[test]
 fn cycles_of_emc2() {
     let emc2 = |program: &str| motions(control("emc2"), program);
@@ -181,7 +183,7 @@ fn cycles_of_emc2() {
     );
     let eight = "G90 G0 X0 Y0 Z0\nG1 F10 X0 G4 P0.1\nG81 X1 Y0 Z0 R1\nX2\nX3\nX4\nY1 Z0.5\nX3\nX2\nX1\nG80\nG0 X0\nY0\nZ0\nM2\n";
     assert_eq!(holes(eight)[1..], ["1 0 0", "2 0 0", "3 0 0", "4 0 0", "4 1 0.5", "3 1 0.5", "2 1 0.5", "1 1 0.5"]);
-    // no vertical move of zero length at each hole, and all twelve holes equally deep
+    // there is no vertical move of zero length at a hole, and all twelve holes are equally deep
     assert_eq!(emc2(eight).iter().filter(|line| line.starts_with('T')).count(), 1 + 1 + 8 * 2 + 3);
     let twelve = "G90 G0 X0 Y0 Z0\nG1 F50 X0 G4 P0.1\nG91 G81 X1 Y0 Z-0.5 R1 L4\nX0 Y1 R0 L3\nX-1 Y0 L3\nX0 Y-1 L2\nG80\nG90 G0 X0\nY0\nZ0\nM2\n";
     let bottoms = holes(twelve)[1..].to_vec();
@@ -260,7 +262,8 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     assert_eq!(refused(control("fanuc"), &long), ("PN001".into(), 1));
 }
 
-/// G0 next to G28 sets the motion of later blocks; the axis words belong to G28. Axis words next to G53 belong to G0 or G1.
+/// In a block with G28, G0 sets the motion of later blocks, and the axis words belong to G28. In a block with G53, the
+/// axis words belong to G0 or G1.
 #[test]
 fn the_axis_words_of_a_block_have_one_code() {
     let went = fanuc("X1. Y1.\nG1 G28 X5. Y5.\nX7. F10.");
@@ -270,7 +273,7 @@ fn the_axis_words_of_a_block_have_one_code() {
     }
 }
 
-/// Cases that a machinist in a trial, or the real interpreter, found.
+/// Cases that a machinist found in a trial, or that the real interpreter showed.
 #[test]
 fn rules_that_are_easily_missed() {
     let both = |program: &str| motions(control("linuxcnc"), program);
@@ -372,7 +375,7 @@ fn simple_blocks_are_read_the_same_in_each_layout() {
     }
 }
 
-/// A message shows a character that looks like a space by its number.
+/// A message shows the number of a character that looks like a space.
 #[test]
 fn a_no_break_space_is_shown_by_its_number() {
     for (block, message) in [
@@ -387,7 +390,7 @@ fn a_no_break_space_is_shown_by_its_number() {
     }
 }
 
-/// A program that is truncated or has any changed byte is run or refused. The simulator never panics or hangs.
+/// A truncated program, or a program with a changed byte, is run or refused. The simulator never panics or hangs.
 #[test]
 fn mutilated_programs_get_an_answer() {
     let program = "%\nO1\nG21 G17 G90\n#1=[2+3]\nG0 X#1 Y[SIN[30]*2]\nG99 G81 X1. Y1. Z-5. R2. F100.\nX2. K3\nG80\nG2 X5. I2. F10.\no1 if [1]\no1 endif\nM98 P2\nM30\nO2\nM99\n";
@@ -459,7 +462,7 @@ fn a_tap_with_q_turns_back_after_each_peck() {
     assert_eq!(fanuc("G99 G84 X0. Y0. Z-5. R1. F500.")[2..6], ["F 0 0 -5", "ccw", "F 0 0 1", "cw"]);
 }
 
-/// G33.1 of LinuxCNC moves in with the spindle, reverses it, and moves out to its start.
+/// G33.1 of LinuxCNC moves into the hole with the spindle, reverses the spindle, and moves back to its start.
 #[test]
 fn rigid_taps_of_linuxcnc_come_back() {
     let program = "G21 G90\nS100 M3\nG0 X1 Y2 Z5\nG33.1 Z-10 K1.5\nG91\nZ-3 K2\nM2\n";
@@ -472,7 +475,7 @@ fn rigid_taps_of_linuxcnc_come_back() {
     assert_eq!(refused_with(RunSettings::new(control("fanuc")), "G21\nG33.1 Z-10. K1.\n").0, "PN016");
 }
 
-/// Skipped lines do not count as a loop, however many they are. Skipped lines inside an endless loop do.
+/// Even very many skipped lines do not count as a loop. Skipped lines inside an endless loop do count as a loop.
 #[test]
 fn lines_passed_over_are_no_loop() {
     let lines = "G1 X1.\n".repeat(2_100_000);
@@ -485,7 +488,7 @@ fn lines_passed_over_are_no_loop() {
     assert_eq!(refused(control("linuxcnc"), &program).0, "PN015");
 }
 
-/// A hole with very many pecks is passed on in parts, completely and in order.
+/// The simulator passes on a hole with very many pecks in parts, completely and in order.
 #[test]
 fn a_block_of_many_moves_is_not_held() {
     for (code, each) in [("G83", 1), ("G84", 2)] {

@@ -76,7 +76,8 @@ fn statements_of_the_control_are_put_in_backquotes() {
     }
 }
 
-/// `None` in a sequence where it loses a block is reported. A branch of MoveHome that prints nothing is an error.
+/// `None` in a sequence is reported if a block of the job is lost. A branch of MoveHome that prints nothing is an
+/// error.
 #[test]
 fn sequences_that_lose_what_the_job_says() {
     let folder = folder("slips-none");

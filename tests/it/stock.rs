@@ -33,8 +33,8 @@ fn checked(program: &str, stock: &str) -> StockCheck {
     check_stock(Cursor::new(program), settings, &block, &tools(), Units::Mm).unwrap()
 }
 
-/// The findings of a program that follows the usual head, as `LINE MESSAGE`, then everything that is not checked. Its
-/// first line is line 5.
+/// The findings of a program as `LINE MESSAGE`, then everything that is not checked. The program follows the usual
+/// head, so its first line is line 5.
 fn found(program: &str, stock: &str) -> Vec<String> {
     let checked = checked(&format!("{HEAD}{program}\nM30\n"), stock);
     let found = checked.findings.iter().map(|found| format!("{} {}", found.line, found.message));
@@ -76,7 +76,8 @@ fn cycles_and_arcs_cut() {
     assert_eq!(across.len(), 1, "{across:?}");
 }
 
-/// A height that a change of the work offset has made unknown may be in the stock; one that G28 or G53 made unknown is not.
+/// After a change of the work offset, the unknown height may be in the stock. After G28 or G53, the unknown height is
+/// not in the stock.
 #[test]
 fn an_unknown_height_after_a_work_offset_is_not_clean() {
     let low = found("G0 Y30\nZ-5\nG55\nG0 X120 Y50\nX-20\nZ50\nX0", STOCK);
@@ -94,7 +95,7 @@ fn a_retract_under_compensation_is_no_finding() {
     assert_eq!(found("G0 X-20 Y30 Z-5\nG1 G41 D1 X-10 F500\nX50\nG0 Z20\nG40 X0", STOCK), nothing);
 }
 
-/// A block that runs again is one finding with its number of times.
+/// A block that runs several times gives one finding with a count.
 #[test]
 fn a_block_that_runs_again_is_one_finding() {
     let checked = checked(&format!("{HEAD}M98 P2 L3\nM30\nO2\nG0 X-20 Y30\nZ-5\nX120\nZ50\nM99\n"), STOCK);
@@ -102,7 +103,7 @@ fn a_block_that_runs_again_is_one_finding() {
     assert_eq!((checked.findings[0].line, checked.findings[0].times), (10, 3));
 }
 
-/// An arc in a vertical plane cuts below its ends.
+/// An arc in a vertical plane may cut below its ends.
 #[test]
 fn an_arc_whose_ends_are_above_the_stock_cuts() {
     let nothing: [&str; 0] = [];
@@ -125,7 +126,7 @@ fn thin_tools_are_checked() {
     }
 }
 
-/// A boring bar that is oriented moves away from the wall: this is not checked.
+/// An oriented boring bar moves away from the wall. This move is not checked.
 #[test]
 fn a_fine_bore_is_not_checked_while_its_spindle_is_oriented() {
     let bore = found("G0 X50 Y30 Z5\nG98 G76 Z-10 R1 Q1 F50\nG80\nG0 X70\nZ-2", STOCK);
@@ -136,7 +137,7 @@ fn a_fine_bore_is_not_checked_while_its_spindle_is_oriented() {
     );
 }
 
-/// The block is in the job's units, whatever the units of the program are.
+/// The size of the stock is in the units of the job, whatever the units of the program are.
 #[test]
 fn the_block_is_in_the_units_of_the_job() {
     let folder = Folder::new("stock-units");
@@ -233,7 +234,8 @@ fn a_wrong_block_gets_its_reason() {
     }
 }
 
-/// The command: findings with their lines, the sentence, the exit status, JSON, and a stream as the job.
+/// Tests the command: findings with their lines, the last sentence, the exit status, JSON, and a job from standard
+/// input.
 #[test]
 fn the_command_says_where() {
     let folder = Folder::new("stock");
@@ -266,7 +268,7 @@ fn the_command_says_where() {
     assert!(String::from_utf8_lossy(&existing.stdout).contains("part.nc makes rapids through the stock: 1 block"));
 }
 
-/// A move of a random program on a small stock: in the program as words, for the judge as data.
+/// A move of a random program on a small stock. The program contains the move as words, the judge gets it as data.
 #[derive(Clone, Debug)]
 struct Cut {
     rapid: bool,

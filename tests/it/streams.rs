@@ -1,5 +1,5 @@
-//! Standard error and output that are full, closed or missing, and work that is killed: the exit status, and the files
-//! that remain.
+//! The exit status and the remaining files if standard output or standard error is full, closed or missing, or if a
+//! command is killed.
 #![cfg(target_os = "linux")]
 
 use std::collections::BTreeSet;
@@ -102,7 +102,7 @@ fn a_kill_leaves_nothing_behind() {
         .spawn()
         .unwrap();
     let text = long_job();
-    // more text than the buffer of a pipe: the command is reading, and its outputs have been created
+    // the text is longer than the buffer of a pipe, so the command already reads and has created its outputs
     child.stdin.as_mut().unwrap().write_all(&text.as_bytes()[..text.len() - 10]).unwrap();
     child.kill().unwrap();
     child.wait().unwrap();
@@ -160,7 +160,8 @@ fn a_pipe_that_stops_reading_is_no_success() {
     );
 }
 
-/// A file that a process has open may have no name, or may contain other text: it is written to, and not replaced.
+/// An output may be a file that a process has open. Such a file may have no name, or may contain other text. So
+/// postform writes to the file and does not replace it.
 #[test]
 fn an_open_file_is_written_and_its_link_stays() {
     let folder = folder("open");

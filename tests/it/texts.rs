@@ -148,8 +148,8 @@ fn wrong_texts_are_refused() {
     }
 }
 
-/// A closing bracket in a text would end the comment, and the control would execute the rest, whatever comment marks
-/// the form has.
+/// A closing bracket in a text would end the comment, and the control would execute the rest. postform replaces the
+/// bracket, whatever comment marks the form has.
 #[test]
 fn a_text_stays_in_its_brackets() {
     let job = job("", ",\"name\":\"X)G0 Z-5(;\"", "");
@@ -159,7 +159,8 @@ fn a_text_stays_in_its_brackets() {
     assert_eq!(lines("Comment ;", "; TOOL [toolname]", &job), ["; TOOL X)G0 Z-5(;"]);
 }
 
-/// A name of the job as a word of its own is refused, even after a blank, a decimal point or the slash of block delete.
+/// A form must not print a name of the job as a separate word, not even after a blank, a decimal point or the slash of
+/// block delete.
 #[test]
 fn a_name_alone_is_refused_wherever_it_stands() {
     for word in ["` `[toolname]", "[toolname].", "`/`[toolname]", "[toolname]`_X`", "`/ . `[toolname]"] {
@@ -170,8 +171,8 @@ fn a_name_alone_is_refused_wherever_it_stands() {
     }
 }
 
-/// Even if the control's limit is unknown, a block is not too long for any control. A long name is cut, and the program
-/// is printed.
+/// If the line limit of the control is unknown, postform limits blocks to 4096 characters. A longer name is cut, and
+/// the program is printed.
 #[test]
 fn a_long_name_is_cut_where_no_control_says_how_long() {
     let name = format!(",\"name\":\"{}\"", "A".repeat(10_000));
@@ -191,7 +192,7 @@ fn between_quotation_marks_blanks_stay() {
     assert_eq!(print("`MSG(\"a\")_`[opname]", "b c"), "MSG(\"a\")_b_c");
 }
 
-/// Outside comments, the control selects tools by their names. Each tool needs a name, and no two names may be equal.
+/// A tool name outside a comment selects the tool. So each tool needs a name, and no two names may be equal.
 #[test]
 fn a_tool_has_a_name_of_its_own() {
     let none = job("", "", "");

@@ -14,7 +14,7 @@ use postform::internals::nc::RunSettings;
 use postform::internals::preflight::{Times, preflight, preflight_by_block};
 use proptest::prelude::*;
 
-/// A router and a heavy machine: acceleration and rapid rate of X and Y, and of Z.
+/// A router and a heavy machine. Each has an acceleration and a rapid rate for X and Y, then for Z.
 const ROUTER: [[f64; 2]; 2] = [[500.0, 8000.0], [250.0, 3000.0]];
 const HEAVY: [[f64; 2]; 2] = [[50.0, 3000.0], [20.0, 1000.0]];
 
@@ -55,7 +55,7 @@ fn the_times_of_blocks_add_up() {
     }
 }
 
-/// If the axes stop after each move, the time of a block is the difference that it makes to the time of the program.
+/// If the axes stop after each move, the time of a block is the time that the block adds to the program.
 #[test]
 fn the_time_of_a_block_is_what_it_adds() {
     let linuxcnc = machine(HEAVY, "").replace("grbl", "linuxcnc");
@@ -116,9 +116,9 @@ fn times_are_those_of_grbls_planner() {
     }
 }
 
-/// Programs and their times in each mode, from LinuxCNC 2.9's own simulator: periods of its servo thread from the first
-/// motion to the last, at 500 mm/s2 and 8000 mm/min along X and Y, 250 and 3000 along Z. A period is 1 ms. The
-/// simulator ends each stop with a whole period, so the times differ by a few.
+/// Programs and their times in each mode, from LinuxCNC 2.9's own simulator. A time is a number of periods of the servo
+/// thread, from the first motion to the last. X and Y have 500 mm/s2 and 8000 mm/min, Z has 250 mm/s2 and 3000 mm/min.
+/// A period is 1 ms. The simulator ends each stop with a whole period, so the times differ by a few periods.
 #[test]
 fn times_are_those_of_linuxcncs_simulator() {
     let folder = root().join("tests/data/times");
@@ -151,7 +151,7 @@ fn limit(way: [f64; 3]) -> f64 {
     (0..3).map(|axis| ACCELERATIONS[axis] * length / way[axis].abs()).fold(f64::INFINITY, f64::min)
 }
 
-/// The time in seconds by two passes over all legs, computed from the formulas alone. The speed is limited by the
+/// The time in seconds, computed from the formulas alone, in two passes over all legs. The speed is limited by the
 /// corners and by the legs before and after.
 fn two_passes(ways: &[([f64; 3], f64)], deviation: f64) -> f64 {
     let length = |way: &[f64; 3]| way.iter().map(|part| part * part).sum::<f64>().sqrt();

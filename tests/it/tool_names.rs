@@ -14,7 +14,7 @@ use postform::{Job, NoFiles, Options, Post, Source};
 const PROGRAM: &str = "G17 G40 G710 G90\nT=\"DRILL_8\"\nM6\nG54 D1 S1200 M3\nG0 X10 Y0\nZ20 M8\nG1 Z-1 F400\nG0 Z20\n\
     G0 SUPA Z0 D0\nT1\nM6\nG54 D1 S3000 M3\nG0 X10 Y10\nZ5 M8\nG1 Z-2 F200\nG0 Z5\nM30\n";
 
-/// The machine's table names the tool. The name must not count as T1, which the program loads, too.
+/// The machine's tool table contains the name. The named tool must not be taken for T1, which the program also loads.
 #[test]
 fn a_machine_finds_a_tool_by_its_name() {
     let fits = |name: &str| {
@@ -72,7 +72,8 @@ fn a_proof_compares_the_names_of_tools() {
     }
 }
 
-/// A job has numbers of tools; a program with names gets them by an option, and is refused without it.
+/// A job needs tool numbers. For a program with tool names, an option gives the numbers. Without the option, the
+/// program is refused.
 #[test]
 fn a_program_with_names_is_a_job_with_numbers() {
     let folder = Folder::new("tool-names");
@@ -88,7 +89,7 @@ fn a_program_with_names_is_a_job_with_numbers() {
     let printed = folder.run(&["render", job, "--form", form, "--program", "7", "--assume-tool", "drill_8=9"]);
     let text = out(&printed);
     assert!(text.contains("T9 M6") && text.contains("G43 H9") && text.contains("T1 M6"), "{text}\n{}", err(&printed));
-    // simulate prints the name, and a number that no program can have is refused
+    // `simulate` prints the name, and a tool number that is too large is refused
     let text = out(&folder.run(&["simulate", job]));
     assert!(text.contains("tool    DRILL_8\n") && text.contains("tool    1\n"), "{text}");
     let json = out(&folder.run(&["simulate", job, "--format", "json"]));
@@ -98,7 +99,7 @@ fn a_program_with_names_is_a_job_with_numbers() {
     assert!(said.contains("PN018") && said.contains("T1000000000 is not a tool number"), "{said}");
 }
 
-/// Two programs call the same tools if their names are equal, in any order of the names.
+/// Two programs call the same tools if the tool names are equal. Upper and lower case count as equal.
 #[test]
 fn two_programs_are_compared_by_their_names() {
     let compare = |old: &str, new: &str| {

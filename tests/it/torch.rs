@@ -159,7 +159,7 @@ fn flat(path: &str) -> String {
     )
 }
 
-/// Along the ignored depth axis nothing is compared, but along X and Y everything is, including frames.
+/// The ignored depth axis is not compared. X and Y are compared, including shifts of the frame.
 #[test]
 fn frames_of_a_flat_job_go_nowhere() {
     let folder = Folder::new("torch_frames");
@@ -186,7 +186,7 @@ fn frames_of_a_flat_job_go_nowhere() {
     }
 }
 
-/// The power of a laser is the speed in the job.
+/// The power of a laser is the spindle speed in the job.
 #[test]
 fn the_power_of_a_laser_is_the_jobs() {
     let folder = Folder::new("torch_power");
@@ -204,7 +204,8 @@ fn the_power_of_a_laser_is_the_jobs() {
     assert!(right.contains("M4 S300") && verified(&folder, &right, &form).contains("identical"), "{right}");
 }
 
-/// Feed and dwell in `BeginCut` apply to it alone: cuts must not have this feed, and the dwell occurs once.
+/// The feed and the dwell in `BeginCut` apply only to this sequence: cuts must not have this feed, and the dwell occurs
+/// once.
 #[test]
 fn what_a_torch_does_before_a_cut_is_no_excuse_for_it() {
     let folder = Folder::new("torch_begin");

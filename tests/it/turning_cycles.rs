@@ -1,4 +1,4 @@
-//! Turning cycles of lathes: the moves that the control makes of G70 to G75, G90 and G94.
+//! Turning cycles of lathes: the moves that the control makes for G70 to G75, G90 and G94.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 const HEAD: &str = "O1\nG21 G99 G97 S800 M3\nT0101\n";
 
-/// Moves as `r`, `f` or `a` with radius and Z, or the refusal.
+/// Moves as `r` (rapid), `f` (feed) or `a` (arc) with radius and Z, or the refusal.
 fn moves(control_name: &str, blocks: &str) -> Result<Vec<String>, String> {
     let program = format!("{HEAD}{blocks}\nM30\n");
     let mut run = Simulator::new(Cursor::new(program), RunSettings::new(control(control_name)));
@@ -46,7 +46,7 @@ fn g90_and_g94_make_a_pass_and_come_back() {
         "G0 X50. Z2.\nG90 X46. Z-20. F.2\nX42.\nG0 Z5.",
         &["r 25 2", "r 23 2", "f 23 -20", "f 25 -20", "r 25 2", "r 21 2", "f 21 -20", "f 25 -20", "r 25 2", "r 25 5"],
     );
-    // R is the difference of the cone's radius from end to start
+    // R is the radius at the start of the cone minus the radius at its end
     makes("G0 X50. Z2.\nG90 X46. Z-20. R-3. F.2", &["r 25 2", "r 20 2", "f 23 -20", "f 25 -20", "r 25 2"]);
     makes("G0 X50. Z2.\nG94 X10. Z-1. F.2", &["r 25 2", "r 25 -1", "f 5 -1", "f 5 2", "r 25 2"]);
     makes("G0 X50. Z2.\nG94 U-40. W-3. R-2. F.2", &["r 25 2", "r 25 -3", "f 5 -1", "f 5 2", "r 25 2"]);
@@ -79,7 +79,7 @@ fn g74_and_g75_peck() {
             "r 15 -10",
         ],
     );
-    // a Haas has one block with lengths; its retract is 0.05 inch, the factory setting
+    // a Haas has one G74 block with lengths; its retract is 0.05 inch, the factory setting
     let haas = moves("haas-lathe", "G0 X0 Z2.\nG74 Z-2. K3. F.1").unwrap();
     assert_eq!(haas, ["r 0 2", "f 0 -1", "r 0 0.27", "f 0 -2", "r 0 2"]);
 }
@@ -119,7 +119,7 @@ fn g71_cuts_in_passes_and_g70_follows_the_profile() {
         "r 50 2", // the block after the profile
     ];
     assert_eq!(found, passes);
-    // a Haas has one block, with the depth as D
+    // a Haas has one G71 block, with the depth as D
     let haas = moves("haas-lathe", &format!("G0 X52. Z2.\nG71 P10 Q20 U.4 W.1 D6. F.25\n{PROFILE}G0 X100.")).unwrap();
     assert_eq!(haas.len(), passes.len() - 6);
     assert_eq!(haas[4], "r 21.47 -28.63");
@@ -201,10 +201,11 @@ fn steps() -> impl Strategy<Value = Vec<(u32, u32, u8)>> {
 }
 
 proptest! {
-    /// No pass is nearer to the profile than the allowance, none is deeper than allowed, and the last one follows the profile.
+    /// No pass is nearer to the profile than the allowance, no pass is deeper than allowed, and the last pass follows
+    /// the profile.
     #[test]
     fn passes_leave_the_profile(steps in steps(), depth in 3u32..60, left in 0u32..8, inside: bool, across: bool) {
-        // in tenths; the second coordinate is along the passes
+        // depth and allowance are in tenths; the second coordinate of a point is along the passes
         let out = if inside { -1.0 } else { 1.0 };
         let (depth, left) = (f64::from(depth) / 10.0, f64::from(left) / 10.0);
         let begin = [if inside { 60.0 } else { 30.0 }, 0.0];
@@ -262,14 +263,14 @@ proptest! {
                 (is_rapid, if across { [z, x - offset] } else { [x, z] })
             })
             .collect();
-        // the least allowed first coordinate at a second one; at a shoulder, the smaller value
+        // the least allowed first coordinate for a given second coordinate; at a shoulder, the smaller value
         let nearest = |second: f64| {
             let mut value = f64::NEG_INFINITY;
             for pair in path.windows(2) {
                 let [[a0, a1], [b0, b1]] = [pair[0], pair[1]];
                 if second <= a1 + 1e-4 && second >= b1 - 1e-4 {
                     let share = if a1 == b1 { 0.0 } else { ((a1 - second) / (a1 - b1)).clamp(0.0, 1.0) };
-                    // at a shoulder the tool is beside it, so its inner end counts
+                    // at a shoulder, the tool is next to the shoulder, so the inner end of the shoulder counts
                     let here = (a0 + (b0 - a0) * share) * out;
                     value = if value == f64::NEG_INFINITY { here } else { value.min(here) };
                 }
@@ -300,7 +301,7 @@ proptest! {
         for pair in levels.windows(2).filter(|pair| pair[0] >= floor - 1e-6) {
             prop_assert!(pair[1] - pair[0] <= depth + 1e-3, "{pair:?}\n{program}\n{made:#?}");
         }
-        // the last cuts end at the ends of the profile's blocks, moved by the allowance
+        // the last cut ends at the end of the profile, moved by the allowance
         let cuts: Vec<[f64; 2]> = ends.iter().rev().skip(1).take_while(|(rapid, _)| !rapid).map(|(_, to)| *to).collect();
         let end = [at[0] + out * left, at[1]];
         prop_assert!((cuts[0][0] - end[0]).abs() < 1e-3 && (cuts[0][1] - end[1]).abs() < 1e-3, "{cuts:?} {end:?}\n{program}");
@@ -324,7 +325,7 @@ fn chamfers_and_rounded_corners() {
         "G0 X20. Z2.\nG1 Z-20. I3. F.2\nX50. K-2.\nZ-40.",
         &["r 10 2", "f 10 -17", "f 13 -20", "f 23 -20", "f 25 -22", "f 25 -40"],
     );
-    // the rounded corner equals a G2 or G3 with its radius
+    // the rounded corner equals a G2 or G3 with the same radius
     let corner = |blocks: &str| moves("fanuc-lathe", &format!("G0 X20. Z2.\n{blocks}")).unwrap();
     assert_eq!(
         corner("G1 Z-20. R3. F.2\nX50. R-2.\nZ-40."),
@@ -405,7 +406,7 @@ fn lengths_of_threads_without_a_point_are_asked_for() {
     ] {
         is_refused("fanuc-lathe", blocks, "PN017");
     }
-    // P and Q of G76 are in increments; Q of a thread is an angle
+    // P and Q of G76 count the smallest increments of the control; Q of a G92 thread is an angle
     assert!(moves("fanuc-lathe", "G0 X40. Z2.\nG76 P010060 Q50 R.02\nG76 X38. Z-20. P1000 Q600 F2.").is_ok());
     assert!(moves("fanuc-lathe", "G0 X40. Z2.\nG92 X39. Z-20. Q180000 F2.").is_ok());
 }
@@ -430,7 +431,8 @@ fn a_pass_keeps_what_its_code_written_again_does_not_say() {
             "r 22 5",
         ],
     );
-    // a pass with another code, or after a code that ends the passes, does not keep the words
+    // a pass does not keep the words of the previous pass if it has another code, or follows a code that ends the
+    // passes
     let head = "G0 X44. Z5.\nG90 X40. Z-20. F.2\n";
     for end in ["G92 X39.", "G94 Z-3.", "G28 U0 W0\nX39.", "G0 X44. Z5.\nG90 X39."] {
         is_refused("fanuc-lathe", &format!("{head}{end}"), "PN007");

@@ -1,5 +1,5 @@
-//! Programs for lathes that are read as jobs: printed by the post of another lathe, or refused if no job can express
-//! them.
+//! Programs for lathes that are read as jobs. The post of another lathe prints them, or they are refused if a job can't
+//! express them.
 
 use std::io::Cursor;
 
@@ -11,7 +11,7 @@ use postform::toolpath::ReadError;
 
 const HEAD: &str = "%\nO0042\nG21 G18 G40 G99\nG28 U0 W0\nT0101\nG50 S2500\nG97 S500 M3\nG0 X42. Z5.\n";
 
-/// The program of the Haas lathe's post without its block numbers, and the warnings; or what is refused.
+/// The program of the Haas lathe's post without its block numbers, and the warnings; or the refusal.
 fn printed(program: &str) -> Result<(Vec<String>, Vec<String>), String> {
     let checked = check(&plain_post("haas-lathe.pf"));
     let form = compile(&checked.form);
@@ -67,7 +67,7 @@ fn a_thread_stays_a_thread() {
     assert_eq!(path(blocks), expected);
 }
 
-/// A move home before another tool belongs to the form. During the work of a tool, it belongs to the job.
+/// A move home before another tool belongs to the form. A move home between moves of one tool belongs to the job.
 #[test]
 fn ways_home_and_the_turret() {
     let (lines, warnings) = printed(&format!(
@@ -83,7 +83,8 @@ fn ways_home_and_the_turret() {
     assert!(warnings.iter().any(|warning| warning == home), "{warnings:?}");
 }
 
-/// A move home along X and then along Z is a move home. A move along X alone before a stop is one too, with a warning.
+/// Two blocks that move home along X and then along Z are one move home. A single block along X before a stop also
+/// counts as a move home, with a warning.
 #[test]
 fn ways_home_along_one_axis_after_the_other() {
     let (lines, warnings) =

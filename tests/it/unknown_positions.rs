@@ -1,4 +1,4 @@
-//! Positions that are unknown: they never count as 0. If something depends on them, nothing is proven, there is no job,
+//! Unknown positions never count as 0. If a result depends on an unknown position, nothing is proven, there is no job,
 //! and motions do not count as equal.
 
 use std::io::Cursor;
@@ -13,8 +13,8 @@ use postform::toolpath::{ReadError, Units};
 
 const PATH: &str = r#"{"rapid":[0,0,2]},{"line":[0,0,-1]},{"rapid":[0,0,2]},{"work":55},{"rapid":[3,3,2]},{"line":[3,3,1.5]},{"rapid":[3,3,2]}"#;
 
-/// The end of an increment is unknown if it starts at the reference point, or at the position that the previous program
-/// left.
+/// The end of an increment is unknown if the increment starts at the reference point, or at the unknown position where
+/// the program starts.
 #[test]
 fn increments_from_an_unknown_position_end_the_proof() {
     let (form, text) = (check(&post("fanuc.pf")), inches("1", PATH));
@@ -40,7 +40,7 @@ fn g92_at_an_unknown_position_moves_the_frame() {
         let Verdict::Different(found) = verified(&form, &changed, &job) else { panic!("{changed}") };
         assert!(found.iter().any(|found| found.code.name() == "PV021"), "{found:?}");
     }
-    // if no move follows in this frame, it has no effect
+    // if no move follows in this frame, G92 has no effect
     let ends = program.replacen("M30", "G91 G28 Z0\nG90\nG92 Z0\nM30", 1);
     assert!(verified(&form, &ends, &job).is_proven(), "{ends}");
 }
@@ -76,7 +76,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     assert_ne!(changed, program);
     let Verdict::NotProven(unproven) = verified(&form, &changed, &job) else { panic!("{changed}") };
     assert_eq!(unproven.why, "a feed move goes to an unknown machine position");
-    // also if it is read as a job, or compared with another program
+    // the position is also unknown if the program is read as a job, or compared with another program
     let settings = RunSettings::new(control("linuxcnc"));
     let same = |old: &str, new: &str| {
         let compared =
@@ -92,7 +92,7 @@ fn a_cut_to_a_position_of_the_machine_is_no_cut_of_the_job() {
     assert!(matches!(read, Err(ReadError::Job(diag)) if diag.message.contains("an unknown machine position")));
 }
 
-/// The printed program of a program that is read as a job, or the error code.
+/// Reads a program as a job. Returns the printed program, or the error code.
 fn printed(program: &str, start: Option<[f64; 3]>) -> Result<String, String> {
     let checked = check(&crate::support::plain_post("haas.pf"));
     let form = compile(&checked.form);

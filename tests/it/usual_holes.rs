@@ -1,5 +1,6 @@
-//! Later holes of a machine cycle that print only their position are printed in a short way of their own. It must give what the
-//! general way gives: an angle of zero in each point changes nothing but takes the general way, and both programs are compared.
+//! Separate fast code prints the later holes of a machine cycle if they print only their position. This code must give
+//! the same result as the general code. With an angle of zero in each point, the general code prints the same job, and
+//! the tests compare both programs.
 
 use std::fmt::Write;
 use std::fs;
@@ -11,8 +12,8 @@ use proptest::prelude::*;
 
 use crate::support::{control, root};
 
-/// Sequences of a hole in other forms than the shipped ones: words in another order, conditions on the hole, words that depend on
-/// its position or number, values in comments, several lines.
+/// Drill sequences that the shipped forms do not have: words in another order, conditions on the hole, words that
+/// depend on its position or number, values in comments, several lines.
 const DRILLS: [&str; 15] = [
     "G[retplane] G81 X[h] Y[v] Z[d] R[vclear] F[frate]",
     "G81 Y[v] R[vclear] X[h] Z[d] F[frate]",
@@ -64,7 +65,7 @@ fn point() -> impl Strategy<Value = Point> {
     (at, top).prop_map(|(at, top)| Point { at, top })
 }
 
-/// A number as JSON has it, without needless zeros before it.
+/// A number as JSON allows it, without unnecessary leading zeros.
 fn number(text: &str) -> String {
     text.parse::<f64>().map(|value| value.to_string()).unwrap()
 }
@@ -114,7 +115,8 @@ proptest! {
         let text = with_drill(&text, drill);
         let plain = printed(&text, &job(&cycles, false));
         let angled = printed(&text, &job(&cycles, true));
-        // without the angle, which the first move prints in a block of its own, the words that this block moves, and block numbers
+        // removes the block numbers and the angle; the first move prints the angle in a separate block, so some other
+        // words are removed, too
         let cuts = |text: String| -> Vec<String> {
             let is_kept = |word: &&str| !word.starts_with(['N', 'A', 'P']) && *word != "G0";
             let words = |line: &str| line.split(' ').filter(is_kept).collect::<Vec<_>>().join(" ");
@@ -124,8 +126,8 @@ proptest! {
     }
 }
 
-/// Holes that share a position, and one that differs only in digits that the form doesn't print, still drill: a block with both
-/// words.
+/// Holes at the same position still drill. The same applies to a hole that differs only in digits that the form does
+/// not print. Each block has both words.
 #[test]
 fn a_hole_at_the_same_position_prints_both_words() {
     let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();
@@ -140,7 +142,7 @@ fn a_hole_at_the_same_position_prints_both_words() {
     assert_eq!(lines, ["G99 G81 X10. Y20. Z-5. R2. F200.", "X30.", "X30. Y20.", "X30. Y20.", "Y40."]);
 }
 
-/// The sequences of the property above are printed, so that it compares programs and not errors.
+/// All sequences of the property test above can be printed, so the test compares programs and not errors.
 #[test]
 fn the_sequences_print() {
     let form = fs::read_to_string(root().join("postforms/fanuc.pf")).unwrap();
@@ -167,7 +169,8 @@ fn cuts(program: &[u8]) -> Vec<[f64; 4]> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
 
-    /// Holes are compared in a short way, too. A program that cuts elsewhere, or with another feed, is not the job's.
+    /// Separate fast code also compares holes. This code must find a program that cuts at another position or with
+    /// another feed.
     #[test]
     fn a_hole_at_another_position_is_found(
         cycles in prop::collection::vec((0..3_usize, prop::collection::vec(point(), 1..12)), 1..3),
@@ -197,7 +200,7 @@ proptest! {
     }
 }
 
-/// A sequence may move the tool away before a hole. The hole brings it back, so a cut can follow the cycle.
+/// A sequence may move the tool away before a hole. The hole moves the tool back, so a cut can follow the cycle.
 #[test]
 fn a_cut_follows_holes_after_an_upon_that_moves() {
     let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
@@ -213,8 +216,8 @@ fn a_cut_follows_holes_after_an_upon_that_moves() {
     assert!(program.contains("X3.\n") && program.contains("X4.\n"), "{program}");
 }
 
-/// A cycle that begins over the last hole of a cycle with a higher return. A form that can't return there is printed and proven: no
-/// rapid comes between the holes.
+/// A cycle begins over the last hole of another cycle, which has a higher return height. Even if the form can't return
+/// to this height, the program is printed and proven, because there is no rapid between the holes.
 #[test]
 fn a_cycle_goes_on_over_the_last_hole_of_another_one() {
     let form = fs::read_to_string(root().join("postforms/haas.pf")).unwrap();
@@ -239,7 +242,8 @@ fn a_cycle_goes_on_over_the_last_hole_of_another_one() {
     assert!(matches!(verdict, Verdict::Identical | Verdict::Equivalent(_)), "{verdict:?}\n{program}");
 }
 
-/// What a block between two holes of a cycle changes is found at the next hole, also if its position is right.
+/// If a block between two holes of a cycle changes a state, the proof finds the change at the next hole, even if the
+/// position of this hole is right.
 #[test]
 fn a_change_between_two_holes_is_found() {
     let form = fs::read_to_string(root().join("postforms/linuxcnc.pf")).unwrap();

@@ -219,7 +219,7 @@ proptest! {
     }
 }
 
-/// The moves that a reader pushed, with their locations; and its end.
+/// The moves that a reader pushed, with their locations; and the end of the job.
 #[derive(Default)]
 struct Read(Vec<(String, Place)>);
 

@@ -58,8 +58,8 @@ fn every_post_that_ships_has_a_verdict_on_every_sample() {
     let mut page = "# Verdicts on what ships\n\n\
         A test prints the job of each sample ([samples/](../samples)) with each shipped post ([postforms/](../postforms)). \
         The table shows the verdicts: `=` identical, `≈` equivalent, `?` not proven, `≠` different. A number refers to \
-        the reason below the table. `–`: the post can't print the job, because the job is for another machine or needs a \
-        sequence that the post does not have. [What the verdicts mean](verify.md)\n\n| job |"
+        the reason below the table. `–` means that the post can't print the job: the job is for another machine, or \
+        needs a sequence that the post does not have. [What the verdicts mean](verify.md)\n\n| job |"
         .to_owned();
     posts.iter().for_each(|(name, _)| page += &format!(" {name} |"));
     page += "\n| --- |";
@@ -77,7 +77,7 @@ fn every_post_that_ships_has_a_verdict_on_every_sample() {
             _ = write!(page, " {} |", cell(post, format, &job, &mut reasons));
         }
     }
-    page += "\n\nReasons for programs that are not proven or different:\n\n";
+    page += "\n\nReasons why programs are different or not proven:\n\n";
     for (number, why) in reasons.0.iter().enumerate() {
         _ = writeln!(page, "{}. {why}", number + 1);
     }

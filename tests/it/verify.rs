@@ -55,7 +55,7 @@ pub fn post(name: &str) -> String {
     plain_post(name)
 }
 
-/// A tolerance of 0 is not the default tolerance.
+/// A tolerance of 0 does not mean the default tolerance.
 #[test]
 fn a_tolerance_of_zero_accepts_no_difference() {
     let part =
@@ -148,7 +148,7 @@ fn cycles_in_all_forms_are_the_same_holes() {
             let verdict = verified(&form, &program, job);
             assert!(!matches!(verdict, Verdict::Different(_)), "{name} {cycles:?}: {verdict:?}\n{program}");
             if cycles == Cycles::Emulated {
-                // exactly the planned moves; only rapids may go up first or down last
+                // the program has exactly the planned moves; only a rapid may be in two parts, up first or down last
                 let Verdict::Equivalent(other) = verdict else { panic!("{name}: {verdict:?}") };
                 assert_eq!(other, Equivalences { ways: other.ways, ..Equivalences::default() }, "{name}");
             } else if name != "grbl.pf" {
@@ -290,7 +290,7 @@ fn changed_programs_are_caught_and_rewritten_ones_are_not() {
     assert!(!matches!(verified(&form, &lower, &job), Verdict::Different(_)));
 }
 
-/// An old program as a job: printed by another form, it still makes the same motions.
+/// If an old program is read as a job and another form prints this job, the new program makes the same motions.
 #[test]
 fn programs_become_jobs() {
     let fanuc = check(&post("fanuc.pf"));
@@ -513,7 +513,8 @@ fn a_tap_against_the_spindle_goes_in_its_own_way() {
     }
 }
 
-/// The control returns to the height at which the cycle began, the job to that of its last hole. A cut after them shows the difference.
+/// After a cycle, the control returns to the height at which the cycle began. In the job, the tool returns to the
+/// height of the last hole. A cut after the cycle shows the difference.
 #[test]
 fn a_cut_after_holes_of_several_heights_is_the_jobs() {
     let text = r#"{"start":{"units":"mm","program":1,"tools":[{"number":1,"length_offset":1,"diameter":10,"diameter_offset":1}]}}
@@ -538,7 +539,7 @@ fn a_cut_after_holes_of_several_heights_is_the_jobs() {
     }
 }
 
-/// A block that postform does not run, but the control may, ends the proof. It is not a difference.
+/// The control may run a block that postform does not run. Such a block ends the proof, but is not a difference.
 #[test]
 fn what_is_not_run_is_not_called_different() {
     let form = check(&post("haas.pf"));

@@ -1,4 +1,5 @@
-//! `postform watch`: the data for the page, and refused requests. Requests are sent as raw bytes, as a client that is not a browser may send them.
+//! `postform watch`: the data for the page, and refused requests. The tests send requests as raw bytes, because a
+//! client may be a program other than a browser.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -60,7 +61,7 @@ impl Watch {
     fn send(&self, request: impl AsRef<[u8]>) -> Answer {
         let mut stream = TcpStream::connect(self.address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
-        _ = stream.write_all(request.as_ref()); // the server may refuse it before it has read all of it
+        _ = stream.write_all(request.as_ref()); // the server may refuse a request before it has read the whole request
         let mut bytes = Vec::new();
         _ = stream.read_to_end(&mut bytes);
         let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").map_or(bytes.len(), |at| at + 4);
@@ -286,7 +287,7 @@ fn jobs_are_opened_and_closed() {
     for (name, content, tab) in [
         (r#""drill.json""#, &job[..], [1, 0]),
         (r#""../../my.pf.json""#, &job[..], [2, 0]),
-        // the same name replaces the job
+        // a job with the same name is replaced
         (r#""drill.json""#, &job[..], [1, 1]),
         // recognised by its content
         (r#""drill""#, &job[..], [3, 0]),
@@ -334,7 +335,7 @@ fn nobody_else_can_connect() {
     let folder = bracket("watch-loopback");
     let watch = Watch::new(&folder, &[]);
     assert!(watch.address.ip().is_loopback());
-    // the address of this machine for other machines, if there is one; nothing is sent
+    // the network address of this machine, if it has an address; no data is sent
     let socket = UdpSocket::bind("0.0.0.0:0").unwrap();
     let outside = socket.connect("192.0.2.1:9").and_then(|()| socket.local_addr()).map(|address| address.ip());
     if let Some(outside) = outside.ok().filter(|ip| !ip.is_loopback() && !ip.is_unspecified()) {
@@ -343,7 +344,8 @@ fn nobody_else_can_connect() {
     }
 }
 
-/// Idle connections block other clients only for a short time. Clients beyond the maximum get an answer that says so.
+/// Idle connections block other clients only for a short time. Clients beyond the maximum number get an answer that
+/// explains this.
 #[test]
 fn idle_connections_are_bounded() {
     let folder = bracket("watch-idle");
@@ -361,7 +363,7 @@ fn idle_connections_are_bounded() {
     }
 }
 
-/// A request that arrives a byte at a time is ended after the same time as any other.
+/// A request that arrives byte by byte has the same time limit as any other request.
 #[test]
 fn a_slow_request_is_ended() {
     let folder = bracket("watch-slow");
@@ -415,7 +417,8 @@ fn the_scene_is_the_program() {
     assert_eq!(verdict["kind"], "proven", "{verdict}");
 }
 
-/// Without `--job`, the jobs of postform.toml are shown; without those, the sample job for the form's machine. The date is the current day.
+/// Without `--job`, the page shows the jobs of postform.toml. If postform.toml names no jobs, the page shows the sample
+/// job for the form's machine. Without `--date`, the date is the current day.
 #[test]
 fn without_a_job_there_is_one() {
     let folder = bracket("watch-sample");
@@ -447,7 +450,7 @@ fn the_same_program_is_not_sent_again() {
     let (again, body) = ask(&json!({ "my.pf": folder.read("my.pf").replacen("Name Fanuc", "Name My Fanuc", 1) }));
     assert_eq!((&again["same"], body.len(), &again["program"]), (&json!(true), 0, shown));
     assert_eq!(again["verdict"], first["verdict"]);
-    // with an additional line before the sequences, all blocks have other origins
+    // after an additional line before the sequences, all blocks come from other lines of the form
     let (other, body) = ask(&json!({ "my.pf": format!("# mine\n{}", folder.read("my.pf")) }));
     assert!(other["same"].is_null() && !body.is_empty() && other["program"] != *shown);
 }
@@ -579,7 +582,7 @@ fn only_the_form_is_written_and_only_on_save() {
     let new = form.replace("Name Fanuc 0i-M", "Name Mine");
     assert_eq!(save("my.pf", &new, &form), (200, String::new()));
     assert_eq!(folder.read("my.pf"), new);
-    // a file that is not one of the form's, by various names
+    // files that do not belong to the form, and wrong names of files
     folder.write("other.pf", "Name x");
     for name in ["other.pf", "./my.pf", "../my.pf", "job.json", "", "/etc/passwd", "my.pf\0"] {
         assert_eq!(save(name, "x", "Name x").0, 404, "{name}");

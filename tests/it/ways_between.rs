@@ -1,5 +1,5 @@
-//! Rapids between cuts, and after the last one, must be no lower than the job's, and in no other work offset. Each case
-//! is a program that verify once called identical or equivalent.
+//! Rapids between cuts and after the last cut must not be lower than in the job, and must be in the same work offset as
+//! in the job. Earlier versions reported the program of each case as identical or equivalent.
 
 use std::fs;
 
@@ -78,7 +78,7 @@ fn a_new_tool_goes_down_in_the_offset_of_its_cut() {
     is_wrong(TOOL, right, "G0 G90 X40. Y60.\nS1950 M3\nG55 G43 H2 Z3. M9\n", "PV012");
 }
 
-/// The message shows the height where the rapid is too low, which may be that of its begin.
+/// The message shows the height at which the rapid is too low. This may be the height at the start of the rapid.
 #[test]
 fn a_rapid_that_begins_too_low_is_shown_with_that_height() {
     let post = haas();

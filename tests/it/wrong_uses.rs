@@ -1,5 +1,6 @@
-//! Wrong uses of features beyond the manual: the finding, its location, and the correction. tests/data/wrong-uses.txt
-//! contains the messages. `SAMPLES=overwrite cargo test wrong_uses::` writes it again; review it as a machinist would.
+//! Wrong uses of features that the manual does not describe: the finding, its location, and the correction.
+//! tests/data/wrong-uses.txt contains the messages. `SAMPLES=overwrite cargo test wrong_uses::` writes it again; review
+//! it as a machinist would.
 
 use std::fmt::Write as _;
 use std::fs;

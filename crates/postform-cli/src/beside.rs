@@ -9,11 +9,11 @@ use postform::internals::post::Part;
 use postform::internals::verify::Batch;
 use postform::{Error, Job, Options, Post, Proof, Proven, Rendered};
 
-/// Maximum number of batches that wait for the proof, each about 64 KB of program; the printer waits if it has another
-/// batch.
+/// Maximum number of batches that wait for the proof; then the printer waits, too. A batch is about 64 KB of program
+/// text.
 const WAITING: usize = 4;
 
-/// A batch that the proof returns after comparison, so that the memory of the batch is used again.
+/// A batch of events. The proof returns each batch after the comparison, so that the printer can use its memory again.
 struct Lent {
     batch: Batch,
     back: Sender<Batch>,

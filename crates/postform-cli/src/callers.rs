@@ -13,7 +13,8 @@ use super::files;
 /// Maximum number of forms of a folder that are searched for calls.
 const MOST_FORMS: usize = 200;
 
-/// Is a file a form? A file is a form because of its name, because postform.toml names it, or because a form calls it.
+/// Is a file a form? A file is a form if it has the name of a form, if postform.toml names the file, or if a form calls
+/// the file.
 ///
 /// # Errors
 /// A message: postform.toml makes no sense.
@@ -27,13 +28,13 @@ pub fn is_form(path: &Path) -> Result<bool, String> {
     Ok(named || caller(&real, &text).is_some())
 }
 
-/// The text of a form on the disk; empty if it can't be read.
+/// The text of a form on the disk; empty if the file can't be read.
 pub fn text(path: &Path) -> String {
     files::read_form(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
 }
 
-/// The form that calls a file, searched in the file's folder and in the folder above; `text` reads the forms. The
-/// returned path is absolute.
+/// The form that calls a file. The file's folder and the folder above are searched for this form. `text` reads a form.
+/// The returned path is absolute.
 pub fn caller(path: &Path, text: &dyn Fn(&Path) -> String) -> Option<PathBuf> {
     let mut forms: Vec<PathBuf> = Vec::new();
     // a called form is in the folder of its caller or in a subfolder

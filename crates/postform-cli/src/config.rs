@@ -19,15 +19,15 @@ pub struct Config {
     pub path: Option<PathBuf>,
     /// The form of `render` and `verify`.
     pub form: Option<PathBuf>,
-    /// The control whose rules programs follow when they are run.
+    /// The control that is simulated when postform runs programs.
     pub control: Option<&'static Control>,
     /// The machine on which programs run.
     pub machine: Option<PathBuf>,
     /// Limits of forms.
     pub limits: Option<Limits>,
-    /// Jobs that editors print with the forms of the folder.
+    /// Jobs that the language server and `watch` print with the forms of the folder.
     pub jobs: Vec<PathBuf>,
-    /// A program that is not proven is not printed.
+    /// Whether a program is printed only if it is proven.
     pub require_proof: bool,
     /// Severities of rules.
     pub levels: Levels,
@@ -56,7 +56,8 @@ pub struct Tests {
 const NAME: &str = "postform.toml";
 
 impl Config {
-    /// The configuration for a file: the first `postform.toml` in its folder or a folder above. Standard input uses the working folder.
+    /// The configuration for a file: the first `postform.toml` in its folder or a folder above. For standard input, the
+    /// working folder is used.
     ///
     /// # Errors
     /// A message: the file exists but can't be read, or contains a value that makes no sense.
@@ -151,7 +152,8 @@ impl Config {
         ))
     }
 
-    /// Removes the names that forms in the folder and its subfolders have. `false`: there are more files than the maximum.
+    /// Removes from `names` each property of a form in the folder or its subfolders. Returns `false` if there are more
+    /// files than the maximum.
     fn others(&self, folder: &Path, names: &mut Vec<&str>) -> bool {
         let (mut folders, mut left) = (vec![folder.to_path_buf()], MOST_FILES);
         while let (Some(folder), false) = (folders.pop(), names.is_empty()) {

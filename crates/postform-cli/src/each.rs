@@ -42,7 +42,7 @@ pub fn each_in_order<T: Send, R: Send>(
     let run = &run;
     thread::scope(|scope| {
         for _ in 1..threads {
-            // if no further thread is available, the existing ones do the work
+            // if no further thread is available, the existing threads do the work
             if thread::Builder::new().spawn_scoped(scope, run).is_err() {
                 break;
             }

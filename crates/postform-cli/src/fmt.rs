@@ -19,7 +19,7 @@ use super::report::count;
 use super::say::message;
 use super::{Ending, forms};
 
-/// Formats forms in place; `-` filters standard input.
+/// Formats forms in place. For `-`, formats standard input and prints the result.
 pub fn run(args: &FmtArgs) -> Result<Ending, String> {
     let paths = forms::named(&args.forms)?;
     if let [path] = paths.as_slice()
@@ -69,7 +69,7 @@ enum Laid {
     LeftOut(String),
 }
 
-/// Codes of lines that make no sense: a file with such a line may not be a form at all.
+/// Codes of findings about lines that make no sense. A file with such a line is perhaps not a form.
 const UNREAD: [Code; 5] = [Code::PF001, Code::PF002, Code::PF007, Code::PF201, Code::PF301];
 
 /// Formats one file.

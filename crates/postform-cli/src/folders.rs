@@ -9,7 +9,7 @@ use postform::Format;
 use super::files::{beginning, format_of_name, io_message};
 use super::packed::unpacked_name;
 
-/// Maximum depth of subfolders; deeper ones are skipped.
+/// Maximum depth of subfolders. Deeper subfolders are skipped.
 pub const DEEPEST: usize = 32;
 
 /// The jobs in a folder and its subfolders, in the order of their paths; and the JSON files that do not begin like a job.

@@ -152,7 +152,8 @@ pub fn wholes(mut files: Vec<FormFile>) -> Vec<FormFile> {
     files.into_iter().zip(parts).filter(|(_, is_part)| !is_part).map(|(file, _)| file).collect()
 }
 
-/// The forms for these arguments: a folder means all `.pf` files in it and below, in the order of their names.
+/// The forms for these arguments: a folder stands for all `.pf` files in the folder and its subfolders, in the order of
+/// their names.
 pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     let mut forms = Vec::new();
     for path in paths {
@@ -183,7 +184,7 @@ fn in_folder(folder: &Path, root: &Path, forms: &mut Vec<PathBuf>) -> Result<(),
             }
         } else if files::is_form(&path) {
             match path.canonicalize() {
-                // the target of the link is found under its own name
+                // the target of a link inside the folder is found under its own name
                 Ok(real) if path.is_symlink() && real.starts_with(root) && files::is_form(&real) => {}
                 Ok(_) if path.is_symlink() => left_out(&path, "a link to a file that is not a form in this folder"),
                 Ok(real) if !real.is_file() => left_out(&path, "not a file"),

@@ -23,7 +23,7 @@ type Node = (u64, u64);
 type Node = std::path::PathBuf;
 
 impl Identity {
-    /// The identity of an input. `None`: the input is no regular file, so no output can replace it.
+    /// The identity of an input. `None`: the input is no regular file, so no output can replace the input.
     pub fn of_input(path: &Path) -> Option<Identity> {
         if path == Path::new("-") {
             return of_stream(&io::stdin());

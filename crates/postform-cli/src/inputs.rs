@@ -32,14 +32,14 @@ pub fn all() -> Vec<PathBuf> {
     read.names.iter().filter(|path| path.as_path() != Path::new("-")).cloned().collect()
 }
 
-/// The time of the last change of all files read so far; `None`: one of them no longer exists.
+/// The time of the last change of all files read so far; `None`: one of the files no longer exists.
 pub fn newest() -> Option<SystemTime> {
     let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     let changed = read.names.iter().map(|path| path.metadata().and_then(|meta| meta.modified()).ok());
     changed.collect::<Option<Vec<_>>>()?.into_iter().max()
 }
 
-/// Many files will be read and none will be rewritten during the command: each is identified only once.
+/// Declares that the command reads many files and rewrites none of these files. Each file is then identified only once.
 pub fn are_many() {
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     read.files = Some(read.names.iter().filter_map(|path| Identity::of_input(path)).collect());

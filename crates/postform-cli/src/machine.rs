@@ -37,17 +37,17 @@ fn text(path: &Path) -> Result<String, String> {
 /// The machine from an option, the form, or postform.toml.
 ///
 /// # Errors
-/// Its file can't be read, or contains an error.
+/// The machine file can't be read, or contains an error.
 pub fn named(arg: &MachineArg, form: Option<(&Path, &Post)>, config: &Config) -> Result<Option<Machine>, String> {
     let of_form = form.and_then(|(form, post)| Some(files::folder(form).join(post.machine_file()?)));
     let path = arg.machine.clone().or(of_form).or(config.machine.clone());
     path.as_deref().map(read).transpose()
 }
 
-/// The machine of a form that prints; its accelerations are used for times that programs print.
+/// The machine of a form that prints programs. Its accelerations are used for the times in the programs.
 ///
 /// # Errors
-/// Its file can't be read, or contains an error.
+/// The machine file can't be read, or contains an error.
 pub fn of_prepared(
     arg: &MachineArg,
     form: &Path,
@@ -160,7 +160,7 @@ fn finding_json(finding: &Finding) -> serde_json::Value {
     })
 }
 
-/// A form's program on a machine; findings have form lines and job items if the job can be read again.
+/// Checks a form's program on a machine. If the job can be read again, the findings contain form lines and job items.
 ///
 /// # Errors
 /// The program can't be read.

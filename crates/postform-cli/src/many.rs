@@ -51,9 +51,9 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
     Ok(jobs)
 }
 
-/// Works on each item, several at a time. The text that `work` returns goes to standard output, and its messages to
-/// standard error, both in the order of the items. A failing item does not stop the others; the last line of the output
-/// contains the `name` of the failing item.
+/// Works on each item, several at a time. The text that `work` returns goes to standard output. The messages of `work`
+/// go to standard error. Both are in the order of the items. A failing item does not stop the others; the last line of
+/// the output contains the `name` of the failing item.
 ///
 /// # Errors
 /// Standard output can't be written.

@@ -22,7 +22,7 @@ pub fn run(args: &NewArgs) -> Result<Ending, String> {
     if args.output.as_os_str() == "-" {
         return output::shown(|out| out.write_all(text.as_bytes()));
     }
-    // exclusive: an existing file stays, and so does a link without a target
+    // this call creates a new file: it never replaces an existing file or a link without a target
     output::write_new(&args.output, text.as_bytes()).map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => {
             format!(

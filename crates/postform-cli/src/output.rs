@@ -17,13 +17,13 @@ use super::unnamed::Unnamed;
 
 /// An output that is being written and is not visible yet.
 pub enum Target {
-    /// An unnamed file in the folder of its target, which gets the target's name at the end.
+    /// An unnamed file in the folder of the target. The file gets the target's name at the end.
     Beside(Unnamed),
     /// A device, a pipe or standard output: spooled, then copied.
     Spooled(Spool, Option<PathBuf>),
     /// Standard output, written without a spool.
     Stream,
-    /// One of the other kinds of output, compressed because its name ends with `.gz`.
+    /// An output of another kind that is compressed, because the name ends with `.gz`.
     Packed(Box<(Target, GzEncoder<Vec<u8>>)>),
 }
 
@@ -183,7 +183,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
     whole(Target::place(path, false)?, path, bytes)
 }
 
-/// Writes an output in one piece. `path`: the path of the output. A closed pipe behind standard output is not an error.
+/// Writes an output in one piece. `path`: the path of the output. A closed pipe at standard output is not an error.
 ///
 /// # Errors
 /// A message: the output can't be written.
@@ -209,7 +209,7 @@ pub fn json(document: &serde_json::Value) -> String {
     safe(&format!("{document:#}"))
 }
 
-/// A JSON document on one line, safe for terminals like that of `json`.
+/// A JSON document on one line. The document is safe for terminals, like the document of `json`.
 pub fn json_line(document: &serde_json::Value) -> String {
     safe(&document.to_string())
 }

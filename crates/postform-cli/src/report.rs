@@ -31,7 +31,7 @@ impl<'a> Text<'a> {
     fn new(source: &'a Source) -> Text<'a> {
         let escapes = |at: usize, c: char| match c {
             '\n' | '\t' => false,
-            '\r' => !source.text[at + 1..].starts_with('\n'), // alone it would move the cursor to the start of the line
+            '\r' => !source.text[at + 1..].starts_with('\n'), // a lone \r moves the cursor to the start of the line
             c => steers(c),
         };
         let mut longer = Vec::new();
@@ -150,7 +150,7 @@ impl Reporter {
         Reporter { handler: GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false) }
     }
 
-    /// Findings as text; `files` are those of their form.
+    /// Findings as text; `files` are the files of the form.
     pub fn text(&self, diags: &[Diag], files: &[Source]) -> String {
         let texts: Vec<Text> = files.iter().map(Text::new).collect();
         let mut all = String::new();
@@ -231,7 +231,8 @@ pub fn place_in(file: &str, diag: &mut Diag) {
     diag.place.get_or_insert_default().file = Some(file.to_owned());
 }
 
-/// Adds the name of the job to the location of a finding; of joined jobs, the name of the job with the finding.
+/// Adds the name of the job to the location of a finding. If jobs are joined, adds the name of the job with the
+/// finding.
 pub fn place_in_jobs(jobs: &[&Path], diag: &mut Diag) {
     let part = diag.place.as_ref().map_or(0, |place| usize::from(place.part));
     if let Some(job) = jobs.get(part.saturating_sub(1)) {

@@ -12,7 +12,7 @@ use super::output::Target as Output;
 use super::report::count;
 use super::say::message;
 
-/// Writes a program that begins in the middle of another one.
+/// Writes a program that begins in the middle of another program.
 pub fn run(args: &RestartArgs) -> Result<Ending, String> {
     let config = Config::near(&args.program)?;
     let control = ControlArgs { control: args.control.control.or(config.control), ..args.control.clone() };

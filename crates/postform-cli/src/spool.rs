@@ -5,7 +5,7 @@ use std::io::{self, Seek, Write};
 
 use postform::internals::terminal::escaped;
 
-/// A file without a name that is written and then read. Errors of this file contain the name of its folder.
+/// An unnamed file, which is written and then read. Errors of this file contain the name of its folder.
 pub struct Spool(File);
 
 impl Spool {

@@ -86,7 +86,7 @@ impl Milling<'_> {
     }
 }
 
-/// The result as JSON; `files` are those of the form.
+/// The result as JSON; `files` are the files of the form.
 pub fn document(checked: &StockCheck, files: &[Source]) -> serde_json::Value {
     serde_json::json!({
         "blocks": checked.blocks, "not_checked": checked.not_checked, "assumes_compensation": checked.compensates,

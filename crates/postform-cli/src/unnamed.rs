@@ -75,7 +75,7 @@ impl Unnamed {
         path.persist_noclobber(&self.path).map_err(|error| error.error)
     }
 
-    /// Gives the file its name if no file has it. Otherwise the file stays unnamed.
+    /// Gives the file its name if no other file has this name. Otherwise the file stays unnamed.
     fn appears(&self) -> io::Result<bool> {
         self.file.sync_all()?; // the contents must be on the disk before the name
         Ok(link(&self.file, &self.path).is_ok())
@@ -93,10 +93,10 @@ impl Unnamed {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // the permissions of any new file; the umask still applies
+            // the file gets the permissions of any new file; the umask still applies
             builder.permissions(Permissions::from_mode(0o666));
         }
-        // only the kind, because the whole error contains the hidden name
+        // only the kind of the error is returned, because the whole error contains the hidden name
         let mut copy = builder.tempfile_in(place).map_err(|error| io::Error::from(error.kind()))?;
         self.file.rewind()?;
         io::copy(&mut self.file, copy.as_file_mut())?;

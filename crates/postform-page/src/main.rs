@@ -1,8 +1,8 @@
 //! postform for the playground: it reads a request from standard input and writes a scene to standard output.
 //!
-//! A request is the length of its head (four bytes, little-endian), the head as JSON, and the files that the head
-//! names, one after the other. The files of each form are its current text and its saved text. After the forms follow
-//! the job, the program to compare with, and the program of the saved form.
+//! A request consists of the length of the head (four bytes, little-endian), the head as JSON, and the files that the
+//! head names, one after the other. The files of each form are its current text and its saved text. After the forms
+//! follow the job, the program to compare with, and the program of the saved form.
 
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
@@ -27,7 +27,7 @@ struct Head {
     /// Values of the form's properties.
     #[serde(default)]
     properties: Vec<(String, String)>,
-    /// A location in a form: the answer is then the help for it, not a scene.
+    /// A location in a form. If there is a location, the answer is the help for this location, not a scene.
     at: Option<At>,
 }
 

@@ -77,7 +77,7 @@ fn piece(pen: &mut Pen<'_>, css: bool) {
     }
 }
 
-/// A cut with its approach and retract: from outside the part, in, along, out.
+/// A cut with its approach and retract: the tool moves from outside the part to the cut, along the cut, and out.
 fn turn(pen: &mut Pen<'_>) {
     let start = outside(pen);
     pen.rapid(start);

@@ -286,7 +286,7 @@ fn change(pen: &mut Pen<'_>) {
         }
         11 => {
             let text = pen.random.pick(&["(AS IT STANDS)", "M1", "M8", "G4 P0"]);
-            // of texts without G codes, the control reads only those that begin with M
+            // without G codes, the control reads only texts that begin with M
             if pen.codes || text.starts_with('M') {
                 pen.put(json!({ "text": text }));
             }

@@ -61,13 +61,13 @@ impl Kind {
 /// The features of a job that the printing form supports.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Takes {
-    /// The form has custom cycles, by number.
+    /// For each custom cycle: whether the form has it.
     pub customs: [bool; 3],
-    /// The form can send the tool home.
+    /// Whether the form can send the tool home.
     pub home: bool,
-    /// The text may contain comments and codes of a Fanuc.
+    /// Whether the text may contain comments and codes of a Fanuc.
     pub codes: bool,
-    /// The form has more than six work offsets.
+    /// Whether the form has more than six work offsets.
     pub works: bool,
 }
 

@@ -18,15 +18,15 @@ pub struct Pen<'r> {
     pub path: Vec<Value>,
     /// Number of moves and holes so far.
     pub moves: usize,
-    /// Feeds are per revolution.
+    /// Whether feeds are per revolution.
     pub per_turn: bool,
-    /// The form has custom cycles, by number.
+    /// For each custom cycle: whether the form has it.
     pub customs: [bool; 3],
-    /// The form can send the tool home.
+    /// Whether the form can send the tool home.
     pub home: bool,
-    /// The text may contain comments and codes of a Fanuc.
+    /// Whether the text may contain comments and codes of a Fanuc.
     pub codes: bool,
-    /// The form has more than six work offsets.
+    /// Whether the form has more than six work offsets.
     pub works: bool,
 }
 
@@ -113,7 +113,7 @@ impl<'r> Pen<'r> {
         self.at = to;
     }
 
-    /// A position as a job may contain it: with all axes, or without the unchanged ones.
+    /// A position for a job, with all axes or without the unchanged axes.
     pub fn position(&mut self, to: [f64; 3]) -> Value {
         if !self.random.once_in(3) {
             return json!(to);

@@ -43,12 +43,12 @@ struct File<'r> {
     decimals: i32,
     lines: Vec<String>,
     at: [f64; 3],
-    /// A clearance was coded. It applies to all later cycles.
+    /// Whether a clearance was coded. A clearance applies to all later cycles.
     cleared: bool,
     cycles: usize,
     speed: usize,
     clockwise: bool,
-    /// The last position is a point of a cycle.
+    /// Whether the last position is a point of a cycle.
     in_hole: bool,
 }
 
@@ -162,7 +162,7 @@ impl File<'_> {
         self.rapid([x, y, high]);
     }
 
-    /// MOVARC about X, Y or Z by a quarter or half turn, so that its ends are round numbers.
+    /// MOVARC about X, Y or Z by a quarter or half turn, so that the ends of the arc are round numbers.
     fn arc(&mut self) {
         let axis = self.random.pick(&[2, 2, 2, 1, 0]);
         let [first, second] = [(axis + 1) % 3, (axis + 2) % 3];
@@ -328,7 +328,7 @@ impl File<'_> {
             "CSINK",
             "MANUAL",
         ]);
-        // only some controls can peck in a tap
+        // only some controls can peck while they tap
         let kind = if self.random.once_in(25) { self.random.pick(&["TAP,DEEP", "TAP,BRKCHP"]) } else { kind };
         let clear = self.positive(0.05, 0.3);
         if kind == "MANUAL" {
@@ -380,7 +380,7 @@ impl File<'_> {
         }
         let second = self.clearances(&mut couplets, kind, clear);
         self.options(&mut couplets, kind, clear, depth, second);
-        // couplets may be in any order, except that a feed follows its depths
+        // couplets may be in any order, but a feed must follow its depths
         let at = self.random.below(couplets.len() + 1);
         if self.random.once_in(3) && at < couplets.len() && couplets[at].starts_with("CLEAR") {
             let clear = couplets.remove(at);
@@ -514,7 +514,7 @@ impl File<'_> {
                     4 => couplets.push("MULTRD,2".into()),
                     _ => {}
                 }
-                // a thread in the direction of the spindle; the opposite direction is PC054
+                // a thread in the direction of the spindle; postform refuses the opposite direction (PC054)
                 if !self.clockwise {
                     couplets.push("INVERS".into());
                 }

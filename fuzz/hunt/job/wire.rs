@@ -1,4 +1,4 @@
-//! Wire EDM jobs. X and Y are the lower guide, U and V the upper one.
+//! Wire EDM jobs. X and Y are the position of the lower guide, U and V the position of the upper guide.
 
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
-//! Compares a program with its job by the judge's own rules. Every cut of the job must be made with its tool, between
-//! the same positions. The program must make no other cut, and no rapid may move in X or Y lower than the job's path
-//! does.
+//! Compares a program with its job by the judge's own rules. The program must make every cut of the job with the same
+//! tool, between the same positions. The program must make no other cut, and no rapid may move in X or Y lower than the
+//! job's path does.
 
 mod arcs;
 mod holes;
@@ -19,7 +19,7 @@ fn cuts(what: &What) -> bool {
     matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. } | What::Thread(_))
 }
 
-/// Is the item equal to the one before it?
+/// Is the item equal to the previous item?
 fn again(before: &Wanted, wanted: &Wanted) -> bool {
     before.want == wanted.want && before.to[2] == wanted.to[2]
 }
@@ -51,7 +51,7 @@ impl Judge<'_> {
                 _ => false,
             };
             if one_way && same(&wanted.from, &wanted.to, self.within) && wanted.from[3..] == wanted.to[3..] {
-                // the move is shorter than the last digit, so the program may contain it or not
+                // the move is shorter than the last digit, so the program may leave out the move
                 let is_part = |act: Act| {
                     matches!(act.what, What::Feed | What::Arc { .. })
                         && same(&act.from, &wanted.from, 2.0 * self.within)
@@ -67,7 +67,8 @@ impl Judge<'_> {
             } else if let Some(difference) = self.meet(wanted, number > 0 && again(&wants[number - 1], wanted)) {
                 return Some(difference);
             } else if matches!(wanted.want, Want::Arc { .. }) {
-                // at the end of the arc, either parts that are shorter than the last digit, or the next arc
+                // a short arc at this end is either a part of this arc that is shorter than the last digit, or the next
+                // arc
                 let mut made = self;
                 while *left > 0
                     && made.acts.get(made.at).is_some_and(|act| {
@@ -159,7 +160,7 @@ impl Judge<'_> {
                     self.at = at + 1;
                     return None;
                 }
-                // this may be a stop of the form, and that of the job comes later
+                // this may be a stop of the form, and the stop of the job comes later
                 too_low = too_low.or(low);
             }
             if cuts(&act.what) && !same(&act.from, &act.to, self.within) {
@@ -222,7 +223,7 @@ impl Judge<'_> {
         off.then(|| format!("line {}: feed {is:.4} for {should:.4}", act.line))
     }
 
-    /// Checks that the path to this item was not lower than the job's.
+    /// Checks that the path to this item was not lower than the path in the job.
     fn way(&self, wanted: &Wanted, until: usize) -> Option<String> {
         let (low, line) = self.crossing(until);
         let allowed = wanted.low.min(self.allowed);
@@ -265,7 +266,7 @@ impl Judge<'_> {
             self.take();
         }
         if passes == 0 && again {
-            return None; // its passes followed those of the same thread before it
+            return None; // the passes of this thread were compared with those of the equal thread before it
         }
         if passes == 0 || !near(reached, depth.abs(), 2.0 * self.within) {
             return Some(format!("a thread {reached:.4} deep in {passes} passes, the job's {:.4}", depth.abs()));

@@ -31,7 +31,7 @@ pub fn across(mut wants: Vec<Wanted>) -> Vec<Wanted> {
     wants
 }
 
-/// The first cut with the beam off, or rapid with the beam on. Grbl turns off a laser in rapids by itself.
+/// The first cut with the beam off, or the first rapid with the beam on. Grbl turns off a laser in rapids by itself.
 pub fn switched_wrongly(acts: &[Act], is_laser: bool) -> Option<String> {
     acts.iter().find_map(|act| {
         let on = act.state.direction != 5.0 && (!is_laser || act.state.speed > 0.0);

@@ -1,9 +1,9 @@
-//! A program as a job: the acts of the judge's machine, as the list with which another program is compared.
+//! A program as a job: converts the acts of the judge's machine to the list with which another program is compared.
 
 use super::wants::{Want, Wanted};
 use super::{Act, What};
 
-/// The list of acts. `None`: it contains a cycle that jogs, or one that is not listed here.
+/// The list for these acts. `None`: the acts contain a cycle that jogs, or another act that is not supported here.
 pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
     let mut list: Vec<Wanted> = Vec::new();
     let mut low = f64::INFINITY;
@@ -79,7 +79,7 @@ pub fn wants(acts: &[Act]) -> Option<Vec<Wanted>> {
             feed: state.feed,
             low: low.min(act.from[2]).min(act.to[2]),
             side: state.side.0,
-            // a job requests only one kind
+            // a job requests only one kind of coolant
             coolant: Some(state.coolant).filter(|coolant| *coolant != 3),
         });
         low = f64::INFINITY;

@@ -1,5 +1,6 @@
-//! Converts programs for Siemens, Heidenhain and Okuma to the words of a Fanuc, as far as the shipped forms print them.
-//! Written from the makers' texts, without any code of postform's readers. An unknown word is an error.
+//! Converts programs for Siemens, Heidenhain and Okuma to the words of a Fanuc. Only words that the shipped forms print
+//! are supported; any other word is an error. The rules come from the makers' texts, and this code shares nothing with
+//! postform's readers.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +23,8 @@ struct Writer {
     at: [Option<f64>; 3],
     /// The tool in the spindle.
     tool: f64,
-    /// The tool of the last T. It is in the spindle after M6; until then, D applies to the tool before it.
+    /// The tool of the last T. This tool is in the spindle after M6; until then, D applies to the tool that was in the
+    /// spindle before.
     next: f64,
     inch: bool,
     side: bool,
@@ -221,7 +223,8 @@ impl Writer {
         }
         let motion = list.iter().find(|word| word.0 == 'G' && word.1 <= 3.0).map(|word| word.1 <= 1.0);
         self.straight = motion.unwrap_or(self.straight);
-        // under MCALL, a block with only G0 or G1 also drills; so does one with only S or F while G0 or G1 is active
+        // under MCALL, a block with only G0 or G1 also drills; while G0 or G1 is active, a block with only S or F
+        // drills, too
         let alone = !list.is_empty() && list.iter().all(|word| "GSF".contains(word.0));
         let again = alone && self.straight && (motion.is_some() || list.iter().all(|word| word.0 != 'G'));
         let moves = (again || list.iter().any(|word| "XYZ".contains(word.0))) && !machine;
@@ -390,7 +393,7 @@ impl Writer {
             "200" => {
                 cycle.feed = Some(feed(206)?);
                 let dwell = need(211)?;
-                // a plunge over the whole depth is that of a drill
+                // a single plunge over the whole depth is drilling, not pecking
                 if (need(202)? + need(201)?).abs() > 1e-9 {
                     (cycle.code, cycle.peck) = (83, Some(need(202)?));
                 } else if dwell > 0.0 {

@@ -54,14 +54,15 @@ fn place(at: &mut Value) {
     *at = json!([of(1), null, of(0)]);
 }
 
-/// The factor of a speed: from feet to metres per minute for a surface speed in inches; 1 for revolutions.
+/// The factor for a speed. For a surface speed in a program in inches, the factor converts feet to metres per minute;
+/// otherwise it is 1.
 pub fn surface(is_surface: bool, scale: f64) -> f64 {
     if is_surface && scale == INCH { 0.3048 } else { 1.0 }
 }
 
 struct Lathe {
     scale: f64,
-    /// S is a surface speed.
+    /// Whether S is a surface speed.
     surface: bool,
     diameter: f64,
     at: Place,

@@ -1,4 +1,4 @@
-//! A small machine. It runs a milling program block by block and records what it does. Lengths are in millimetres.
+//! A small machine. It runs a milling program block by block and records its acts. Lengths are in millimetres.
 
 mod curves;
 
@@ -82,7 +82,7 @@ impl Act {
         }
     }
 
-    /// Is it a move straight up or down?
+    /// Is the act a move straight up or down?
     pub fn plunges(&self) -> bool {
         (0..6).all(|axis| axis == 2 || super::near(self.from[axis], self.to[axis], 1e-9))
     }
@@ -165,7 +165,7 @@ struct Machine {
     at: Place,
     state: State,
     motion: f64,
-    /// The motion before a cycle; G80 restores it.
+    /// The motion before a cycle, which G80 restores.
     motion_before: f64,
     absolute: bool,
     centres_absolute: bool,

@@ -26,7 +26,7 @@ impl Family {
         match self {
             Family::Linuxcnc => number,
             _ if matches!(control, "brother" | "centroid") => number,
-            // a Haas reads P with a point as seconds; a number as small as this comes from one
+            // on a Haas, P with a decimal point is in seconds; only such a P is as small as this
             _ if control == "haas" && number < 50.0 => number,
             _ => number / 1000.0,
         }
@@ -38,7 +38,7 @@ pub fn is_harmless(code: f64) -> bool {
     [5.1, 8.0, 9.0, 11.0, 15.0, 22.0, 23.0, 50.0, 61.0, 64.0, 67.0, 69.0, 91.1, 103.0, 187.0].contains(&code)
 }
 
-/// Is it a canned cycle of a mill?
+/// Is a G code a canned cycle of a mill?
 pub fn is_cycle(code: f64) -> bool {
     [73.0, 74.0, 76.0, 77.0, 78.0, 81.0, 82.0, 83.0, 84.0, 85.0, 86.0, 87.0, 88.0, 89.0].contains(&code)
 }

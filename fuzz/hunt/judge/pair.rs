@@ -1,4 +1,4 @@
-//! Compares two programs that should do the same, and classifies the differences.
+//! Compares two programs that should have the same effect, and classifies the differences.
 
 use std::f64::consts::TAU;
 
@@ -59,8 +59,8 @@ pub fn without_short(acts: &[Act]) -> Vec<Act> {
     kept.collect()
 }
 
-/// The most serious difference between a correct program and a changed one; `None`: they do the same. `crests`: radii
-/// of the job's threads; `within`: tolerance in millimetres.
+/// The most serious difference between a correct program and a changed one; `None`: both have the same effect.
+/// `crests`: radii of the job's threads; `within`: tolerance in millimetres.
 pub fn difference(right: &[Act], changed: &[Act], crests: &[f64], within: f64) -> Option<(Class, String)> {
     let mut found: Option<(Class, String)> = None;
     let mut say = |class: Class, what: String| {
@@ -86,7 +86,7 @@ pub fn difference(right: &[Act], changed: &[Act], crests: &[f64], within: f64) -
     found
 }
 
-/// A cut; or all straight up and down cuts at one position with only vertical moves between them; or all passes of a
+/// A cut, or all vertical cuts at one position if only vertical moves are between these cuts, or all passes of a
 /// thread.
 struct Plunge {
     cuts: Vec<Act>,
@@ -128,7 +128,7 @@ fn passes(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<
         depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), depth| (low.min(depth), high.max(depth)))
     };
     let (a, b) = (ends(left), ends(other));
-    // only passes below the crest of a thread of the job that this may be
+    // the first pass must be below the crest of a thread of the job that may be this thread
     let in_part =
         |depth: f64| crests.iter().any(|crest| depth >= crest * inwards - 2.0 * within && crest * inwards <= a.0);
     if !near(a.1, b.1, 2.0 * within) || !in_part(b.0) {
@@ -158,7 +158,7 @@ fn plunge(left: &Plunge, other: &Plunge, crests: &[f64], within: f64) -> Option<
     if !near(deepest(left), deepest(other), within) {
         return Some((Class::Cut, format!("down to {:.4}, not {:.4}", deepest(other), deepest(left))));
     }
-    // a rapid into uncut material is a difference, except in gaps between webs that the correct program has too
+    // a rapid into uncut material is a difference, unless the correct program has the same gap between two webs
     let gaps = |plunge: &Plunge| {
         let mut bottom = plunge.cuts[0].from[2];
         let mut list = Vec::new();
@@ -258,7 +258,7 @@ fn cut(left: &Act, other: &Act, within: f64) -> Option<(Class, String)> {
         }
         _ => return Some((Class::Cut, format!("{:?}, not {:?}", other.what, left.what))),
     }
-    // the start of a cycle does not count, because the move to it is a rapid
+    // the start of a cycle does not count, because the move to the start is a rapid
     let hole = matches!(left.what, What::Hole { .. });
     if !hole && !same_places(left, other, within) {
         // chords of an arc may differ by this distance

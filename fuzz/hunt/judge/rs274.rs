@@ -1,4 +1,4 @@
-//! LinuxCNC's own interpreter as a second judge. It runs as a separate program, if it is installed.
+//! LinuxCNC's own interpreter as a second judge. The interpreter runs as a separate program, if it is installed.
 
 use std::fs;
 use std::path::Path;
@@ -7,10 +7,11 @@ use std::process::Command;
 use super::machine::{Act, State, What};
 use super::{INCH, Place};
 
-/// Height of the work zero in machine coordinates, in millimetres; the home position is above it.
+/// Height of the work zero in machine coordinates, in millimetres; the home position is above the work zero.
 const BELOW: f64 = -500.0;
 
-/// The acts of the interpreter for a program; `None` if it is not installed. Its files are written to `folder`.
+/// The acts of the interpreter for a program; `None` if the interpreter is not installed. The files of the interpreter
+/// are written to `folder`.
 pub fn interpreted(program: &str, folder: &Path) -> Option<Result<Vec<Act>, String>> {
     let [path, table, parameters] = ["judged.ngc", "judged.tbl", "judged.var"].map(|name| folder.join(name));
     let tools: String = (1..60).map(|n| format!("T{n} P{n} Z0 D0.0001\n")).collect();
@@ -38,7 +39,7 @@ pub fn interpreted(program: &str, folder: &Path) -> Option<Result<Vec<Act>, Stri
     Some(Ok(acts(&calls)))
 }
 
-/// The file of its parameters: all are zero except the heights of the work offsets.
+/// The parameter file of the interpreter: all values are zero except the heights of the work offsets.
 fn offsets() -> String {
     let mut text = String::new();
     let axes = |text: &mut String, first: u32, z: f64| {
@@ -58,7 +59,7 @@ fn offsets() -> String {
     text
 }
 
-/// Converts its canonical calls to acts.
+/// Converts the canonical calls of the interpreter to acts.
 fn acts(calls: &str) -> Vec<Act> {
     let mut scale = 1.0;
     let mut at: Place = [f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0, 0.0];

@@ -13,7 +13,7 @@ pub enum Want {
     /// An arc: its plane, its centre in the plane (in the arc's axes), its direction, and the number of additional full
     /// turns.
     Arc { plane: &'static str, center: [f64; 2], ccw: bool, turns: f64 },
-    /// A hole: its kind, the heights at which the feed begins and ends, and the height after it.
+    /// A hole: its kind, the heights at which the feed begins and ends, and the height of the tool after the hole.
     Hole { kind: String, clear: f64, bottom: f64, out: f64 },
     /// A hole with its moves, from the second planner.
     Planned(Box<Hole>),
@@ -32,7 +32,7 @@ pub struct Wanted {
     pub want: Want,
     /// Start position; NaN if it is unknown.
     pub from: Place,
-    /// End position; for a hole, the position over it.
+    /// End position. For a hole, this is the position over the hole.
     pub to: Place,
     /// The tool.
     pub tool: f64,
@@ -48,7 +48,7 @@ pub struct Wanted {
     pub low: f64,
     /// Compensation: 40, 41 or 42.
     pub side: f64,
-    /// Coolant: 1 is mist, 2 is flood, 3 is both. `None`: it is not compared.
+    /// Coolant: 1 is mist, 2 is flood, 3 is both. `None`: the coolant is not compared.
     pub coolant: Option<u8>,
 }
 
@@ -63,13 +63,13 @@ struct Reader {
     low: f64,
     side: f64,
     list: Vec<Wanted>,
-    /// The tool left the hole beside its axis.
+    /// Whether the tool left the hole beside the axis of the hole.
     jogged: bool,
     /// Subprograms by their numbers.
     subs: Vec<Value>,
-    /// The job is for a lathe or a wire, so every path is compared.
+    /// Whether the job is for a lathe or a wire EDM machine. Then every path is compared.
     lathe: bool,
-    /// The speed is a surface speed.
+    /// Whether the speed is a surface speed.
     surface: bool,
 }
 
@@ -272,7 +272,7 @@ impl Reader {
         Some(())
     }
 
-    /// A thread with one start. Its end may be without a radius.
+    /// A thread with one start. The end of the thread may be given without a radius.
     fn thread(&mut self, thread: &Value) -> Option<()> {
         let number = |key: &str| thread.get(key).and_then(Value::as_f64).map(|number| number * self.unit);
         let at =

@@ -166,7 +166,7 @@ impl Cycle {
         Some(cycle)
     }
 
-    /// The same cycle, with the words of CYCLE/ON in place of its own.
+    /// The same cycle, with the words of CYCLE/ON in place of the cycle's own words.
     pub fn again(&self, statement: &Statement) -> Option<Cycle> {
         let mut own = Cycle::new(self.kind);
         own.words(&statement.minors[1..])?;
@@ -205,7 +205,7 @@ impl Cycle {
     }
 
     /// The feed of a depth or step by its index, from 0: "the feed rate specification applies to all of the depths or
-    /// step amounts that precede it". After the last group, its feed stays active.
+    /// step amounts that precede it". The feed of the last group also applies after the last group.
     pub fn feed_of(&self, number: usize) -> Option<(String, f64)> {
         let groups = if self.steps.is_empty() { &self.depths } else { &self.steps };
         let mut before = 0;

@@ -2,8 +2,8 @@
 
 const INCH: f64 = 25.4;
 
-/// The feed in millimetres per minute. `words` are those of "Cutting Feed" in the CYCLE chapter. `None` for another
-/// word, or for a feed per revolution with the spindle stopped.
+/// The feed in millimetres per minute. `word` is one of the words of "Cutting Feed" in the CYCLE chapter. `None` for
+/// another word, or for a feed per revolution with the spindle stopped.
 pub fn per_minute(word: &str, value: f64, file_unit: f64, revolutions: f64) -> Option<f64> {
     let (length, per_turn) = match word {
         "IPM" => (INCH, false),

@@ -26,8 +26,8 @@ impl Height {
 /// A move or other action at a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Move {
-    /// A rapid: its X and Y, which differ from the hole's after a jog, and its height. NaN: only a configuration
-    /// defines the jog.
+    /// A rapid: its X and Y, and its height. After a jog, X and Y differ from those of the hole. NaN: only a
+    /// configuration defines the jog.
     Rapid([f64; 2], Height),
     /// A feed move to a height over the point, and its feed.
     Feed(f64, f64),
@@ -60,9 +60,9 @@ pub struct Hole {
     pub moves: Vec<Move>,
     /// Built-in cycles are allowed (CYCLE/AUTO).
     pub built_in: bool,
-    /// A tap that can't be made of single moves.
+    /// Whether the hole is a tap that can't be made of single moves.
     pub rigid: bool,
-    /// A tap in the direction opposite to the spindle's.
+    /// Whether the hole is a tap in the direction opposite to the spindle's direction.
     pub inverse: bool,
     /// The dwell at the bottom, if there is one; see [`Move::Dwell`].
     pub dwell: Option<Option<f64>>,
@@ -118,7 +118,7 @@ pub fn hole(cycle: &Cycle, at: &At, feed: &dyn Fn(usize) -> Option<f64>) -> Opti
     let plane = at.plane.map_or(clear, |plane| plane.max(clear));
     let kind = kind(cycle, at);
     let depth = || cycle.depths.last()?.values.last().copied();
-    // a tap against the spindle's direction: the chapter does not reverse the spindle before it
+    // a tap against the spindle's direction: the chapter does not reverse the spindle before the tap
     if cycle.kind == Kind::Tap && cycle.is("INVERS") != (at.turn == Turn::Counterclockwise) {
         return None;
     }

@@ -1,8 +1,9 @@
 //! A second planner of cycles, written from the texts that define them: the CYCLE chapter of the GENER manual (words, modal
 //! values, the numbered motions of each type), and the canned cycles of EMC (motions that a control adds by itself).
 //!
-//! It reads a CL file by itself and lists the moves that the file requests. It shares no code with postform, and the hunt
-//! compares the results of both. Lengths are in millimetres, feeds in millimetres per minute, times in seconds.
+//! The planner reads a CL file and lists the moves that the file requests. The planner shares no code with postform,
+//! and the hunt compares the results of both. Lengths are in millimetres, feeds in millimetres per minute, times in
+//! seconds.
 //!
 //! A value that the texts leave to a configuration is `None` or a range here ([`Height`]). It is not guessed.
 
@@ -99,7 +100,7 @@ mod tests {
         list
     }
 
-    /// Does this motion match the one of the example? An angle or time that no word defines matches every value.
+    /// Does this motion match the motion of the example? An angle or time that no word defines matches every value.
     fn is(wanted: &Wanted, motion: &[Value]) -> bool {
         let number = |at: usize| motion.get(at).and_then(Value::as_f64).unwrap_or(f64::NAN);
         let near = |a: f64, b: f64| a.is_nan() || (a - b).abs() < 1e-4;

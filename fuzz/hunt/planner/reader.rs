@@ -54,7 +54,7 @@ struct Reader {
     rapid: bool,
     arc: Option<(Point, Point)>,
     steps: Vec<Step>,
-    /// The active cycle; `last` is the last one.
+    /// The active cycle; `last` is the last cycle, which may have ended.
     cycle: Option<Cycle>,
     last: Option<Cycle>,
     /// The return plane of the active cycle; `None` before its first point.

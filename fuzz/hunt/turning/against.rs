@@ -49,8 +49,7 @@ pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, Str
                 }
                 Action::Arc(turn) => {
                     let center = [turn.center[0], turn.center[2]];
-                    // postform gives directions as seen along Y of a right-handed system, which is with Z to the right
-                    // and X up
+                    // postform gives directions as seen along Y of a right-handed system, with Z to the right and X up
                     let ccw = turn.direction == Direction::Ccw;
                     go(Kind::Arc(center, ccw), position(&turn.to, turn.machine), turn.feed, &now);
                 }
@@ -100,7 +99,7 @@ pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, Str
 /// Compares the motions of two programs with postform.
 ///
 /// # Errors
-/// One of them is refused; the message.
+/// A message: one of the programs is refused.
 pub fn compared(old: &str, new: &str, settings: RunSettings) -> Result<Motions, String> {
     let programs = [old, new].map(|text| (Cursor::new(text.to_owned()), settings));
     compare_motions(programs, settings.units, 1e-6).map_err(|error| match error.1 {
@@ -173,7 +172,7 @@ fn ways(list: &[Move]) -> Vec<(Vec<Point>, Vec<f64>)> {
     ways
 }
 
-/// The most serious difference; `None`: both lists do the same.
+/// The most serious difference; `None`: both lists have the same effect.
 pub fn difference(mine: &[Move], other: &[Move], within: f64) -> Option<(Class, String)> {
     let [a, b] = [mine, other].map(|list| list.iter().filter(|one| is_cut(one)).collect::<Vec<_>>());
     let mut found: Option<(Class, String)> = None;

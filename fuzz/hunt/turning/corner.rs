@@ -5,10 +5,10 @@ use super::executor::{Kind, Machine, Point, Stopped, Words, alarm, unsure};
 
 const NEAR: f64 = 1e-9;
 
-/// A corner that was cut, until the next block.
+/// A corner that was cut, with the data for the next block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
-    /// The programmed corner point; increments of the next block start from it.
+    /// The programmed corner point, from which the increments of the next block start.
     pub(super) at: Point,
     /// The axis of the next block.
     axis: usize,
@@ -19,7 +19,7 @@ pub(super) struct Corner {
 /// The cut up to the corner, the chamfer or arc, and the data for the next block.
 pub(super) type Cornered = ([(Kind, Point); 2], Corner);
 
-/// The axis of a block that contains only one.
+/// The axis of a block that moves along only one axis.
 fn only_axis(words: &Words) -> Option<usize> {
     match (words.any(['X', 'U']), words.any(['Z', 'W'])) {
         (true, false) => Some(0),
@@ -77,8 +77,8 @@ impl Machine<'_> {
 }
 
 impl Corner {
-    /// Does this block leave the corner correctly? It must be a G1 along the other axis alone, in the corner's
-    /// direction, and at least as long.
+    /// Does this block leave the corner correctly? The block must be a G1 along the other axis alone, in the corner's
+    /// direction, and at least as long as the corner.
     pub(super) fn is_left(&self, words: &Words, motion: f64, to: Point) -> Result<(), Stopped> {
         // PS0051
         if motion != 1.0 || only_axis(words) != Some(self.axis) {

@@ -5,7 +5,7 @@ use super::corner::Corner;
 use super::executor::{Kind, Machine, Point, Stopped, Words, alarm, unsure};
 
 const NEAR: f64 = 1e-7;
-/// A cut shorter than this counts as none.
+/// A cut that is shorter than this length does not count as a cut.
 const SHORT: f64 = 1e-5;
 /// Settings 73 and 22 of a Haas with factory defaults, in inches: the retract of G71 and G72, and of pecks.
 const BACK: f64 = 0.05;
@@ -32,7 +32,7 @@ fn moved(part: &Part, by: Point) -> (Kind, Point) {
 }
 
 impl Machine<'_> {
-    /// G90, G92 and G94. Their words stay active for blocks without them (B-64304EN 4.1).
+    /// Runs G90, G92 and G94. Their words stay active for later blocks without these words (B-64304EN 4.1).
     pub(super) fn box_cycle(&mut self, words: &Words, to: Point) -> Result<(), Stopped> {
         if words.any(['X', 'U']) {
             self.box_words[0] = Some(to[0]);
@@ -40,7 +40,7 @@ impl Machine<'_> {
         if words.any(['Z', 'W']) {
             self.box_words[1] = Some(to[1]);
         }
-        // Haas: in G90 and G92, I is the taper; in G94, K is
+        // Haas: in G90 and G92, I is the taper; in G94, K is the taper
         let letter = if self.motion == 94.0 { 'K' } else { 'I' };
         if words.any(['I', 'K']) && (!self.haas || words.get(letter).is_none() || words.get('R').is_some()) {
             return unsure("I or K of a canned cycle");
@@ -54,13 +54,14 @@ impl Machine<'_> {
             return unsure("a cycle from where only the machine knows");
         }
         match self.motion {
-            // 4.1.1: 1(R) to the cut, 2(F) along it, 3(F) across to the start, 4(R) back; R is a radius: start minus end
+            // see 4.1.1: 1(R) goes to the cut, 2(F) cuts, 3(F) goes across to the start, 4(R) goes back; the word R is
+            // the start radius minus the end radius
             90.0 => {
                 self.go(Kind::Rapid, [x + taper, start[1]])?;
                 self.go(Kind::Feed, [x, z])?;
                 self.go(Kind::Feed, [start[0], z])?;
             }
-            // 4.1.2: F is the lead; 3(R) out of the thread. A parameter defines chamfers
+            // see 4.1.2: F is the lead, and 3(R) goes out of the thread; a parameter defines the chamfer
             92.0 => {
                 self.go(Kind::Rapid, [x + taper, start[1]])?;
                 // the manual does not define whether the next pass keeps the angle
@@ -73,7 +74,7 @@ impl Machine<'_> {
                 self.now.angle = 0.0;
                 self.go(Kind::Rapid, [start[0], z])?;
             }
-            // 4.1.3: along Z at rapid, across the face, back along Z at feed
+            // see 4.1.3: the tool goes along Z at rapid, across the face at feed, and back along Z at feed
             _ => {
                 self.go(Kind::Rapid, [start[0], z + taper])?;
                 self.go(Kind::Feed, [x, z])?;
@@ -83,7 +84,7 @@ impl Machine<'_> {
         self.go(Kind::Rapid, start)
     }
 
-    /// Runs a repetitive cycle, or reads its first block. Returns the next line if it is not the following one.
+    /// Runs a repetitive cycle, or reads its first block. Returns the next line to run; `None`: the following line.
     pub(super) fn repetitive(&mut self, code: u32, words: &Words, at: usize) -> Result<Option<usize>, Stopped> {
         let length = |letter| words.length(letter, self.unit);
         let named = words.get('P').is_some() && words.get('Q').is_some();
@@ -189,7 +190,7 @@ impl Machine<'_> {
         let (parts, next) = self.profile(number('P'), number('Q'), at)?;
         let start = self.at;
         if code == 70 {
-            // 4.2.4: F and S between ns and nf apply; then back to the start point at rapid
+            // see 4.2.4: F and S between ns and nf apply; then the tool goes back to the start point at rapid
             for part in &parts {
                 self.feed = part.feed.unwrap_or(self.feed);
                 self.now.speed.0 = part.speed.unwrap_or(self.now.speed.0);
@@ -228,7 +229,8 @@ impl Machine<'_> {
                 return unsure("a return that is negative");
             }
             if parts[0].to[along] != start[along] {
-                // 4.2.1: in type I, block ns has no move along the second axis; with both axes it is type II
+                // see 4.2.1: in type I, block ns does not move along the second axis; in type II, block ns moves along
+                // both axes
                 return unsure("type II");
             }
             self.rough(&parts, left, depth, back, [level, along])?;
@@ -237,8 +239,8 @@ impl Machine<'_> {
         Ok(Some(next))
     }
 
-    /// 4.2.1 and 4.2.2, type I: from point C (A moved by the allowances), cuts to the moved profile, each with a retract at
-    /// 45 degrees; then one cut along the moved profile.
+    /// Type I of 4.2.1 and 4.2.2. The cuts begin at point C (point A, moved by the allowances) and end at the moved
+    /// profile. After each cut, the tool retracts at 45 degrees. The last cut goes along the moved profile.
     fn rough(&mut self, parts: &[Part], left: Point, depth: f64, back: f64, axes: [usize; 2]) -> Result<(), Stopped> {
         let [level, along] = axes;
         if depth <= 0.0 {
@@ -265,7 +267,7 @@ impl Machine<'_> {
             to[along] = crossing(&parts[1..], left, cut, axes, toward).unwrap_or(last[along] + left[along]);
             self.go(Kind::Feed, to)?;
             let length = (to[along] - start[along]).abs();
-            // the manuals show no retract if nothing is cut, and none that is longer than the cut
+            // the manuals show no retract if nothing is cut, and no retract that is longer than the cut
             if length > SHORT {
                 to[level] -= toward * back;
                 to[along] -= cutting * back.min(length);
@@ -275,7 +277,8 @@ impl Machine<'_> {
             self.go(Kind::Rapid, to)?;
             cut += toward * depth;
         }
-        // a cut meets a corner if their distance from the start is a multiple of the depth of cut
+        // a cut is at the height of a corner if the distance of the corner from the start is a multiple of the depth of
+        // cut
         let is_corner = |at: f64| {
             let cuts = (at + left[level] - start[level]) / depth;
             cuts.abs() > 0.5 && (cuts - cuts.round()).abs() < 1e-6
@@ -288,8 +291,8 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// 4.2.3: in the figure, the first pass is moved by the relief and the allowance, the last by the allowance alone. R is the
-    /// number of passes.
+    /// See 4.2.3: in the figure, the first pass is moved by the relief and the allowance, and the last pass by the
+    /// allowance alone. R is the number of passes.
     fn pattern(&mut self, parts: &[Part], left: Point, by: Point, times: f64) -> Result<(), Stopped> {
         if times < 1.0 || times.fract() != 0.0 || times > 1000.0 {
             return unsure("a count of G73");
@@ -310,7 +313,8 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// 4.2.5 and 4.2.6: pecks with a retract after each; steps to the side; back to the start. On a Haas they are I and K.
+    /// See 4.2.5 and 4.2.6: the tool retracts after each peck, steps to the side, and goes back to the start. On a
+    /// Haas, I and K are the peck and the step.
     fn pecks(&mut self, code: u32, words: &Words) -> Result<(), Stopped> {
         if self.at.iter().any(|value| value.is_nan()) {
             return unsure("a cycle from where only the machine knows");
@@ -319,7 +323,7 @@ impl Machine<'_> {
         let (start, end) = (self.at, self.position(words));
         let count = |letter: char| match self.haas {
             true => words.length(letter, self.unit),
-            // without a point, in least increments; X as a radius
+            // a word without a decimal point is in least increments; X is a radius
             false => words.get(letter).map(|value| value * self.unit),
         };
         let (x, z) = if self.haas { (count('I'), count('K')) } else { (count('P'), count('Q')) };
@@ -375,8 +379,8 @@ impl Machine<'_> {
         self.go(Kind::Rapid, start)
     }
 
-    /// 4.2.7: the depth of the n-th cut is that of the first times the square root of n. No cut is less than the minimum, and the
-    /// last passes cut the allowance.
+    /// See 4.2.7: the depth of the n-th cut is the depth of the first cut times the square root of n. No cut is less
+    /// than the minimum, and the last passes cut the allowance.
     fn thread(&mut self, words: &Words) -> Result<(), Stopped> {
         let Some([last, angle, least, allowance]) = self.thread else { return unsure("G76 of one block") };
         let count = |letter| words.get(letter).map(|value| value * self.unit);

@@ -41,7 +41,7 @@ pub struct Move {
     pub to: Point,
     /// The feed; 0 at rapid.
     pub feed: f64,
-    /// The feed is per revolution.
+    /// Whether the feed is per revolution.
     pub per_rev: bool,
     /// Direction of the spindle: 3, 4 or 5.
     pub spindle: f64,
@@ -114,7 +114,7 @@ pub struct Machine<'p> {
     pub(super) box_words: [Option<f64>; 3],
     /// U or W, and R, of the first block of G71 to G75.
     pub(super) first: HashMap<u32, [Option<f64>; 3]>,
-    /// The previous pass of G92 contained an angle.
+    /// Whether the previous pass of G92 contained an angle.
     pub(super) thread_turned: bool,
     /// From the first block of G76: finishing passes, angle, least cut, allowance.
     pub(super) thread: Option<[f64; 4]>,
@@ -135,7 +135,7 @@ pub fn run(text: &str, haas: bool, inch: bool) -> Result<Vec<Move>, Stopped> {
 /// Like [`run`]. Also returns whether a cut of G71 or G72 is at the height of a corner of its profile, where rounding decides.
 ///
 /// # Errors
-/// What stops it.
+/// The reason for a stop.
 pub fn run_noting(text: &str, haas: bool, inch: bool) -> Result<(Vec<Move>, bool), Stopped> {
     let lines = parse(text)?;
     let mut machine = Machine {
@@ -270,7 +270,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Runs a block. Returns the next line if it is not the following one.
+    /// Runs a block. Returns the next line to run; `None`: the following line.
     fn block(&mut self, words: &Words, at: usize) -> Result<Option<usize>, Stopped> {
         if words.list.is_empty() {
             return Ok(None);
@@ -293,14 +293,15 @@ impl Machine<'_> {
                 ('G', 98.0 | 99.0) => self.now.per_rev = value == 99.0,
                 ('G', 0.0..=3.0 | 32.0) => (self.motion, self.box_words) = (value, [None; 3]),
                 ('G', 90.0 | 92.0 | 94.0) => {
-                    // a corner after a taper is an alarm with its own name
+                    // the manuals do not define whether R stays active if the code of a tapered pass is repeated
+                    // without R
                     let again = self.motion == value && (words.any(['X', 'U']) || words.any(['Z', 'W']));
                     if again && self.box_words[2].is_some() && words.get('R').is_none() {
                         return unsure("the code of a tapered pass again, without R");
                     }
                     self.thread_turned &= self.motion == value;
-                    // B-64304EN 4.1: X, Z and R stay until a code of group 00 other than G4, or a code of group 01,
-                    // even the same one again. HUST's H6D-T manual (3-41), for the same system, agrees
+                    // B-64304EN 4.1: X, Z and R stay active until a code of group 00 other than G4, or any code of
+                    // group 01, also the active code. HUST's H6D-T manual (3-41) for the same system agrees
                     if self.motion != value {
                         if [90.0, 92.0, 94.0].contains(&self.motion) {
                             return unsure("one canned cycle after another");
@@ -342,8 +343,8 @@ impl Machine<'_> {
             return Ok(None);
         };
         match once {
-            // B-64304EN 3.x: X or U is in seconds, P in milliseconds. Haas, G04: P with a point is in seconds, else in
-            // milliseconds
+            // B-64304EN 3.x: X or U is in seconds, and P is in milliseconds. Haas, G04: P with a decimal point is in
+            // seconds; otherwise P is in milliseconds
             4.0 => {
                 let said = words.list.iter().find(|(letter, ..)| ['X', 'U', 'P'].contains(letter));
                 let Some(&(letter, value, pointed)) = said else { return alarm("G4 without its time") };
@@ -436,7 +437,8 @@ impl Machine<'_> {
         }
     }
 
-    /// A thread. B-64304EN 5.4: Q is its start angle, for this block only, in units of 0.001 degrees without a point.
+    /// A thread. B-64304EN 5.4: Q is the start angle of the thread for this block only, in units of 0.001 degrees
+    /// without a decimal point.
     pub(super) fn thread_at(&mut self, words: &Words, to: Point) -> Result<(), Stopped> {
         if words.any(['I', 'K']) || words.get('R').is_some() && self.motion == 32.0 {
             return unsure("a thread with I, K or R");
@@ -447,7 +449,8 @@ impl Machine<'_> {
         end
     }
 
-    /// An arc. I and K are relative to its start, I as a radius; R is the radius of an arc of up to half a turn.
+    /// An arc. I and K are relative to the start of the arc, and I is a radius. R is the radius of an arc of up to half
+    /// a turn.
     pub(super) fn arc(&self, words: &Words, from: Point, to: Point, ccw: bool) -> Result<Kind, Stopped> {
         let length = |letter| words.length(letter, self.unit);
         let center = if let Some(radius) = length('R') {

@@ -1,4 +1,5 @@
-//! Splits blocks of a program into words. Of custom macro B, it reads only the blocks that generated programs contain.
+//! Splits blocks of a program into words. This lexer reads only the blocks of custom macro B that generated programs
+//! contain.
 
 use std::collections::HashMap;
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::contour::Between;
 use super::program::Writer;
 
-/// A block of a profile: its end and its arc, in increments of the letters.
+/// A block of a profile: its end, relative to its start, and its arc.
 struct Block {
     to: [i64; 2],
     arc: Option<Round>,
@@ -193,7 +193,7 @@ impl Profile {
 
     fn blocks(&self, writer: &mut Writer, p: u32, q: u32) {
         let rapid = if writer.once_in(3) { "G1" } else { "G0" };
-        // an unchanged axis has no word: with it, the profile would be of type II
+        // an unchanged axis has no word, because the word would make the profile one of type II
         let mut words = String::new();
         for (axis, letters) in [(0, ['X', 'U']), (1, ['Z', 'W'])] {
             if self.first[axis] != self.start[axis] {

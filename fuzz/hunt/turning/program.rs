@@ -11,7 +11,7 @@ pub struct Writer {
     pub(super) random: Random,
     pub(super) haas: bool,
     pub(super) inch: bool,
-    /// Some lengths have no decimal point.
+    /// Whether some lengths have no decimal point.
     pointless: bool,
     pub(super) text: String,
     /// The subprograms, which follow the end of the main program.
@@ -267,7 +267,7 @@ impl Writer {
                 _ if self.once_in(3) => format!("U{}", self.length((to[0] - start[0]) * 2)),
                 _ => format!("X{}", self.length(to[0] * 2)),
             };
-            // sometimes its code again, without the other axis
+            // sometimes the code of the cycle is repeated, without the other axis
             if self.once_in(3) {
                 self.kinds.push("a pass with its code again");
                 let taper = if self.once_in(12) { "" } else { &taper };

@@ -70,7 +70,7 @@ fn in_mm(one: &Move) -> Move {
     Move { kind, from: mm(one.from), to: mm(one.to), feed: one.feed * 25.4, speed, ..*one }
 }
 
-/// Writes the state of a motion, as far as it has changed.
+/// Writes the parts of the state that the motion changes.
 fn state(text: &mut String, now: &mut Move, one: &Move) {
     if one.tool != now.tool {
         _ = writeln!(text, "T{:04}", one.tool);

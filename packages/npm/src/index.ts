@@ -1,4 +1,4 @@
-// The types of both entries: node.ts and browser.ts.
+// The types of both entry points: node.ts and browser.ts.
 
 export { Postform, PostformError } from "./postform.js";
 export type { Finding, Options, Program, Text } from "./postform.js";

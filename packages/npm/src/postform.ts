@@ -2,7 +2,7 @@
 
 import { run } from "./wasi.js";
 
-/** A text with the name that messages use; the name of a job gives its format. */
+/** A text, and its name in messages. The name of a job determines the format of the job. */
 export interface Text {
   name: string;
   text: string;
@@ -14,18 +14,18 @@ export interface Finding {
   code: string;
   severity: "error" | "warning" | "note";
   message: string;
-  /** What to type instead. */
+  /** The text to type instead. */
   help: string | null;
   file: string | null;
-  /** From 1. */
+  /** The line, counted from 1. */
   line: number | null;
-  /** In bytes, from 1. */
+  /** The column in bytes, counted from 1. */
   column: number | null;
   /** The position in a job: `operations[0].path[3]`. */
   path: string | null;
   /** The line of the program, from 1. */
   program_line: number | null;
-  /** All of it in a line. */
+  /** The whole finding in one line. */
   text: string;
 }
 
@@ -38,27 +38,27 @@ export interface Options {
   number?: number;
   /** Units of the program. */
   units?: "mm" | "inch";
-  /** Units of a job that does not give them. */
+  /** Units of a job that contains no units. */
   assumeUnits?: "mm" | "inch";
-  /** The day, or the day and time, for forms that print it: `2026-03-31T14:05`; else the clock's. */
+  /** The date, or the date and time, for forms that print it: `2026-03-31T14:05`. Default: the current date and time. */
   date?: string;
   /** Run the program and compare it with the job. */
   verify?: boolean;
 }
 
-/** A program, whole. */
+/** A complete program. */
 export interface Program {
   program: string;
   fileName: string;
-  /** Its first words are `identical`, `equivalent` or `not proven`. */
+  /** The verdict. It begins with `identical`, `equivalent` or `not proven`. */
   verdict: string;
   findings: Finding[];
 }
 
-/** Six axes X Y Z A B C; null: the position is known only at the machine. */
+/** The positions of the axes X Y Z A B C; null: only the machine has the position. */
 export type Position = [number | null, number | null, number | null, number | null, number | null, number | null];
 
-/** An action of the machine: besides its line, the keys of one kind, as `postform simulate --format json` prints them. */
+/** An action of the machine: its line, and the keys of its kind, as in the output of `postform simulate --format json`. */
 export interface Action {
   /** The line of the program, from 1. */
   line: number;
@@ -86,7 +86,7 @@ export interface Action {
   work?: number;
 }
 
-/** What a machine does with a program. */
+/** The actions of a machine that runs a program. */
 export interface Simulated {
   actions: Action[];
   warnings: Finding[];
@@ -94,9 +94,9 @@ export interface Simulated {
   refused: Finding | null;
 }
 
-/** A form, a job or an option that makes no program, or a program that does not do what its job asks for. */
+/** The error if no program can be printed from a form, a job or an option, or if a program differs from its job. */
 export class PostformError extends Error {
-  /** The program, where it is refused. */
+  /** The refused program, if there is one. */
   program?: string;
   verdict?: string;
   constructor(message: string, readonly findings: Finding[]) {
@@ -105,7 +105,7 @@ export class PostformError extends Error {
   }
 }
 
-/** postform, ready to be asked. */
+/** The loaded postform. */
 export class Postform {
   constructor(private readonly module: WebAssembly.Module) {}
 
@@ -116,7 +116,7 @@ export class Postform {
     return value;
   }
 
-  /** Every finding of a form; `files` are the forms that it calls, by their names. */
+  /** Every finding of a form; `files` are the forms that this form calls, by their names. */
   async lint(form: Text, files: Record<string, string> = {}): Promise<Finding[]> {
     return (await this.ask({ command: "lint", form, files })).findings;
   }
@@ -132,7 +132,7 @@ export class Postform {
     return program;
   }
 
-  /** Runs a program by the rules of a control, such as `haas`. With `startUnknown`, positions that depend on the start are null. */
+  /** Runs a program by the rules of a control, such as `haas`. With `startUnknown`, positions that depend on the start position are null. */
   async simulate(program: string, options: { control?: string; units?: "mm" | "inch"; startUnknown?: boolean } = {}): Promise<Simulated> {
     const { control, units, startUnknown } = options;
     return this.ask({ command: "simulate", program, control, startUnknown, options: { units } });

@@ -1,4 +1,4 @@
-//! Findings and errors as Python has them.
+//! Findings and errors for Python.
 
 use postform::diag::{Diag, Findings};
 use postform::internals::report::{Row, row};
@@ -80,7 +80,7 @@ pub fn all(findings: &Findings) -> Vec<Finding> {
     findings.diags.iter().map(|diag| finding(diag, &findings.files)).collect()
 }
 
-/// An error of the library as the exception that it is.
+/// Converts an error of the library to the matching Python exception.
 pub fn raised(py: Python<'_>, error: postform::Error) -> PyErr {
     let text = error.to_string();
     match error.kind() {

@@ -1,4 +1,4 @@
-//! Jobs as Python gives them: a path, a dictionary, items one after the other.
+//! Jobs from Python: a path, a dictionary, or an iterable of items.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -18,7 +18,7 @@ pub enum Given {
 }
 
 impl Given {
-    /// What a caller gave.
+    /// Converts the job that the caller passes.
     pub fn of(job: &Bound<'_, PyAny>) -> PyResult<Given> {
         let py = job.py();
         let path = if job.is_instance_of::<PyString>() || job.hasattr("__fspath__")? {
@@ -31,7 +31,7 @@ impl Given {
             return Ok(Given::File(path, format));
         }
         let dumps = py.import("json")?.getattr("dumps")?;
-        // NaN and infinity are no JSON, and no positions
+        // NaN and infinity are not allowed in JSON or in positions
         let options = PyDict::new(py);
         options.set_item("allow_nan", false)?;
         let text = |value: &Bound<'_, PyAny>| dumps.call((value,), Some(&options))?.extract::<String>();

@@ -22,7 +22,7 @@ mod _postform {
     }
 }
 
-/// A value of a dictionary's key, as text; `True` and `False` as forms take them.
+/// A value from a dictionary as text. `True` and `False` become `yes` and `no`, as in forms.
 fn spelt(value: &Bound<'_, PyAny>) -> PyResult<String> {
     match value.cast::<pyo3::types::PyBool>() {
         Ok(flag) => Ok(if flag.is_true() { "yes" } else { "no" }.to_owned()),

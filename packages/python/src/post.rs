@@ -1,4 +1,4 @@
-//! Posts and what they print.
+//! Posts, and the programs that they print.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use crate::spelt;
 #[pyclass(frozen, module = "postform")]
 pub struct Post(postform::Post);
 
-/// A program, whole.
+/// A complete program.
 #[pyclass(frozen, get_all, module = "postform")]
 pub struct Program {
     program: String,
@@ -55,7 +55,7 @@ impl Keywords {
         let mut keywords = Keywords::default();
         for (name, value) in given.into_iter().flatten() {
             let name: String = name.extract()?;
-            // None is a keyword that is not given, but of one that takes yes or no
+            // a keyword with the value None counts as not given, except `verify`, which needs yes or no
             if value.is_none() && name != "verify" {
                 continue;
             }
@@ -88,7 +88,7 @@ const KEYWORDS: &str = "properties, set, program, units, date, assume_units, ver
 
 #[pymethods]
 impl Post {
-    /// A form in a file, with those that it calls.
+    /// A form in a file, with the forms that it calls.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Post> {
         compiled(py, source(&path)?, Some(path))
@@ -101,7 +101,7 @@ impl Post {
         compiled(py, Source::from_text(name, text), None)
     }
 
-    /// A post that ships, by its name.
+    /// A post that is shipped with postform, by its name.
     #[staticmethod]
     fn shipped(py: Python<'_>, control: &str) -> PyResult<Post> {
         let found = shipped::FORMS.iter().find(|form| form.name == control || form.also.contains(&control));
@@ -124,7 +124,7 @@ impl Post {
         all(self.0.findings())
     }
 
-    /// Names of its properties.
+    /// Names of the properties of the form.
     #[getter]
     fn properties(&self) -> Vec<String> {
         self.0.properties().iter().map(|property| property.name.clone()).collect()
@@ -141,7 +141,7 @@ impl Post {
         self.print(py, Given::of(job)?, Keywords::of(keywords)?)
     }
 
-    /// The same for the text of a job.
+    /// Prints a job that is given as a text, and verifies the program.
     #[pyo3(signature = (text, format, **keywords))]
     fn render_text(
         &self,
@@ -230,7 +230,7 @@ fn post_of(form: Source, path: Option<PathBuf>) -> Result<postform::Post, postfo
         let (Ok(real), Ok(root)) = (base.join(name).canonicalize(), base.canonicalize()) else {
             return Err("can't be found".to_owned());
         };
-        // the folder of the form and those below it, also when links are followed
+        // called forms must be in the folder of the form or below it, also after links are followed
         if !real.starts_with(root) {
             return Err("is outside the form's folder".to_owned());
         }

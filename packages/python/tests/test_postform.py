@@ -1,4 +1,4 @@
-"""The installed package: run it outside of this folder, with POSTFORM_ROOT as the repository."""
+"""Tests of the installed package. Run the tests outside of this folder, with POSTFORM_ROOT set to the repository."""
 
 import json
 import os
@@ -55,7 +55,7 @@ def test_an_error_of_the_iterator_is_its_own(post):
 
     with pytest.raises(KeyError):
         post.render(broken())
-    # one that ends too early is a job that is cut short
+    # an iterable that ends too early is an incomplete job
     with pytest.raises(postform.Error) as error:
         post.render(list(items(3))[:4])
     assert error.value.findings[-1].code == "PJ007"
@@ -71,7 +71,7 @@ def test_a_wrong_program_is_refused_with_all_that_is_known(tmp_path):
     assert refused.value.verdict.startswith("different")
     finding = next(finding for finding in refused.value.findings if finding.code == "PV014")
     assert Path(finding.file) == form and finding.line > 80  # the line of the form that printed it
-    # who wants it all the same
+    # with verify=False, the program is printed without the proof
     program = postform.Post.from_file(form).render(BRACKET, verify=False)
     assert program.verdict.startswith("not proven")
 
@@ -137,7 +137,7 @@ def test_options(post):
 
 
 def test_threads_share_a_post(post):
-    """Rendering releases the interpreter: others go on."""
+    """Rendering releases the interpreter, so that other threads continue."""
     programs = []
     threads = [threading.Thread(target=lambda: programs.append(post.render(BRACKET).program)) for _ in range(8)]
     for thread in threads:
@@ -148,7 +148,7 @@ def test_threads_share_a_post(post):
 
 
 def test_posts_and_jobs_go_to_other_processes(post):
-    """Dask and Ray send functions and paths, not posts: a post says so."""
+    """Dask and Ray must send functions and paths, not posts: pickling a post raises an error."""
     import pickle
 
     with pytest.raises(TypeError):

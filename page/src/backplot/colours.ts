@@ -2,7 +2,7 @@
 
 export type Colour = [red: number, green: number, blue: number];
 
-/** The number of tool colours; further tools repeat them. */
+/** The number of tool colours; further tools repeat the colours. */
 export const TOOLS = 8;
 
 export interface Colours {
@@ -72,7 +72,7 @@ export function faded(colours: Colours, colour: Colour, shade: number): Colour {
   return mix(colour, colours.paper, FADE * (1 - shade / 255));
 }
 
-/** The index of a tool in one byte: many tools share the indexes of the colours. */
+/** The index of a tool in one byte. If there are more tools than colours, tools share an index. */
 export function inByte(tool: number): number {
   return tool && 1 + ((tool - 1) % TOOLS);
 }

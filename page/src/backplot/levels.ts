@@ -93,7 +93,7 @@ function coarser(level: Level, error: number): Level {
   const fewer = new Float32Array((number + 1) * 3);
   const fewerKinds = new Uint8Array(number * 4);
   fewer.set(points.subarray(0, 3));
-  // one number at a time: creating a subarray would take longer than its three numbers
+  // the numbers are copied one at a time, because creating a subarray takes longer than copying three numbers
   for (let i = 0; i < number; i++) {
     const piece = pieces[i];
     for (let axis = 0; axis < 3; axis++) fewer[i * 3 + 3 + axis] = points[piece * 3 + 3 + axis];

@@ -6,7 +6,7 @@ import { type Colours, css } from "./colours.ts";
 
 export class Measure {
   private points: Vector[] = [];
-  /** While it is on, a click selects a point instead of a block. */
+  /** Whether measuring is on. Then a click selects a point instead of a block. */
   isOn = false;
 
   /** Turns measuring on or off, and forgets the points. */

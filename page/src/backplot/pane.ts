@@ -38,7 +38,7 @@ export class Backplot {
   private readonly legend = element("div", { class: "legend", "aria-hidden": "true" });
   private readonly block = element("button", { "aria-pressed": "false", title: "Cut the stock along the path; rapids through it are marked (s)" }, "stock");
   private readonly ruler = element("button", { "aria-pressed": "false", title: "Measure between two points of the path (m)" }, "measure");
-  /** Shows a measured distance, what to click, or why there is no stock. */
+  /** Shows a measured distance, an instruction for the next click, or the reason why there is no stock. */
   private readonly told = element("div", { class: "told-here", role: "status", "aria-label": "Measure and stock" });
   private readonly camera = new Camera();
   private readonly painter: Painter;
@@ -67,13 +67,13 @@ export class Backplot {
   private cursor: { point: number; at: Vector } | null = null;
   private asked = 0;
   private fits = true;
-  /** Is not 0 while the view moves: a coarse picture that is drawn fast is then better than a fine one. */
+  /** Not 0 while the view moves. A coarse picture that is drawn fast is then better than a fine picture. */
   private moving = 0;
   /** Measurements: number of frames, time of the last frame, and number of pieces. */
   readonly frames = { count: 0, last: 0, pieces: 0 };
   onPick: (line: number) => void = () => {};
   onHover: (line: number | null) => void = () => {};
-  /** Called with the lines whose rapids go through the stock, as far as it is cut. */
+  /** Called with the program lines whose rapids go through the stock, as far as the stock is cut. */
   onCrash: (lines: number[]) => void = () => {};
 
   /** Without `solid`, no stock can be shown. */
@@ -186,7 +186,7 @@ export class Backplot {
     this.redraw();
   }
 
-  /** Keeps the drawn path for a program with the same moves. Only colours that depend on its words may change. */
+  /** Keeps the drawn path for a program with the same moves. Only colours that depend on the words of the program may change. */
   private keep(isSame: boolean, marked: boolean): void {
     if (!isSame) {
       this.known = null;
@@ -197,8 +197,8 @@ export class Backplot {
     else this.emphasise();
   }
 
-  /** Redraws if other moves are highlighted than before. Highlighted are the moves of the selected block, of blocks from the same form line, and of
-   * differences. */
+  /** Redraws if other moves are highlighted than before. The moves of the selected block, of blocks from the same form line, and of
+   * differences are highlighted. */
   private emphasise(): void {
     const { program } = this;
     const moves = program ? [this.line, ...this.lit, ...this.bad].map((line) => program.moves(line)) : [];
@@ -284,7 +284,7 @@ export class Backplot {
     if (this.measure.isOn) this.toggleMeasure();
   }
 
-  /** Turns measuring on or off. While it is on, clicks select points. */
+  /** Turns measuring on or off. While measuring is on, clicks select points. */
   toggleMeasure(): void {
     this.measure.toggle();
     this.ruler.setAttribute("aria-pressed", String(this.measure.isOn));
@@ -292,7 +292,7 @@ export class Backplot {
     this.redraw();
   }
 
-  /** Selects a line; `lit` are other lines that belong to it and are highlighted too. */
+  /** Selects a line of the program. `lit` are further lines to highlight. */
   choose(line: number, lit: number[]): void {
     [this.line, this.lit] = [line, lit];
     this.emphasise();
@@ -370,7 +370,7 @@ export class Backplot {
     }
     [this.camera.width, this.camera.height] = [width, height];
     if (this.fits) this.fit();
-    // immediately, because a canvas is cleared when its size changes
+    // the picture is drawn immediately, because a canvas is cleared when its size changes
     this.draw();
   }
 

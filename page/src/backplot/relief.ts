@@ -39,7 +39,7 @@ export function drawRelief(context: CanvasRenderingContext2D, camera: Camera, co
       const bright = edge ? 0.8 : Math.max(0.25, Math.min(1, (0.45 * sx + 0.4 * sy + 0.8) / Math.hypot(sx, sy, 1)));
       const tint = tools[cell];
       const colour = palette[tint * LIGHT + Math.round(bright * (LIGHT - 1))];
-      // the wall down to the lower of the two cells in front of it
+      // a wall goes down to the lower of the two cells in front of the wall
       const lower = Math.min(at(column + ahead, row), at(column, row + aside));
       const wall = Math.max(0, height - lower) * up[2] * scale;
       const [left, end] = [Math.max(0, Math.round(px - half)), Math.min(canvas.width, Math.round(px + half))];

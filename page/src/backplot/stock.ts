@@ -9,7 +9,7 @@ import type { Shape } from "./tool.ts";
 /** The size of the finest cell in millimetres, and the maximum number of cells along a side. */
 const FINEST = 0.25;
 const MOST_CELLS = 1000;
-/** A rapid may be this far below the surface, in millimetres, before it counts as a rapid through stock, because the cells are no finer. */
+/** A rapid counts as a rapid through stock if it is farther below the surface than this distance in millimetres. The cells are not finer. */
 const TOLERANCE = 0.2;
 /** Number of pieces between two checks of the time. */
 const BATCH = 64;
@@ -55,8 +55,8 @@ export class Stock {
     this.tools = new Uint8Array(this.wide * this.deep);
   }
 
-  /** Cuts up to a piece, for at most this many milliseconds. Returns true when the piece is reached. For an earlier piece, it starts again with the
-   * uncut block. */
+  /** Cuts up to a piece, for at most this many milliseconds. Returns true when the piece is reached. For an earlier piece, cutting starts again with
+   * the uncut block. */
   cutTo(piece: number, most: number): boolean {
     if (piece < this.done) {
       this.heights.fill(this.top);
@@ -102,7 +102,7 @@ export class Stock {
   private left = 0;
   private right = -1;
 
-  /** Finds the columns of a row that a tool may touch along a piece: those beside the part of the piece near the row. */
+  /** Finds the columns of a row that a tool may touch along a piece. Only the part of the piece near the row is considered. */
   private columns(row: number, from: number[], to: number[], radius: number): void {
     const dx = to[0] - from[0];
     const dy = to[1] - from[1];

@@ -1,6 +1,6 @@
 // The lowest height of a moving tool over a point.
 
-/** Each narrowing shortens the interval by a third: 20 leave 1/3000 of the part of the path over a point. */
+/** Each narrowing shortens the interval by a third: 20 narrowings leave 1/3000 of the part of the path over a point. */
 const NARROWINGS = 20;
 
 /** Height of a tool's surface above its tip, at a distance from its axis of at most the radius. */
@@ -11,7 +11,7 @@ function rise(radius: number, corner: number, away: number): number {
 
 /**
  * The lowest height of a tool over a point, while its tip moves straight by (dx, dy, dz) from the height `from`; Infinity if the tool is never
- * over the point. `x` and `y`: the point relative to the start of the tip. The same as `Shape::lowest` of src/stock/sweep.rs.
+ * over the point. `x` and `y`: the point relative to the start of the tip. `Shape::lowest` of src/stock/sweep.rs computes the same.
  */
 export function lowest(radius: number, corner: number, x: number, y: number, from: number, dx: number, dy: number, dz: number): number {
   const length = dx * dx + dy * dy;
@@ -33,12 +33,12 @@ export function lowest(radius: number, corner: number, x: number, y: number, fro
   return lowestRounded(radius, corner, x, y, from, dx, dy, dz, nearest, first, last);
 }
 
-/** The same for a tool with a rounded corner, between two shares of the move. It is a separate function, because its closure would also slow down
- * other tools. */
+/** The lowest height of a tool with a rounded corner, between two fractions of the move. This is a separate function, because its closure would slow
+ * down the calculation for other tools, too. */
 function lowestRounded(radius: number, corner: number, x: number, y: number, from: number, dx: number, dy: number, dz: number, nearest: number, first: number, last: number): number {
   const height = (part: number) => from + dz * part + rise(radius, corner, Math.min(radius, Math.hypot(x - part * dx, y - part * dy)));
   if (dz === 0) return height(Math.max(first, Math.min(last, nearest)));
-  // the height is a convex function of the share: the sum of a line and a rounded corner
+  // the height is a convex function of the fraction: the sum of a line and a rounded corner
   let low = first;
   let high = last;
   for (let i = 0; i < NARROWINGS; i++) {

@@ -7,16 +7,16 @@ pub enum Args {
     Text,
     /// `Y` or `N`.
     Switch,
-    /// Codes such as `G54` or `M19`, or plain numbers. The letter is added to plain numbers. The two numbers are the
-    /// least and greatest number of codes.
+    /// Codes such as `G54` or `M19`, or plain numbers. The letter is added to plain numbers. The two values are the
+    /// minimum and maximum count of codes.
     Codes(char, u8, u8),
-    /// Codes; the two numbers are the least and greatest number of codes. The first code moves the tool, so this code
+    /// Codes; the two values are the minimum and maximum count of codes. The first code moves the tool, so this code
     /// must be a G code.
     Motion(u8, u8),
-    /// Letters; the two numbers are the least and greatest number of letters. The letters may be separate words or one
+    /// Letters; the two values are the minimum and maximum count of letters. The letters may be separate words or one
     /// word.
     Letters(u8, u8),
-    /// Whole numbers; the two values are the least and greatest number of arguments.
+    /// Whole numbers; the two values are the minimum and maximum count of arguments.
     Whole(u8, u8),
     /// A number.
     Number,
@@ -26,8 +26,8 @@ pub enum Args {
     LengthAboveZero,
     /// One word from a list of allowed words.
     Choice(&'static [&'static str]),
-    /// Words that the command reads in its own way. The values are the least and greatest number of words, and a
-    /// description.
+    /// Words with a syntax that only this command has. The values are the minimum count of words, the maximum count of
+    /// words, and a description.
     Words(u8, u8, &'static str),
 }
 

@@ -54,7 +54,7 @@ pub struct Command {
     pub standing: Standing,
     /// The forms in which the command has an effect.
     pub used: Used,
-    /// An example of the command, if no form in the repository has one.
+    /// An example of the command, if no form in the repository contains the command.
     pub example: Option<&'static str>,
     /// Effect of the command.
     pub meaning: &'static str,

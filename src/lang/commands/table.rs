@@ -6,7 +6,7 @@
 ///
 /// The field is `{name: Type}` for a new field, `{= place}` for a part of an existing field, `{=> method}` for a method
 /// of the settings that stores the arguments, or `{}` for no field. After the field, `if (..)` names the forms that use
-/// the command. `eg "arguments"` gives an example if no form of the repository has the command.
+/// the command. `eg "arguments"` gives an example if no form in the repository contains the command.
 macro_rules! command_rows {
     ($then:ident) => {
         $then! {

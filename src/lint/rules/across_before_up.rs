@@ -34,8 +34,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     }
 }
 
-/// Whether the block gives a target itself. No target is given by a tool change (which retracts by itself), a macro, a
-/// code of the machine's builder, and a return of all axes to home.
+/// Whether the block itself contains the target of its move. Blocks without a target are: a tool change (which retracts
+/// by itself), a macro, a code of the machine's builder, and a return of all axes to home.
 fn is_said(view: &View, block: &Block) -> bool {
     let leaves = |word: &Word| {
         calls(view.settings.codes(), word) || view.meaning(word).is_some_and(Meaning::changes_tool) || says_tool(word)
@@ -51,8 +51,8 @@ fn height<'a>(block: &Block<'a>) -> Option<&'a Word> {
 /// The description of `G91 G0 Z0` in the message.
 const NOTHING: &str = "an increment of 0";
 
-/// The reason why a height that is a number in the form does not lift the tool under G91. `None` if the tool is lifted or the height is
-/// no number.
+/// The reason why a height that is a number in the form does not lift the tool under G91. `None` if the tool is lifted,
+/// or if the height is not a number.
 fn no_lift(block: &Block, word: &Word) -> Option<&'static str> {
     let value = word.letter().and_then(|letter| word.typed(letter))?;
     match (block.incremental && !block.machine, block.reference) {

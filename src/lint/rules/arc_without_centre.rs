@@ -1,5 +1,5 @@
-//! PF431: an arc sequence prints neither both centre words nor the radius. The sequence is not used, and arcs are
-//! printed as lines.
+//! PF431: an arc sequence does not print the radius, and lacks at least one of the two centre words. postform then
+//! prints lines instead of arcs.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};

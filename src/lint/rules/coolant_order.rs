@@ -12,6 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (body, change) in changes(view) {
         let spindle = body.lines.iter().position(|line| line.words.iter().any(|word| starts_spindle(view, word)));
         // the code of this kind of coolant stops the spindle, so the coolant must be turned on before the spindle
+        // starts
         let first = view.settings.coolant_kinds.iter().any(|kind| {
             let row = control::Code::of(b'M', kind.on).and_then(|code| view.settings.control().row(code));
             row.is_some_and(|row| row.stops_spindle)

@@ -10,7 +10,7 @@ use crate::syntax::Tail;
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for (sequence, body) in view.hole_cycles() {
         let Some((word, code)) = body.cycle_word() else { continue };
-        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // PF404 reports these
+        let uncounted = sequence.count.is_none() && sequence.lines.len() > 1; // PF404 reports these sequences
         if view.works_once(code)
             || sequence.cancel.is_some()
             || uncounted

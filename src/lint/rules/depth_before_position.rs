@@ -1,4 +1,4 @@
-//! PF416: the tool moves down before it moves to its position across.
+//! PF416: the tool moves down before it moves across to its position.
 
 use crate::diag::{Code, Diag};
 use crate::lang::{SequenceId, VarId};
@@ -27,7 +27,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             words.iter().find(|(word, axis)| *axis == 2 && is_low(word.printed_var())).map(|(word, _)| (i, word))
         });
         let Some((down, word)) = down else { continue };
-        // the axes across that a block moves, as bits
+        // the axes of the plane that a block moves, as bits
         let across = |block: &Block| {
             let words = &block.axis_words;
             let words =
@@ -35,7 +35,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             words.fold(0, |set, (_, axis)| set | 1 << axis)
         };
         let before = blocks[..=down].iter().fold(0, |set, block| set | across(block));
-        // at a tool change, the tool may be at any position before
+        // before a tool change, the tool may be at any position
         let changes = [S::FirstToolChange, S::ToolChange].map(Purpose::Sequence).contains(&body.purpose);
         if changes && before != 0b11 && blocks[down + 1..].iter().all(|block| across(block) == 0) {
             diags.push(

@@ -42,7 +42,8 @@ fn sets(body: &Body) -> bool {
     sets
 }
 
-/// What is lost if this sequence contains only `None`, for sequences in which `None` is probably a mistake.
+/// The output that is lost if this sequence contains only `None`. The function returns an output only for sequences in
+/// which `None` is probably a mistake.
 fn without(sequence: &Sequence) -> Option<&'static str> {
     Some(match sequence.id {
         SequenceId::OptStop => "the job's optional stop is lost",

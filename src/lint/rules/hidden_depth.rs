@@ -1,5 +1,5 @@
 //! PF503: a cycle prints the depth relative to the hole's top. The relative depth is equal for holes at other heights,
-//! so the cycle does not print it again.
+//! so the cycle does not print the depth again.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

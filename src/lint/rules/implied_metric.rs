@@ -1,5 +1,5 @@
-//! PF317: a format with an implied point is wrong in inches or in millimetres: a control counts in 0.0001 inch, but in
-//! 0.001 mm.
+//! PF317: a format with an implied point can't be correct in both units, because its last digit is 0.0001 inch or 0.001
+//! mm.
 
 use crate::control::WithoutPoint;
 use crate::diag::{Code, Diag};

@@ -1,4 +1,5 @@
-//! PF444: a sequence moves to the machine zero, where the control ends the tool length, and does not turn it on again.
+//! PF444: a sequence moves to the machine zero, where the control cancels the tool length offset, and does not activate
+//! the offset again.
 
 use crate::control::ToolLength;
 use crate::diag::{Code, Diag};
@@ -36,7 +37,7 @@ fn goes_on_with_its_tool(body: &Body, view: &View) -> bool {
     }
 }
 
-/// The code that ends the tool length, if no later word of the sequence turns it on.
+/// The code that cancels the tool length offset, if no later word of the sequence activates the offset again.
 fn ends_length<'a>(body: &Body<'a>, view: &View) -> Option<&'a Word> {
     let mut ended = None;
     for line in body.lines {

@@ -1,5 +1,5 @@
-//! PF506: a block has the same letter twice. Most controls alarm, the others use one of the words. T is allowed twice, for the
-//! tool and the preselected tool.
+//! PF506: a block has the same letter twice. Most controls stop with an alarm, and the other controls use only one of
+//! the two words. T is allowed twice, for the tool and the preselected tool.
 
 use crate::diag::{Code, Diag};
 use crate::lint::view::View;

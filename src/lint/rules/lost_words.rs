@@ -63,7 +63,8 @@ fn begins_as_form(line: &Line) -> bool {
         || SequenceName::parse(&words).is_some()
 }
 
-/// Whether the lost text is a count: a number alone, or text after a number where no comment can begin.
+/// Whether the lost text is a count. At a location where a comment can begin, only a number alone is a count; at any
+/// other location, a number with text after it is a count too.
 fn count_is_lost(line: &Line, text: &str) -> bool {
     let Tail::Lost(lost) = &line.tail else { return false };
     let is_number = |token: &str| token.bytes().all(|b| b.is_ascii_digit());
@@ -77,7 +78,7 @@ fn is_letter(token: &str) -> bool {
     token.len() == 1 && token.bytes().all(|b| b.is_ascii_uppercase())
 }
 
-/// Reports comments like `(P/N #1234)`: the text from `#` on and the closing bracket are lost.
+/// Reports comments like `(P/N #1234)`: the text that begins with `#` is lost, and so is the closing bracket.
 fn bracketed(comment: Span, text: &str, diags: &mut Vec<Diag>) {
     let rest = &text[comment.range()];
     if rest.contains(')') {

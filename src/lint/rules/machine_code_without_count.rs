@@ -17,7 +17,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
                 let help = format!("write `{} 1`, if the first line is for the first hole only", body.name());
                 (format!("{code} drills again at each position in the lines below"), help)
             }
-            (false, Some(_)) => continue, // Cancel ends it
+            (false, Some(_)) => continue, // Cancel ends the cycle
             (false, None) => (
                 "the cycle stays active: the control also drills at the next position".to_owned(),
                 "write `End Cancel`, or print G80 in the last line".to_owned(),

@@ -40,7 +40,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
             let name = &statement.name;
             let known = CommandId::parse(&name.text).is_some() || SequenceId::parse(&name.text).is_some();
             let at = name.span.end as usize;
-            // if an argument follows the semicolon directly, the semicolon may be its first character, so it is kept
+            // a semicolon directly before an argument may be the first character of the argument, so this semicolon is
+            // kept
             let apart = text.get(at + 1).is_none_or(|b| b" \t\r\n".contains(b));
             if known && apart && text.get(at) == Some(&b';') {
                 let span = Span { start: name.span.end, end: name.span.end + 1, ..name.span };

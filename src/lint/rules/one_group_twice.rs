@@ -1,4 +1,4 @@
-//! PF505: a block has two codes of one group. The control uses the last of the two codes, or alarms.
+//! PF505: a block has two codes of one group. The control uses the last of the two codes, or stops with an alarm.
 
 use crate::control::{Group, Meaning};
 use crate::diag::{Code, Diag};
@@ -12,7 +12,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let mut firsts: Vec<(&Word, Group)> = Vec::new();
         for word in &line.words {
             let group = match word.kind {
-                // G80 in a block with a motion code is common; in a block with a cycle code it ends that cycle
+                // G80 in a block with a motion code is common; in a block with a cycle code, G80 ends the cycle
                 WordKind::Literal(..) if !in_cycle && view.meaning(word) == Some(Meaning::CycleEnd) => None,
                 WordKind::Literal(..) => view.meaning(word).and_then(Meaning::group),
                 _ => None,

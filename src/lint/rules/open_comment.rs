@@ -9,7 +9,7 @@ use super::swallowed_words::swallowed;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     if view.settings.comment[1] != ")" {
-        return; // the comments of this control need no closing mark, or another one
+        return; // comments of this control need no closing mark, or another closing mark
     }
     // the closing mark may be in text that is not printed
     let lost = |tail: &Tail| match tail {

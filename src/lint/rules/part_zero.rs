@@ -1,5 +1,5 @@
-//! PF440: `G0 Z0` moves to the zero of the part, usually its upper face, which is no safe height for a tool change or
-//! an index.
+//! PF440: `G0 Z0` moves to the zero of the part, usually its upper face, which is not a safe height for a tool change
+//! or an index.
 
 use crate::control::Meaning;
 use crate::diag::{Code, Diag};

@@ -18,7 +18,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let diag = Diag::new(Code::PF304, format!("`{small}` is printed as a small letter"))
             .at(word.span, "the control may refuse a small letter");
         diags.push(match view.format_letter(word) == Some(letter) {
-            // the lower-case letter has its own format; the capital letter would use another one
+            // the lower-case letter has its own format; the capital letter would use another format
             true => diag.help(format!("add `Rename {small} {capital}`")),
             false => diag.help(format!("write `{capital}`")).fix(
                 "write the capital",

@@ -7,7 +7,8 @@ use crate::lint::view::{Purpose, View};
 use crate::sema::Word;
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
-    // a safety line in StartCode is allowed, because the job's work offset replaces it before the first move
+    // a work offset in the safety line of StartCode is allowed, because the job's work offset replaces it before the
+    // first move
     let bodies = view.bodies.iter().filter(|body| body.purpose != Purpose::Sequence(SequenceId::StartCode));
     for body in bodies {
         let is_work = |word: &&Word| view.meaning(word) == Some(Meaning::Work);

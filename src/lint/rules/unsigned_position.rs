@@ -42,7 +42,7 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
         let digits = format.to_string();
         let digits = digits.trim_start();
         let better = format!("{name}-{digits}");
-        // with an exact number of digits, also suggest a format with a maximum number of digits
+        // if the format has an exact number of digits, also suggest a format with a maximum number of digits
         let wider = if digits.contains('>') {
             String::new()
         } else {

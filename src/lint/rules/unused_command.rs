@@ -45,7 +45,7 @@ fn unused(view: &View, id: CommandId, statement: &Statement) -> Option<String> {
         Used::Threads => (settings.thread.is_none(), "there is no Thread command".to_owned()),
         Used::Letter => {
             let letters = statement.args.iter().flat_map(|arg| arg.text.bytes());
-            // the second letter of Rename replaces the first in the output, so only the first is checked
+            // the second letter of Rename replaces the first letter in the output, so only the first letter is checked
             let most = if id == CommandId::Rename { 1 } else { usize::MAX };
             let printed = letters.take(most).any(|letter| is_printed(view, letter));
             (!printed, "nothing prints this letter".to_owned())

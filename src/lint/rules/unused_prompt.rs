@@ -1,4 +1,4 @@
-//! PF209: a prompt whose answer is never printed.
+//! PF209: the answer to a prompt is never printed.
 
 use crate::diag::{Code, Diag};
 use crate::lang::VarId;

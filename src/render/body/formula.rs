@@ -62,8 +62,8 @@ impl Body<'_> {
         }
     }
 
-    /// If the calculated value has only one variable, and this variable is a condition of the control (such as the work
-    /// offset): this variable and the job's value for it.
+    /// The only variable of the calculated value, with the job's value for this variable. `None`: there are several
+    /// variables, or the variable is not a condition of the control, such as the work offset.
     fn condition_of(&self, vars: VarSet, letter: u8) -> Done<Option<(VarId, f64)>> {
         match CONDITIONS.into_iter().find(|&var| vars == VarSet::of(&[var])) {
             Some(var) => Ok(self.value_of(var, letter)?.map(|own| (var, own))),
@@ -85,9 +85,9 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Prints a letter and a calculated value. A calculated axis position is treated like a typed position: it may be
-    /// in another coordinate frame. A word calculated from one condition alone, such as `H[work-53]`, counts as a print
-    /// of that condition. The job's value for the condition is then not printed again.
+    /// Prints a letter and a calculated value. A calculated axis position is treated like a typed position, because the
+    /// position may be in another coordinate frame. A word that is calculated from one condition alone, such as
+    /// `H[work-53]`, counts as printing this condition. The job's value for the condition is then not printed again.
     pub(super) fn formula_word(&mut self, letter: u8, index: u32, glued: bool) -> Done {
         let shape = self.writer.shape;
         let info = &shape.letters[letter];

@@ -33,8 +33,8 @@ pub enum Mode {
     Motion,
     /// For an arc sequence: like a motion sequence, but centre words are always printed.
     ArcMotion,
-    /// For a later hole of a machine cycle: variables are printed if they changed. If none changed, both position words
-    /// are printed.
+    /// For a later hole of a machine cycle: variables are printed if they changed. If no variable changed, both
+    /// position words are printed.
     NextHole {
         /// Whether both position words are printed, because no word changed.
         position: bool,
@@ -137,7 +137,7 @@ pub fn go_on(routine: &Routine, ops: Range<usize>, mode: Mode, writer: &mut Writ
         i += 1;
     }
     body.end_line();
-    // checked before the next move: until then another sequence may restore the job's value
+    // the check is before the next move, because another sequence may restore the job's value until then
     if writer.said.take_switched() {
         writer.said.differs |=
             writer.said.is_misread(shape, writer.want) || !writer.said.lacks(writer.want, shape).is_empty();
@@ -169,7 +169,7 @@ struct Body<'r> {
     at: usize,
     /// Whether the sequence is a cycle that may leave out unchanged words of this line.
     drops: bool,
-    /// Text and values without a letter that the line printed since its last word with a letter.
+    /// The text and the values without a letter that were printed after the line's last word with a letter.
     text: Vec<u8>,
     /// The operations of the comment that was printed last.
     comment: Range<usize>,
@@ -270,7 +270,7 @@ impl Body<'_> {
             return self.packed_word(info, digits, glued);
         }
         if self.mode == Mode::ArcMotion && ARC_WORDS.has(var) && self.writer.want.get(var).is_none() {
-            return Ok(()); // the centre coordinate along the axis across the plane has no value
+            return Ok(()); // the centre coordinate along the axis perpendicular to the plane has no value
         }
         let Some(value) = self.value_of(var, letter)? else { return Ok(()) };
         if info.kind == LetterKind::Axis && settings.incremental && POSITIONS.has(var) {
@@ -327,8 +327,7 @@ impl Body<'_> {
         }
     }
 
-    /// Records that a word with this variable was printed. Among the words that print `[work]`, only some select the
-    /// work offset.
+    /// Records that a word with this variable was printed. Not every word that prints `[work]` selects the work offset.
     fn condition_word(&mut self, letter: u8, var: VarId, value: f64) {
         if var != VarId::Work || self.writer.shape.program.work.says(self.at) {
             self.writer.said.condition_word(letter, var, value, self.line(), self.writer.want, self.writer.shape);

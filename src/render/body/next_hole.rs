@@ -1,4 +1,4 @@
-//! Holes of a machine cycle, after its first hole, that print only their position.
+//! Holes of a machine cycle for which only the position is printed. The first hole of the cycle is never such a hole.
 
 use super::{Body, Mode};
 use crate::compile::{LetterKind, Op, Routine};
@@ -25,8 +25,8 @@ struct Word {
 pub struct PositionWords([Word; 2]);
 
 impl PositionWords {
-    /// The position words of this sequence. `None`: the next hole may print other words too, because the control lacks
-    /// the values of these words, or the values depend on the position.
+    /// The position words of this sequence. `None`: the next hole may need other words too. The control does not have
+    /// the values of these words yet, or the values depend on the position.
     pub fn of(routine: &Routine, writer: &mut Writer<'_>) -> Option<PositionWords> {
         let shape = writer.shape;
         let settings = &shape.program.settings;
@@ -72,7 +72,7 @@ impl PositionWords {
         (one_block && is_own(&first) && is_own(&second)).then_some(PositionWords([first, second]))
     }
 
-    /// Prints the block of the next hole: the position words that changed, or both position words if none changed.
+    /// Prints the block of the next hole: the position words that changed, or both position words if no word changed.
     /// `at`: the values of `[h]` and `[v]`.
     #[inline]
     pub fn print(&self, at: [f64; 2], writer: &mut Writer<'_>) -> Done {

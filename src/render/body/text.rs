@@ -1,4 +1,4 @@
-//! Output of a line besides its words with letters: text, values inside text, comments.
+//! Output of a line other than words with letters: text, values inside text, comments.
 
 use super::Body;
 use crate::lang::VarId;

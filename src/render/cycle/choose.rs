@@ -66,7 +66,7 @@ pub fn choose_sequence(spec: &CycleSpec, shape: &Shape, out: &mut Printer) -> Do
     Ok(None)
 }
 
-/// The form's sequence for a kind of cycle; `None` if the form has none.
+/// The form's sequence for a kind of cycle; `None` if the form has no sequence for this kind.
 fn candidate(spec: &CycleSpec, shape: &Shape) -> Option<SequenceId> {
     use SequenceId as S;
     let program = shape.program;

@@ -51,7 +51,7 @@ fn make_steps(steps: &[Step], hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drill
                 to.values[1] += y;
                 to.values[shape.depth] = hole.heights.point + height;
                 set_targets(&to, shape, cx.want, cx.said)?;
-                rapid_block(&to, None, cx)?; // off the wall and up in one block: up alone would score the wall
+                rapid_block(&to, None, cx)?; // off the wall and up in one block: straight up would score the wall
             }
             Step::Feed(height, feed) => {
                 to.values[shape.depth] = hole.heights.point + height;

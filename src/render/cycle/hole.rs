@@ -119,7 +119,7 @@ pub fn make_hole(hole: &Hole, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
         }
     }
     if cx.said.stand.left_hole.is_some() {
-        // only the first hole of a cycle comes from the hole of another cycle
+        // the tool can come from a hole of another cycle only if this hole is the first of its cycle
         if drill.open.as_ref().is_some_and(|cycle| cycle.holes == 0) {
             stand_as_left(&target, true, cx)?;
         } else {

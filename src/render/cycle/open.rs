@@ -1,4 +1,4 @@
-//! The open cycle from its begin to its end, and how the control leaves the cycle.
+//! The open cycle from its begin to its end, and the blocks with which the control leaves the cycle.
 
 use super::plain::NextHole;
 use crate::compile::Sources;
@@ -52,7 +52,7 @@ pub struct ActiveCycle {
     pub turned: Option<f64>,
     /// The depth that the job gives with the last hole.
     pub depth: Option<f64>,
-    /// What the next hole prints if it is as deep as the last hole.
+    /// The words of the next hole, if the next hole is as deep as the last hole.
     pub next: NextHole,
 }
 
@@ -147,8 +147,8 @@ pub fn turning(direct: Option<f64>, shape: &Shape) -> Done<f64> {
     }
 }
 
-/// Records the tool position after a hole. `exit`: if the sequence does not print the height after the cycle: this
-/// height, and whether it is certain.
+/// Records the tool position after a hole. `exit`: the height after the cycle, and whether this height is certain. Only
+/// needed if the sequence does not print the height.
 pub fn left_hole(
     target: &Axes,
     exit: Option<(f64, bool)>,
@@ -165,7 +165,7 @@ pub fn left_hole(
         }
         None => (target.values[shape.depth], false),
     });
-    // for the job the last position is the return plane, even if the control stays lower
+    // the last position of the job is the return plane, even if the control stays lower
     last.set(shape.depth, exit);
     said.stand.position = last;
     if let Some(cycle) = &mut drill.open {

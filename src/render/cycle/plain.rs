@@ -1,6 +1,6 @@
-//! The usual hole of a machine cycle: not the first hole, as deep as the hole before it, and printed only by its
-//! position. Most holes of long jobs are usual holes. A usual hole is printed without planning the cycle again. For a
-//! usual hole, the general code of [`super::hole`] prints the same block.
+//! Usual holes of a machine cycle. A usual hole is not the first hole, is as deep as the previous hole, and needs only
+//! its position words. Most holes of long jobs are usual holes. A usual hole is printed without planning the cycle
+//! again. The general code of [`super::hole`] would print the same block for a usual hole.
 
 use super::open::{ActiveCycle, Drilling};
 use crate::compile::{CycleStyle, Routine};
@@ -14,15 +14,15 @@ use crate::toolpath::Hole;
 /// The variables that differ between two usual holes.
 const CHANGES: VarSet = VarSet::of(&[VarId::H, VarId::V, VarId::Block]);
 
-/// What the next hole prints if it is as deep as the previous hole.
+/// The words of the next hole, if the next hole is as deep as the previous hole.
 #[derive(Clone, Copy, Debug)]
 pub enum NextHole {
     /// Not determined yet: the general code of [`super::hole`] printed the last hole.
     Unknown,
-    /// The next hole prints only these words.
+    /// Only these words are printed for the next hole.
     Position(PositionWords),
-    /// The next hole and all holes after it need the general code. No event between two holes can change what the holes
-    /// print.
+    /// The general code is needed for the next hole and all later holes of the cycle. An event between two holes can't
+    /// remove this need.
     Other,
 }
 
@@ -75,7 +75,7 @@ pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &m
     words.print(at, &mut cx.writer())
 }
 
-/// For a hole at any position, does this sequence print only the words of its own lines?
+/// Are the words of this sequence the only output for a hole, whatever the position of the hole is?
 #[cold]
 fn prints_no_more(routine: &Routine, cycle: &ActiveCycle, cx: &Cx<'_>) -> bool {
     let (shape, program) = (cx.shape, cx.shape.program);

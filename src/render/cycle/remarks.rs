@@ -16,7 +16,8 @@ pub fn warn_of(spec: &CycleSpec, sequence: Option<SequenceId>, shape: &Shape, wa
         out.note(Code::PC060, message, "give the cycle a `step`, or the form a `CycleStep`");
     }
     let clear = spec.clear.unwrap_or(shape.defaults.clear);
-    // if the first point is above the plane, the tool returns to its own clearance, which is no contradiction
+    // if the first point is above the return plane, the tool returns to the clearance of the point, which is no
+    // contradiction
     if let Some(height) = spec.return_height.filter(|height| (0.0..clear - SAME).contains(height)) {
         let message = format!("the return plane, {height} above the point, is below the clearance, {clear}");
         out.note(Code::PC053, message, "the clearance is used: give `return` above `clear`, or leave it out");

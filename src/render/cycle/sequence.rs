@@ -26,17 +26,17 @@ use crate::toolpath::Axes;
 pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     let shape = cx.shape;
     set_targets(&hole.target, shape, cx.want, cx.said)?;
-    settle_before_hole(routine, cx, drill)?; // `[d]` is the return plane here: an Upon must not go down the hole
+    settle_before_hole(routine, cx, drill)?; // `[d]` is the return plane here: no Upon may go down the hole
     hole_variables(hole, shape, cx.want, drill);
     cx.want.set(VarId::D, hole.heights.return_plane);
     let used = routine.vars.without(VarSet::of(&[VarId::D]));
     if upon_is_due(used, false, shape, cx.want, cx.said) {
-        leave_cycle(cx, drill)?; // else the control reads these words as those of a hole
+        leave_cycle(cx, drill)?; // otherwise the control reads these words as a hole
         settle_between_holes(hole, cx, drill)?;
     }
     upons(used, cx)?;
     upon_bottom(routine, hole, cx, drill)?;
-    plane_block(control::Code::g(17), routine, &mut cx.writer())?; // else the control drills along another axis
+    plane_block(control::Code::g(17), routine, &mut cx.writer())?; // otherwise the control drills along another axis
     cx.want.set(VarId::D, hole.heights.bottom);
     if matches!(routine.style, CycleStyle::Emulated) {
         return emulated_hole(routine, hole, cx, drill);
@@ -61,7 +61,7 @@ pub fn sequence_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: 
             if starts {
                 run_part(routine, routine.ops.start..routine.repeat, Mode::All, &mut cx.writer())?;
                 if !drills_at_once(routine, shape) {
-                    cx.said.forget_letters(); // the first hole prints its lines whole
+                    cx.said.forget_letters(); // the first hole needs all words of its lines
                 }
             }
             let rest = routine.repeat..routine.ops.end;
@@ -107,14 +107,15 @@ fn emulated_hole(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut
     left_hole(&hole.target, cycled.then_some(exit), shape, cx.said, drill)
 }
 
-/// The height to which a cycle of the control returns, and whether it is certain. `planned.rs` selects G98 or G99.
+/// The height to which a cycle of the control returns, and whether this height is certain. `planned.rs` selects G98 or
+/// G99.
 fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Drilling) -> (f64, bool) {
     let initial = drill.open.as_ref().map_or(heights.return_plane, |cycle| cycle.initial_level);
     // with `[retplane]` the code decides: G98 if the return plane is above the clearance, else G99
     let higher = heights.return_plane > heights.clear + SAME;
     let returns = routine.returns && (higher || !routine.vars.has(VarId::Retplane));
     let exit = if returns { initial.max(heights.clear) } else { heights.clear };
-    // without such a code the control's own setting decides
+    // without G98 or G99, the control's own setting decides
     let stays = prints_code(routine, |code| code.is_g(shape.program.settings.return_plane[0]), shape);
     let known = routine.returns || stays || !higher && initial <= heights.clear + SAME;
     (exit, known)
@@ -150,7 +151,7 @@ fn upon_bottom(routine: &Routine, hole: &Planned, cx: &mut Cx<'_>, drill: &mut D
     {
         return Ok(());
     }
-    leave_cycle(cx, drill)?; // else the control reads these words as those of a hole
+    leave_cycle(cx, drill)?; // otherwise the control reads these words as a hole
     settle_between_holes(hole, cx, drill)?;
     cx.want.set(VarId::D, hole.heights.bottom);
     upons(BOTTOM, cx)
@@ -192,8 +193,8 @@ fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
 }
 
 /// Prints waiting changes before a hole. While the control is in its cycle, the changes wait for Cancel, because a
-/// block between the holes would be read as a hole. In a cycle, only codes of the sequence itself make the state differ
-/// from the job's request, such as `G95` for a tap.
+/// block between the holes would be read as a hole. In a cycle, only codes of the sequence itself, such as `G95` for a
+/// tap, change the state from the job's request.
 fn settle_before_hole(routine: &Routine, cx: &mut Cx<'_>, drill: &Drilling) -> Done {
     let shape = cx.shape;
     if !cx.said.is_unsettled(cx.want) {
@@ -238,7 +239,7 @@ fn starts_cycle(
     if level.is_none_or(|level| heights.clear > level + SAME) {
         return true;
     }
-    // words that only the first hole prints would keep their old values
+    // words that are printed only at the first hole would keep their old values
     let first = routine.first_only;
     !first.is_empty() && routine.style != CycleStyle::WholeLine && cycle.setup.differs(first, want, said)
 }
@@ -276,7 +277,7 @@ fn raise_to(target: &Axes, cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     if !below || !across {
         return Ok(());
     }
-    cancel(cx, drill)?; // else the control reads the rapid as a hole
+    cancel(cx, drill)?; // otherwise the control would read the rapid as a hole
     raise(target, cx)
 }
 

@@ -57,7 +57,7 @@ pub fn arc(arc: &Arc, feed: Option<f64>, cx: &mut Cx<'_>, parts: &mut Vec<f64>) 
     if cx.said.differs_from(&cx.said.stand.position, 1 << axes[0] | 1 << axes[1], shape)
         && !shape.program.settings.incremental
     {
-        // the arc's centre is relative to the start, so the control must be exactly there
+        // the arc's centre is relative to the start, so the control must be exactly at the start
         let here = cx.said.stand.position;
         set_targets(&here, shape, cx.want, cx.said)?;
         line_to(&here, cx)?;

@@ -43,8 +43,8 @@ pub fn centre_letter(letters: &[u8], axis: usize, shape: &Shape) -> Option<u8> {
     if named { letters.contains(&natural).then_some(natural) } else { letters.get(axis).copied() }
 }
 
-/// Divides an arc whose radius word is too coarse. Near half a turn, the last digit of the radius moves the centre far.
-/// Several shorter arcs describe the same arc within the form's digits.
+/// Divides an arc whose radius word is too coarse. For an arc of nearly half a turn, a change of the radius in the last
+/// digit moves the centre far. Several shorter arcs describe the same arc within the form's digits.
 pub fn divide_for_radius(whole: &Piece, across: usize, parts: &mut Vec<f64>, shape: &Shape, said: &Said) -> Done {
     const MOST_PARTS: usize = 8; // for each piece that the form would print
     let (most, step) = ((parts.len() + 1) * MOST_PARTS, parts.len() + 1);

@@ -57,7 +57,8 @@ pub fn pieces(whole: &Piece, across: usize, cx: &mut Cx<'_>, parts: &mut Vec<f64
         } else {
             PI
         };
-        // radius words can't print a full circle; over 180 degrees only if the form has a format for it
+        // radius words can't print a full circle; they can print an arc over 180 degrees only if the form has a format
+        // for it
         arc.equal_parts(most, parts);
         divide_for_radius(whole, across, parts, shape, cx.said)?;
     }
@@ -87,7 +88,7 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     let settings = &program.settings;
     if ends_meet(&piece.target, piece.axes, shape, cx.said) && piece.arc.sweep.abs() < PI {
         set_targets(&piece.target, shape, cx.want, cx.said)?;
-        return line_to(&piece.target, cx); // as an arc it would be a full circle
+        return line_to(&piece.target, cx); // as an arc, this short move would be a full circle
     }
     // for a turret on the other side, the arc is mirrored
     let ccw = (piece.arc.sweep > 0.0) != piece.axes.iter().any(|&axis| shape.scales[axis] < 0.0);

@@ -1,7 +1,7 @@
-//! Prints the usual cut: a straight cut after another straight cut, which prints only position words and needs no other
-//! checks. Most moves of long jobs are usual cuts. The cut is printed in one pass. Checks are left out if the form and
-//! the known state already determine their results. For a usual cut, the general code of [`super::line`] prints the
-//! same block.
+//! Prints usual cuts. A usual cut is a straight cut after another straight cut, and needs only position words and no
+//! other checks. Most moves of long jobs are usual cuts. The cut is printed in one pass. Checks are left out if the
+//! form and the known state already determine their results. The general code of [`super::line`] would print the same
+//! block for a usual cut.
 
 use crate::number::nearest;
 use crate::render::cx::Cx;
@@ -13,7 +13,7 @@ use crate::render::want::Want;
 use crate::render::words::feed_word;
 use crate::toolpath::Axes;
 
-/// If a cut to this position is usual: the factor of each axis from the position to the printed units.
+/// The factor of each axis from the position to the printed units. `None`: a cut to this position is not usual.
 #[inline]
 pub fn is_plain(to: &Axes, shape: &Shape, want: &Want, said: &Said) -> Option<[f64; 3]> {
     let stand = &said.stand;

@@ -30,7 +30,7 @@ pub fn reach(to: &Axes, free: bool, cx: &mut Cx<'_>) -> Done<Axes> {
 }
 
 /// Moves the tool to the job's height after a cycle that left the tool at another height. The move is printed before a
-/// cut, and before a rapid across. Such a rapid may also lead to the next cycle.
+/// cut, and before a rapid across. The rapid across may lead to the next cycle.
 #[cold]
 pub fn stand_as_left(target: &Axes, free: bool, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;

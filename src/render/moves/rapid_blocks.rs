@@ -37,7 +37,7 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
             target.given & shape.depth_bit() != 0 && cx.said.differs_from(target, shape.depth_bit(), shape);
         return rapid_block(target, code.filter(|_| depth_only), cx);
     }
-    // each part has only its own axes: the others do not move, whether they are printed or not
+    // each of the two rapids moves only its own axes; the other axes do not move, whether they are printed or not
     let depth = shape.depth_bit();
     let part = |axes: u8| Axes { given: target.given & axes, ..*target };
     if is_below(target, shape, cx.said) {

@@ -24,7 +24,7 @@ pub fn turn_to(target: &Axes, cx: &mut Cx<'_>) -> Done {
         let message = format!("{letter} turns to {}, but the sequence Index does not print it", target.values[axis]);
         return fault_at(Code::PR017, message, format!("add `{letter}[rotangle]` to Index"), Some(routine.span));
     }
-    // an Index that does not raise the tool itself would turn the part under it
+    // an Index that does not raise the tool itself would turn the part under the tool
     if target.get(shape.depth).is_some() && !prints_axis_words(routine, true, shape) && is_below(target, shape, cx.said)
     {
         raise(target, cx)?;
@@ -64,7 +64,7 @@ pub fn change_turns(routine: &Routine, target: &Axes, given: u8, cx: &mut Cx<'_>
         return fault_at(Code::PR017, message, help, Some(routine.span));
     }
     let unsaid = shape.rotary().filter(|axis| !says(axis)).fold(0, |axes, axis| axes | 1 << axis);
-    // only axes of the first move: a new tool keeps no position
+    // only the axes of the first move, because a new tool keeps no position
     let target = Axes { given: given & !unsaid, ..*target };
     in_travel(&target, given & !unsaid, true, cx)
 }

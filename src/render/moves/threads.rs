@@ -40,8 +40,8 @@ impl Cut {
     }
 }
 
-/// Prints a thread of the path. The sequence AutoThread has priority, then the sequence CanThread. A form with neither
-/// of them gets generated passes.
+/// Prints a thread of the path. The sequence AutoThread has priority, then the sequence CanThread. If the form has
+/// neither sequence, postform generates the passes.
 pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     check_state(shape, cx.want, cx.out)?;
@@ -85,7 +85,7 @@ pub fn cut_thread(thread: &Thread, cx: &mut Cx<'_>) -> Done {
         if cycle.is_some_and(|routine| routine.cancel)
             && let Some(cancel) = shape.routine(SequenceId::Cancel, cx.want, cx.said)
         {
-            run_with_upons(cancel, cx)?; // else the next rapid would be a pass
+            run_with_upons(cancel, cx)?; // otherwise the next rapid would be a pass
         }
         cx.said.forget_words();
         cx.said.stand.position = here;
@@ -122,7 +122,7 @@ fn check_state(shape: &Shape, want: &Want, out: &mut Printer) -> Done {
     Ok(())
 }
 
-/// Checks that the tool is beside the thread, on the side from which it is cut.
+/// Checks that the tool is beside the thread, on the side from which the thread is cut.
 fn check_beside(thread: &Thread, cut: &Cut, shape: &Shape, said: &Said) -> Done {
     let Some(beside) = said.stand.position.get(1) else {
         let help = "begin with a rapid to a position next to the thread, with the distance from the axis";

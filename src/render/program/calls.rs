@@ -43,7 +43,8 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     for var in CONDITIONS.into_iter().filter(|&var| cx.want.get(var).is_none()) {
         unknown.insert(var);
     }
-    // a call from the main program needs no check at the end: its subprogram, and those that it calls, are already known
+    // a call from the main program needs no check at the end, because all subprograms that the call runs are already
+    // known
     if let Some(from) = from {
         let turned_back = turns_back(cx.want, shape);
         subs.calls.push(Called { from, to: call.sub, place: cx.out.place, unknown, turned_back });
@@ -68,7 +69,8 @@ pub fn sub_call(call: &Call, cx: &mut Cx<'_>, subs: &mut Subprograms) -> Done {
     cx.want.put(VarId::Subline, first_block);
     let routine = shape.way(base, cx.want, cx.said);
     let leaves = called.is_none_or(|i| subs.defined[i].calls_ahead || !subs.defined[i].left.is_nothing());
-    // print the call once for each run if the sequence lacks `[times]`, or if each run must begin in the state of the first
+    // print the call once for each run if the sequence lacks `[times]`, or if each run must begin in the state of the
+    // first run
     let together = routine.vars.has(VarId::Times) && !(leaves && call.times > 1.0);
     let calls = if together { 1 } else { call.times as u32 };
     if !together {
@@ -133,7 +135,7 @@ fn names_of_called(call: &Call, called: Option<usize>, shape: &Shape, subs: &Sub
     let inside = subs.open.is_some();
     match called.map(|i| &subs.defined[i]) {
         Some(sub) => Ok((sub.printed, sub.first_block)),
-        // inside a subprogram, a later one may be called; the end of the job checks that it exists
+        // a subprogram may call a later subprogram; the end of the job checks that the later subprogram exists
         None if inside && !shape.program.settings.renumber_subs => Ok((call.sub, None)),
         None if inside => {
             let help = "put the called subprogram before the calling one, or set `RenumSubs? N`";
@@ -249,7 +251,8 @@ pub fn check_calls(subs: &Subprograms) -> Done {
             let help = "set spindle, coolant and work offset in the calling subprogram before the call";
             return at(call.place, fault(Code::PR033, message, help));
         }
-        // the caller printed no check after the call of a later subprogram that stops
+        // the caller did not check the spindle and the coolant after the call of a later subprogram that contains a
+        // stop
         let unknown = [VarId::Speed, VarId::Direct, VarId::Cool].into_iter().any(|var| call.unknown.has(var));
         if to > call.from && unknown && subs.defined[to].left.spins.stops {
             let message = format!(

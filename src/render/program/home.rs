@@ -38,7 +38,7 @@ pub fn home(cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Prints the form's AfterHome sequence before the first rapid from the home position that has a height.
+/// Prints the form's AfterHome sequence: after a move to the home position, before the first rapid that has a height.
 pub fn after_home(target: &Axes, cx: &mut Cx<'_>) -> Done {
     let shape = cx.shape;
     cx.said.from_home = false;

@@ -34,7 +34,7 @@ pub fn stop(kind: StopKind, cx: &mut Cx<'_>) -> Done {
             if !routine.vars.has(VarId::Stop)
                 && !prints_code(routine, |code| shape.meaning_of(code).is_some_and(Meaning::is_stop), shape)
             {
-                cx.said.stopped(cx.want, shape); // the sequence stops by words that are not a known stop code
+                cx.said.stopped(cx.want, shape); // the sequence stops with other words than a known stop code
             }
         }
         None => {

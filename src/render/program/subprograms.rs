@@ -78,8 +78,8 @@ fn leave_main(shape: &Shape, want: &mut Want, said: &mut Said, subs: &mut Subpro
     want.keep_feed(None, shape);
 }
 
-/// Initial values for a subprogram's Upon sequences of conditions. Every value counts as a change, because the callers
-/// of the subprogram may have set any value.
+/// Initial values for the Upon sequences of conditions in a subprogram. Every value counts as a change, because the
+/// callers of the subprogram may have set any value.
 fn nothing_served(shape: &Shape) -> Vec<Option<f64>> {
     shape.program.upons.iter().map(|upon| CONDITIONS.contains(&upon.var).then_some(f64::NAN)).collect()
 }

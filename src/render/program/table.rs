@@ -32,7 +32,8 @@ impl Subprograms {
         self.by_number.get(&key(number)).copied()
     }
 
-    /// Does a subprogram tap without setting the spindle direction first? The subprograms that it calls are included.
+    /// Does a subprogram tap without setting the spindle direction first? The subprograms that this subprogram calls
+    /// are included.
     pub fn taps(&self, sub: usize) -> bool {
         let mut seen = vec![false; self.defined.len()];
         let mut open = vec![sub];

@@ -226,7 +226,7 @@ fn change_tool(
         work_before(&mut Writer { shape, want, said, out })?; // the position is relative to this offset
     }
     if routine.vars.has(VarId::Speed) && !says_speed_mode(routine, shape) {
-        speed_mode_before(&mut Writer { shape, want, said, out })?; // else a surface speed would be read as revolutions
+        speed_mode_before(&mut Writer { shape, want, said, out })?; // otherwise a surface speed counts as revolutions
     }
     check_reading_of(routine, shape, want, said)?;
     said.stand.placed = 0;

@@ -7,7 +7,7 @@ use crate::toolpath::Axes;
 /// Known angles of the rotary axes.
 #[derive(Clone, Debug)]
 pub struct Angles {
-    /// Angle of each axis, used when the tool's position does not contain it.
+    /// Angle of each axis, used when the tool's position does not contain the angle.
     stands: [Option<f64>; 3],
     /// Target angle of each axis, for `[rotangle]`.
     now: [Option<f64>; 3],

@@ -9,7 +9,7 @@ use crate::render::shape::Shape;
 use crate::render::want::Want;
 
 impl Said {
-    /// Records that a letter and a number were printed; they may be a code.
+    /// Records a printed letter with its number, which together may be a code.
     #[inline]
     pub fn code_word(&mut self, info: &Letter, value: f64, line: Line, want: &Want, shape: &Shape) {
         if let Some(code) = Code::of(info.printed, value) {
@@ -95,7 +95,7 @@ impl Said {
         let begins = kinds.iter().any(|kind| kind.on == code);
         let ends = kinds.iter().any(|kind| kind.off == Some(code));
         let own = |cool: f64| kinds.iter().any(|kind| kind.on == cool && kind.off == Some(code));
-        // a code that turns off one kind leaves another one on
+        // a code that turns off one kind leaves another kind on
         if begins || ends && self.conditions.get(VarId::Cool).is_some_and(own) {
             self.coolant_said(code, line, want, shape);
             self.switched = true;
@@ -121,7 +121,7 @@ impl Said {
             Some(Frame::Shifts) => self.shift = Shift::Body,
             // on a lathe increments have letters of their own
             Some(Frame::Increments) if lathe => self.shift = Shift::Body,
-            // the same offset is selected again; for G54.1 the word P would decide
+            // the code selects the active offset again; for G54.1, the word P would determine the offset
             Some(Frame::Moves)
                 if self.registers.group(Group::Work) == Some(code)
                     && row.is_some_and(|row| row.words == Words::NONE) => {}
@@ -152,8 +152,8 @@ impl Said {
 }
 
 /// Do known positions stay valid after a G code without a modal group? The positions stay valid if the form's control
-/// defines the code, or if the form's commands name the code. In a cycle they also stay valid, because the end of the
-/// cycle discards the positions anyway.
+/// defines the code, or if the form's commands name the code. In a cycle the positions stay valid too, because the end
+/// of the cycle discards the positions anyway.
 fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());

@@ -10,7 +10,8 @@ use crate::render::want::Want;
 use crate::span::Span;
 
 impl Said {
-    /// The value that must be active at the next move: the job's value, or the form's own value if the job has none.
+    /// The value that must be active at the next move: the job's value, or the form's own value if the job has no
+    /// value.
     pub fn due(&self, var: VarId, want: &Want) -> Option<f64> {
         let own = match var {
             VarId::Cool => self.own.cool.filter(|_| !want.coolant_is_said),

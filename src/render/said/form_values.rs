@@ -10,7 +10,7 @@ pub struct Own {
     pub(super) cool: Option<f64>,
     /// The speed that the tool change printed, and the job's speed that the printed speed replaces.
     pub(super) speed: Option<(f64, f64)>,
-    /// Conditions that a line of the form set to other values than the job, since the last check.
+    /// Conditions that lines of the form have set to other values than the job since the last check.
     pub(super) typed: Conditions,
     /// The last line that set a condition to another value than the job.
     pub(super) line: Option<Span>,

@@ -5,7 +5,7 @@ use crate::lang::VarId;
 use crate::render::shape::Shape;
 use crate::span::Span;
 
-/// Axis words of a sequence whose frame differs from that of the job's positions.
+/// Axis words of a sequence whose frame differs from the frame of the job's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shift {
     /// No axis words.

@@ -8,7 +8,7 @@ use crate::toolpath::Axes;
 /// The position of the tool.
 #[derive(Clone, Debug, Default)]
 pub struct Stand {
-    /// Position in program units, as the job means it. The position of an axis that is not given is unknown.
+    /// The position in program units, as in the job. The position of an axis that is not given is unknown.
     pub position: Axes,
     /// Angles of the rotary axes.
     pub angles: Angles,
@@ -19,8 +19,8 @@ pub struct Stand {
     pub(super) astray: u8,
     /// Height of the tool at the end of the last called subprogram, as long as no other height is known.
     pub left_at: Option<f64>,
-    /// If the control left a cycle at a height that differs from the job's height: the position after the cycle, and
-    /// the job's height. The next cut begins at the job's height.
+    /// The position after a cycle and the job's height, if the control left the cycle at another height than the job's
+    /// height. The next cut begins at the job's height.
     pub left_hole: Option<(Axes, f64)>,
     /// The sequence that moved the tool to typed positions. A rapid returns the tool to the job's positions.
     pub moved_by: Option<Span>,

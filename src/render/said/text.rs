@@ -86,7 +86,7 @@ impl Said {
     pub fn text(&mut self, text: &[u8], line: Line, want: &Want, shape: &Shape) {
         let program = shape.program;
         if !program.settings.control().prints_codes() {
-            // next to the axes of a line the text is part of their move, as `R0 FMAX`
+            // text next to axis words is a part of the move, as `R0 FMAX`
             let moves = |token: Token| matches!(token.kind, Kind::Word(letter, _) if shape.axis_bit(letter) != 0);
             if want.cycle.is_none() && (!line.prints_axes(shape) || tokens(text).any(moves)) {
                 self.forget_motions(shape);

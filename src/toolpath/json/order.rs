@@ -12,7 +12,7 @@ pub enum Part {
     Sign(u8),
 }
 
-/// Number of bytes that are examined first: at the end of the text, and at its beginning.
+/// Number of bytes that are examined first: `TAIL` bytes at the end of the text, then `HEAD` bytes at the beginning.
 const TAIL: u64 = 512;
 const HEAD: u64 = 16 << 10;
 

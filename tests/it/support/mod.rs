@@ -59,7 +59,7 @@ pub fn plain_post(file: &str) -> String {
     without_header(&fs::read_to_string(root().join("postforms").join(file)).unwrap())
 }
 
-/// The form without its header: without the property, and without the lines under its condition.
+/// The form without the property `header`, and without the lines under `@if [header]`.
 pub fn without_header(form: &str) -> String {
     let mut kept = String::new();
     // the nesting depth of directives in `@if [header]`, and whether its `@else` was reached

@@ -10,8 +10,8 @@ use std::sync::Mutex;
 
 use postform::internals::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
 
-/// Writes files, and runs LinuxCNC's interpreter on them. Only one at a time, because it keeps its tool table in the
-/// home folder.
+/// Writes files, and runs LinuxCNC's interpreter on them. Only one interpreter runs at a time, because it keeps its
+/// tool table in the home folder.
 pub fn rs274(files: &[(&Path, &str)], arguments: &[&OsStr]) -> Output {
     static ONE: Mutex<()> = Mutex::new(());
     let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -22,7 +22,7 @@ pub fn rs274(files: &[(&Path, &str)], arguments: &[&OsStr]) -> Output {
     Command::new("rs274").args(arguments).env("HOME", home).current_dir(home).output().unwrap()
 }
 
-/// An action of the machine, for both.
+/// An action of the machine, from the simulator or the interpreter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Call {
     Rapid([f64; 6]),
@@ -153,7 +153,7 @@ pub fn interpreted(canon: &str) -> Vec<Call> {
         }
         calls.extend(call);
         if name == "RIGID_TAP" {
-            // one call moves in, back out, and restores the spindle
+            // one call moves in, moves back out, and restores the spindle
             let mut to = at;
             to[..3].copy_from_slice(&numbers[..3]);
             let turns = [Call::Spindle(spindle.reversed()), Call::Feed(at), Call::Spindle(spindle)];

@@ -1,4 +1,4 @@
-//! Makes tests of the pages in docs/rules: it inserts their fragments of forms into whole forms.
+//! Makes tests from the pages in docs/rules: inserts the fragments of the pages into whole forms.
 #![allow(dead_code)]
 
 use std::fs;

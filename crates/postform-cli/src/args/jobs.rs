@@ -97,7 +97,7 @@ impl ReadArgs {
     /// The formats for which `--assume-tool` and `--assume-start` are used.
     pub const TOOL: &[Format] = &[Format::Cl, Format::Nc];
 
-    /// Converts the options to the library's type. Options for other formats than that of the job are left out.
+    /// Converts the options to the library's type. Options that do not apply to the format of the job are left out.
     pub fn reading(&self, format: Format) -> Reading {
         let mut reading = Reading::default();
         if ReadArgs::UNITS.contains(&format) {

@@ -91,7 +91,8 @@ pub fn run(
     Ok(if ending == Ending::Clean && differs.into_inner() { Ending::Findings } else { ending })
 }
 
-/// All kinds of differences as text, the most common first, and the share of changed programs among the compared ones.
+/// All kinds of differences as text, the most common first, and the share of changed programs among the compared
+/// programs.
 fn shown(kinds: BTreeMap<String, Kind>, jobs: &[PathBuf], compared: usize) -> String {
     let mut kinds: Vec<(String, Kind)> = kinds.into_iter().collect();
     for (_, kind) in &mut kinds {

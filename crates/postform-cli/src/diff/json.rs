@@ -50,7 +50,7 @@ pub fn document(old: &Side, new: &Side, comparison: &Comparison, summary: &Summa
     })
 }
 
-/// The first difference of motions, if there is one, and everything that was not judged.
+/// The first difference between the motions, if there is one, and the counts of everything that was not compared.
 pub fn motion(old: &Side, new: &Side, found: &Motions) -> Value {
     let first = found.difference.as_ref().map(|difference| {
         let [(a, before), (b, after)] = &difference.blocks;

@@ -51,7 +51,8 @@ pub fn run(args: &DiffArgs, colour: Colour) -> Result<Ending, String> {
 /// The differences between two programs.
 struct Difference {
     shown: Shown,
-    /// The kind of the difference. Programs that differ in the same words have the same kind; empty: no difference.
+    /// The kind of the difference; empty if there is no difference. Programs that differ in the same words have the
+    /// same kind.
     kind: String,
 }
 
@@ -115,7 +116,7 @@ fn difference(
     Ok(Ok(Difference { shown, kind }))
 }
 
-/// The width for programs side by side; `None`: one below the other.
+/// The width for two programs side by side; `None`: one program is shown below the other.
 fn columns(layout: Layout) -> Option<usize> {
     const WIDE: usize = 140;
     let terminal = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
@@ -161,7 +162,8 @@ enum Outcome {
 
 /// The run settings of both programs.
 fn settings(args: &DiffArgs, old: &Side, new: &Side) -> (Units, [RunSettings; 2]) {
-    // a program without units uses those of --units, else millimetres
+    // the units until a program sets its own units: those of --units, else those of the first G20 or G21 in one of the
+    // programs, else millimetres
     let said = || units_of(&old.program).or_else(|| units_of(&new.program));
     let units = args.options.units.map(|units| units.units()).or_else(said).unwrap_or(Units::Mm);
     (units, [old, new].map(|side| args.control.settings(side.control, units)))

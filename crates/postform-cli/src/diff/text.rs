@@ -270,7 +270,7 @@ pub fn kind(summary: &Summary) -> String {
     if kinds.is_empty() { "other blocks".to_owned() } else { kinds.join(", ") }
 }
 
-/// Differences of motions that were found but not judged; empty if there are no such differences.
+/// Differences that do not make the motions different; empty if there are no such differences.
 fn left_out(found: &Motions) -> String {
     let list = [
         (found.ways, "path", "between cuts with other rapids, nowhere lower than the old rapids"),

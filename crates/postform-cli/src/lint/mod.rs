@@ -22,7 +22,7 @@ use super::{Ending, output};
 
 /// The findings of lint in a form, and the fixes that were applied.
 pub struct Linted {
-    /// The findings. Without a finding, the value does not contain the form's text.
+    /// The findings. If there are no findings, the value does not contain the form's text.
     findings: Findings,
     /// The changes of the form's files, in words.
     story: String,

@@ -1,4 +1,5 @@
-//! Actions for findings: fixes, with the effect of unsafe ones on the program; allowances; ordering of formats.
+//! Actions for findings: fixes, with the effect of unsafe fixes on the program; comments that allow findings; sorting
+//! of formats.
 
 use std::collections::HashMap;
 
@@ -16,7 +17,8 @@ const FIX_ALL: &str = "source.fixAll.postform";
 /// Puts the letter formats in order.
 const ORGANISE: &str = "source.organizeFormats";
 
-/// Maximum number of programs that one answer prints: one without a fix, and one for each of the first fixes.
+/// Maximum number of programs that are printed for one answer: one program without a fix, and one program for each of
+/// the first fixes.
 const MOST_PROGRAMS: usize = 17;
 /// Maximum number of actions in one answer, for example if the whole form is selected.
 const MOST_ACTIONS: usize = 300;
@@ -47,7 +49,7 @@ pub fn actions(server: &Server, params: &lsp::CodeActionParams) -> Vec<lsp::Code
         });
         found.extend(all.into_iter().take(MOST_ACTIONS).filter_map(|action| quick(server, &view, action)));
     }
-    // actions for the whole form belong to no line: editors request them by kind
+    // actions for the whole form belong to no line, so editors request these actions by kind
     if only.is_some() && asked(FIX_ALL) {
         found.extend(fix_all(server, &view));
     }

@@ -89,7 +89,7 @@ fn nc(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     found
 }
 
-/// The findings of the machine in the folder's postform.toml: does the program fit into it?
+/// The findings of the check whether a program fits into the machine in the folder's postform.toml.
 fn fits(text: &Text, control: &'static Control) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Some(file) = Config::near(path).ok().and_then(|config| config.machine) else { return Vec::new() };
@@ -114,7 +114,8 @@ fn at_location(diag: &Diag, source: &Source, by: &str) -> lsp::Diagnostic {
     diagnostic(diag, range(source, span), by)
 }
 
-/// The findings of a job in the folder's postform.toml: its errors, and the parts that its form can't print.
+/// The findings of a job in the folder's postform.toml: the errors of the job, and the parts of the job that the form
+/// can't print.
 fn job(text: &Text, server: &Server) -> Vec<lsp::Diagnostic> {
     let Some(path) = text.path.as_deref() else { return Vec::new() };
     let Ok(config) = Config::near(path) else { return Vec::new() };

@@ -206,7 +206,7 @@ pub fn request(server: &Server, method: &str, params: Value) -> Result<Value, Fa
     }
 }
 
-/// A notification in a running session; an invalid one has no effect and no answer.
+/// A notification in a running session. An invalid notification has no effect and gets no answer.
 pub fn notice(server: &mut Server, method: &str, params: Value) {
     match method {
         "textDocument/didOpen" => {

@@ -46,7 +46,7 @@ pub fn hints(server: &Server, view: &View, within: lsp::Range) -> Vec<lsp::Inlay
 /// The command that opens a program.
 pub const OPEN_PROGRAM: &str = "postform.openProgram";
 
-/// Above a form, a verdict for each job; above a program, the control by which it was run.
+/// Above a form, a verdict for each job. Above a program, the control that was used to run the program.
 pub fn lenses(server: &Server, uri: &lsp::Uri) -> Vec<lsp::CodeLens> {
     let Some(text) = server.texts.get(uri) else { return Vec::new() };
     match text.kind {

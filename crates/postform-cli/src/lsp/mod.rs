@@ -1,7 +1,7 @@
 //! `postform lsp`: a language server for forms and programs, over standard input and output.
 //!
-//! One thread reads messages, another answers them in their order. Findings of changed texts are sent when no message waits, so
-//! that fast typing does not delay the answers.
+//! One thread reads messages, and another thread answers the messages in order. Findings of changed texts are sent when
+//! no message waits, so that fast typing does not delay the answers.
 
 mod actions;
 mod convert;

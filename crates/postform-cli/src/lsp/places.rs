@@ -33,8 +33,8 @@ pub fn highlights(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
 }
 
 /// The definition of the name at a position: a called file, the sequence Cancel, the prompt of a variable, the format of a
-/// letter. The definition of a program block is its form line. A form line without a definition leads to the blocks that it
-/// printed.
+/// letter. The definition of a program block is its form line. For a form line without a definition, the result is the
+/// blocks that the line printed.
 pub fn definition(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<lsp::Location> {
     let uri = &at.text_document.uri;
     let Some(text) = server.texts.get(uri) else { return Vec::new() };

@@ -16,7 +16,7 @@ use super::uri;
 use super::view::View;
 use crate::config::Config;
 
-/// The folder in which this server writes programs; it is deleted with the server.
+/// The folder in which this server writes programs. The folder is deleted when the server ends.
 #[derive(Debug, Default)]
 pub struct Programs {
     folder: Option<TempDir>,

@@ -31,7 +31,7 @@ pub fn completion(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     let list = match text.kind {
         Kind::Form => {
             let Some(view) = server.view(&text.uri) else { return Vec::new() };
-            // a form with an incomplete word prints nothing, so the values are those of its last program
+            // a form with an incomplete word prints nothing, so the values come from the last program of the form
             let last = server.last_view(&text.uri);
             view.document.complete(view.file, place, view.current().or(last.as_ref().and_then(|view| view.current())))
         }
@@ -45,7 +45,7 @@ pub fn completion(server: &Server, at: &lsp::TextDocumentPositionParams) -> Vec<
     list.into_iter().enumerate().map(|(i, item)| shown(item, i, width, text, server)).collect()
 }
 
-/// A completion with its documentation, once the user selects it.
+/// The completion that the user has selected, with its documentation.
 pub fn resolved(server: &Server, mut item: lsp::CompletionItem) -> lsp::CompletionItem {
     let known = || {
         let data = item.data.as_ref()?;

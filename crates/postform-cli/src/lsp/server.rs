@@ -26,7 +26,7 @@ pub struct Settings {
     pub control: Option<String>,
     /// The path of the current job of forms. This job ranks before the jobs in postform.toml.
     pub job: Option<PathBuf>,
-    /// Hints after words: `on`, `off`, or `auto`, which is off in files over 500 lines.
+    /// Hints after words: `on`, `off`, or `auto`. With `auto`, files of more than 500 lines show no hints.
     pub inlay_hints: Option<String>,
 }
 
@@ -85,7 +85,8 @@ impl Server {
         let kind = self.texts.get(uri).map(|text| text.kind);
         let views = std::mem::take(self.views.get_mut());
         self.last.get_mut().extend(views.into_iter().filter(|(_, view)| view.document.post().is_some()));
-        // other forms may call the form, and it may print jobs; a program is checked alone
+        // other forms may call a changed form, and a changed form may print open jobs; a program does not depend on
+        // other texts
         let touched = |text: &&Text| kind == Some(Kind::Form) && matches!(text.kind, Kind::Form | Kind::Other);
         self.stale.extend(self.texts.all().filter(touched).map(|text| text.uri.as_ref().to_owned()));
         self.stale.insert(uri.as_ref().to_owned());
@@ -146,8 +147,8 @@ impl Server {
         Some(self.folders.first().map_or_else(|| job.clone(), |folder| folder.join(job)))
     }
 
-    /// The control of a program, and its source: a comment in the program, its form, postform.toml, the editor's settings, its
-    /// language or file name, or the default.
+    /// The control of a program, and the place that names the control: a comment in the program, its form,
+    /// postform.toml, the editor's settings, its language or file name, or the default.
     ///
     /// # Errors
     /// A message: the control does not exist, or its file can't be read.

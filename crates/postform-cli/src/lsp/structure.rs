@@ -156,13 +156,13 @@ pub fn format(server: &Server, uri: &lsp::Uri) -> Option<Vec<lsp::TextEdit>> {
     Some(vec![lsp::TextEdit { range: range(&text.source, whole), new_text: laid_out }])
 }
 
-/// The canonical layout of the lines of a range. A change that goes beyond the range is left out, because its lines
-/// belong together.
+/// The canonical layout of the lines of a range. A change that goes beyond the range is left out, because all lines of
+/// a change belong together.
 pub fn format_range(server: &Server, uri: &lsp::Uri, within: lsp::Range) -> Option<Vec<lsp::TextEdit>> {
     let text = server.texts.get(uri).filter(|text| text.kind == Kind::Form)?;
     let laid_out = postform::internals::fmt::format(&text.source);
     let [old, new] = [&text.source.text, &laid_out].map(|text| text.split_inclusive('\n').collect::<Vec<_>>());
-    // a range that ends at the beginning of a line does not mean that line
+    // a range that ends at the beginning of a line does not include that line
     let last = within.end.line + u32::from(within.end.character > 0 || within.end.line == within.start.line);
     let lines = within.start.line as usize..last as usize;
     let changes = capture_diff_slices(Algorithm::Myers, &old, &new).into_iter().filter_map(|change| match change {

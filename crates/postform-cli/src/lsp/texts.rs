@@ -51,7 +51,7 @@ impl Texts {
         self.0.insert(uri.as_ref().to_owned(), Text { uri, path, version, kind, source });
     }
 
-    /// A text was changed as a whole; `false`: it is not open.
+    /// Replaces an open text by its new version. Returns `false` if the text is not open.
     pub fn change(&mut self, uri: &Uri, version: i32, text: String) -> bool {
         let Some(open) = self.0.get_mut(uri.as_ref()) else { return false };
         open.version = version;

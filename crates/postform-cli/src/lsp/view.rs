@@ -36,7 +36,7 @@ pub struct JobText {
 pub struct View {
     /// The form, with the forms that it calls. If the open file is a called form, the document is the calling form.
     pub document: Document,
-    /// The file of the document that is open.
+    /// The number of the file that is open, among the files of the document.
     pub file: u32,
     /// The settings of the form's folder.
     pub config: Config,
@@ -114,8 +114,8 @@ impl View {
         Some(self.form.as_ref()?.place(&source.name))
     }
 
-    /// A job printed with the form; jobs are counted from 0, and the number after the last job means the built-in job.
-    /// `None`: the form has errors, or the job can't be read.
+    /// The result of printing a job with the form. Jobs are counted from 0, and the built-in job has the number after
+    /// the last job. `None`: the form has errors, or the job can't be read.
     pub fn printed(&self, job: usize) -> Option<&Current> {
         let Some(text) = self.jobs.get(job) else {
             return self.sample.get_or_init(|| self.document.print_sample()).as_ref();

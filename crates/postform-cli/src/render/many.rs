@@ -122,7 +122,7 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     })
 }
 
-/// The forms of the jobs; each is prepared once.
+/// The forms of the jobs. Each form is prepared only once.
 #[derive(Default)]
 struct Forms {
     /// Indices of forms, by the path of the form and of the postform.toml of a job.
@@ -217,7 +217,7 @@ fn job_name(job: &Path) -> String {
     }
 }
 
-/// Checks that no program replaces another one.
+/// Checks that no program replaces another program.
 fn apart(planned: &[Planned]) -> Result<(), String> {
     let mut names = HashMap::new();
     for program in planned {

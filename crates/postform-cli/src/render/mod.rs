@@ -112,7 +112,7 @@ struct Ready {
     form: PathBuf,
     prepared: Prepared,
     machine: Option<Machine>,
-    /// A program that is not proven is not printed.
+    /// Whether a program is printed only if it is proven.
     required: bool,
 }
 
@@ -137,7 +137,7 @@ fn distinct(args: &RenderArgs) -> Result<(), String> {
     let outputs = [Some(&args.output), args.trace.as_ref()].map(|path| Some((path?, Identity::of_output(path?)?)));
     if let [Some((program, a)), Some((trace, b))] = &outputs
         && a == b
-        // both on standard output was requested explicitly
+        // the user explicitly requested both on standard output
         && [program, trace].iter().any(|path| path.as_os_str() != "-")
     {
         return Err("error: the program and the source map can't be the same file".into());

@@ -123,7 +123,8 @@ impl Pattern {
 impl Values<'_> {
     fn of(&self, field: &str) -> Option<String> {
         let part = match (field, self.part) {
-            // only these characters, as in names from a form: controls, networks and memory cards may not allow others
+            // only these characters are kept, as in names from a form: controls, networks and memory cards may refuse
+            // other characters
             ("job", _) => {
                 let spelt = |c: char| if c.is_ascii_alphanumeric() || "_-.".contains(c) { c } else { '_' };
                 return Some(self.job.chars().map(spelt).collect());

@@ -45,8 +45,8 @@ pub struct Output<'p> {
 }
 
 impl<'p> Output<'p> {
-    /// Prepares the outputs; `files` are those of the form, `jobs` the job or the joined jobs. In a folder the program gets its name from [`Output::name`]; `name`
-    /// is this name if it is already known.
+    /// Prepares the outputs. `files` are the files of the form, and `jobs` are the job or the joined jobs. In a folder,
+    /// the program gets its name from [`Output::name`]; `name` is this name if it is already known.
     ///
     /// # Errors
     /// A message: an output can't be created, or is also an input.
@@ -103,7 +103,8 @@ impl<'p> Output<'p> {
     /// # Errors
     /// A message.
     pub fn finish(self) -> Result<Ending, String> {
-        // the map first: a program without its map is complete, a map without its program is not
+        // the map is completed first: if this fails, no program appears, because a program without its map would look
+        // complete
         if let Some((path, trace)) = self.trace
             && let Err(error) = trace.complete()
         {

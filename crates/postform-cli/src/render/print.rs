@@ -157,7 +157,7 @@ fn job_of(jobs: &[&Path], args: &RenderArgs, again: bool) -> Result<Job<'static>
 
 /// The output about a proof.
 struct Told<'a> {
-    /// A program that is not proven is not printed.
+    /// Whether a program is printed only if it is proven.
     required: bool,
     /// Only errors that prevent printing are shown.
     quiet: bool,

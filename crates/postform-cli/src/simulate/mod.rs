@@ -18,7 +18,7 @@ use super::say::{message, say};
 
 /// Size of the text buffer before it is written.
 const CHUNK: usize = 64 * 1024;
-/// Maximum number of warnings shown; further ones are only counted.
+/// Maximum number of warnings that are shown. Further warnings are only counted.
 const MOST_WARNINGS: usize = 20;
 /// The run stops after this number of refused blocks.
 const MOST_REFUSED: usize = 20;

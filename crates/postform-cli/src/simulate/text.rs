@@ -10,7 +10,7 @@ use postform::internals::terminal::escaped;
 pub struct Shown {
     /// Unknown positions are shown as `?`.
     pub unknown: bool,
-    /// Lathes only: the factor from the radius to X as programs write it; Y is then left out.
+    /// For lathes only: the factor by which a radius is multiplied to get the X of programs. Y is then left out.
     pub across: Option<f64>,
     /// Axes, in the order of a position.
     axes: &'static Axes,

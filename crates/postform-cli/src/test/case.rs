@@ -40,7 +40,7 @@ pub struct Case {
     pub tolerance: f64,
     /// The date with which the program is printed.
     pub clock: Clock,
-    /// A program that is not proven makes the case fail.
+    /// Whether the case fails if the program is not proven.
     pub require_proof: bool,
 }
 
@@ -96,7 +96,7 @@ pub enum End {
     Passed,
     /// A different program: the text for people, and the first different line of the expected program, from 1.
     Differs { text: String, line: usize },
-    /// No program, or a wrong one: the reason, for people.
+    /// There is no program, or the program is wrong: the reason, for people.
     Failed(String),
     /// The expected result was written: the reason, for people, and the file.
     Written { text: String, file: PathBuf },
@@ -254,7 +254,7 @@ impl Case {
         if comparison.is_same() {
             return Ok(End::Passed);
         }
-        // shown without block numbers, because one additional block changes all later numbers
+        // programs are shown without block numbers, because one additional block changes all later numbers
         let unnumbered = diff::Options { ignore: Ignore { numbers: true, ..self.ignore }, ..options };
         let unspaced = diff::Options { ignore: Ignore { numbers: true, spaces: true, ..self.ignore }, ..options };
         let without = compare(&old.program, &new.program, &unnumbered);

@@ -123,7 +123,7 @@ impl Found {
             };
             match form {
                 Some(form) => add(self, form, path.clone(), cycles, wanted),
-                // with forms on the command line, only these are tested
+                // with forms on the command line, only these forms are tested
                 None if posts.are_named() => {}
                 None => self.problems.push(no_form(path, form_name, &config)),
             }

@@ -21,7 +21,7 @@ pub struct Entry {
     pub name: String,
     /// The name of the post, if the file contains several.
     of_post: Option<String>,
-    /// The compiled form, or the reason why it can't print.
+    /// The compiled form, or the reason why the form can't print.
     pub ready: Result<Ready, String>,
 }
 

@@ -14,7 +14,7 @@ use super::case::{Case, may_be_expected};
 use super::cases::{BEAM, LATHE, MILL, WIRE};
 use super::posts::Ready;
 
-/// Writes the cases into a folder: each is a job with the program that the form prints. Existing files stay.
+/// Writes the cases into a folder. Each case is a job with the program that the form prints. Existing files stay.
 pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
     let ready = Ready::of(form, None)?;
     let name = form.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();

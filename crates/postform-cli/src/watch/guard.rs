@@ -59,7 +59,7 @@ impl Guard {
             Some(Some(origin)) if origin.strip_prefix("http://").is_some_and(|host| self.is_host(host)) => {}
             _ => return Err(Answer::no(403, "requests from other pages are refused")),
         }
-        // no page can send these types to another origin without asking first
+        // a browser sends these types to another origin only after a preflight request, which is refused
         let kind = if rest == "add" { "application/octet-stream" } else { "application/json" };
         if asked.method == "POST" && asked.field("content-type") != Some(Some(kind)) {
             return Err(Answer::no(415, &format!("send {kind}")));

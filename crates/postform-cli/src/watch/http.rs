@@ -148,7 +148,7 @@ fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, most: usize, until: Instant
 }
 
 /// Fields of every answer: browsers must not store the answer or guess its type, and other pages must not embed or read
-/// it.
+/// the answer.
 const ALWAYS: &str = "Connection: close\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
     Referrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
     X-Frame-Options: DENY\r\n";

@@ -120,7 +120,8 @@ impl Jobs {
         }
     }
 
-    /// Keeps the events of the job that is shown, because each key of the form reads them several times.
+    /// Keeps the events of the job that is shown, because these events are needed several times for each keystroke in
+    /// the form.
     pub fn keep(&self, job: &Opened) {
         let stamp = job.stamp();
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);

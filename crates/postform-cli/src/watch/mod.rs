@@ -248,7 +248,7 @@ fn said(value: Result<Value, String>) -> Answer {
 
 fn page() -> Answer {
     let mut answer = Answer::of("text/html; charset=utf-8", WATCH_PAGE);
-    // in addition to the policy in the page itself: no other page may show it in a frame
+    // this adds to the policy in the page itself: no other page may show the page in a frame
     answer.fields.push(("Content-Security-Policy", "frame-ancestors 'none'".to_owned()));
     answer
 }

@@ -65,7 +65,7 @@ pub struct Session {
     shown: Mutex<Vec<PathBuf>>,
 }
 
-/// The program that a page shows, with everything that judges it.
+/// The program that a page shows, with the data for its verdict and its comparison.
 struct Shown<'a> {
     ask: &'a Ask,
     job: &'a Opened,
@@ -235,8 +235,8 @@ impl Session {
         Ok(())
     }
 
-    /// Verifies the program first, because the page needs the verdict most, and then compares it; both on another
-    /// thread. The results are scenes, in the order in which they are ready.
+    /// Verifies the program and then compares it with other programs, both on another thread. The verdict comes first,
+    /// because the page needs the verdict most. The results are scenes, in the order in which they are ready.
     fn judge<'s>(&'s self, scope: &'s Scope<'s, '_>, shown: &'s Shown<'_>) -> Receiver<Scene> {
         let Shown { ask, job, form, generation, printed, against } = shown;
         let (sender, results) = channel();
@@ -349,7 +349,7 @@ impl Session {
         self.generation.fetch_add(1, Ordering::AcqRel);
     }
 
-    /// The program that the saved form prints for a job; it is printed only once until a file is changed.
+    /// The program that the saved form prints for a job. The program is printed only once until a file is changed.
     fn saved_program(&self, ask: &Ask, job: &Opened, generation: u64) -> Option<Arc<str>> {
         let same =
             |known: &Saved| (&known.job, known.generation, &known.properties) == (job, generation, &ask.properties);
@@ -406,7 +406,7 @@ impl Session {
                 files::LARGEST_FORM >> 10
             )));
         }
-        // of two pages that save at once, the second finds what the first has written
+        // if two pages save at the same time, the second page finds the text that the first page has written
         let _saving = lock(&self.saving);
         if let Some(path) = self.gone(&save.name) {
             let written = write_new(&path, save.text.as_bytes());

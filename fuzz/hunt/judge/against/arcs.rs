@@ -1,4 +1,4 @@
-//! Arcs of a job. The program makes each as an arc or in parts, and all parts must be on the arc.
+//! Arcs of a job. The program makes each arc as one arc or in parts, and all parts must be on the arc.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,7 +21,7 @@ pub(super) fn turn(wanted: &Wanted) -> f64 {
     part + turns * TAU
 }
 
-/// Is it an arc of less than half a turn?
+/// Is the act an arc of less than half a turn?
 pub(super) fn is_short(act: &Act) -> bool {
     let What::Arc { plane, center, ccw, turns } = act.what else { return false };
     let [first, second] = axes(match plane {

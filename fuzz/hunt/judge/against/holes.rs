@@ -1,4 +1,4 @@
-//! Holes of a job. The program makes each by a cycle of the control or by moves, from the clearance to the bottom.
+//! Holes of a job. The program makes each hole by a cycle of the control or by moves, from the clearance to the bottom.
 
 use super::{Judge, shown};
 use crate::judge::{Act, Want, Wanted, What, near, turned};
@@ -40,7 +40,7 @@ impl Judge<'_> {
             }
             let known: &[f64] = match kind.as_str() {
                 "drill" | "csink" | "face" => &[81.0, 82.0],
-                // a form may print a pecking cycle for a chip-breaking one, and the reverse
+                // a form may print a pecking cycle for a chip-breaking cycle, and the reverse
                 "deep" | "chipbreak" => &[83.0, 73.0, 81.0, 82.0],
                 "tap" => &[84.0, 81.0, 82.0],
                 "ltap" => &[74.0, 81.0, 82.0],
@@ -101,7 +101,7 @@ impl Judge<'_> {
             }
             self.take();
         }
-        // a dwell of the form at the bottom is not one of the job's
+        // a dwell at the bottom may come from the form and not from the job
         while self
             .acts
             .get(self.at)

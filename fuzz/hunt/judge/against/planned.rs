@@ -1,5 +1,5 @@
-//! Holes by the second planner. A program makes each by a cycle of the control, or by exactly the moves that the words
-//! of CYCLE request.
+//! Holes by the second planner. A program makes each hole by a cycle of the control, or by exactly the moves that the
+//! words of CYCLE request.
 
 use super::{Judge, shown};
 use crate::judge::{Act, Wanted, What, near, same};
@@ -50,7 +50,7 @@ impl Judge<'_> {
                     self.low = f64::INFINITY;
                     return None;
                 }
-                // a stop may also be that for changing the tool by hand
+                // a stop may also be the stop for changing the tool by hand
                 What::Stop(_) | What::Rapid | What::Dwell(_) | What::Orient(_) | What::Tool => {}
                 What::Feed if same(&act.from, &act.to, self.within) => {}
                 _ => break,
@@ -74,7 +74,7 @@ impl Judge<'_> {
             (Kind::Bore, _) => &[85.0, 86.0, 76.0, 89.0],
             (Kind::BoreBack, _) => &[87.0],
             (Kind::Ream, _) => &[85.0, 89.0],
-            // a form may print a pecking cycle for a chip-breaking one, and the reverse
+            // a form may print a pecking cycle for a chip-breaking cycle, and the reverse
             (Kind::Deep | Kind::Chips, _) => &[83.0, 73.0],
             (Kind::Thru | Kind::Manual, _) => &[],
         };
@@ -106,7 +106,7 @@ impl Judge<'_> {
         self.feed(wanted, act)
     }
 
-    /// Compares each stroke: start, end and feed; and dwells, orientations and jogs between strokes.
+    /// Compares the start, the end and the feed of each stroke, and the dwells, orientations and jogs between strokes.
     fn by_moves(&mut self, wanted: &Wanted, hole: &Hole) -> Option<String> {
         let mut turn = None;
         let mut begins = Height { from: hole.clear, to: hole.clear };

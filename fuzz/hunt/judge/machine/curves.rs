@@ -92,7 +92,7 @@ impl Machine {
         if self.state.feed.0.is_nan() {
             return Err("no feed".into());
         }
-        // first up to R if the tool is lower, then across, then down
+        // the tool moves up to R if it is lower, then across, then down
         let mut over = to;
         over[2] = if here[2] < r { r } else { here[2] };
         if here[2] < r {

@@ -1,4 +1,5 @@
-//! One request: JSON on standard input. One answer: JSON on standard output. `packages/npm/src/index.ts` has both.
+//! Reads one request as JSON from standard input, and writes one answer as JSON to standard output.
+//! `packages/npm/src/postform.ts` makes the requests.
 
 use std::collections::HashMap;
 use std::io::{Cursor, Read, Write};
@@ -17,7 +18,7 @@ use serde_json::{Value, json};
 struct Request {
     command: Command,
     form: Option<Text>,
-    /// Forms that it calls, by their names.
+    /// The forms that the form calls, by their names.
     #[serde(default)]
     files: HashMap<String, String>,
     job: Option<Text>,
@@ -25,7 +26,7 @@ struct Request {
     program: Option<String>,
     /// The control that runs the program, by its name.
     control: Option<String>,
-    /// Positions that depend on the position of the machine at the start are null.
+    /// Whether positions that depend on the position of the machine at the start are null.
     #[serde(default)]
     start_unknown: bool,
     #[serde(default)]
@@ -93,7 +94,7 @@ fn rows(findings: &Findings) -> Vec<Value> {
     findings.diags.iter().map(|diag| json!(row(diag, &findings.files))).collect()
 }
 
-/// Most bytes of actions as JSON: their values take several times as much memory.
+/// Maximum number of bytes of actions as JSON. The values of these actions need several times as much memory.
 const MOST_ACTIONS: usize = 100 << 20;
 
 /// The actions of a machine that runs a program, its warnings, and the block that the control refuses.

@@ -1,4 +1,4 @@
-"""The compiler for POSTFORM files: NC programs from toolpaths, each verified against its job."""
+"""The compiler for POSTFORM files. It prints NC programs from toolpaths, and verifies each program against its job."""
 
 from ._postform import Error, Finding, Post, Program, Refused, __version__, lint
 

@@ -17,44 +17,44 @@ class Finding:
     severity: Literal["error", "warning", "note"]
     message: str
     help: Optional[str]
-    """What to type instead."""
+    """The text to type instead."""
     file: Optional[str]
     line: Optional[int]
-    """From 1."""
+    """The line, counted from 1."""
     column: Optional[int]
-    """In bytes, from 1."""
+    """The column in bytes, counted from 1."""
     path: Optional[str]
     """The position in a job: `operations[0].path[3]`."""
     program_line: Optional[int]
     """The line of the program, from 1."""
 
 class Error(Exception):
-    """A form, a job or an option that makes no program."""
+    """The error if no program can be printed from a form, a job or an option."""
 
     findings: list[Finding]
 
 class Refused(Error):
-    """A program that does not do what its job asks for."""
+    """The error if a program differs from its job."""
 
     program: str
     verdict: str
 
 @final
 class Program:
-    """A program, whole."""
+    """A complete program."""
 
     program: str
     verdict: str
-    """Its first words are `identical`, `equivalent` or `not proven`, as with `verify=False`."""
+    """The verdict. It begins with `identical`, `equivalent` or `not proven`. With `verify=False`, it begins with `not proven`."""
     findings: list[Finding]
-    """Warnings and notes of the job and of printing it; what is not proven, and why."""
+    """Warnings and notes about the job and the printing, and each part that is not proven, with the reason."""
     file_name: str
-    """The name that form and job give the file."""
+    """The file name, which the form and the job determine."""
     def __str__(self) -> str: ...
 
 @final
 class Post:
-    """A form that prints programs. It can be shared by threads."""
+    """A form that prints programs. Threads can share a post."""
 
     @staticmethod
     def from_file(path: Union[str, PathLike[str]]) -> Post: ...
@@ -62,12 +62,12 @@ class Post:
     def from_text(text: str, name: str = "form.pf") -> Post: ...
     @staticmethod
     def shipped(control: str) -> Post:
-        """A post that ships, by its name: `haas`."""
+        """A post that is shipped with postform, by its name: `haas`."""
     control: Optional[str]
     findings: list[Finding]
     """Warnings and notes about the form."""
     properties: list[str]
-    """Names of the properties that `properties` takes."""
+    """Names of the properties that `render` accepts in `properties`."""
     def render(
         self,
         job: Job,
@@ -82,7 +82,8 @@ class Post:
     ) -> Program:
         """Prints a job and verifies the program.
 
-        A `str` or path is a file, a mapping a job (docs/job.md), an iterable its items (JSON Lines of docs/job.md).
+        A `str` or path is the name of a file. A mapping is a job (docs/job.md). An iterable contains the items of a job
+        (JSON Lines of docs/job.md).
         """
     def render_text(
         self,
@@ -97,7 +98,7 @@ class Post:
         assume_units: Optional[Units] = None,
         verify: bool = True,
     ) -> Program:
-        """The same for the text of a job."""
+        """Prints a job that is given as a text, and verifies the program."""
     def verify(self, job: Job, program: str, *, assume_units: Optional[Units] = None) -> str:
         """The verdict about a program; it may be `different`."""
 

@@ -134,6 +134,7 @@ impl Reader<'_> {
         take(&mut traits.dwell, file.dwell.p);
         take(&mut traits.centres, file.arcs.centres);
         take(&mut traits.modes_at_start, file.start.modes);
+        traits.basic = file.start.units.or(traits.basic);
         take(&mut traits.spindle_at_stop, file.stops.spindle);
         take(&mut traits.tool_length, file.tool.length);
         take(&mut traits.beam_off_in_rapids, file.laser.rapids.map(|InRapids::Off| true));
@@ -329,7 +330,31 @@ impl Reader<'_> {
             beside => beside.as_ref().is_some_and(|beside| *beside.get_ref()),
         };
         let speed_out = row.speed_out.as_ref().map(|letter| self.letter(letter)).transpose()?;
-        Ok(Runs { motions, work, point, speed_out, tool, beside_moves, ends_length, by_diameter: row.by_diameter })
+        let may_keep_length = match &row.may_keep_length {
+            Some(at) if meaning != Meaning::Machine => {
+                return Err(of_another("may_keep_length", at.span().start, "machine coordinates"));
+            }
+            keeps => keeps.as_ref().is_some_and(|keeps| *keeps.get_ref()),
+        };
+        let ended = |text: &Spanned<String>| {
+            let message = format!("`{}` is not a code", text.get_ref());
+            text.get_ref().parse::<Code>().map_err(|_| self.wrong(text.span().start, message, "write M126 or G43"))
+        };
+        let ends = row.ends.as_ref().map(ended).transpose()?;
+        let (stops_rotary, by_diameter) = (row.stops_rotary, row.by_diameter);
+        Ok(Runs {
+            motions,
+            work,
+            point,
+            speed_out,
+            tool,
+            beside_moves,
+            ends_length,
+            may_keep_length,
+            stops_rotary,
+            ends,
+            by_diameter,
+        })
     }
 
     /// Reads words with their values, such as `P0 P10000`.

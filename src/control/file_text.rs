@@ -6,7 +6,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::arcs::Tolerance;
-use super::traits::{Centres, DwellUnit, Kept, Rules, ToolLength, Turns, WithoutPoint};
+use super::runs::StopsRotary;
+use super::traits::{Basic, Centres, DwellUnit, Kept, Rules, ToolLength, Turns, WithoutPoint};
 
 /// A control file as written.
 #[derive(Deserialize)]
@@ -75,11 +76,12 @@ pub(super) struct Numbers {
     pub(super) length_without_point: Option<WithoutPoint>,
 }
 
-/// `[start]`: whether modes that a program leaves active are still active in the next program.
+/// `[start]`: whether modes that a program leaves active are still active in the next program, and the machine's units.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Start {
     pub(super) modes: Option<Kept>,
+    pub(super) units: Option<Basic>,
 }
 
 /// `[dwell]`: the units of the words of a dwell.
@@ -227,4 +229,7 @@ pub(super) struct RowText {
     pub(super) speed_out: Option<Spanned<String>>,
     pub(super) ends_length: Option<Spanned<EndsLength>>,
     pub(super) beside_moves: Option<Spanned<bool>>,
+    pub(super) may_keep_length: Option<Spanned<bool>>,
+    pub(super) stops_rotary: Option<StopsRotary>,
+    pub(super) ends: Option<Spanned<String>>,
 }

@@ -141,6 +141,16 @@ pub struct Pitch {
     pub unit: PitchUnit,
 }
 
+/// The moves of rotary axes that a code changes in a way that is not simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StopsRotary {
+    /// All moves.
+    Moves,
+    /// Feed moves.
+    Feeds,
+}
+
 /// The values in a code's row that only the simulator uses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
@@ -159,6 +169,12 @@ pub struct Runs {
     /// As bits, the axes along which a move by this code ends the tool length offset. The offset is active again after
     /// the next code or register of a tool length.
     pub ends_length: u8,
+    /// Whether the active tool length may count in a move to a machine position by this code.
+    pub may_keep_length: bool,
+    /// The moves of rotary axes that are not run while the code is active.
+    pub stops_rotary: Option<StopsRotary>,
+    /// The code that this code ends.
+    pub ends: Option<super::Code>,
     /// Whether cutter compensation uses no register: D is a diameter, or the diameter belongs to the tool.
     pub by_diameter: bool,
 }

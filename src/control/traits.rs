@@ -114,6 +114,16 @@ pub enum Kept {
     No,
 }
 
+/// The basic units of a machine: the units of everything that the units of a program do not change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Basic {
+    /// Inches.
+    Inch,
+    /// Millimetres.
+    Mm,
+}
+
 /// Whether the spindle turns the tool, the workpiece, or nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
 pub enum Turns {
@@ -154,6 +164,8 @@ pub struct Traits {
     pub centres: Centres,
     /// Whether modes that a program leaves active, such as G91, are still active at the start of the next program.
     pub modes_at_start: Kept,
+    /// The basic units of the machine, which the feeds of a Siemens control have after G70 and G71; `None`: unknown.
+    pub basic: Option<Basic>,
     /// Whether the spindle keeps turning at M0 and M1.
     pub spindle_at_stop: Kept,
     /// How a tool length offset is turned on.

@@ -3,7 +3,8 @@
 use indexmap::IndexMap;
 
 use crate::control::{
-    Centres, Code, Control, DwellUnit, Kept, Row, Rules, ToolLength, Turns, WithoutPoint, Words, WorkOffset, names,
+    Centres, Code, Control, DwellUnit, Kept, Row, Rules, StopsRotary, ToolLength, Turns, WithoutPoint, Words,
+    WorkOffset, names,
 };
 
 /// The text for a fact that no public source states.
@@ -111,6 +112,14 @@ fn about(row: &Row) -> String {
     if row.stops_spindle {
         text += "; the spindle stops";
     }
+    if row.runs.may_keep_length {
+        text += "; a setting decides whether the active tool length counts";
+    }
+    text += match row.runs.stops_rotary {
+        None => "",
+        Some(StopsRotary::Moves) => "; not run with later moves of rotary axes",
+        Some(StopsRotary::Feeds) => "; not run with later feed moves of rotary axes",
+    };
     text += match row.runs.ends_length {
         0 => "",
         0b100 => "; a move along Z ends the tool length offset until the next code or register of a tool length",
@@ -227,6 +236,7 @@ like = \"{name}\"
 # length_without_point = \"units\"   # units: X10 is 10 mm; least-increment: X10 is 0.01 mm
 # [start]
 # modes = \"kept\"                   # a G91 or G20 of the previous program is kept or lost
+# units = \"mm\"                     # Siemens: the machine's basic units, inch or mm; feeds have them after G70 and G71
 # [stops]
 # spindle = \"kept\"                 # spindle and coolant at M0 are kept or lost
 # [arcs]
@@ -244,6 +254,11 @@ like = \"{name}\"
 # \"G202\" = {{ is = \"harmless\", beside_moves = true }}
 # a move to the machine zero that ends the tool length offset until the next G43 or H: along-z or always
 # \"G28\" = {{ is = \"reference\", point = 1, ends_length = \"along-z\" }}
+# a code that changes the moves of rotary axes (moves, or only feeds): such moves are not proven until another code ends it
+# \"M126\" = {{ is = \"harmless\", stops_rotary = \"moves\" }}
+# \"M127\" = {{ is = \"harmless\", ends = \"M126\" }}
+# a code for machine positions with which the active tool length may count: such positions are not checked on a machine
+# \"G53\" = {{ is = \"machine\", may_keep_length = true }}
 # a code that calls a program of the builder: postform prints all positions again after the code, and does not prove the program
 # \"G301\" = {{ is = \"macro\", words = \"PQ\" }}
 # the spindles of a drill bank: M201 is tool 101, and each later code is the next tool

@@ -52,6 +52,8 @@ pub struct Block {
     pub(super) next_tool: Option<f64>,
     /// The number of the work offset, if a word that is not a G code selects the work offset.
     pub(super) work: Option<f64>,
+    /// Whether the machine positions of the block are measured from a point that only the machine has.
+    pub(super) hidden: bool,
     /// Number of full turns that the arc of the block makes before its end.
     pub(super) turns: u32,
     /// The call of a cycle at the end of the block's motion.
@@ -182,6 +184,7 @@ impl Block {
         self.comment = None;
         self.flow = None;
         (self.absolute, self.incremental, self.turns) = (0, 0, 0);
+        self.hidden = false;
         (self.work, self.call, self.pattern, self.next_tool) = (None, None, None, None);
     }
 

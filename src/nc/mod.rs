@@ -36,6 +36,7 @@ mod place;
 mod plain;
 mod profiled;
 mod read;
+mod rotary;
 mod run;
 mod scan;
 mod settings;

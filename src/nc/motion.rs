@@ -20,7 +20,7 @@ impl State {
 
     /// Whether the word of an axis is a position, not an increment.
     #[inline]
-    fn is_absolute(&self, block: &Block, axis: usize) -> bool {
+    pub(super) fn is_absolute(&self, block: &Block, axis: usize) -> bool {
         let at = 1 << axis;
         block.absolute & at != 0 || self.modes.absolute && block.incremental & at == 0
     }
@@ -183,7 +183,10 @@ impl State {
         for axis in (0..6).filter(|axis| (named | turned) & 1 << axis == 0) {
             to[axis] = self.place.position[axis];
         }
-        self.place.goes_home(named);
+        match block.hidden {
+            true => self.place.goes_to_machine(named),
+            false => self.place.goes_home(named),
+        }
         // a Fanuc makes this move at rapid, even if another motion is active
         if rapid || !self.control.is_linuxcnc() {
             self.place.rapid_to(to, out);

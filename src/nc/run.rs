@@ -59,6 +59,7 @@ impl State {
         if set_up || block.has_modes() {
             self.set_up(block, motion, &mut out)?;
         }
+        self.check_rotary(block, motion)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Machine)
             && (block.has_axes() || is_one_of(motion, &ARCS) || self.control.is_linuxcnc())
             // except on LinuxCNC, G0 or G1 in the block ends an active cycle

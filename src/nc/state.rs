@@ -12,7 +12,7 @@ use super::place::Place;
 use super::profiled::FirstBlocks;
 use super::settings::RunSettings;
 use super::tool_names::ToolNames;
-use crate::control::{Centres, Control, Meaning, Rules};
+use crate::control::{Centres, Control, Meaning, Row, Rules};
 use crate::diag::Code;
 use crate::toolpath::{FeedMode, Plane, Side, Units};
 
@@ -31,6 +31,8 @@ pub struct State {
     pub(super) threads: Threads,
     /// The state of turning cycles, which a lathe keeps between blocks.
     pub(super) turning: FirstBlocks,
+    /// The active codes that change the moves of rotary axes.
+    pub(super) rotary: Vec<&'static Row>,
     /// Warnings of the block: the control accepts the block, but the user should check it.
     pub(super) warnings: Vec<(Code, &'static str)>,
 }
@@ -130,6 +132,7 @@ impl State {
             tool: Tool::default(),
             tool_names: ToolNames::default(),
             holes: Holes::default(),
+            rotary: Vec::new(),
             warnings: Vec::new(),
         }
     }

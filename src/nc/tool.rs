@@ -1,12 +1,13 @@
 //! The codes of a block for spindle and tool: speed, tool, coolant, compensation, tool length.
 
 use super::action::{Action, Cooling, Rotation};
+use super::arcs::axes_of;
 use super::block::Block;
 use super::codes::{ARCS, Group, Motion, is_one_of};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Code, Meaning, ToolLength, Turns};
+use crate::control::{Code, Meaning, Rules, ToolLength, Turns};
 use crate::diag;
 use crate::toolpath::Side;
 
@@ -33,6 +34,14 @@ pub(crate) fn cooling(meaning: Meaning) -> Option<Cooling> {
 }
 
 impl State {
+    /// The axis along which the length of a mill's tool counts: on a Siemens control, the axis perpendicular to the plane.
+    pub fn length_axis(&self) -> usize {
+        match self.control.rules() {
+            Rules::Siemens => axes_of(self.modes.plane)[2],
+            _ => 2,
+        }
+    }
+
     pub(super) fn spindle_and_tool(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let speed = block.get(b'S');
         if let Some(speed) = speed {
@@ -70,6 +79,7 @@ impl State {
         if let Some(next) = block.next_tool {
             self.preselect(next, block)?;
         }
+        self.rotary_codes(block);
         let mut turned = false;
         for (number, row) in block.m() {
             if row.stops_spindle {

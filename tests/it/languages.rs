@@ -581,3 +581,91 @@ fn a_lathe_reads_increments_and_g76_as_its_control() {
     assert_eq!(refused, None);
     assert!(matches!(actions.iter().rev().find(|action| !matches!(action, Action::End)), Some(Action::Rapid { .. })));
 }
+
+/// The bottom, the feed and the dwell of the first hole.
+fn hole(program: &str, name: &str) -> [f64; 3] {
+    let (all, refused) = actions(program, name);
+    assert_eq!(refused, None, "{program}");
+    let hole = |action: &Action| match action {
+        Action::Hole(hole) => Some([hole.bottom, hole.feed, hole.dwell]),
+        _ => None,
+    };
+    all.iter().find_map(hole).unwrap()
+}
+
+/// The feed of TOOL CALL replaces the active feed.
+#[test]
+fn a_feed_of_a_tool_call_is_active() {
+    let program = "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000 F300\n2 L X+0 Y+0 Z+5 R0 FMAX M3\n3 L Z-1 F100\n\
+                   4 TOOL CALL S1200 F500\n5 L X+10\n6 M30\n";
+    let (all, refused) = actions(program, "heidenhain");
+    assert_eq!(refused, None);
+    let feeds: Vec<f64> = all
+        .iter()
+        .filter_map(|action| if let Action::Feed { feed, .. } = action { Some(*feed) } else { None })
+        .collect();
+    assert_eq!(feeds, [100.0, 500.0]);
+}
+
+/// The parameters of a cycle are Q parameters: the call reads their current values.
+#[test]
+fn a_cycle_call_reads_its_parameters() {
+    let bottom = |between: &str| {
+        let program = format!(
+            "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000 F500\n2 L X+0 Y+0 Z+10 FMAX M3\n3 CYCL DEF 200 DRILLING Q200=2 \
+             Q201=-10 Q206=100 Q202=50 Q210=0 Q203=0 Q204=10 Q211=0\n{between}\n4 L X+5 Y+5 FMAX M99\n5 M30\n"
+        );
+        let [bottom, feed, _] = hole(&program, "heidenhain");
+        (bottom, feed)
+    };
+    assert_eq!(bottom(";"), (-10.0, 100.0));
+    assert_eq!(bottom("FN 0: Q201 = -20"), (-20.0, 100.0));
+    assert_eq!(bottom("Q201 = -5 * 3\nQ206 = 80"), (-15.0, 80.0));
+    assert_eq!(bottom("Q5 = -20"), (-10.0, 100.0));
+}
+
+/// A new datum resets the shift of CYCL DEF 7.
+#[test]
+fn a_datum_resets_the_shift() {
+    let program = "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000\n2 CYCL DEF 247 Q339=1\n3 L X+0 Y+0 Z+0 R0 FMAX M3\n\
+                   4 CYCL DEF 7.0\n5 CYCL DEF 7.1 X+10\n6 L X+0 FMAX\n7 CYCL DEF 247 Q339=1\n8 L Y+1 FMAX\n9 M30\n";
+    // X stays where it is: 0 in the shifted frame is 10 in the frame of the datum
+    goes("heidenhain", program, &["0 0 0", "0 0 0", "10 1 0"]);
+}
+
+/// M126, M116 and M94 change the moves of rotary axes, and PLANE with TURN or MOVE turns these axes.
+#[test]
+fn codes_that_turn_rotary_axes_are_refused() {
+    let run = |blocks: &str| {
+        let head = "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+50 C+0 R0 FMAX M3\n";
+        actions(&format!("{head}{blocks}\nM30\n"), "heidenhain").1
+    };
+    for blocks in [
+        "M126\nL X+10 F100",
+        "M126\nL X+10 C+0 F100",
+        "M126\nM127\nL C+350 FMAX",
+        "M116\nL C+90 FMAX",
+        "M116\nM117\nL C+90 F100",
+        "PLANE RESET TURN FMAX",
+        "PLANE SPATIAL SPA+0 SPB+0 SPC+0 MOVE FMAX",
+        "L C+90 FMAX\nPLANE RESET STAY",
+        "L C+90 FMAX\nL C+0 FMAX\nPLANE RESET TURN FMAX",
+        "L X+1 FMAX M120 LA5\nL X+2 F100",
+    ] {
+        assert_eq!(run(blocks), None, "{blocks}");
+    }
+    for (blocks, message) in [
+        ("M126\nL C+350 FMAX", "C moves while M126 is active"),
+        ("L C+350 FMAX M126", "C moves while M126 is active"),
+        ("M126\nL IC+10 F100", "C moves while M126 is active"),
+        ("M116\nL C+90 F100", "C moves while M116 is active"),
+        ("M94\nL C+90 FMAX", "C moves while M94 is active"),
+        ("L C+400 FMAX M94", "C moves while M94 is active"),
+        ("L C+90 FMAX\nPLANE RESET TURN FMAX", "PLANE with TURN or MOVE"),
+        ("L C+90 FMAX\nPLANE SPATIAL SPA+0 SPB+0 SPC+0 MOVE FMAX", "PLANE with TURN or MOVE"),
+        ("PLANE RESET TURN MB MAX FMAX", "PLANE with MB"),
+    ] {
+        let said = run(blocks).unwrap_or_else(|| panic!("{blocks} is run"));
+        assert!(said.contains(message), "{blocks}: {said}");
+    }
+}

@@ -74,12 +74,12 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     folder.write("vf2.toml", folder.read("new.toml"));
     assert_eq!(folder.run(&["lint", "own.pf"]).status.code(), Some(0));
     let rows = folder.read("new.toml").replace("# \"", "\"");
-    assert_eq!(rows.matches("\n\"").count(), 6, "{rows}");
+    assert_eq!(rows.matches("\n\"").count(), 9, "{rows}");
     // the tables other than codes, with their comment marks removed
     let (head, rest) = rows.split_once("where your control differs.\n").unwrap();
     let (tables, codes) = rest.split_once("\n# The codes").unwrap();
     let tables: String = tables.lines().map(|line| format!("{}\n", line.strip_prefix("# ").unwrap())).collect();
-    assert_eq!(tables.matches(" = ").count(), 8, "{tables}");
+    assert_eq!(tables.matches(" = ").count(), 9, "{tables}");
     let rows = format!("{head}where your control differs.\n{tables}\n# The codes{codes}");
     folder.write("vf2.toml", rows);
     let lint = folder.run(&["lint", "own.pf"]);

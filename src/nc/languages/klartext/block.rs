@@ -1,5 +1,7 @@
 //! Blocks that move or switch: `L X+10 R0 F500 M3`, `CC`, `C`, `CR`, `CP`, `LP`, `RND`, `CHF`, `CYCL CALL`.
 
+use std::sync::Arc;
+
 use super::super::cursor::Cursor;
 use super::super::formula::{Values, formula};
 use super::corner::Corner;
@@ -304,44 +306,12 @@ impl Words<'_> {
         Ok(false)
     }
 
-    /// Reads an M code such as `M3`. Returns whether the M code calls the cycle.
-    fn switch(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
-        let begin = cursor.at();
-        *cursor = cursor.from(begin + 1);
-        let Some(code) = cursor.unsigned() else { return Err(cursor.unreadable()) };
-        match code as u16 {
-            99 => {
-                self.own.calls_always = false;
-                return Ok(true);
-            }
-            89 => {
-                self.own.calls_always = true;
-                return Ok(true);
-            }
-            91 | 92 => self.code(Meaning::Machine)?,
-            _ => self.block.m_word(code, begin, self.state.settings.control)?,
-        }
-        Ok(false)
-    }
-
-    /// Runs `M140 MB MAX`, a move to the end of the travel. `MB50`, a distance along the tool, is refused.
-    fn back_along_tool(&mut self, cursor: &mut Cursor<'_>) -> Done {
-        let begin = cursor.at();
-        if !cursor.takes_word("MB") || !cursor.takes_word("MAX") {
-            let help = "write M140 MB MAX, or the height with L";
-            return Err(Fault::at(Code::PN016, begin, "M140 is supported only with MB MAX", help));
-        }
-        self.code(Meaning::Machine)?;
-        self.block.word(b'Z', 0.0, false, begin, self.state.settings.control)?;
-        self.block.absolute |= 0b100;
-        Ok(())
-    }
-
     fn call(&mut self) -> Done {
-        let Some(call) = &self.own.cycle else {
+        let Some(cycle) = self.own.current_cycle() else {
             return refuse(Code::PN006, "no cycle is defined for this call", "write CYCL DEF before the call");
         };
-        self.block.call = Some(call.clone());
+        cycle.check()?;
+        self.block.call = Some(Arc::new(cycle));
         self.block.is_empty = false;
         // the manuals do not state which feed is active after the cycle: the feed of the moves, or Q206 of the cycle
         self.own.feed = None;

@@ -260,9 +260,14 @@ impl<'c> Work<'c> {
             }
         }
         self.steps.extend(dwell(self.cycle.get(211)));
+        // older controls have no Q208 in this cycle, and retract at rapid
+        if self.cycle.words.contains_key(&208) {
+            self.retract(self.r);
+        }
         Ok(if count > 1 {
             Motions::Peck
         } else if chip > 0.0 {
+            self.peck = chip;
             Motions::Chipbreak
         } else {
             Motions::Drill

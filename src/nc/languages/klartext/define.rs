@@ -1,7 +1,6 @@
 //! Reads blocks that define something: `TOOL CALL`, `CYCL DEF`, `TRANS DATUM`.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use super::super::cursor::Cursor;
 use super::block::{Path, Words};
@@ -53,12 +52,11 @@ impl Words<'_> {
                 }
                 (Some(b'F'), _) => {
                     skip(1, cursor);
-                    let held = self.own.feed;
+                    // this feed stays active until the next one, as the feed of a positioning block
                     if self.feed(cursor)? {
                         return Err(cursor.unreadable());
                     }
                     self.own.tool_feed = self.own.feed;
-                    self.own.feed = held.or(self.own.tool_feed);
                 }
                 _ => return Err(cursor.unreadable()),
             }
@@ -83,7 +81,7 @@ impl Words<'_> {
         if Cycle::is_known(cycle) {
             let cycle = Cycle { number: cycle, words: self.parameters(cursor)? };
             cycle.check()?;
-            self.own.cycle = Some(Arc::new(cycle));
+            self.own.cycle = Some(cycle);
             self.own.calls_always = false;
             return Ok(());
         }
@@ -96,6 +94,10 @@ impl Words<'_> {
                     return Err(Fault::at(Code::PN016, begin, message, "use datum 1 to 999"));
                 }
                 self.block.work = Some(datum);
+                // a new datum resets the shift of cycle 7
+                if self.state.shift() != &[0.0; 6] {
+                    self.datum_reset()?;
+                }
             }
             (7 | 9 | 10 | 11 | 32, 0) => {}
             (7, _) if cursor.peek() == Some(b'#') => return unknown(": a row of a datum table"),

@@ -231,10 +231,7 @@ impl Simulator<'_> {
                 }
             }
             "PLANE" => {
-                if !turns_nothing(cursor) {
-                    let help = "program the part without a tilted plane";
-                    return refuse(Code::PN016, "a tilted plane is not simulated", help);
-                }
+                words.plane(cursor)?;
                 return Ok(Some(Jump::On));
             }
             "FUNCTION" if cursor.takes_word("DWELL") => {
@@ -424,15 +421,33 @@ fn parameter(cursor: &mut Cursor<'_>) -> Done<String> {
     }
 }
 
-/// Whether the block is `PLANE RESET`, or `PLANE SPATIAL` with three angles of zero.
-fn turns_nothing(cursor: &mut Cursor<'_>) -> bool {
-    if cursor.takes_word("RESET") {
-        return true;
+/// Reads the plane of a block. Whether the plane is not tilted: `RESET`, or `SPATIAL` with three angles of zero.
+fn is_level(cursor: &mut Cursor<'_>) -> bool {
+    cursor.takes_word("RESET")
+        || cursor.takes_word("SPATIAL")
+            && [&b"SPA"[..], b"SPB", b"SPC"].iter().all(|word| cursor.takes(word) && cursor.signed() == Some(0.0))
+}
+
+impl Words<'_> {
+    /// Runs `PLANE` with a plane that is not tilted. TURN and MOVE turn the rotary axes to 0, which is run only if the
+    /// axes are at 0 already.
+    fn plane(&self, cursor: &mut Cursor<'_>) -> Done {
+        if !is_level(cursor) {
+            let help = "program the part without a tilted plane";
+            return refuse(Code::PN016, "a tilted plane is not simulated", help);
+        }
+        let turns = cursor.takes_word("TURN") || cursor.takes_word("MOVE");
+        if turns && cursor.is_next(b"MB") {
+            let help = "write PLANE without MB, and the height of the tool in a block with L";
+            return refuse(Code::PN016, "PLANE with MB, which retracts the tool, is not simulated", help);
+        }
+        let turned = self.state.position()[3..].iter().any(|angle| *angle != 0.0);
+        if turns && (turned || self.state.at_machine() & 0b11_1000 != 0) {
+            let help = "write the positions of the rotary axes in a block with L, and PLANE with STAY";
+            return refuse(Code::PN016, "PLANE with TURN or MOVE turns rotary axes that are not at 0", help);
+        }
+        Ok(())
     }
-    if !cursor.takes_word("SPATIAL") {
-        return false;
-    }
-    [&b"SPA"[..], b"SPB", b"SPC"].iter().all(|word| cursor.takes(word) && cursor.signed() == Some(0.0))
 }
 
 /// Whether the first line of a text is a rounding or chamfer. `None`: the text does not contain the whole line.

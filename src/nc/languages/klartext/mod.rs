@@ -7,19 +7,21 @@ mod corner;
 mod cycles;
 mod define;
 mod flow;
+mod switches;
 
 use std::collections::HashMap;
 
-use crate::nc::call::Call;
 use crate::nc::way::Spot;
+use cycles::Cycle;
 
 /// The state of a Klartext program, in addition to the state of the machine.
 #[derive(Debug, Default)]
 pub struct Klartext {
     /// The values of the parameters Q, QL and QR, by name.
     values: HashMap<String, f64>,
-    /// The drilling cycle that the program has defined last.
-    cycle: Option<Call>,
+    /// The drilling cycle that the program has defined last. Its parameters are Q parameters, which the program may
+    /// change before the call.
+    cycle: Option<Cycle>,
     /// Whether the cycle is called after every positioning block: M89.
     calls_always: bool,
     /// The centre that `CC` sets.
@@ -49,6 +51,15 @@ impl Klartext {
     /// The value of a parameter.
     fn value(&self, name: &str) -> Option<f64> {
         self.values.get(name).copied()
+    }
+
+    /// The defined cycle with the current values of its parameters.
+    fn current_cycle(&self) -> Option<Cycle> {
+        let mut cycle = self.cycle.clone()?;
+        for (number, value) in &mut cycle.words {
+            *value = self.value(&format!("Q{number}")).unwrap_or(*value);
+        }
+        Some(cycle)
     }
 }
 

@@ -5,6 +5,7 @@ use std::fs;
 use std::io::Cursor;
 
 use crate::support::{control, root};
+use postform::internals::control::Control;
 use postform::internals::nc::{Action, RunError, RunSettings, Simulator};
 use postform::toolpath::FeedMode;
 use serde_json::Value;
@@ -381,7 +382,7 @@ fn one_part_for_two_controls_is_compared_by_its_holes() {
     use postform::internals::verify::compare_motions;
     use postform::toolpath::Units;
 
-    let siemens = "G17 G710 G54 G90 G94\nT1\nM6\nG0 D1 X0 Y0 S295 M3\nZ60\nF637\nMCALL CYCLE83(60,52,0,30,,,5,,,,1,0,1,5,1)\nX10 Y0\nX20\nMCALL\n\
+    let siemens = "G17 G710 G54 G90 G94\nT1\nM6\nG0 D1 X0 Y0 S295 M3\nZ60\nF637\nMCALL CYCLE83(60,52,0,30,,,5,,,,1,0,3,5,1)\nX10 Y0\nX20\nMCALL\n\
                    MCALL CYCLE81(60,52,0,40)\nX30\nMCALL\nG0 SUPA D0 Z0\nM30\n";
     let klartext = "0 BEGIN PGM T MM\n1 TOOL CALL 1 Z S295\nCYCL DEF 247 Q339=1\nL X+0 Y+0 R0 FMAX M3\nL Z+60 R0 FMAX\n\
                     CYCL DEF 203 Q200=0 Q201=-22 Q206=636.62 Q202=4 Q210=0 Q203=52 Q204=8 Q212=0 Q213=9 Q205=4 Q211=0 Q208=MAX Q256=1\n\
@@ -591,6 +592,149 @@ fn hole(program: &str, name: &str) -> [f64; 3] {
         _ => None,
     };
     all.iter().find_map(hole).unwrap()
+}
+
+/// The first depth of CYCLE83 was read as a dwell. The dwell at the bottom is DTD, or DTB.
+#[test]
+fn a_siemens_peck_dwells_by_its_own_arguments() {
+    let dwell = |arguments: &str| {
+        let program = format!("G17 G54 G90\nS1000 M3\nG0 X0 Y0 Z50 F200\nCYCLE83({arguments})\nM30\n");
+        hole(&program, "siemens")[2]
+    };
+    assert_eq!(dwell("50,0,2,-20,,-8,,0,0,0,1,1"), 0.0);
+    assert_eq!(dwell("50,0,2,-20,,-8,,0,0.5,0,1,1"), 0.5);
+    assert_eq!(dwell("50,0,2,-20,,-8,,0,0.5,0,1,1,,,,1.5"), 1.5);
+}
+
+/// An argument of a cycle that postform does not use must not be dropped: AXN drills along another axis.
+#[test]
+fn arguments_of_a_cycle_are_used_or_refused() {
+    let refused = |call: &str| {
+        actions(&format!("G17 G54 G90\nS1000 M3\nG0 X0 Y0 Z50 F200\nMCALL {call}\nX1\nMCALL\nM30\n"), "siemens").1
+    };
+    for call in [
+        "CYCLE83(50,0,2,-20,,,8,0,0,0,1,1,3)",
+        "CYCLE84(50,0,2,-20,,0,5,,1,90,500,500,3,0,,0)",
+        "CYCLE84(50,0,2,-20,,0,5,,1,0,500,500,0,0,1001,0)",
+        "CYCLE840(50,0,2,-20,,0,0,0,0,,1,3)",
+        "CYCLE86(50,0,2,-20,,0,3,-1,0,1,45)",
+        "CYCLE81(50,0,2,-20,,0,0,0)",
+    ] {
+        assert_eq!(refused(call), None, "{call}");
+    }
+    for (call, message) in [
+        ("CYCLE83(50,0,2,-20,,,8,0,0,0,1,1,1)", "CYCLE83 with AXN 1 is not supported"),
+        ("CYCLE83(50,0,2,-20,,,8,0,0,0,1,2)", "CYCLE83 with VARI 2 is not supported"),
+        ("CYCLE84(50,0,2,-20,,0,5,,1,0,500,500,1)", "CYCLE84 with AXN 1 is not supported"),
+        ("CYCLE84(50,0,2,-20,,0,7,,1,0,500,500)", "CYCLE84 with SDAC 7 is not supported"),
+        ("CYCLE840(50,0,2,-20,,0,0,0,0,,1,2)", "CYCLE840 with AXN 2 is not supported"),
+        ("CYCLE840(50,0,2,-20,,0,0,0,20,,1)", "CYCLE840 with ENC 20 is not supported"),
+        ("CYCLE86(50,0,2,-20,,0,5,-1,0,1,45)", "CYCLE86 with SDIR 5 is not supported"),
+        ("CYCLE81(50,0,2,-20,,0,0,1,12)", "CYCLE81 with 1 as argument 8 is not supported"),
+        ("CYCLE81(50,0,2,-20)\nHOLES1(0,0,0,10,10,3,1)", "HOLES1 with 1 as argument 7 is not supported"),
+    ] {
+        let said = refused(call).unwrap_or_else(|| panic!("{call} is run"));
+        assert!(said.contains(message), "{call}: {said}");
+    }
+}
+
+/// Siemens controls compare with a relative equality of 10^-12, so a sum with rounding errors reaches its limit.
+#[test]
+fn a_siemens_compares_with_relative_equality() {
+    let head = "G17 G90 G54\nG0 X0 Y0 Z0\n";
+    let table: [(&str, &[&str]); 3] = [
+        ("R1=0.1\nWHILE R1<=0.3\nG0 X=IC(1)\nR1=R1+0.1\nENDWHILE\nM30", &["1 0 0", "2 0 0", "3 0 0"]),
+        ("R1=0.1+0.2\nIF R1==0.3\nG0 X1\nENDIF\nIF R1<>0.3\nG0 X2\nENDIF\nM30", &["1 0 0"]),
+        ("R1=0.3001\nIF R1<=0.3\nG0 X1\nENDIF\nM30", &[]),
+    ];
+    for (program, expected) in table {
+        let all: Vec<&str> = ["0 0 0"].iter().chain(expected).copied().collect();
+        goes("siemens", &format!("{head}{program}\n"), &all);
+    }
+    // a setting decides whether > and < take the difference for zero
+    let said = actions(&format!("{head}R1=0.1+0.2\nIF R1>0.3\nG0 X1\nENDIF\nM30\n"), "siemens").1.unwrap();
+    assert!(said.contains("differ only by rounding errors"), "{said}");
+}
+
+/// `REPEAT` ends at ENDLABEL, and a subprogram with SAVE restores the modes of its caller.
+#[test]
+fn a_siemens_repeats_to_its_end_label_and_restores_modes() {
+    let head = "G17 G90 G54 G94\nG0 X0 Y0 Z0\n";
+    let table: [(&str, &[&str]); 5] = [
+        ("A1: G0 X=IC(1)\nENDLABEL:\nG0 Y=IC(1)\nREPEAT A1\nG0 Z1\nM30", &["1 0 0", "1 1 0", "2 1 0", "2 1 1"]),
+        ("A1: G0 X=IC(1)\nENDLABEL:\nG0 Y=IC(1)\nREPEAT A1 P=2\nM30", &["1 0 0", "1 1 0", "2 1 0", "3 1 0"]),
+        ("A1: G0 X=IC(1)\nG0 Y=IC(1)\nREPEAT A1\nM30", &["1 0 0", "1 1 0", "2 1 0", "2 2 0"]),
+        ("SUB1\nX5\nM30\n%_N_SUB1_SPF\nPROC SUB1 SAVE DISPLOF\nG91 G0 X1\nM17", &["1 0 0", "5 0 0"]),
+        ("SUB1\nX5\nM30\n%_N_SUB1_SPF\nPROC SUB1\nG91 G0 X1\nRET", &["1 0 0", "6 0 0"]),
+    ];
+    for (program, expected) in table {
+        let all: Vec<&str> = ["0 0 0"].iter().chain(expected).copied().collect();
+        goes("siemens", &format!("{head}{program}\n"), &all);
+    }
+    for (program, message) in [
+        ("SUB1\nX5\nM30\n%_N_SUB1_SPF\nPROC SUB1 SAVE\nG18\nM17", "a subprogram with SAVE changes a plane"),
+        ("SUB1\nX5\nM30\n%_N_SUB1_SPF\nPROC SUB1 SAVE\nTRANS X10\nM17", "a subprogram with SAVE changes a plane"),
+        ("SUB1\nX5\nM30\n%_N_SUB1_SPF\nG91 G0 X1\nM30", "M30 in a subprogram ends the program or only the subprogram"),
+        ("SUB1\nX5\nM30\n%_N_SUB1_SPF\nG0 X1 M2", "M2 in a subprogram"),
+        ("A1: G0 X1\nENDLABEL: G0 Y1\nREPEAT A1\nM30", "ENDLABEL with a statement in its line"),
+    ] {
+        let said = actions(&format!("{head}{program}\n"), "siemens").1.unwrap_or_else(|| panic!("{program} is run"));
+        assert!(said.contains(message), "{program}: {said}");
+    }
+}
+
+/// G70 and G71 do not change the unit of feeds. Without the basic units of the machine, a feed is not proven.
+#[test]
+fn feeds_after_g70_and_g71_depend_on_the_machine() {
+    let refused = |program: &str, own: Option<&'static str>| {
+        let own = own.map(|text| Control::own("own.toml", text).unwrap());
+        let settings =
+            RunSettings { places_unknown: true, ..RunSettings::new(own.unwrap_or_else(|| control("siemens"))) };
+        let mut simulator = Simulator::new(Cursor::new(program.as_bytes()), settings);
+        let mut items = Vec::new();
+        loop {
+            match simulator.step(&mut items) {
+                Ok(true) => {}
+                Ok(false) => return None,
+                Err(RunError::Refused(diag, _)) => return Some(diag.message.clone()),
+                Err(RunError::Io(error)) => panic!("{error}"),
+            }
+        }
+    };
+    let program = |code: &str| format!("G17 G90 G54 {code}\nS500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n");
+    for code in ["G70", "G71"] {
+        let said = refused(&program(code), None).unwrap_or_else(|| panic!("{code} is run"));
+        assert!(said.contains("a feed after G70 or G71"), "{said}");
+        assert!(refused(&format!("F100\n{}", program(code).replace(" F100", "")), None).is_some(), "{code}");
+    }
+    for code in ["G700", "G710"] {
+        assert_eq!(refused(&program(code), None), None, "{code}");
+    }
+    assert_eq!(refused("G17 G90 G54 G71\nG0 X0 Y0 Z5\nM30\n", None), None);
+    let metric = "name = \"own\"\nlike = \"siemens\"\n[start]\nunits = \"mm\"\n";
+    assert_eq!(refused(&program("G71"), Some(metric)), None);
+    assert!(refused(&program("G70"), Some(metric)).is_some());
+}
+
+/// A setting of the machine decides whether an increment also traverses a change of frame or tool length.
+#[test]
+fn increments_after_a_change_of_frame_are_refused() {
+    let run = |blocks: &str| actions(&format!("G17 G90 G54\nT1 M6\nG0 D1 X0 Y0 Z50\n{blocks}\nM30\n"), "siemens").1;
+    for blocks in
+        ["TRANS X10\nG0 X0\nG91 X1", "TRANS X10\nG91 G0 Y1", "TRANS X0\nG91 G0 X1", "D1\nG91 G0 Z1", "D0\nG91 G0 X1"]
+    {
+        assert_eq!(run(blocks), None, "{blocks}");
+    }
+    for blocks in [
+        "TRANS X10\nG91 G0 X1",
+        "TRANS X10\nG0 X=IC(1)",
+        "ATRANS Z1\nG0 X1\nG91 Z-1",
+        "D2\nG91 G0 Z1",
+        "G91 G0 D0 Z100",
+    ] {
+        let said = run(blocks).unwrap_or_else(|| panic!("{blocks} is run"));
+        assert!(said.contains("directly after a change of frame or tool length"), "{blocks}: {said}");
+    }
 }
 
 /// The feed of TOOL CALL replaces the active feed.

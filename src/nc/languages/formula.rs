@@ -2,13 +2,27 @@
 
 use super::cursor::Cursor;
 use crate::diag::Code;
-use crate::nc::fault::{Done, Fault};
+use crate::nc::fault::{Done, Fault, refuse};
 
 /// Maximum nesting of brackets.
 const DEEPEST: u32 = 64;
 
 /// A function that returns the value of a name. `None`: the name is unknown.
 pub type Values<'v> = dyn Fn(&str) -> Option<f64> + 'v;
+
+/// How a language calculates formulas.
+#[derive(Clone, Copy)]
+pub struct Rules<'v> {
+    /// The values of names.
+    pub values: &'v Values<'v>,
+    /// Two numbers are equal in a comparison if they differ by at most this part of their size.
+    pub equal: f64,
+}
+
+/// Whether two numbers are equal in a comparison. `equal`: the greatest difference, as a part of their size.
+pub fn is_equal(a: f64, b: f64, equal: f64) -> bool {
+    (a - b).abs() <= equal * a.abs().max(b.abs())
+}
 
 /// Number of the levels of logical operators in [`OPERATORS`]. The next level has the comparisons.
 const LOGICAL: usize = 3;
@@ -58,18 +72,19 @@ enum Operator {
 }
 
 impl Operator {
-    fn apply(self, a: f64, b: f64) -> f64 {
+    /// The result for two numbers. `equal`: whether the numbers are equal in a comparison.
+    fn apply(self, a: f64, b: f64, equal: bool) -> f64 {
         let truth = |is: bool| f64::from(u8::from(is));
         match self {
             Operator::And => truth(a != 0.0 && b != 0.0),
             Operator::Or => truth(a != 0.0 || b != 0.0),
             Operator::Xor => truth((a != 0.0) != (b != 0.0)),
-            Operator::Equal => truth(a == b),
-            Operator::Other => truth(a != b),
-            Operator::GreaterOrEqual => truth(a >= b),
-            Operator::LessOrEqual => truth(a <= b),
-            Operator::Greater => truth(a > b),
-            Operator::Less => truth(a < b),
+            Operator::Equal => truth(equal),
+            Operator::Other => truth(!equal),
+            Operator::GreaterOrEqual => truth(a > b || equal),
+            Operator::LessOrEqual => truth(a < b || equal),
+            Operator::Greater => truth(a > b && !equal),
+            Operator::Less => truth(a < b && !equal),
             Operator::Add => a + b,
             Operator::Subtract => a - b,
             Operator::Multiply => a * b,
@@ -78,6 +93,17 @@ impl Operator {
             Operator::Modulo => a % b,
             Operator::Power => a.powf(b),
         }
+    }
+
+    /// Compares or calculates by the rules of a language.
+    fn of(self, a: f64, b: f64, rules: Rules<'_>) -> Done<f64> {
+        let equal = is_equal(a, b, rules.equal);
+        // whether > and < take the small difference for 0 depends on the machine data 10280 of a Siemens control
+        if equal && a != b && matches!(self, Operator::Greater | Operator::Less) {
+            let help = "compare by >= or <=, or round the values before the comparison";
+            return refuse(Code::PN014, format!("{a} and {b} differ only by rounding errors"), help);
+        }
+        Ok(self.apply(a, b, equal))
     }
 }
 
@@ -108,9 +134,9 @@ const FUNCTIONS: [Function; 16] = [
 ///
 /// # Errors
 /// The formula can't be read, the value of a name is unknown, or the result is not finite.
-pub fn formula(cursor: &mut Cursor<'_>, values: &Values<'_>) -> Done<f64> {
+pub fn formula(cursor: &mut Cursor<'_>, rules: Rules<'_>) -> Done<f64> {
     let begin = cursor.at();
-    let value = binary(cursor, values, 0, 0)?;
+    let value = binary(cursor, rules, 0, 0)?;
     if value.is_finite() {
         return Ok(value);
     }
@@ -118,28 +144,28 @@ pub fn formula(cursor: &mut Cursor<'_>, values: &Values<'_>) -> Done<f64> {
     Err(Fault::at(Code::PN014, begin, message, "check for a division by zero, or a root of a negative number"))
 }
 
-fn binary(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: u32) -> Done<f64> {
-    Ok(compared(cursor, values, strength, depth)?.0)
+fn binary(cursor: &mut Cursor<'_>, rules: Rules<'_>, strength: usize, depth: u32) -> Done<f64> {
+    Ok(compared(cursor, rules, strength, depth)?.0)
 }
 
 /// The value of a part of a formula, and whether the part compares values without brackets around it. The controls rank
 /// comparisons and logical operators differently, so both in one formula need brackets.
-fn compared(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth: u32) -> Done<(f64, bool)> {
-    let Some(operators) = OPERATORS.get(strength) else { return Ok((unary(cursor, values, depth)?, false)) };
-    let (mut value, mut compares) = compared(cursor, values, strength + 1, depth)?;
+fn compared(cursor: &mut Cursor<'_>, rules: Rules<'_>, strength: usize, depth: u32) -> Done<(f64, bool)> {
+    let Some(operators) = OPERATORS.get(strength) else { return Ok((unary(cursor, rules, depth)?, false)) };
+    let (mut value, mut compares) = compared(cursor, rules, strength + 1, depth)?;
     'more: loop {
         for (text, operator) in *operators {
             let is_word = text.as_bytes()[0].is_ascii_alphabetic();
             let at = cursor.at();
             if if is_word { cursor.takes_word(text) } else { cursor.takes(text.as_bytes()) } {
-                let (other, also) = compared(cursor, values, strength + 1, depth)?;
+                let (other, also) = compared(cursor, rules, strength + 1, depth)?;
                 if strength < LOGICAL && (compares || also) {
                     let message = format!("{text} and a comparison in one formula without brackets");
                     let help = "put each comparison into brackets: `(R1==5) AND (R2==7)`";
                     return Err(Fault::at(Code::PN014, at, message, help));
                 }
                 compares |= strength == LOGICAL;
-                value = operator.apply(value, other);
+                value = operator.of(value, other, rules)?;
                 continue 'more;
             }
         }
@@ -147,20 +173,20 @@ fn compared(cursor: &mut Cursor<'_>, values: &Values<'_>, strength: usize, depth
     }
 }
 
-fn unary(cursor: &mut Cursor<'_>, values: &Values<'_>, depth: u32) -> Done<f64> {
+fn unary(cursor: &mut Cursor<'_>, rules: Rules<'_>, depth: u32) -> Done<f64> {
     if depth > DEEPEST {
         let message = format!("brackets and signs more than {DEEPEST} deep");
         return Err(Fault::at(Code::PN014, cursor.at(), message, "calculate the value in several blocks"));
     }
     if cursor.takes(b"-") {
-        return Ok(-unary(cursor, values, depth + 1)?);
+        return Ok(-unary(cursor, rules, depth + 1)?);
     }
     if cursor.takes(b"+") {
-        return unary(cursor, values, depth + 1);
+        return unary(cursor, rules, depth + 1);
     }
     for (open, close) in [(b"(", b")"), (b"[", b"]")] {
         if cursor.takes(open) {
-            let value = binary(cursor, values, 0, depth + 1)?;
+            let value = binary(cursor, rules, 0, depth + 1)?;
             cursor.needs(close)?;
             return Ok(value);
         }
@@ -172,24 +198,24 @@ fn unary(cursor: &mut Cursor<'_>, values: &Values<'_>, depth: u32) -> Done<f64> 
     let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
     let name = String::from_utf8_lossy(name).to_ascii_uppercase();
     match name.as_str() {
-        "NOT" => return Ok(f64::from(u8::from(unary(cursor, values, depth + 1)? == 0.0))),
+        "NOT" => return Ok(f64::from(u8::from(unary(cursor, rules, depth + 1)? == 0.0))),
         "PI" => return Ok(std::f64::consts::PI),
         "TRUE" => return Ok(1.0),
         "FALSE" => return Ok(0.0),
         "ATAN2" => {
             cursor.needs(b"(")?;
-            let y = binary(cursor, values, 0, depth + 1)?;
+            let y = binary(cursor, rules, 0, depth + 1)?;
             cursor.needs(b",")?;
-            let x = binary(cursor, values, 0, depth + 1)?;
+            let x = binary(cursor, rules, 0, depth + 1)?;
             cursor.needs(b")")?;
             return Ok(y.atan2(x).to_degrees());
         }
         _ => {}
     }
     if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == name) {
-        return Ok(function(unary(cursor, values, depth + 1)?));
+        return Ok(function(unary(cursor, rules, depth + 1)?));
     }
-    if let Some(value) = values(&name) {
+    if let Some(value) = (rules.values)(&name) {
         return Ok(value);
     }
     let help = "set the variable earlier in the program: its value in the machine is unknown";
@@ -203,6 +229,7 @@ mod tests {
     #[test]
     fn formulas_are_calculated() {
         let values = |name: &str| (name == "R1").then_some(4.0);
+        let rules = Rules { values: &values, equal: 0.0 };
         for (text, result) in [
             ("1+2*3", 7.0),
             ("(1+2)*3", 9.0),
@@ -215,13 +242,13 @@ mod tests {
             ("(R1 > 3) AND NOT (R1 == 5)", 1.0),
             ("[R1 LT 3]", 0.0),
         ] {
-            let value = formula(&mut Cursor::new(text.as_bytes(), 0), &values).unwrap();
+            let value = formula(&mut Cursor::new(text.as_bytes(), 0), rules).unwrap();
             assert!((value - result).abs() < 1e-12, "{text} = {value}");
         }
         for text in
             ["1/0", "R1 > 3 AND NOT (R1 == 5)", "R2", "1+", "(1", "SQRT(-1)", &"(".repeat(500), &"-".repeat(500)]
         {
-            assert!(formula(&mut Cursor::new(text.as_bytes(), 0), &values).is_err(), "{text}");
+            assert!(formula(&mut Cursor::new(text.as_bytes(), 0), rules).is_err(), "{text}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::super::cursor::{Cursor, capitals};
-use super::super::formula::{Values, formula};
+use super::super::formula::{Rules, formula};
 use super::Osp;
 use super::cycles::{Back, Cycle};
 use crate::control::{Code as Name, Meaning};
@@ -55,8 +55,7 @@ impl Words<'_> {
 
     /// Reads a formula and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
-        let values: &Values<'_> = &|name| self.own.value(name);
-        formula(cursor, values)
+        formula(cursor, Rules { values: &|name| self.own.value(name), equal: 0.0 })
     }
 
     fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {

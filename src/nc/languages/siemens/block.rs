@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::super::cursor::{Cursor, capitals};
-use super::super::formula::{Values, formula};
-use super::cycles::Cycle;
+use super::super::formula::{Rules, formula};
+use super::cycles::{Cycle, check_arguments};
 use super::ways::Siemens;
 use crate::control::Meaning;
 use crate::diag::Code;
@@ -13,7 +13,9 @@ use crate::nc::call::{Call, Pattern};
 use crate::nc::codes::{Group, bit, group, takes_axes};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::state::State;
-use crate::toolpath::Units;
+
+/// Numbers are equal in a comparison if they differ by at most this part of their size (Job Planning, section 1.7).
+pub const EQUAL: f64 = 1e-12;
 
 /// Words for path control and look-ahead. These words have no effect on anything that postform compares.
 const HARMLESS: [&str; 27] = [
@@ -218,6 +220,10 @@ impl Words<'_> {
         let control = self.state.settings.control;
         match letter {
             b'G' => self.block.g_word(value, column, control),
+            b'M' if matches!(value, 2.0 | 30.0) && self.own.is_in_subprogram() => {
+                let message = format!("M{value} in a subprogram ends the program or only the subprogram");
+                Err(Fault::at(Code::PN010, column, message, "write M17 at the end of a subprogram"))
+            }
             b'M' => self.block.m_word(value, column, control),
             b'R' | b'L' | b'P' | b'E' | b'O' | b'Q' | b'H' | b'U' | b'V' | b'W' => {
                 let message = format!("the word {} is unknown here", char::from(letter));
@@ -253,10 +259,12 @@ impl Words<'_> {
         {
             block.put_g(row, Group::FeedMode, false);
         }
-        if let Some(units) = block.g_meaning(Group::Units) {
-            self.own
-                .units(units == Meaning::Inch, block.row(Group::Units).is_some_and(|row| row.code.tenths >= 7000))?;
+        if let Some(row) = block.row(Group::Units) {
+            self.own.units(row)?;
         }
+        let has_feed = block.has(bit(b'F')) || block.row(Group::Units).is_some() && self.state.drive.feed > 0.0;
+        self.own.check_feed(has_feed, self.state)?;
+        self.own.check_increments(block, self.state)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Reference) {
             // the values of the axis words in this block are ignored
             for (axis, letter) in self.state.control.axes().iter().enumerate() {
@@ -281,8 +289,7 @@ impl Words<'_> {
 
     /// Reads a formula and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
-        let values: &Values<'_> = &|name| self.own.value(name);
-        formula(cursor, values)
+        formula(cursor, Rules { values: &|name| self.own.value(name), equal: EQUAL })
     }
 
     /// Reads the arguments of a call. An argument that is left out is `None`.
@@ -310,25 +317,21 @@ impl Words<'_> {
     /// Reads the arguments of a cycle. `None`: the name is not that of a supported drilling cycle.
     pub fn cycle(&self, name: &str, cursor: &mut Cursor<'_>) -> Done<Option<Call>> {
         let number = name.strip_prefix("CYCLE").and_then(|number| number.parse::<u16>().ok());
-        let Some((number, most)) = number.and_then(|number| Some((number, Cycle::most_arguments(number)?))) else {
-            return Ok(None);
-        };
-        let begin = cursor.at();
+        let Some(number) = number.filter(|number| Cycle::is_known(*number)) else { return Ok(None) };
+        // of the drilling cycles, only CYCLE85 has feeds as arguments
+        self.own.check_feed(number == 85, self.state)?;
         let mut arguments = self.arguments(cursor)?;
         while arguments.last() == Some(&None) {
             arguments.pop();
         }
-        if let Some(value) = arguments.get(most..).and_then(|more| more.iter().flatten().find(|value| **value != 0.0)) {
-            let message = format!("postform supports {most} arguments of {name}, and {value} is an additional one");
-            return Err(Fault::at(Code::PN016, begin, message, "leave it out"));
-        }
-        Ok(Some(Arc::new(Cycle { number, arguments })))
+        Ok(Some(Arc::new(Cycle::new(number, arguments)?)))
     }
 
     /// Reads `HOLES1(..)`, a row of holes, or `HOLES2(..)`, a circle of holes.
     pub fn pattern(&mut self, circle: bool, cursor: &mut Cursor<'_>) -> Done {
         let arguments = self.arguments(cursor)?;
         let name = if circle { "HOLES2" } else { "HOLES1" };
+        check_arguments(name, &arguments, 6, &[])?;
         let Some(call) = self.own.modal.clone() else {
             return refuse(
                 Code::PN006,
@@ -396,22 +399,10 @@ impl Words<'_> {
             };
             by[axis] = if adds { by[axis] + value } else { value };
         }
-        for (letter, value) in self.state.control.axes().iter().zip(by) {
-            self.block.put(*letter, value);
-        }
-        Ok(())
-    }
-}
-
-impl Siemens {
-    /// Records the units that a block sets. G70 and G71 do not change the unit of feeds: feeds are in the unit of the
-    /// machine.
-    fn units(&mut self, inch: bool, with_feed: bool) -> Done {
-        let units = if inch { Units::Inch } else { Units::Mm };
-        let before = self.units.replace(units);
-        if !with_feed && before.is_some_and(|before| before != units) {
-            let message = "G70 and G71 in one program: the unit of feeds depends on the machine";
-            return refuse(Code::PN016, message, "write G700 or G710: these change the unit of feeds too");
+        let shift = self.state.shift();
+        for (axis, letter) in self.state.control.axes().iter().enumerate() {
+            self.own.shifted |= u8::from(by[axis] != shift[axis]) << axis;
+            self.block.put(*letter, by[axis]);
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! The drilling cycles of 840D and 828D, CYCLE81 to CYCLE89 and CYCLE840, as in the Programming Guide Cycles, section 2.1.
 
+use self::Argument::{Free, Only, Used};
 use super::super::strokes::{depths, dwell};
 use crate::control::{Code as Name, Motions};
 use crate::diag::Code;
@@ -33,6 +34,46 @@ const COARSE: [(f64, f64); 21] = [
     (48.0, 5.0),
 ];
 
+/// An argument of a cycle.
+#[derive(Clone, Copy)]
+pub enum Argument {
+    /// The cycle uses the value.
+    Used,
+    /// No move depends on the value.
+    Free,
+    /// The cycle is run only if the argument has one of these values. An argument that is left out is 0.
+    Only(&'static str, &'static [f64]),
+}
+
+/// AXN, the axis along which the cycle drills: 0 and 3 are the axis perpendicular to the plane.
+const AXIS: Argument = Only("AXN", &[0.0, 3.0]);
+/// The rotation of the spindle for a bore: M3 or M4.
+const TURNS: Argument = Only("SDIR", &[0.0, 3.0, 4.0]);
+/// The rotation of the spindle after a tap: M3, M4 or M5.
+const AFTER: Argument = Only("SDAC", &[0.0, 3.0, 4.0, 5.0]);
+
+/// For each cycle: its number, and its arguments after RTP, RFP, SDIS, DP and DPR, which all cycles have.
+const CYCLES: [(u16, &[Argument]); 10] = [
+    (81, &[Used]),
+    (82, &[Used]),
+    // FDEP, FDPR, DAM, DTB, DTS, FRF, VARI, AXN, MDEP, VRT, DTD, DIS1
+    (83, &[Used, Used, Used, Used, Used, Used, Only("VARI", &[0.0, 1.0]), AXIS, Used, Used, Used, Used]),
+    // DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PTAB, TECHNO, VARI, DAM, VRT
+    (84, &[Used, AFTER, Used, Used, Free, Used, Used, AXIS, Used, Free, Only("VARI", &[0.0, 1.0, 2.0]), Used, Used]),
+    // DTB, SDR, SDAC, ENC, MPIT, PIT, AXN
+    (840, &[Used, Only("SDR", &[0.0, 3.0, 4.0]), AFTER, Only("ENC", &[0.0, 1.0]), Used, Used, AXIS]),
+    // DTB, FFR, RFF
+    (85, &[Used, Used, Used]),
+    // DTB, SDIR, RPA, RPO, RPAP, POSS
+    (86, &[Used, TURNS, Used, Used, Used, Used]),
+    (87, &[TURNS]),
+    (88, &[Used, TURNS]),
+    (89, &[Used]),
+];
+
+/// The number of arguments that all cycles have.
+const LEVELS: usize = 5;
+
 /// A call of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
@@ -40,6 +81,27 @@ pub struct Cycle {
     pub number: u16,
     /// The arguments in their order. An argument that is left out is `None`.
     pub arguments: Vec<Option<f64>>,
+}
+
+/// Checks the arguments of a call from the index `first` on. Arguments that are not in `own` are not used by postform.
+///
+/// # Errors
+/// An argument is not used, and has another value than 0.
+pub fn check_arguments(call: &str, arguments: &[Option<f64>], first: usize, own: &[Argument]) -> Done {
+    for (at, value) in arguments.iter().enumerate().skip(first) {
+        let value = value.unwrap_or(0.0);
+        let (name, values) = match own.get(at - first) {
+            Some(Used | Free) => continue,
+            Some(Only(name, values)) => (format!("{name} {value}"), *values),
+            None => (format!("{value} as argument {}", at + 1), &[0.0][..]),
+        };
+        if !values.contains(&value) {
+            let values: Vec<String> = values.iter().map(f64::to_string).collect();
+            let help = format!("write {} for this argument, or leave it out", values.join(" or "));
+            return refuse(Code::PN016, format!("{call} with {name} is not supported"), help);
+        }
+    }
+    Ok(())
 }
 
 /// The heights that all cycles have.
@@ -54,19 +116,23 @@ struct Levels {
 }
 
 impl Cycle {
-    /// The maximum number of arguments of a cycle; `None`: the cycle is not supported.
-    pub fn most_arguments(number: u16) -> Option<usize> {
-        Some(match number {
-            81 | 82 | 87 => 6,
-            83 => 17,
-            84 => 18,
-            840 => 11,
-            85 => 8,
-            86 => 11,
-            88 => 7,
-            89 => 6,
-            _ => return None,
-        })
+    /// The arguments of a cycle after RTP, RFP, SDIS, DP and DPR. `None`: the cycle is not supported.
+    fn own(number: u16) -> Option<&'static [Argument]> {
+        CYCLES.iter().find(|(own, _)| *own == number).map(|(_, arguments)| *arguments)
+    }
+
+    /// Whether the cycle with this number is supported.
+    pub fn is_known(number: u16) -> bool {
+        Cycle::own(number).is_some()
+    }
+
+    /// A call of a cycle.
+    ///
+    /// # Errors
+    /// The cycle is not run with one of its arguments.
+    pub fn new(number: u16, arguments: Vec<Option<f64>>) -> Done<Cycle> {
+        check_arguments(&format!("CYCLE{number}"), &arguments, LEVELS, Cycle::own(number).unwrap_or_default())?;
+        Ok(Cycle { number, arguments })
     }
 
     fn get(&self, at: usize) -> f64 {
@@ -123,7 +189,7 @@ impl Cycle {
         let Levels { back, r, bottom, .. } = levels;
         let mut steps = vec![Step::Rapid(r)];
         let (mut motions, mut peck, mut hole_feed) = (Motions::Drill, 0.0, feed);
-        let mut bottom_dwell = seconds(self.get(5));
+        let bottom_dwell = self.bottom_dwell().map_or(0.0, |at| seconds(self.get(at)));
         let turns = |at: usize| match self.get(at) as i32 {
             3 => Some(Rotation::Cw),
             4 => Some(Rotation::Ccw),
@@ -143,7 +209,6 @@ impl Cycle {
                 peck = self.pecks(&levels, breaks, stand, seconds, &mut steps)?;
             }
             84 | 840 => {
-                bottom_dwell = 0.0;
                 let tap = self.tap(&levels, stand, seconds, &mut steps)?;
                 (motions, hole_feed) = tap;
             }
@@ -177,11 +242,7 @@ impl Cycle {
                 let by = if self.number == 87 { 5 } else { 6 };
                 steps.splice(0..0, starts(turns(by)));
                 steps.push(Step::Feed(bottom, feed));
-                if self.number == 88 {
-                    steps.extend(dwell(bottom_dwell));
-                } else {
-                    bottom_dwell = 0.0;
-                }
+                steps.extend(dwell(bottom_dwell));
                 steps.extend([Step::Turn(Rotation::Stop, speed), Step::Stop]);
             }
             _ => {
@@ -210,6 +271,16 @@ impl Cycle {
             heights: Heights::Given,
         };
         Ok(Canned { hole, steps })
+    }
+
+    /// The argument that contains the dwell at the bottom; `None`: the hole has no dwell.
+    fn bottom_dwell(&self) -> Option<usize> {
+        match self.number {
+            // DTD, or DTB if DTD is 0
+            83 => Some(if self.get(15) == 0.0 { 8 } else { 15 }),
+            84 | 840 | 87 => None,
+            _ => Some(5),
+        }
     }
 
     /// Adds the strokes of CYCLE83, which may become shorter with the depth. After each stroke the chips are broken or
@@ -249,10 +320,7 @@ impl Cycle {
         let factor = Some(self.get(10)).filter(|factor| *factor > 0.0).unwrap_or(1.0);
         let feed = stand.feed;
         let wait = dwell(seconds(self.get(8)));
-        let at_bottom = match self.get(15) {
-            0.0 => wait,
-            own => dwell(seconds(own)),
-        };
+        let at_bottom = self.bottom_dwell().and_then(|at| dwell(seconds(self.get(at))));
         let all = depths(reference, bottom, first, next)?;
         let last = all.len() - 1;
         for (count, depth) in all.into_iter().enumerate() {
@@ -332,7 +400,7 @@ impl Cycle {
                 _ => inwards.reversed(),
             };
             let speed = stand.speed;
-            let feed = if self.get(8) == 0.0 { feed_at(self.pitch(9, 10, 11, stand)?, speed) } else { stand.feed };
+            let feed = if self.get(8) == 0.0 { feed_at(self.pitch(9, 10, 12, stand)?, speed) } else { stand.feed };
             steps.push(Step::Feed(bottom, feed));
             steps.extend(dwell(seconds(self.get(5))));
             steps.extend([Step::Turn(outwards, speed), Step::Feed(r, feed)]);

@@ -1,13 +1,15 @@
 //! Blocks that control the program flow: labels, conditions, loops, subprograms.
 
 use super::super::cursor::{Cursor, capitals};
-use super::block::Words;
+use super::super::formula::is_equal;
+use super::block::{EQUAL, Words};
 use super::head::{Head, head, number, section, without_comment};
-use super::ways::{Kind, Siemens, Variable};
+use super::ways::{Kind, Repeat, Saved, Siemens, Variable};
 use crate::diag::Code;
 use crate::nc::action::{Action, Item};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::Simulator;
+use crate::nc::state::{Modes, State};
 use crate::nc::way::{Jump, Search};
 
 impl Simulator<'_> {
@@ -15,6 +17,7 @@ impl Simulator<'_> {
     pub(in crate::nc) fn read_siemens(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.siemens.at_depth(self.frames.len());
+        self.restore()?;
         if section(&self.line).is_some() {
             return self.section_begins();
         }
@@ -73,14 +76,39 @@ impl Simulator<'_> {
                 }
             }
         }
-        match arguments.next() {
-            None => Ok(()),
-            Some(_) => refuse(
-                Code::PN018,
-                "a call has more arguments than the PROC line of the subprogram",
-                "leave the additional arguments out",
-            ),
+        if arguments.next().is_some() {
+            let message = "a call has more arguments than the PROC line of the subprogram";
+            return refuse(Code::PN018, message, "leave the additional arguments out");
         }
+        while !cursor.is_over() {
+            let begin = cursor.at();
+            match cursor.name().map(capitals).as_deref() {
+                Some("SAVE") => self.siemens.saved.push((self.frames.len(), self.state.saved())),
+                // these change only the display, and stops between blocks
+                Some("DISPLOF" | "DISPLON" | "SBLOF" | "SBLON" | "ACTBLOCNO") => {}
+                _ => return Err(cursor.from(begin).unreadable()),
+            }
+        }
+        Ok(())
+    }
+
+    /// At the end of a subprogram with `SAVE`, restores the modes that were active at its beginning. Modes that other
+    /// parts of the control depend on are not restored: a change of these modes is refused.
+    fn restore(&mut self) -> Done {
+        while let Some((_, saved)) = self.siemens.saved.pop_if(|(depth, _)| *depth > self.frames.len()) {
+            let now = self.state.saved();
+            let kept = |saved: &Saved| {
+                let Modes { plane, units, feed_mode, .. } = saved.modes;
+                (plane, units, feed_mode, saved.shift, saved.work, saved.side)
+            };
+            if kept(&now) != kept(&saved) {
+                let message = "a subprogram with SAVE changes a plane, units, a feed mode, a frame or a compensation";
+                let help = "restore the codes at the end of the subprogram, and remove SAVE";
+                return refuse(Code::PN016, message, help);
+            }
+            self.state.modes = saved.modes;
+        }
+        Ok(())
     }
 
     fn siemens_line(&mut self, line: &[u8], items: &mut Vec<Item>) -> Done<Option<Jump>> {
@@ -102,6 +130,13 @@ impl Simulator<'_> {
         }
         let head = head(line);
         cursor = cursor.from(head.start);
+        if head.is("ENDLABEL") && self.siemens.repeats_at(self.frames.len()) {
+            if !cursor.is_over() {
+                let help = "write ENDLABEL: in a separate line";
+                return refuse(Code::PN016, "ENDLABEL with a statement in its line is not supported", help);
+            }
+            return Ok(Some(self.next_round()));
+        }
         if cursor.is_over() {
             return Ok(None);
         }
@@ -215,7 +250,7 @@ impl Simulator<'_> {
                         "write DEF INT for the variable before the loop",
                     );
                 }
-                self.opens(value <= last)
+                self.opens(value <= last || is_equal(value, last, EQUAL))
             }
             "RET" => return self.return_from("RET").map(Some),
             "DEF" => {
@@ -323,17 +358,31 @@ impl Simulator<'_> {
         if times.fract() != 0.0 || !(0.0..=1e6).contains(&times) {
             return refuse(Code::PN018, format!("P={times} is not a number of repeats"), "write a whole number");
         }
-        let line = self.at.line;
-        match self.siemens.repeats.last_mut() {
-            Some((own, 0)) if *own == line => {
-                self.siemens.repeats.pop();
-                return Ok(Jump::On);
-            }
-            Some((own, left)) if *own == line => *left -= 1,
-            _ if times == 0.0 => return Ok(Jump::On),
-            _ => self.siemens.repeats.push((line, times as u32 - 1)),
+        if self.siemens.repeats.last().is_none_or(|repeat| repeat.after != self.at) {
+            let (after, depth) = (self.at, self.frames.len());
+            self.siemens.repeats.push(Repeat { label, after, depth, left: times as u32 });
         }
-        Ok(Jump::Search(Search::Label(label, Some(false))))
+        Ok(self.next_round())
+    }
+
+    /// Runs the part of the last `REPEAT` once more, or continues after this `REPEAT`.
+    fn next_round(&mut self) -> Jump {
+        match self.siemens.repeats.last_mut() {
+            Some(Repeat { left: 0, .. }) | None => {
+                Jump::To(self.siemens.repeats.pop().map_or(self.at, |repeat| repeat.after))
+            }
+            Some(Repeat { label, left, .. }) => {
+                *left -= 1;
+                Jump::Search(Search::Label(label.clone(), Some(false)))
+            }
+        }
+    }
+}
+
+impl State {
+    /// The modes that `SAVE` keeps.
+    fn saved(&self) -> Saved {
+        Saved { modes: self.modes.clone(), shift: *self.shift(), work: self.place.work, side: self.tool.side }
     }
 }
 

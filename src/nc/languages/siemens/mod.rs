@@ -4,6 +4,7 @@
 //! Sources: SINUMERIK 840D/810D Programming Guide (fundamentals, job planning, cycles), and public programs.
 
 mod block;
+mod checks;
 mod cycles;
 mod flow;
 mod head;

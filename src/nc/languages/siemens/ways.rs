@@ -3,9 +3,11 @@
 
 use std::collections::HashMap;
 
+use crate::nc::action::Position;
 use crate::nc::call::Call;
+use crate::nc::state::Modes;
 use crate::nc::way::Spot;
-use crate::toolpath::Units;
+use crate::toolpath::{Side, Units};
 
 /// The state that is kept between blocks.
 #[derive(Debug, Default)]
@@ -18,6 +20,12 @@ pub struct Siemens {
     pub(super) modal: Option<Call>,
     /// The units that the program has last set.
     pub(super) units: Option<Units>,
+    /// Whether the code of these units does not change the unit of feeds: G70 and G71.
+    pub(super) lengths_only: bool,
+    /// As bits, the axes that have not moved to a position since their frame or the tool length changed.
+    pub(super) shifted: u8,
+    /// The register of the last D word.
+    pub(super) edge: Option<f64>,
     /// The arguments of a call. The arguments are stored until the `PROC` line of the subprogram is read.
     pub(super) arguments: Option<Vec<Option<f64>>>,
     /// The programs of the input in their order; `None`: the input has not been searched yet.
@@ -28,8 +36,10 @@ pub struct Siemens {
     pub(super) ends: HashMap<u64, Spot>,
     /// The positions of each label, by section and name.
     pub(super) labels: HashMap<(usize, String), Vec<Spot>>,
-    /// For each `REPEAT` with a label: the line of the `REPEAT`, and the number of repeats that are left.
-    pub(super) repeats: Vec<(u64, u32)>,
+    /// The running `REPEAT` statements with a label.
+    pub(super) repeats: Vec<Repeat>,
+    /// The modes to which the subprograms with `SAVE` return, each with the depth of its subprogram.
+    pub(super) saved: Vec<(usize, Saved)>,
     /// The line of the `FOR` to which the last `ENDFOR` has jumped back.
     pub(super) next_round: Option<u64>,
 }
@@ -64,6 +74,28 @@ impl Kind {
             Kind::Bool => f64::from(u8::from(value != 0.0)),
         }
     }
+}
+
+/// A `REPEAT` with a label whose part is being repeated.
+#[derive(Clone, Debug)]
+pub struct Repeat {
+    pub label: String,
+    /// Position after the line with `REPEAT`.
+    pub after: Spot,
+    /// The depth of nested subprograms at this line.
+    pub depth: usize,
+    /// Number of repeats that are left.
+    pub left: u32,
+}
+
+/// The modes that a subprogram with `SAVE` restores at its end.
+#[derive(Clone, Debug)]
+pub struct Saved {
+    pub modes: Modes,
+    /// The shift of the frame.
+    pub shift: Position,
+    pub work: Option<f64>,
+    pub side: Option<Side>,
 }
 
 /// A main program or subprogram of the input.
@@ -109,5 +141,17 @@ impl Siemens {
     pub(super) fn at_depth(&mut self, depth: usize) {
         self.variables.truncate(depth + 1);
         self.variables.resize_with(depth + 1, HashMap::new);
+        // a subprogram ends its repeats
+        while self.repeats.pop_if(|repeat| repeat.depth > depth).is_some() {}
+    }
+
+    /// Whether a subprogram is running.
+    pub(super) fn is_in_subprogram(&self) -> bool {
+        self.variables.len() > 1
+    }
+
+    /// Whether the program is in a part that is being repeated. `depth`: the depth of nested subprograms.
+    pub(super) fn repeats_at(&self, depth: usize) -> bool {
+        self.repeats.last().is_some_and(|repeat| repeat.depth == depth)
     }
 }

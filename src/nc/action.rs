@@ -228,6 +228,16 @@ impl Cycle {
     pub fn of(row: &Row) -> Option<Cycle> {
         Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells() })
     }
+
+    /// The name of the cycle, as a program writes it.
+    pub fn name(&self) -> String {
+        let number = self.code.tenths / 10;
+        match self.code.letter {
+            b'c' => format!("CYCLE{number}"),
+            b'q' => format!("CYCL DEF {number}"),
+            _ => self.code.to_string(),
+        }
+    }
 }
 
 /// A hole of a canned cycle, with the values of all words.

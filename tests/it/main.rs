@@ -30,6 +30,7 @@ mod joined_jobs;
 mod kept_jobs;
 mod key_order;
 mod kit;
+mod language_jobs;
 mod languages;
 mod lint_command;
 mod linuxcnc;

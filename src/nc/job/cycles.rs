@@ -29,13 +29,13 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
         Motions::StopOut => CycleKind::Bore,
         Motions::ShiftOut => {
             let help = "write the bore by hand, with `orient`, `offset` and the side";
-            let code = hole.cycle.code;
+            let name = hole.cycle.name();
             let message =
-                format!("{code}: a parameter of the control sets the side to which the tool moves off the wall");
+                format!("{name}: a parameter of the control sets the side to which the tool moves off the wall");
             return unsaid(line, message, help);
         }
         Motions::Back | Motions::ByHand => {
-            let message = format!("a job has no cycle like {}", hole.cycle.code);
+            let message = format!("a job has no cycle like {}", hole.cycle.name());
             return unsaid(line, message, "program the moves of the cycle, or write the job by hand");
         }
     };

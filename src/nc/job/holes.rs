@@ -2,6 +2,7 @@
 
 use super::cycles::{hole_of, is_same, spec_of};
 use super::fault::{Done, unsaid};
+use super::moves::Moves;
 use super::pattern::Pattern;
 use super::reader::Reader;
 use crate::control::Motions;
@@ -53,6 +54,7 @@ impl Reader<'_> {
             return unsaid(self.place.line, message, "write a rapid with Z before the cycle, or return to R by G99");
         }
         self.low_approach(hole)?;
+        self.moves = Some(Moves::of(hole));
         // in a rigid tapping cycle, the control starts the spindle in the direction of the thread
         match hole.cycle.motions {
             Motions::Tap if !self.wanted.turns() => self.wanted.rotation = Some(Rotation::Cw),

@@ -2,6 +2,7 @@
 
 use super::behind::Behind;
 use super::fault::{Done, unsaid, warning};
+use super::moves::Moves;
 use super::options::JobOptions;
 use super::pattern::Pattern;
 use super::survey::Survey;
@@ -50,6 +51,8 @@ pub(super) struct Reader<'a> {
     /// followed.
     pub(super) home: Option<u64>,
     pub(super) cycle: Option<Pattern>,
+    /// The moves of the current hole.
+    pub(super) moves: Option<Moves>,
     pub(super) side: Option<Side>,
     pub(super) turning: Option<Option<Side>>,
     pub(super) rigid: bool,
@@ -105,6 +108,7 @@ impl<'a> Reader<'a> {
             known: 0,
             home: None,
             cycle: None,
+            moves: None,
             side: None,
             turning: None,
             rigid: false,
@@ -133,6 +137,11 @@ impl<'a> Reader<'a> {
         self.place.line = item.line;
         self.place.column = 1;
         if item.by_cycle {
+            if let Some(moves) = &mut self.moves
+                && let Err(lost) = moves.take(&item.action, self.wanted.speed)
+            {
+                return unsaid(item.line, lost.message(&moves.hole), lost.help());
+            }
             // the event of the cycle contains these moves; the next move begins at their end
             if let Action::Rapid { to, .. } | Action::Feed { to, .. } = &item.action {
                 self.at = *to;

@@ -73,6 +73,16 @@ impl Simulator<'_> {
         Some(if is_other { 2 } else { usize::from(row.runs.point == Some(2)) })
     }
 
+    /// Whether the machine positions of the last block are measured from a point that only the machine has.
+    pub fn goes_hidden(&self) -> bool {
+        self.block.hidden
+    }
+
+    /// Whether the active tool length may count in the machine positions of the last block.
+    pub fn may_keep_length(&self) -> bool {
+        self.block.row(Group::Once).is_some_and(|row| row.runs.may_keep_length)
+    }
+
     /// The allowed distance of the path from its corners: P of the last block.
     pub fn path_tolerance(&self) -> Option<f64> {
         self.block.get(b'P').filter(|_| self.block.row(Group::Path).is_some())

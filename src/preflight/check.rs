@@ -32,6 +32,10 @@ pub(super) struct Check<'m> {
     /// although the machine's file does not contain the position.
     no_reference: [bool; 3],
     was_compensated: bool,
+    /// Whether the program moved to a machine position whose zero only the machine has.
+    hides_zero: bool,
+    /// Whether the program moved to a machine position in which the tool length may count.
+    hides_length: bool,
     /// As bits, the axes that are at a machine position from the program after the last block.
     said: u8,
 }
@@ -51,6 +55,8 @@ impl<'m> Check<'m> {
             found: BTreeMap::new(),
             no_reference: [false; 3],
             was_compensated: false,
+            hides_zero: false,
+            hides_length: false,
             said: 0,
         }
     }
@@ -79,10 +85,23 @@ impl<'m> Check<'m> {
                     self.no_reference[point] = true;
                     0x3f
                 }
+                _ if is_last => self.hidden(run),
                 _ => 0,
             };
             self.item(item, [said, hidden], run);
         }
+    }
+
+    /// As bits, the axes whose machine position in the last block depends on data that only the machine has.
+    fn hidden(&mut self, run: &Simulator<'_>) -> u8 {
+        if run.goes_hidden() {
+            self.hides_zero = true;
+            return 0x3f;
+        }
+        let has_length = self.places.register.is_some_and(|register| register != 0);
+        let by_length = has_length && run.may_keep_length();
+        self.hides_length |= by_length;
+        if by_length { 1 << run.state().length_axis() } else { 0 }
     }
 
     fn item(&mut self, item: &Item, [said, hidden]: [u8; 2], run: &Simulator<'_>) {
@@ -210,7 +229,7 @@ impl<'m> Check<'m> {
     /// The tool length that is included in a position of an axis.
     fn added(&self, axis: usize, register: Option<i32>) -> f64 {
         let length = |register: i32| self.machine.tools.as_ref()?.length(register);
-        register.filter(|_| axis == 2).and_then(length).unwrap_or(0.0)
+        register.filter(|_| axis == 2 || !self.control.is_lathe()).and_then(length).unwrap_or(0.0)
     }
 
     /// Calls `count` with the clock and the current positions of the axes, if there is a clock.
@@ -324,6 +343,14 @@ impl<'m> Check<'m> {
 
     fn takes_length(&mut self, register: Option<f64>, line: (u64, &[u8])) {
         self.places.takes_length(register);
+        // the second edge of tool 5 has the register 5.01
+        if let Some(register) = register.filter(|register| register.fract() != 0.0) {
+            let edge = (register.fract() * 100.0).round() + 1.0;
+            let message = format!("the machine's table has no length of edge D{edge}");
+            let help = "the length of edge D2 and the following ones is not checked: use D1, or check it yourself";
+            self.found(Code::PM015, &format!("D{register}"), message, help, line);
+            return;
+        }
         let (Some(register), Some(table)) =
             (self.places.register.filter(|register| *register != 0), &self.machine.tools)
         else {
@@ -416,6 +443,16 @@ impl<'m> Check<'m> {
         }
         if self.places.astray {
             fit.not_checked.push("increments from an unknown machine position, for example after a tool change".into());
+        }
+        if self.hides_zero {
+            fit.not_checked.push("positions with M92: the machine builder defines their zero".into());
+        }
+        if self.hides_length {
+            fit.not_checked.push(
+                "positions with G53, G153 or SUPA while D is active: a setting of the machine (MD10760) decides whether \
+                 the tool length counts; write D0 in these blocks"
+                    .into(),
+            );
         }
         if self.was_compensated {
             fit.not_checked

@@ -58,6 +58,8 @@ pub struct Places<'m> {
     is_lathe: bool,
     /// Whether a tool length was added to an active tool length. The sum of the two lengths is not tracked.
     pub adds: bool,
+    /// Whether the active length is that of another edge than the first one. The machine's table has no such lengths.
+    edge: bool,
     /// Whether a tool was changed and no Z position has been programmed since.
     changed: bool,
     /// Axes for which no position has been programmed since the tool length last changed, as bits.
@@ -96,6 +98,7 @@ impl<'m> Places<'m> {
             register: None,
             is_lathe,
             adds: false,
+            edge: false,
             changed: false,
             lengthened: 0,
             lost: 0,
@@ -139,6 +142,7 @@ impl<'m> Places<'m> {
     /// Turns a tool length on or off. Until a position is programmed, the coordinates differ from those of the simulator.
     pub fn takes_length(&mut self, register: Option<f64>) {
         self.register = register.map(|register| register as i32);
+        self.edge = register.is_some_and(|register| register.fract() != 0.0);
         self.lengthened = 0b111;
     }
 
@@ -238,8 +242,8 @@ impl<'m> Places<'m> {
         let given = run.state().offset_given() & 1 << axis != 0;
         // rotary axes without an offset are measured from machine zero
         let offset_unknown = axis < 3 && !of_file && !given;
-        let takes = if self.is_lathe { axis == 0 || axis == 2 } else { axis == 2 };
-        if self.adds && takes {
+        let takes = if self.is_lathe { axis == 0 || axis == 2 } else { axis == run.state().length_axis() };
+        if (self.adds || self.edge) && takes {
             return At { value, base: Base::Unknown };
         }
         let aside = self.register.filter(|_| axis < 2).and_then(|register| self.aside(register)).unwrap_or([0.0; 2]);

@@ -447,3 +447,47 @@ fn other_reference_points_are_unknown() {
         assert!(not_checked(p).contains("the position of G30 with P3 or more"), "{p}: {}", not_checked(p));
     }
 }
+
+/// Machine positions and lengths of Siemens and Heidenhain programs. G53 and SUPA with an active D, and M92, depend on
+/// settings of the machine; the length of D2 is not in the table; in G18 the length counts along Y.
+#[test]
+fn machine_positions_of_other_languages() {
+    let travels = "[axes.X]\ntravel = [-762, 0]\n[axes.Y]\ntravel = [-406, 0]\n[axes.Z]\ntravel = [-508, 0]\n";
+    let file = |name: &str, offsets: &str| {
+        format!("control = \"{name}\"\n{travels}[tools.5]\nlength = 120\n[offsets]\n{offsets} = [-400, -200, -380]\n")
+    };
+    let runs = |name: &str, offsets: &str, program: &str| {
+        let fitted = fitted(program, &machine(&file(name, offsets)));
+        let found: Vec<String> =
+            fitted.findings.iter().map(|found| format!("{} {}", found.code.name(), found.message)).collect();
+        (found.join("\n"), fitted.fit.not_checked.join("\n"))
+    };
+    let siemens = |blocks: &str| {
+        let head = "G17 G710 G90 G94 G54\nT5\nM6\nG0 X0 Y0 S1000 M3\nD1 Z50\n";
+        runs("siemens", "G54", &format!("{head}{blocks}\nM30\n"))
+    };
+    for (blocks, findings, open) in [
+        ("G0 SUPA D0 Z0", "", ""),
+        ("G0 SUPA D0 Z10", "PM001 T5 needs Z10", ""),
+        ("G0 SUPA Z0", "", "MD10760"),
+        ("G0 G53 Z0", "", "MD10760"),
+        ("G0 G153 X0 Z0", "", "MD10760"),
+        ("G0 D2 Z60", "PM015 the machine's table has no length of edge D2", ""),
+        // -380 + 120 + 20 in Z with the length, -400 without it; -200 + 120 in Y with it
+        ("G0 Z-200", "", ""),
+        ("G18\nG0 X0 Y100 Z-120", "PM001 T5 needs Y20", ""),
+        ("G18\nG0 X0 Y0 Z-130", "PM001 T5 needs Z-510", ""),
+    ] {
+        let (found, not_checked) = siemens(blocks);
+        assert!(found.starts_with(findings) && found.is_empty() == findings.is_empty(), "{blocks}: {found}");
+        assert_eq!(not_checked.contains("MD10760"), !open.is_empty(), "{blocks}: {not_checked}");
+    }
+    let klartext = |block: &str| {
+        let head = "0 BEGIN PGM T MM\n1 TOOL CALL 5 Z S1000\nCYCL DEF 247 Q339=1\nL X+0 Y+0 R0 FMAX M3\nL Z+50 FMAX\n";
+        runs("heidenhain", "Q1", &format!("{head}{block}\nM30\nEND PGM T MM\n"))
+    };
+    let (found, not_checked) = klartext("L Z+10 FMAX M91");
+    assert!(found.contains("needs Z10") && !not_checked.contains("M92"), "{found}\n{not_checked}");
+    let (found, not_checked) = klartext("L Z+10 FMAX M92");
+    assert!(found.is_empty() && not_checked.contains("positions with M92"), "{found}\n{not_checked}");
+}

@@ -37,7 +37,11 @@ impl Siemens {
         }
         let help = "write G700 or G710, which change the unit of feeds too; or give the basic units of the machine in a \
                     control file of your own: `[start]` and `units = \"mm\"`";
-        refuse(Code::PN016, "a feed after G70 or G71: its unit is that of the machine, which is unknown", help)
+        refuse(
+            Code::PN016,
+            "a feed after G70 or G71 has the unit of the machine, which may differ from that of lengths",
+            help,
+        )
     }
 
     /// Refuses an increment of an axis directly after a change of its frame or of the tool length, because a setting of
@@ -49,7 +53,7 @@ impl Siemens {
                 self.shifted |= 1 << state.length_axis();
             }
         }
-        if block.axes_are_taken() {
+        if self.shifted == 0 || block.axes_are_taken() {
             return Ok(());
         }
         let absolute = match block.g_meaning(Group::Distance) {

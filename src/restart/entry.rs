@@ -1,5 +1,6 @@
 //! Finds the entry: the last line at which a program can safely begin, at or before the requested line.
 
+use super::levels::Levels;
 use super::{Asked, Refused, refuse};
 use crate::control::Meaning;
 use crate::nc::{Action, Cooling, Kind, Rotation, RunError, RunSettings, Simulator, Standing, tokens};
@@ -147,8 +148,7 @@ struct Search<'t> {
     never: Option<String>,
     /// Whether the last block was a move.
     moved: bool,
-    /// The highest Z of the moves in X or Y since the tool change.
-    way: Option<f64>,
+    levels: Levels,
     /// Whether the last move was a rapid.
     came_at_rapid: bool,
     /// Whether the tool length has changed since the last programmed Z position. After such a change, the height of the
@@ -175,7 +175,7 @@ impl<'t> Search<'t> {
             codes: Vec::new(),
             kept: 0,
             never: None,
-            way: None,
+            levels: Levels::default(),
             moved: false,
             came_at_rapid: false,
             height_by_other: false,
@@ -236,26 +236,29 @@ impl<'t> Search<'t> {
         self.said.units |= units;
         self.said.feed_mode |= feed_mode;
         self.moved = items.iter().any(|item| moves(&item.action));
+        let after = run.state().standing();
+        if (before.work, before.units) != (after.work, after.units) {
+            self.levels = Levels::default();
+        }
         self.height_by_other |= items.iter().any(|item| matches!(item.action, Action::Length(_)));
         self.height_by_other &= !(self.moved && run.says_positions() & 0b100 != 0);
+        let mut at = before.position;
         for item in items {
+            if matches!(item.action, Action::Length(register) if register != self.switches.length) {
+                self.levels = Levels::default();
+            }
             self.switches.follow(&item.action, run);
+            self.levels.follow(&item.action, &mut at);
             match &item.action {
-                Action::Rapid { to, .. } => {
-                    let across = (0..2).any(|axis| (to[axis] - before.position[axis]).abs() > 1e-9);
-                    if across {
-                        self.way = Some(self.way.map_or(to[2], |way| way.max(to[2])));
-                    }
-                    self.came_at_rapid = true;
-                }
+                Action::Rapid { .. } => self.came_at_rapid = true,
                 Action::Feed { .. } | Action::Arc(_) => self.came_at_rapid = false,
                 Action::Tool(tool) => {
-                    self.way = None;
+                    self.levels = Levels::default();
                     if self.tools.len() < MOST_TOOLS && !self.tools.contains(tool) {
                         self.tools.push(*tool);
                     }
                 }
-                Action::Stop(StopKind::Program) if stops => self.way = None,
+                Action::Stop(StopKind::Program) if stops => self.levels = Levels::default(),
                 Action::LeftOut(code, meaning) if self.head.is_some() && *meaning != Meaning::ExactStop => {
                     self.codes.push((line, code.to_string()));
                 }
@@ -319,7 +322,7 @@ impl<'t> Search<'t> {
             return None;
         }
         let height = before.position[2];
-        let is_high = self.way.is_none_or(|way| height >= way - 1e-9);
+        let is_high = self.levels.across.is_none_or(|across| height >= across - 1e-9) && self.levels.is_clear(height);
         // without a motion code, a moving block would depend on the last motion of the old program
         let goes_on = before.is_rapid || run.names_motion() || !run.has_axes();
         (is_high && goes_on).then(|| entry(Some(height)))
@@ -328,9 +331,13 @@ impl<'t> Search<'t> {
     /// The entry at the requested block itself. The tool goes to the height of its last rapid, and from this height at
     /// feed into the cut.
     fn exact_entry(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
-        if changes {
-            return self.entry_before(before, line, changes, run);
+        // a block at which the tool is clear needs no move down at feed
+        let clear = self.entry_before(before, line, changes, run);
+        if changes || clear.is_some() {
+            return clear;
         }
+        let depth = before.position[2];
+        let height = self.levels.above(depth);
         let why = if run.control().is_lathe() {
             "on a lathe a restart begins at a turret change"
         } else if before.compensated {
@@ -343,11 +350,11 @@ impl<'t> Search<'t> {
             "no feed is active for the move down"
         } else if !(run.names_motion() || before.is_line || !run.has_axes()) {
             "the block depends on the G2, G3 or G0 of an earlier block"
+        } else if height.is_none() {
+            "the tool has made no rapid at a known height above its cuts, from which it could feed down"
         } else {
-            let depth = before.position[2];
-            let height = self.way.filter(|way| *way >= depth).unwrap_or(depth);
             let (standing, switches, said) = (*before, self.switches.clone(), self.said);
-            return Some(Entry { line, standing, switches, said, height: Some(height), depth: Some(depth) });
+            return Some(Entry { line, standing, switches, said, height, depth: Some(depth) });
         };
         self.never = Some(why.to_owned());
         None
@@ -378,8 +385,9 @@ impl<'t> Search<'t> {
             return refuse(format!("the program can't begin exactly at line {asked}: {why}"), help);
         }
         let Some(entry) = self.entry else {
-            let why =
-                self.never.unwrap_or_else(|| "before this line the tool is never at the height of its rapids".into());
+            let why = self.never.unwrap_or_else(|| {
+                "before this line the tool is never by rapid at a known height above its cuts".into()
+            });
             return refuse(format!("the program can't begin at or before line {asked}: {why}"), after);
         };
         let mut codes = self.codes;

@@ -7,6 +7,7 @@
 mod blocks;
 mod entry;
 mod follow;
+mod levels;
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 

@@ -223,6 +223,30 @@ fn exactly_goes_down_at_feed() {
     assert!(refused.contains("a canned cycle is active"), "{refused}");
 }
 
+/// The tool comes down by rapid only to a height that the old program reached by rapid, above all cuts of the tool.
+#[test]
+fn no_rapid_goes_down_into_a_cut() {
+    let folder = Folder::new("restart-plunge");
+    let base = "%\nO0001\nG21 G17 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z50. M8\nG1 Z-5. F100.\nX50.\nY20.\nG0 X40.\nG1 Y10.\nG0 Z50.\nM5\nG91 G28 Z0\nG90\nM30\n%\n";
+    folder.write("a.nc", base);
+    // a rapid at the depth of the cuts is no entry
+    for line in ["9", "11", "12"] {
+        let (program, said) = restarted(&folder, "fanuc", &["--line", line]).unwrap();
+        assert!(said.contains("begins at line 7") && program.contains("G43 H1 Z50.\n"), "{line}: {said}\n{program}");
+    }
+    // with --exactly, the tool feeds down from the height of its rapids
+    for (line, across) in [("9", "X50. Y0."), ("11", "X40. Y20.")] {
+        let (program, said) = restarted(&folder, "fanuc", &["--line", line, "--exactly"]).unwrap();
+        assert!(program.contains(&format!("G0 {across}\nG43 H1 Z50.\nG1 Z-5. F100.\n")), "{line}: {said}\n{program}");
+    }
+    // a height that the program does not give is no height for a rapid, and neither is one of another tool length
+    for (from, to) in [("G43 H1 Z50. M8\nG1 Z-5.", "X7.\nG43 H1 M8\nG1 Z-5."), ("G1 Z-5.", "G43 H2\nG1 Z-5.")] {
+        folder.write("a.nc", base.replace(from, to));
+        let said = restarted(&folder, "fanuc", &["--line", "10", "--exactly"]).unwrap_err();
+        assert!(said.contains("no rapid at a known height above its cuts"), "{to}: {said}");
+    }
+}
+
 #[test]
 fn what_cant_be_rebuilt_is_refused() {
     let folder = Folder::new("restart-refused");

@@ -9,12 +9,13 @@ use super::intent::{Done, Expected, Intent, Threaded};
 use super::passage::{Frame, Passage, TOO_LONG};
 use super::program::Program;
 use super::report::{Counts, Report};
-use super::sides::{Holes, Limits, Sides};
+use super::sides::{Holes, Limits, Sides, Unnamed};
 use super::strokes::Strokes;
 use super::tables::PLACES;
 use super::verdict::{Equivalences, Unproven, Verdict};
 use super::wire_codes::Coded;
 use super::{align, arcs, begin, fast_path, holes, lines, pauses, rapids, threads, wire};
+use crate::control::ToolLength;
 use crate::diag::{Code, Diag};
 use crate::lang::Machine;
 use crate::nc::RunSettings;
@@ -50,6 +51,11 @@ impl<'a> Comparer<'a> {
     ) -> Comparer<'a> {
         let program = Program::new(program, settings, &expectation);
         let tools = expectation.tools;
+        let has_registers = matches!(
+            settings.control.traits().tool_length,
+            ToolLength::CodeAndRegister | ToolLength::Code | ToolLength::Register
+        );
+        let unnamed = if expectation.lengths_due || !has_registers { Unnamed::Open } else { Unnamed::NoneSoFar };
         let switches = expectation.beam.is_some();
         let own = [expectation.feeds.clone(), expectation.speeds.clone()];
         let job = Job::new(expectation, settings.control);
@@ -70,6 +76,7 @@ impl<'a> Comparer<'a> {
                 threaded: None,
                 slips: 0,
                 tools,
+                unnamed,
                 switches,
                 machine: Machine::Mill,
                 own,

@@ -1,7 +1,7 @@
 //! Compares the modal state at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
 use super::cut::{Cut, State, number};
-use super::sides::Sides;
+use super::sides::{Sides, Unnamed};
 use super::tables::{PITCH, ROUNDED};
 use crate::diag::Code;
 use crate::nc::{Cooling, Rotation};
@@ -49,19 +49,42 @@ fn tool([wanted, is]: [&State; 2], s: &Sides<'_>) -> Option<Differs> {
     Some((Code::PV012, "print T[tool] M6 in the tool change", message))
 }
 
-fn offsets([wanted, is]: [&State; 2], s: &Sides<'_>) -> Option<Differs> {
-    // the register of a tool without a number is part of the finding about the tool
-    if let (Some(a), Some(b)) = (wanted.length, is.length)
-        && a != b
-        && !s.program.is_name(b)
-    {
-        let message = format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a));
-        return Some((Code::PV014, "print G43 H[lcomp] in the tool change", message));
+fn offsets([wanted, is]: [&State; 2], s: &mut Sides<'_>) -> Option<Differs> {
+    if let Some(differs) = length([wanted.length, is.length], s) {
+        return Some(differs);
     }
     let a = wanted.work.filter(|_| wanted.work != is.work)?;
     let is = is.work.map_or("not printed".to_owned(), |b| b.to_string());
     let message = format!("the work offset is {is}, but {a} in the job");
     Some((Code::PV012, "print G[work] in the tool change, or in the sequence `Upon [work]`", message))
+}
+
+/// Compares the length registers. If the job is an NC program, also compares whether the length offset is on: other
+/// jobs contain no code for it, and a length offset that is off is a hazard of the program.
+fn length([wanted, is]: [Option<f64>; 2], s: &mut Sides<'_>) -> Option<Differs> {
+    if s.unnamed == Unnamed::NoneSoFar && wanted.is_some() {
+        s.unnamed = Unnamed::Off;
+    }
+    // the register of a tool without a number is part of the finding about the tool
+    if wanted == is || is.is_some_and(|is| s.program.is_name(is)) {
+        return None;
+    }
+    let (help, message) = match (wanted, is) {
+        (Some(a), Some(b)) => (
+            "print G43 H[lcomp] in the tool change",
+            format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a)),
+        ),
+        _ if s.unnamed != Unnamed::Off => return None,
+        (Some(a), None) => (
+            "write G43 H before the cut, also after a move to the machine zero that ends the offset",
+            format!("the length offset is off, but the job's tool cuts with H{}", number(a)),
+        ),
+        (None, _) => (
+            "remove G43, or check the job: its tool cuts without its length",
+            format!("the length offset is H{}, but off in the job", number(is.unwrap_or_default())),
+        ),
+    };
+    Some((Code::PV014, help, message))
 }
 
 /// A value that the job does not contain must not change in the program: a tool has one length register, and a job

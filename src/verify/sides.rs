@@ -63,6 +63,17 @@ impl Holes {
     }
 }
 
+/// The meaning of a tool for which the job names no length register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unnamed {
+    /// The job leaves the register open.
+    Open,
+    /// The job is an NC program, and no tool has a length register so far.
+    NoneSoFar,
+    /// The job is an NC program in which other tools have length registers: the tool cuts without its length offset.
+    Off,
+}
+
 /// The state of a comparison, with the side of the job and the side of the program.
 pub(super) struct Sides<'a> {
     pub program: Program<'a>,
@@ -86,6 +97,8 @@ pub(super) struct Sides<'a> {
     pub slips: u32,
     /// Whether the machine loads tools.
     pub tools: bool,
+    /// What the job says about tools without a length register.
+    pub unnamed: Unnamed,
     /// Whether the machine has a torch or laser. Such a machine has no tool change.
     pub switches: bool,
     /// The type of machine.

@@ -527,3 +527,32 @@ fn what_a_job_leaves_open_does_not_change() {
         assert!(codes(control, "", "H0").contains("PV014"), "{control}: {}", codes(control, "", "H0"));
     }
 }
+
+/// If the job is an NC program, it also says whether the tool cuts with its length offset.
+#[test]
+fn a_length_offset_that_is_off_is_another_length() {
+    let job = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nG1 Z-5. F100.\nX50.\nY30.\nX9.\nG0 Z50.\nM5\nG91 G28 Z0\nG90\nM30\n%\n";
+    let said = |control: &str, job: &str, program: &str| {
+        let mut proof = Proof::default();
+        proof.control = Some(crate::support::control(control));
+        let mut job = Job::nc(job);
+        job.reading.control = proof.control;
+        match proof.verify(job, std::io::Cursor::new(program)).unwrap().verdict {
+            Verdict::Different(found) => found.iter().map(|one| format!("{} {}", one.code.name(), one.message)).collect(),
+            verdict => verdict.to_string(),
+        }
+    };
+    for control in ["fanuc", "haas", "linuxcnc"] {
+        assert_eq!(said(control, job, job), "identical", "{control}");
+        for (from, to) in [("Y30.\n", "Y30.\nG49\n"), ("Y30.\n", "Y30.\nG43 H0\n"), ("G43 H1 Z50.", "Z50.")] {
+            let found = said(control, job, &job.replace(from, to));
+            assert!(found.contains("PV014") && found.contains("the job's tool cuts with H1"), "{control} {to}: {found}");
+        }
+    }
+    // a tool without an offset, after a tool with one
+    let second = "T2 M6\nG0 X0 Y0 S900 M3\nZ20.\nG1 Z-1. F80.\nX10.\nG0 Z50.\nM30\n";
+    let two = job.replace("G90\nM30\n", &format!("G90 G49\n{second}"));
+    assert_eq!(said("haas", &two, &two), "identical");
+    let found = said("haas", &two, &two.replace("Z20.", "G43 H2 Z20."));
+    assert!(found.contains("PV014") && found.contains("off in the job"), "{found}");
+}

@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::arcs::Arcs;
 use super::code::Code;
-use super::file_text::{EndsLength, File, Height, InRapids, Longer, RowText, SecondTool, WithoutAxes};
+use super::file_text::{EndsLength, File, Height, InRapids, Longer, RowText, SecondTool, Semicolon, WithoutAxes};
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
@@ -131,6 +131,10 @@ impl Reader<'_> {
         take(&mut traits.open_comments, file.text.open_comments);
         take(&mut traits.small_letters, file.text.small_letters);
         take(&mut traits.without_point, file.numbers.length_without_point);
+        take(&mut traits.feed_without_point, file.numbers.feed_without_point);
+        take(&mut traits.macros, file.macros.language);
+        take(&mut traits.semicolon_ends_block, file.text.semicolon.map(|sign| sign == Semicolon::EndOfBlock));
+        take(&mut traits.repeats_in_p, file.subprograms.repeats_in_p);
         take(&mut traits.dwell, file.dwell.p);
         take(&mut traits.centres, file.arcs.centres);
         take(&mut traits.modes_at_start, file.start.modes);
@@ -329,6 +333,13 @@ impl Reader<'_> {
             }
             beside => beside.as_ref().is_some_and(|beside| *beside.get_ref()),
         };
+        let angle = match &row.angle {
+            None => Words::NONE,
+            Some(at) if meaning != Meaning::Orient => {
+                return Err(of_another("angle", at.span().start, "codes that orient the spindle"));
+            }
+            Some(letters) => self.words(letters)?,
+        };
         let speed_out = row.speed_out.as_ref().map(|letter| self.letter(letter)).transpose()?;
         let may_keep_length = match &row.may_keep_length {
             Some(at) if meaning != Meaning::Machine => {
@@ -353,6 +364,7 @@ impl Reader<'_> {
             may_keep_length,
             stops_rotary,
             ends,
+            angle,
             by_diameter,
         })
     }

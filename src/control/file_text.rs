@@ -7,7 +7,9 @@ use toml::Spanned;
 
 use super::arcs::Tolerance;
 use super::runs::StopsRotary;
-use super::traits::{Basic, Centres, DwellUnit, Kept, Rules, ToolLength, Turns, WithoutPoint};
+use super::traits::{
+    Basic, Centres, DwellUnit, FeedWithoutPoint, Kept, Macros, Rules, ToolLength, Turns, WithoutPoint,
+};
 
 /// A control file as written.
 #[derive(Deserialize)]
@@ -48,6 +50,10 @@ pub(super) struct File {
     #[serde(default)]
     pub(super) corners: CornersText,
     #[serde(default)]
+    pub(super) macros: MacrosText,
+    #[serde(default)]
+    pub(super) subprograms: Subprograms,
+    #[serde(default)]
     pub(super) codes: BTreeMap<Spanned<String>, RowText>,
 }
 
@@ -60,6 +66,29 @@ pub(super) struct Text {
     pub(super) longer: Option<Longer>,
     pub(super) open_comments: Option<bool>,
     pub(super) small_letters: Option<bool>,
+    pub(super) semicolon: Option<Semicolon>,
+}
+
+/// The meaning of a semicolon.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Semicolon {
+    Comment,
+    EndOfBlock,
+}
+
+/// `[macros]`: the language of expressions and assignments.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MacrosText {
+    pub(super) language: Option<Macros>,
+}
+
+/// `[subprograms]`: how subprograms are called.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Subprograms {
+    pub(super) repeats_in_p: Option<bool>,
 }
 
 /// `[blocks]`: limits of a block.
@@ -69,11 +98,12 @@ pub(super) struct Blocks {
     pub(super) one_m: Option<bool>,
 }
 
-/// `[numbers]`: the meaning of a length without a decimal point.
+/// `[numbers]`: the meaning of a length or a feed without a decimal point.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Numbers {
     pub(super) length_without_point: Option<WithoutPoint>,
+    pub(super) feed_without_point: Option<FeedWithoutPoint>,
 }
 
 /// `[start]`: whether modes that a program leaves active are still active in the next program, and the machine's units.
@@ -232,4 +262,5 @@ pub(super) struct RowText {
     pub(super) may_keep_length: Option<Spanned<bool>>,
     pub(super) stops_rotary: Option<StopsRotary>,
     pub(super) ends: Option<Spanned<String>>,
+    pub(super) angle: Option<Spanned<String>>,
 }

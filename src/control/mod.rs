@@ -27,7 +27,9 @@ use key::Key;
 pub use meaning::{AxisWords, Frame, GROUPS, Group, Meaning};
 pub use runs::{Motions, Pitch, PitchUnit, Runs, StopsRotary, WorkOffset};
 pub use shipped::names;
-pub use traits::{Basic, Centres, DwellUnit, Kept, Rules, ToolLength, Traits, Turns, WithoutPoint};
+pub use traits::{
+    Basic, Centres, DwellUnit, FeedWithoutPoint, Kept, Macros, Rules, ToolLength, Traits, Turns, WithoutPoint,
+};
 pub use words::Words;
 
 /// The description of a control.

@@ -1,5 +1,7 @@
 //! Values that the simulator needs to run a code, besides its meaning: motions of a cycle, work offset, reference point.
 
+use super::words::Words;
+
 macro_rules! motions {
     ($($name:ident $text:literal $about:literal;)*) => {
         /// The motions of a canned cycle. Control files select the motions with the key `motions`. The key `motions`
@@ -175,6 +177,8 @@ pub struct Runs {
     pub stops_rotary: Option<StopsRotary>,
     /// The code that this code ends.
     pub ends: Option<super::Code>,
+    /// The words that give the angle at which the code stops the spindle.
+    pub angle: Words,
     /// Whether cutter compensation uses no register: D is a diameter, or the diameter belongs to the tool.
     pub by_diameter: bool,
 }

@@ -140,6 +140,34 @@ pub enum Turns {
     Nothing,
 }
 
+/// The macro language of a control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Macros {
+    /// Custom macros of Fanuc (Macro B).
+    #[default]
+    Fanuc,
+    /// The macros of Haas.
+    Haas,
+    /// The expressions of LinuxCNC.
+    Linuxcnc,
+}
+
+/// The unit of a feed without a decimal point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedWithoutPoint {
+    /// Not public; such feeds are run as whole units.
+    #[default]
+    Unknown,
+    /// The units that are active, per minute or per revolution.
+    Units,
+    /// Millimetres per minute; with inches or per revolution, a setting of the control decides.
+    WholeMm,
+    /// As a length without a decimal point, if a setting of the control does not change it.
+    LeastIncrement,
+}
+
 /// Properties of a control other than its codes.
 #[derive(Clone, Debug, Default)]
 pub struct Traits {
@@ -158,6 +186,14 @@ pub struct Traits {
     pub small_letters: bool,
     /// The unit of a length without a decimal point.
     pub without_point: WithoutPoint,
+    /// The unit of a feed without a decimal point.
+    pub feed_without_point: FeedWithoutPoint,
+    /// The macro language.
+    pub macros: Macros,
+    /// Whether a semicolon ends the block, and is not the begin of a comment.
+    pub semicolon_ends_block: bool,
+    /// Whether the digits of P above the last four are the number of calls of a subprogram, as in M98 P31000.
+    pub repeats_in_p: bool,
     /// The unit of P in the block of a dwell.
     pub dwell: DwellUnit,
     /// The point from which I, J and K of an arc are measured.

@@ -345,6 +345,7 @@ codes! {
     PN035 Warning "a part of a program that the job changes or leaves out"
     PN036 Error "something that a job can't contain"
     PN037 Warning "a program without its end while the spindle turns"
+    PN038 Warning "blocks with a slash"
     // PV: findings of verify
     PV001 Error "another motion"
     PV002 Error "a hole that is not drilled"

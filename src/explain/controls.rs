@@ -3,8 +3,8 @@
 use indexmap::IndexMap;
 
 use crate::control::{
-    Centres, Code, Control, DwellUnit, Kept, Row, Rules, StopsRotary, ToolLength, Turns, WithoutPoint, Words,
-    WorkOffset, names,
+    Centres, Code, Control, DwellUnit, FeedWithoutPoint, Kept, Macros, Row, Rules, StopsRotary, ToolLength, Traits,
+    Turns, WithoutPoint, Words, WorkOffset, names,
 };
 
 /// The text for a fact that no public source states.
@@ -69,7 +69,7 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
             "a wire EDM machine: X and Y are positions of the lower guide, U and V are positions of the upper guide"
         }
     };
-    vec![
+    let mut facts = vec![
         ("programs", rules.to_owned()),
         ("type of machine", machine.to_owned()),
         ("longest block", line),
@@ -82,6 +82,33 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         ("G91 that the previous program left on", kept(traits.modes_at_start).to_owned()),
         ("the spindle at M0 and M1", kept(traits.spindle_at_stop).to_owned()),
         ("codes that are not listed", others.to_owned()),
+    ];
+    if traits.rules == Rules::Fanuc {
+        facts.extend(facts_of_fanuc(traits).map(|(name, fact)| (name, fact.to_owned())));
+    }
+    facts
+}
+
+/// The traits that only controls with the rules of a Fanuc have.
+fn facts_of_fanuc(traits: &Traits) -> [(&'static str, &'static str); 4] {
+    let feed = match traits.feed_without_point {
+        FeedWithoutPoint::Unknown => UNKNOWN,
+        FeedWithoutPoint::Units => "the active units",
+        FeedWithoutPoint::WholeMm => "mm per minute; with inches or per revolution a setting decides",
+        FeedWithoutPoint::LeastIncrement => "the smallest unit, or whole units: a setting decides",
+    };
+    let expressions = match traits.macros {
+        Macros::Fanuc => "those of Fanuc",
+        Macros::Haas => "those of Haas",
+        Macros::Linuxcnc => "those of LinuxCNC",
+    };
+    let semicolon = if traits.semicolon_ends_block { "ends the block" } else { "begins a comment" };
+    let calls = if traits.repeats_in_p { "calls O1000 three times" } else { "calls O31000" };
+    [
+        ("unit of a feed without a point", feed),
+        ("expressions", expressions),
+        ("a semicolon", semicolon),
+        ("M98 P31000", calls),
     ]
 }
 
@@ -232,8 +259,15 @@ like = \"{name}\"
 # [text]
 # line = 80                          # longest block, in characters
 # longer = \"stops\"                 # effect of a longer block: stops or cut
+# small_letters = true               # the control reads words in small letters
+# semicolon = \"comment\"            # `;` begins a comment, or ends the block: end-of-block
+# [macros]
+# language = \"fanuc\"               # expressions as on a Fanuc, on a Haas or on LinuxCNC: fanuc, haas, linuxcnc
+# [subprograms]
+# repeats_in_p = true                # M98 P31000 calls O1000 three times, not O31000
 # [numbers]
 # length_without_point = \"units\"   # units: X10 is 10 mm; least-increment: X10 is 0.01 mm
+# feed_without_point = \"units\"     # units: F10 is 10 mm/min; whole-mm: not with inches; least-increment: as lengths
 # [start]
 # modes = \"kept\"                   # a G91 or G20 of the previous program is kept or lost
 # units = \"mm\"                     # Siemens: the machine's basic units, inch or mm; feeds have them after G70 and G71

@@ -159,9 +159,29 @@ impl Simulator<'_> {
         self.block.get(b'S').is_some() && !switches && !taps
     }
 
+    /// The first comment of the line that was run last, without its delimiters.
+    pub fn comment(&self) -> Option<&[u8]> {
+        self.block.comment.and_then(|(start, end)| self.line.get(start..end))
+    }
+
+    /// Whether the last block sets tool data, and not a work offset.
+    pub fn sets_tool_data(&self) -> bool {
+        self.sets_offsets() && !matches!(self.block.get(b'L'), Some(2.0 | 20.0))
+    }
+
+    /// The number of the length register that the last block sets, or whose wear it sets. Without L, the block sets
+    /// the only value that the register has on some controls.
+    pub fn set_length(&self) -> Option<u32> {
+        let sets = self.sets_tool_data() && matches!(self.block.get(b'L'), None | Some(1.0 | 10.0 | 11.0));
+        self.block.get(b'P').filter(|_| sets).map(|register| register as u32)
+    }
+
+    fn sets_offsets(&self) -> bool {
+        self.block.row(Group::Once).is_some_and(|row| row.meaning == Meaning::SetOffsets)
+    }
+
     /// Whether the last block sets a work offset along X or Y, or rotates it.
     pub fn sets_offset_across(&self) -> bool {
-        let sets = self.block.row(Group::Once).is_some_and(|row| row.meaning == Meaning::SetOffsets);
-        sets && b"XYR".iter().any(|letter| self.block.get(*letter).is_some())
+        self.sets_offsets() && b"XYR".iter().any(|letter| self.block.get(*letter).is_some())
     }
 }

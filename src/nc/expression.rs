@@ -1,6 +1,7 @@
 //! Evaluates expressions in words: `[#1 * 2 + SIN[30]]`.
 
 use super::fault::{Done, Fault, quoted, refuse};
+use super::macros::{Function, Language, Operator};
 use super::parameters::{Parameters, Target};
 use super::scan::{Kind, Token, Tokens};
 use crate::diag::Code;
@@ -14,16 +15,27 @@ pub struct Reader<'a> {
     tokens: Tokens<'a>,
     ahead: Option<Token>,
     depth: u32,
+    /// The last operator between the current brackets.
+    last: Option<&'static Operator>,
+    /// The step to which ROUND rounds.
+    step: Step,
 }
 
-/// Operators by precedence. Operators of the same precedence are evaluated from left to right.
-const OPERATORS: [&[&str]; 5] =
-    [&["AND", "OR", "XOR"], &["EQ", "NE", "GT", "GE", "LT", "LE"], &["+", "-"], &["*", "/", "MOD"], &["**"]];
+/// The step to which ROUND rounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Step {
+    /// Whole numbers.
+    One,
+    /// The least increment of the word that gets the value.
+    Increment(f64),
+    /// Not public for the word that gets the value.
+    Unknown(u8),
+}
 
 impl<'a> Reader<'a> {
     /// A reader that begins at the next token of `tokens`.
     pub fn new(line: &'a [u8], tokens: Tokens<'a>) -> Reader<'a> {
-        let mut reader = Reader { line, tokens, ahead: None, depth: 0 };
+        let mut reader = Reader { line, tokens, ahead: None, depth: 0, last: None, step: Step::One };
         reader.ahead = reader.pull();
         reader
     }
@@ -95,12 +107,44 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    fn plain_value(&mut self, parameters: &Parameters) -> Done<f64> {
-        if self.takes(b'-') {
-            return Ok(-self.value(parameters)?);
-        }
-        if self.takes(b'+') {
+    /// Reads the value of a word, as `value`.
+    ///
+    /// # Errors
+    /// The value is missing or not defined.
+    pub fn word_value(&mut self, letter: u8, parameters: &Parameters) -> Done<f64> {
+        self.step = match letter {
+            _ if parameters.language().is_linuxcnc => Step::One,
+            b'A'..=b'C' => Step::Increment(1e-3),
+            b'I'..=b'K' | b'Q' | b'R' | b'U'..=b'Z' => Step::Increment(parameters.increment),
+            b'E' | b'F' | b'P' => Step::Unknown(letter),
+            _ => Step::One,
+        };
+        let value = self.value(parameters);
+        self.step = Step::One;
+        value
+    }
+
+    /// Reads the value of an assignment.
+    ///
+    /// # Errors
+    /// The value is missing or not defined.
+    pub fn assigned_value(&mut self, parameters: &Parameters) -> Done<f64> {
+        if parameters.language().is_linuxcnc {
             return self.value(parameters);
+        }
+        self.last = None;
+        self.operation(parameters, 0)
+    }
+
+    fn plain_value(&mut self, parameters: &Parameters) -> Done<f64> {
+        let minus = self.takes(b'-');
+        if minus || self.takes(b'+') {
+            let again = self.ahead.is_some_and(|token| matches!(token.kind, Kind::Symbol(b'-' | b'+')));
+            if again && !parameters.language().is_linuxcnc {
+                return self.unexpected("a value");
+            }
+            let value = self.value(parameters)?;
+            return Ok(if minus { -value } else { value });
         }
         if self.takes(b'#') {
             return match self.target(parameters)? {
@@ -124,6 +168,11 @@ impl<'a> Reader<'a> {
     /// # Errors
     /// There is no parameter.
     pub fn target(&mut self, parameters: &Parameters) -> Done<Target> {
+        let is_linuxcnc = parameters.language().is_linuxcnc;
+        let has_number = self.ahead.is_some_and(|token| matches!(token.kind, Kind::Number(_) | Kind::Symbol(b'[')));
+        if !is_linuxcnc && !has_number {
+            return self.unexpected("the number of a parameter or `[`");
+        }
         if let Some(token) = self.ahead.filter(|token| token.kind == Kind::Quoted) {
             self.next();
             let text = String::from_utf8_lossy(&self.line[token.start + 1..token.end - 1]);
@@ -140,87 +189,68 @@ impl<'a> Reader<'a> {
         if !self.takes(b'[') {
             return self.unexpected("`[`");
         }
+        let last = self.last.take();
         let value = self.operation(parameters, 0)?;
+        self.last = last;
         if !self.takes(b']') {
             return self.unexpected("`]` or an operator");
         }
         Ok(value)
     }
 
-    /// Reads values that are joined by operators of precedence `strength` or higher.
-    fn operation(&mut self, parameters: &Parameters, strength: usize) -> Done<f64> {
-        if strength == OPERATORS.len() {
-            return self.value(parameters);
-        }
-        let mut left = self.operation(parameters, strength + 1)?;
-        while let Some(operator) = self.operator(strength) {
-            let right = self.operation(parameters, strength + 1)?;
-            left = apply(operator, left, right)?;
+    /// Reads values that are joined by operators of this rank or a higher one.
+    fn operation(&mut self, parameters: &Parameters, rank: u8) -> Done<f64> {
+        let mut left = self.value(parameters)?;
+        while let Some(operator) = self.operator(parameters.language(), rank)? {
+            let right = self.operation(parameters, operator.rank + 1)?;
+            left = (operator.apply)(left, right)?;
         }
         Ok(left)
     }
 
-    fn operator(&mut self, strength: usize) -> Option<&'static str> {
-        let token = self.ahead.filter(|token| matches!(token.kind, Kind::Symbol(_) | Kind::Name))?;
-        let text = self.text(token);
-        let operator = OPERATORS[strength].iter().find(|o| o.as_bytes().eq_ignore_ascii_case(text))?;
+    /// Takes the next token if it is an operator of this rank or a higher one.
+    fn operator(&mut self, language: &Language, rank: u8) -> Done<Option<&'static Operator>> {
+        let named = |token: &Token| matches!(token.kind, Kind::Symbol(_) | Kind::Name);
+        let Some(token) = self.ahead.filter(named) else { return Ok(None) };
+        let Some(operator) = language.operator(self.text(token)).filter(|operator| operator.rank >= rank) else {
+            return Ok(None);
+        };
+        if let Some(last) = self.last.replace(operator)
+            && (last.alone || operator.alone)
+            && last.name != operator.name
+        {
+            let message =
+                format!("{} and {} without brackets: which one is first is not public", last.name, operator.name);
+            return Err(Fault::at(Code::PN016, token.start, message, "write brackets, as [#1 AND #2] + 1"));
+        }
         self.next();
-        Some(operator)
+        Ok(Some(operator))
     }
 
     fn function(&mut self, parameters: &Parameters) -> Done<f64> {
         let Some(token) = self.next() else { return self.unexpected("a function") };
         let name = String::from_utf8_lossy(self.text(token)).to_ascii_uppercase();
+        let language = parameters.language();
+        let Some(function) = language.function(&name) else {
+            let help = format!("functions are {}", language.names());
+            return Err(Fault::at(Code::PN014, token.start, format!("there is no function {name}"), help));
+        };
         let x = self.bracketed(parameters)?;
-        Ok(match name.as_str() {
-            "ABS" => x.abs(),
-            "ACOS" => x.acos().to_degrees(),
-            "ASIN" => x.asin().to_degrees(),
-            "ATAN" => {
-                if !self.takes(b'/') {
-                    return self.unexpected("`/` of ATAN[..]/[..]");
+        match function {
+            Function::Of(of) => of(x),
+            Function::Ratio(of) => {
+                let second = if self.takes(b'/') { Some(self.bracketed(parameters)?) } else { None };
+                of(x, second)
+            }
+            Function::Round => match self.step {
+                Step::One => Ok(x.round()),
+                Step::Increment(step) => Ok((x / step).round() * step),
+                Step::Unknown(letter) => {
+                    let letter = char::from(letter);
+                    let message = format!("ROUND in the value of {letter}, whose least increment is not public");
+                    Err(Fault::at(Code::PN016, token.start, message, format!("write #1=ROUND[..] and {letter}#1")))
                 }
-                x.atan2(self.bracketed(parameters)?).to_degrees()
-            }
-            "COS" => x.to_radians().cos(),
-            "EXP" => x.exp(),
-            "FIX" => x.floor(),
-            "FUP" => x.ceil(),
-            "LN" => x.ln(),
-            "ROUND" => x.round(),
-            "SIN" => x.to_radians().sin(),
-            "SQRT" => x.sqrt(),
-            "TAN" => x.to_radians().tan(),
-            _ => {
-                let help = "functions are ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND SIN SQRT TAN";
-                return Err(Fault::at(Code::PN014, token.start, format!("there is no function {name}"), help));
-            }
-        })
-    }
-}
-
-fn apply(operator: &str, left: f64, right: f64) -> Done<f64> {
-    let truth = |is_so: bool| f64::from(u8::from(is_so));
-    Ok(match operator {
-        "AND" => truth(left != 0.0 && right != 0.0),
-        "OR" => truth(left != 0.0 || right != 0.0),
-        "XOR" => truth((left != 0.0) != (right != 0.0)),
-        // as on LinuxCNC, values that differ by less than 0.0001 are equal
-        "EQ" => truth((left - right).abs() < 1e-4),
-        "NE" => truth((left - right).abs() >= 1e-4),
-        "GT" => truth(left > right),
-        "GE" => truth(left >= right),
-        "LT" => truth(left < right),
-        "LE" => truth(left <= right),
-        "+" => left + right,
-        "-" => left - right,
-        "*" => left * right,
-        "/" | "MOD" if right == 0.0 => return refuse(Code::PN014, "a division by zero", "check the divisor"),
-        "/" => left / right,
-        "MOD" => left.rem_euclid(right.abs()),
-        _ if left < 0.0 && right.fract() != 0.0 => {
-            return refuse(Code::PN014, "a negative number with a fractional exponent", "check the exponent");
+            },
         }
-        _ => left.powf(right),
-    })
+    }
 }

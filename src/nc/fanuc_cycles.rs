@@ -32,7 +32,7 @@ impl State {
             self.holes.series.initial_unknown = self.is_unknown(across);
             self.holes.series.initial_elsewhere = false;
         }
-        self.keep_cycle_words(block, b"XYZ"[across]);
+        self.keep_cycle_words(block, b"XYZ"[across])?;
         if !block.has(letters("XYZABCR")) {
             return Ok(());
         }
@@ -113,8 +113,11 @@ impl State {
 
     /// Stores the words of a block for the holes of the series. `depth` is the letter of the axis perpendicular to the
     /// plane. Increments are measured from the initial level of the series, and are converted to positions at once.
-    fn keep_cycle_words(&mut self, block: &Block, depth: u8) {
-        let dwell = block.get(b'P').map(|p| self.seconds(p, block));
+    ///
+    /// # Errors
+    /// P is not a dwell that the control reads.
+    fn keep_cycle_words(&mut self, block: &Block, depth: u8) -> Done {
+        let dwell = block.get(b'P').map(|p| self.seconds(p, block)).transpose()?;
         let initial = self.holes.series.initial;
         let series = &mut self.holes.series;
         let word = |letter: u8| block.get(letter);
@@ -132,6 +135,7 @@ impl State {
         for (axis, letter) in CENTERS.into_iter().enumerate() {
             series.shift[axis] = word(letter).or(series.shift[axis]);
         }
+        Ok(())
     }
 
     /// Refuses a cycle that can't run in the current state of the control, or with these heights.

@@ -22,8 +22,10 @@ pub enum Step {
     /// The beginning of a program or subprogram, as on a Fanuc.
     Program,
     Sub,
-    EndSub,
-    Return,
+    /// With the value that the subprogram returns, if any.
+    EndSub(Option<f64>),
+    /// As `EndSub`.
+    Return(Option<f64>),
     Call(Vec<f64>),
     If(bool),
     ElseIf(bool),
@@ -41,8 +43,8 @@ pub enum Step {
 /// The words that may follow an O word, each with its step.
 const NAMES: [(&str, Step); 15] = [
     ("sub", Step::Sub),
-    ("endsub", Step::EndSub),
-    ("return", Step::Return),
+    ("endsub", Step::EndSub(None)),
+    ("return", Step::Return(None)),
     ("call", Step::Call(Vec::new())),
     ("if", Step::If(false)),
     ("elseif", Step::ElseIf(false)),
@@ -84,9 +86,10 @@ impl Flow {
                         arguments.push(reader.bracketed(parameters)?);
                     }
                 }
-                // the value that a subprogram returns is not used
-                Step::EndSub | Step::Return if reader.peek().is_some_and(|t| t.kind == Kind::Symbol(b'[')) => {
-                    reader.bracketed(parameters)?;
+                Step::EndSub(value) | Step::Return(value)
+                    if reader.peek().is_some_and(|t| t.kind == Kind::Symbol(b'[')) =>
+                {
+                    *value = Some(reader.bracketed(parameters)?);
                 }
                 _ => {}
             }

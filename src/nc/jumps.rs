@@ -36,7 +36,10 @@ impl Simulator<'_> {
                 Ok(Jump::Skip(label, Ends::Sub))
             }
             Step::Call(arguments) => self.call_with(label, &arguments),
-            Step::EndSub | Step::Return => self.return_from(&format!("o{label}")),
+            Step::EndSub(value) | Step::Return(value) => {
+                self.parameters.returns(value);
+                self.return_from(&format!("o{label}"))
+            }
             Step::If(true) => self.push(Frame::If { label }).map(|()| Jump::On),
             Step::If(false) => {
                 self.push(Frame::If { label: label.clone() })?;
@@ -82,10 +85,24 @@ impl Simulator<'_> {
     /// beginning is an error.
     fn program_begins(&mut self, label: String) -> Done<Jump> {
         self.program = self.program.or(label.parse().ok());
-        self.labels.insert(label, self.at);
+        self.begins_at(label, self.at)?;
         match self.frames.last() {
             Some(Frame::Call { .. }) => Err(no_end()),
             _ => Ok(Jump::On),
+        }
+    }
+
+    /// Records the beginning of a program. Two programs with one number are an error, because a call means one of them.
+    fn begins_at(&mut self, label: String, at: Spot) -> Done {
+        match self.labels.get(&label) {
+            Some(known) if *known != at => {
+                let message = format!("O{label} of line {} has the number of an earlier program", at.line);
+                refuse(Code::PN015, message, "give each program of the file a number of its own")
+            }
+            _ => {
+                self.labels.insert(label, at);
+                Ok(())
+            }
         }
     }
 
@@ -224,7 +241,7 @@ impl Simulator<'_> {
                 continue;
             }
             match (ends, step) {
-                (Ends::Sub, Step::EndSub)
+                (Ends::Sub, Step::EndSub(_))
                 | (Ends::While, Step::EndWhile)
                 | (Ends::Do, Step::While(_))
                 | (Ends::Repeat, Step::EndRepeat)
@@ -266,7 +283,8 @@ impl Simulator<'_> {
                 if !std::mem::take(&mut returns) {
                     return Err(self.refused(no_end()));
                 }
-                self.labels.insert(label, self.at);
+                let at = self.at;
+                self.begins_at(label, at).map_err(|fault| self.refused(fault))?;
                 left -= 1;
             }
             returns |= self.has_return();
@@ -292,8 +310,13 @@ impl Simulator<'_> {
         if !self.labels.contains_key(&label) && !self.searched {
             let text = self.line.clone();
             while self.read_line()? {
-                if let Some((found, Step::Program | Step::Sub)) = Flow::head(&self.line) {
-                    self.labels.entry(found).or_insert(self.at);
+                match Flow::head(&self.line) {
+                    Some((found, Step::Program)) => {
+                        let at = self.at;
+                        self.begins_at(found, at).map_err(|fault| self.refused(fault))?;
+                    }
+                    Some((found, Step::Sub)) => _ = self.labels.entry(found).or_insert(self.at),
+                    _ => {}
                 }
             }
             self.searched = true;

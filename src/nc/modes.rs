@@ -55,7 +55,7 @@ impl State {
                         "give the unit in a control file of your own: `[dwell]` and `P = \"s\"` or `\"ms\"`",
                     );
                 }
-                (Some(p), _) => self.seconds(p, block),
+                (Some(p), _) => self.seconds(p, block)?,
                 (None, Some(x)) if !self.control.is_linuxcnc() => x,
                 _ => return refuse(Code::PN007, "G4 without its time", "write G4 P1. for a second"),
             };
@@ -108,12 +108,19 @@ impl State {
     }
 
     /// Converts P to seconds. P without a decimal point is in milliseconds, except on controls that use seconds. P with
-    /// a decimal point is in seconds, but only on controls of the Fanuc kind.
-    pub(super) fn seconds(&self, p: f64, block: &Block) -> f64 {
+    /// a decimal point is in seconds, but only on controls of the Fanuc kind that read such a P.
+    ///
+    /// # Errors
+    /// P has a decimal point, and the control reads P only as a whole number. If the control is only assumed, such a P is
+    /// read as on other controls.
+    pub(super) fn seconds(&self, p: f64, block: &Block) -> Done<f64> {
         let dwell = self.control.traits().dwell;
-        let by_point = !self.control.rules().is_nist();
-        let seconds = dwell == DwellUnit::S || by_point && block.whole & bit(b'P') == 0;
-        if seconds { p } else { p / 1000.0 }
+        let has_point = !self.control.rules().is_nist() && block.whole & bit(b'P') == 0;
+        if has_point && dwell == DwellUnit::Ms && !self.settings.assumed {
+            let message = format!("P{p} with a decimal point: P of a dwell is a whole number of milliseconds");
+            return refuse(Code::PN016, message, format!("write P{}", (p * 1000.0).round()));
+        }
+        Ok(if dwell == DwellUnit::S || has_point { p } else { p / 1000.0 })
     }
 
     /// If `changes` is set, refuses the change of a mode while cutter compensation is on, as LinuxCNC does.

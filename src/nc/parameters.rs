@@ -3,11 +3,15 @@
 use std::collections::HashMap;
 
 use super::fault::{Done, refuse};
+use super::macros::Language;
 use crate::control::Control;
 use crate::diag::Code;
 
 /// The highest number of a parameter.
 const HIGHEST: usize = 9999;
+
+/// LinuxCNC's names of the value that the last subprogram has returned, and whether it has returned one.
+const RETURNED: [&str; 2] = ["_value", "_value_returned"];
 
 /// The parameters of a program, numbered and named.
 #[derive(Clone, Debug)]
@@ -21,6 +25,8 @@ pub struct Parameters {
     kept: Vec<[Option<f64>; 30]>,
     /// Position of the tool, which programs read from `#5420` and the next parameters.
     pub position: [f64; 6],
+    /// The least increment of lengths.
+    pub increment: f64,
 }
 
 /// The parameter to which a value is assigned.
@@ -38,11 +44,17 @@ impl Parameters {
         Parameters {
             control,
             numbered: vec![None; HIGHEST + 1],
-            global: HashMap::new(),
+            global: RETURNED.map(|name| (name.to_owned(), 0.0)).into(),
             local: vec![HashMap::new()],
             kept: Vec::new(),
             position: [0.0; 6],
+            increment: 1e-3,
         }
+    }
+
+    /// The macro language of the control.
+    pub fn language(&self) -> &'static Language {
+        Language::of(self.control)
     }
 
     /// Converts a value to the number of a parameter.
@@ -129,6 +141,12 @@ impl Parameters {
         Ok(())
     }
 
+    /// Sets the value that a subprogram returns.
+    pub fn returns(&mut self, value: Option<f64>) {
+        let values = [value.unwrap_or(0.0), f64::from(u8::from(value.is_some()))];
+        self.global.extend(RETURNED.iter().zip(values).map(|(name, value)| ((*name).to_owned(), value)));
+    }
+
     /// Begins a subprogram: `#1` to `#30` get the values of the subprogram's arguments.
     pub fn enter(&mut self, arguments: &[f64]) {
         let mut kept = [None; 30];
@@ -136,6 +154,7 @@ impl Parameters {
             *old = self.numbered[i + 1];
             self.numbered[i + 1] = arguments.get(i).copied();
         }
+        self.returns(None);
         self.kept.push(kept);
         self.local.push(HashMap::new());
     }

@@ -100,7 +100,8 @@ impl State {
             && !control.is_lathe()
             && !control.traits().height_is_machine
             // the meaning of lengths without a decimal point depends on a setting
-            && (block.whole & AXES == 0 || control.rules().is_nist());
+            && (block.whole & AXES == 0 || control.rules().is_nist())
+            && (block.whole & bit(b'F') == 0 || !self.scales_feed(block));
         let feed = block.get(b'F').unwrap_or(self.drive.feed);
         if !is_usual || feed.is_nan() || feed <= 0.0 {
             return false;

@@ -27,10 +27,12 @@ impl Block {
         loop {
             stream.skip_blanks();
             if let Some((letter, number, start)) = stream.word() {
+                check_case(line, start, control)?;
                 self.word(letter, number.value, !number.point, start, control)?;
                 continue;
             }
             let Some(token) = stream.next() else { break };
+            check_case(line, token.start, control)?;
             match token.kind {
                 Kind::Word(b'O' | b':', _) if !self.is_empty => {
                     return Err(Fault::at(
@@ -82,6 +84,7 @@ impl Block {
         control: &'static Control,
     ) -> Done {
         while let Some(token) = reader.next() {
+            check_case(line, token.start, control)?;
             match token.kind {
                 Kind::LineEnd => break,
                 Kind::Word(letter, number) => {
@@ -99,7 +102,7 @@ impl Block {
                     return Ok(());
                 }
                 Kind::Letter(letter) => {
-                    let value = reader.value(parameters)?;
+                    let value = reader.word_value(letter, parameters)?;
                     self.word(letter, value, false, token.start, control)?;
                 }
                 Kind::Symbol(b'#') => {
@@ -108,7 +111,7 @@ impl Block {
                         let help = "to set a parameter, write #1=2";
                         return Err(Fault::at(Code::PN014, token.start, "a parameter without `=`", help));
                     }
-                    let value = reader.value(parameters)?;
+                    let value = reader.assigned_value(parameters)?;
                     self.settings.push((target, value));
                     self.is_empty = false;
                 }
@@ -118,6 +121,11 @@ impl Block {
                 }
                 _ => self.mark(line, token.kind, token.start, token.end, control)?,
             }
+        }
+        let beside = self.settings.len() > 1 || self.given & !bit(b'N') != 0 || self.has_g || self.has_m();
+        if !self.settings.is_empty() && beside && !parameters.language().is_linuxcnc {
+            let help = "write the assignment in a block of its own";
+            return refuse(Code::PN016, "an assignment beside other words or assignments", help);
         }
         self.check(control)?;
         for (target, value) in self.settings.drain(..) {
@@ -134,6 +142,19 @@ impl Block {
                     return Err(Fault::at(Code::PN001, start, "a comment in a comment", "remove the inner `(`"));
                 }
                 self.comment.get_or_insert((start + 1, end - 1));
+            }
+            Kind::Remark if control.traits().semicolon_ends_block => {
+                let next = tokens_from(line, start + 1).find(|token| token.kind != Kind::Blank);
+                match next.map(|token| (token.kind, token)) {
+                    Some((kind @ (Kind::Comment | Kind::OpenComment | Kind::Remark), token)) => {
+                        return self.mark(line, kind, token.start, token.end, control);
+                    }
+                    // other text is no block that the control could run
+                    Some((Kind::Word(..) | Kind::Letter(_) | Kind::Symbol(b'#') | Kind::Delete, token)) => {
+                        return after_end(line, token.start, end, control);
+                    }
+                    _ => _ = self.comment.get_or_insert((start + 1, end)),
+                }
             }
             Kind::Remark => _ = self.comment.get_or_insert((start + 1, end)),
             Kind::OpenComment if self.open_comments => _ = self.comment.get_or_insert((start + 1, end)),
@@ -366,6 +387,28 @@ fn unknown_g(value: f64, code: u16, column: usize, control: &'static Control) ->
 #[cold]
 fn not_run<T>(code: control::Code, why: &str, column: usize) -> Done<T> {
     Err(Fault::at(Code::PN016, column, format!("{code} is not supported: {why}"), "run the program without this code"))
+}
+
+/// Refuses a word in small letters on a control that may not read it.
+#[inline]
+fn check_case(line: &[u8], start: usize, control: &'static Control) -> Done {
+    if !line[start].is_ascii_lowercase() || control.traits().small_letters {
+        return Ok(());
+    }
+    let message = format!("`{}` is a small letter, which {} may refuse", char::from(line[start]), control.name());
+    let help = "write words in capital letters; if your control reads small letters, write `small_letters = true` under \
+                [text] in a control file of your own";
+    Err(Fault::at(Code::PN016, start, message, help))
+}
+
+/// Refuses text behind a `;` that ends the block.
+#[cold]
+fn after_end<T>(line: &[u8], start: usize, end: usize, control: &'static Control) -> Done<T> {
+    let (text, name) = (quoted(line, start, end), control.name());
+    let message = format!("`{text}` is after a `;`, which ends the block on {name}: it may be run as another block");
+    let help = "write it on a line of its own, or as a comment in brackets; if `;` begins a comment on your control, \
+                write `semicolon = \"comment\"` under [text] in a control file of your own";
+    Err(Fault::at(Code::PN016, start, message, help))
 }
 
 #[cold]

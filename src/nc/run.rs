@@ -5,14 +5,11 @@ use super::block::Block;
 use super::codes::{ARCS, Group, Motion, STRAIGHT, bit, is_one_of, letters};
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
-use super::settings::Unpointed;
 use super::state::State;
+use super::unpointed::SCALED;
 use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
-use crate::toolpath::{Direction, FeedMode, Units};
-
-/// The words whose values are lengths or angles.
-const LENGTHS: u32 = letters("XYZABCIJKRQ");
+use crate::toolpath::{Direction, FeedMode};
 
 impl State {
     /// The words that need no code in their block. If the control is only assumed, H in a block with a work offset
@@ -33,7 +30,7 @@ impl State {
         if block.plain && self.cuts_plainly(block, &mut Out::new(items, line)) {
             return Ok(Next::On);
         }
-        if !self.control.is_linuxcnc() && block.whole & (LENGTHS | letters("DUVW")) != 0 {
+        if !self.control.is_linuxcnc() && block.whole & SCALED != 0 {
             self.unpointed(block)?;
         }
         let motion = self.motion_of(block)?;
@@ -119,50 +116,8 @@ impl State {
         if block.has_m() { self.after(block, out) } else { Ok(Next::On) }
     }
 
-    /// Converts lengths without a decimal point, as the settings require.
-    fn unpointed(&self, block: &mut Block) -> Done {
-        let said = block.g_meaning(Group::Units).map(|meaning| meaning == Meaning::Inch);
-        let inch = said.unwrap_or(self.modes.units == Units::Inch);
-        if block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
-            return Ok(()); // the words of these codes are not lengths
-        }
-        // in a cycle without a shift, K is a number of repeats, not a length
-        let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
-        // not lengths: P and Q of a turning cycle (block numbers or increments), Q of a thread (an angle), R of a
-        // pattern cycle (number of passes)
-        let motion = block.row(Group::Motion).or(self.modes.motion).map(|row| row.meaning);
-        let (more, less) = match (block.g_meaning(Group::Once), motion) {
-            (Some(Meaning::RoughPattern), _) => (0, letters("QR")),
-            (Some(Meaning::RoughTurn | Meaning::RoughFace), _) => (bit(b'D'), bit(b'Q')),
-            (Some(Meaning::Finish | Meaning::FacePecks | Meaning::GroovePecks), _) => (0, bit(b'Q')),
-            (None, Some(Meaning::Thread | Meaning::ThreadPass | Meaning::ThreadCycle)) => (0, bit(b'Q')),
-            _ => (0, 0),
-        };
-        let more = more | if self.control.is_lathe() { letters("UVW") } else { 0 };
-        let whole = block.whole & (LENGTHS & !less | more) & if cycle { !bit(b'K') } else { !0 };
-        for letter in (b'A'..=b'Z').filter(|&letter| whole & bit(letter) != 0) {
-            let Some(value) = block.get(letter).filter(|&value| value != 0.0) else { continue };
-            match self.settings.unpointed {
-                Unpointed::Whole => {}
-                Unpointed::Increments => {
-                    let increment = if inch && !letters("ABC") & bit(letter) != 0 { 1e-4 } else { 1e-3 };
-                    block.set(letter, value * increment);
-                }
-                Unpointed::Refused => {
-                    let name = char::from(letter);
-                    let message =
-                        format!("{name}{value} has no point, and its meaning depends on a setting of the control");
-                    let help =
-                        format!("write {name}{value}. for whole units, or give `--no-point whole` or `increments`");
-                    return refuse(Code::PN017, message, help);
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The canned cycle of a Fanuc that this block begins, or that is active.
-    fn cycle_of(&self, block: &Block) -> Motion {
+    pub(super) fn cycle_of(&self, block: &Block) -> Motion {
         match block.row(Group::Cycle) {
             Some(row) => Some(row).filter(|row| row.meaning != Meaning::CycleEnd),
             None => self.holes.cycle,

@@ -129,8 +129,11 @@ impl Tokens<'_> {
                 return Kind::Letter(letter);
             }
         }
+        let start = self.at;
         self.at = next + self.line[next..].iter().take_while(|b| b.is_ascii_alphabetic()).count();
-        self.value = false;
+        // a value follows these operators, also outside brackets
+        let name = &self.line[start..self.at];
+        self.value = ["AND", "OR", "XOR", "MOD"].iter().any(|own| own.as_bytes().eq_ignore_ascii_case(name));
         Kind::Name
     }
 

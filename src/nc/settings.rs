@@ -17,6 +17,9 @@ pub struct RunSettings {
     pub back_off: Option<f64>,
     /// The meaning of a length without a decimal point, on a Fanuc.
     pub unpointed: Unpointed,
+    /// Whether feeds without a decimal point are in whole units: the form prints all feeds without one, for a machine that
+    /// reads them so.
+    pub whole_feeds: bool,
     /// Whether two positions count as unknown: the position of the tool at the beginning, and its height after a tool
     /// change. If `false`, the position is zero.
     pub places_unknown: bool,
@@ -52,6 +55,7 @@ impl RunSettings {
             block_delete: false,
             back_off: None,
             unpointed: Unpointed::Refused,
+            whole_feeds: false,
             places_unknown: false,
             centers_absolute: false,
             assumed: false,

@@ -81,6 +81,10 @@ pub struct Simulator<'a> {
     /// The first O number of the program.
     pub(super) program: Option<f64>,
     percent: bool,
+    /// The first block with a slash, until its warning is taken: its line and text.
+    pub(super) slash: Option<(u64, Vec<u8>)>,
+    /// Whether the program has had a block with a slash.
+    has_slash: bool,
     over: bool,
     /// Whether the program ended with M99. The control would start the program again.
     pub(super) again: bool,
@@ -129,6 +133,8 @@ impl<'a> Simulator<'a> {
             profiles: Vec::new(),
             program: None,
             percent: false,
+            slash: None,
+            has_slash: false,
             over: false,
             again: false,
             jumps: 0,
@@ -175,11 +181,6 @@ impl<'a> Simulator<'a> {
     /// The program's number, if it has one.
     pub fn program(&self) -> Option<f64> {
         self.program
-    }
-
-    /// The first comment of the line that was run last, without its delimiters.
-    pub fn comment(&self) -> Option<&[u8]> {
-        self.block.comment.and_then(|(start, end)| self.line.get(start..end))
     }
 
     /// Starts again at the beginning of the program, in the power-up state.
@@ -308,13 +309,6 @@ impl<'a> Simulator<'a> {
         Err(self.refused(Fault::new(Code::PN016, message, help)))
     }
 
-    /// Returns the warnings since the last call as findings.
-    pub fn take_warnings(&mut self) -> Vec<Diag> {
-        let list = self.state.take_warnings();
-        let (line, text) = (self.at.line, self.text());
-        list.into_iter().map(|(code, message)| Fault::new(code, message, code.row().title).diag(line, text)).collect()
-    }
-
     #[expect(clippy::boxed_local, reason = "faults come in boxes")]
     pub(super) fn refused(&mut self, fault: Box<Fault>) -> RunError {
         self.over = true;
@@ -423,6 +417,7 @@ impl<'a> Simulator<'a> {
             return refuse(Code::PN001, format!("a line of more than {longest} bytes"), "break it into several blocks");
         }
         self.parameters.position = *self.state.position();
+        self.parameters.increment = self.state.least_increment();
         match control.rules() {
             Rules::Grbl => super::grbl::read(&mut self.block, &self.line, control)?,
             Rules::Siemens => return self.read_siemens(items),
@@ -445,6 +440,9 @@ impl<'a> Simulator<'a> {
             return Ok(Some(Jump::On));
         }
         if self.block.deleted {
+            if !std::mem::replace(&mut self.has_slash, true) {
+                self.slash = Some((self.at.line, self.line.clone()));
+            }
             if self.state.settings.block_delete {
                 return Ok(Some(Jump::On));
             }

@@ -251,6 +251,11 @@ impl State {
         self.place.frames.to_program(at)
     }
 
+    /// The least increment of lengths, in the active units.
+    pub(super) fn least_increment(&self) -> f64 {
+        if self.modes.units == Units::Inch { 1e-4 } else { 1e-3 }
+    }
+
     /// The active units.
     pub fn units(&self) -> Units {
         self.modes.units

@@ -25,9 +25,13 @@ impl State {
                     next = Next::End;
                 }
                 Meaning::Call => next = self.call(code, block)?,
-                Meaning::Return if block.has(bit(b'P')) => {
+                Meaning::Return if block.has(bit(b'P') | bit(b'L')) => {
                     let help = "return to the block after the call";
-                    return refuse(Code::PN016, "M99 P, a jump, is not simulated", help);
+                    let message = match block.has(bit(b'P')) {
+                        true => "M99 P, a jump, is not simulated",
+                        false => "M99 L, which changes the number of calls that are left, is not simulated",
+                    };
+                    return refuse(Code::PN016, message, help);
                 }
                 Meaning::Return => next = Next::Return,
                 _ => {}
@@ -46,7 +50,7 @@ impl State {
         if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
             return refuse(Code::PN018, format!("L{times} is not a number of calls"), "write L1 to L9999");
         }
-        if p > 9999.0 && block.get(b'L').is_none() && !self.control.is_linuxcnc() {
+        if p > 9999.0 && block.get(b'L').is_none() && self.control.traits().repeats_in_p {
             return Ok(Next::Call(p % 10_000.0, (p / 10_000.0) as u32));
         }
         Ok(Next::Call(p, times as u32))

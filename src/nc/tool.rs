@@ -3,11 +3,11 @@
 use super::action::{Action, Cooling, Rotation};
 use super::arcs::axes_of;
 use super::block::Block;
-use super::codes::{ARCS, Group, Motion, is_one_of};
+use super::codes::{ARCS, Group, Motion, bit, is_one_of};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Code, Meaning, Rules, ToolLength, Turns};
+use crate::control::{Code, Meaning, Row, Rules, ToolLength, Turns};
 use crate::diag;
 use crate::toolpath::Side;
 
@@ -96,7 +96,7 @@ impl State {
             match row.meaning {
                 Meaning::CoolantOff if !self.control.is_linuxcnc() => {}
                 Meaning::Orient => {
-                    let angle = block.get(b'R').unwrap_or(0.0);
+                    let angle = self.angle(row, block)?;
                     if self.control.is_linuxcnc() && !(0.0..=360.0).contains(&angle) {
                         let message = format!("M19 to an angle of {angle}");
                         return refuse(diag::Code::PN018, message, "write an angle from 0 to 360");
@@ -127,6 +127,18 @@ impl State {
             out.push(Action::Spindle(self.drive.spindle, self.drive.speed));
         }
         Ok(())
+    }
+
+    /// The angle at which a code stops the spindle.
+    fn angle(&self, row: &Row, block: &Block) -> Done<f64> {
+        let mut angles =
+            (b'A'..=b'Z').filter(|letter| row.runs.angle.has(*letter)).filter_map(|letter| block.get(letter));
+        let angle = angles.next();
+        if angles.next().is_some() || block.has(bit(b'S')) && !self.control.is_linuxcnc() {
+            let message = format!("{} with more than one word that may be its angle", row.code);
+            return refuse(diag::Code::PN016, message, "write the angle as R, and S in another block");
+        }
+        Ok(angle.unwrap_or(0.0))
     }
 
     pub(super) fn turn_spindle(&mut self, rotation: Rotation, out: &mut Out<'_>) {

@@ -13,6 +13,7 @@ use crate::diag::{Code, Diag, Findings};
 use crate::error::{Error, ErrorKind};
 use crate::job::{Format, Job};
 use crate::nc::{RunSettings, settings_for};
+use crate::number::Point;
 use crate::preflight::JobTool;
 use crate::toolpath::{Event, Flow, Place, Sink, Units};
 use crate::verify::{Batch, Comparer, Counts, Expectation, Finding, Outcome, Verdict, prove_beside};
@@ -217,6 +218,9 @@ impl Proof {
 
     /// The settings for simulating a program. `form`: the form that printed the program, if any.
     fn settings(&self, form: Option<&compile::Program>, units: Units) -> RunSettings {
+        let implied =
+            |form: &compile::Program| form.letters.iter().all(|letters| letters[b'F'].format.point == Point::Implied);
+        let whole_feeds = form.is_some_and(implied);
         let form = form.map(|form| &form.settings);
         let of_form = form.and_then(|form| form.control);
         let control = self.control.or(of_form).unwrap_or_else(Control::usual);
@@ -232,6 +236,7 @@ impl Proof {
             block_delete: self.block_delete,
             back_off: self.back_off,
             unpointed: self.unpointed,
+            whole_feeds,
             centers_absolute: form.is_some_and(|form| !form.centre_incremental),
             assumed: self.control.is_none() && form.is_none(),
             ..RunSettings::new(control)

@@ -496,14 +496,19 @@ fn codes_that_move_the_frame_or_the_tool_are_refused() {
     assert!(bore("1.7").unwrap().contains("Q214=1.7 is not a whole number"));
     // axis words in a block with a code that may use them: G22 X Y Z I J K sets stroke limits and moves no axis
     let codes = |control: &str, block: &str| actions(&format!("G21 G90\nG0 X1. Y1. Z1.\n{block}\nM30\n"), control).1;
-    for block in
-        ["G22 X20. Y0 Z20. I-10. J-10. K-10.", "G23 X20.", "G5.1 Q1 X20.", "G8 P1 Y2.", "G103 P1 Z2.", "G187 P1 G0 X2."]
-    {
-        let refused = codes("fanuc", block).unwrap_or_else(|| panic!("{block} is run"));
+    for (control, block) in [
+        ("fanuc", "G22 X20. Y0 Z20. I-10. J-10. K-10."),
+        ("fanuc", "G23 X20."),
+        ("fanuc", "G5.1 Q1 X20."),
+        ("fanuc", "G8 P1 Y2."),
+        ("haas", "G103 P1 Z2."),
+        ("haas", "G187 P1 G0 X2."),
+    ] {
+        let refused = codes(control, block).unwrap_or_else(|| panic!("{block} is run"));
         assert!(refused.contains("the axis words may belong to"), "{block}: {refused}");
         let alone: String =
             block.split(' ').filter(|word| !word.starts_with(['X', 'Y', 'Z'])).collect::<Vec<_>>().join(" ");
-        assert_eq!(codes("fanuc", &alone), None, "{alone}");
+        assert_eq!(codes(control, &alone), None, "{alone}");
     }
     // a Haas repeats a cycle by L, not by K
     let cycle = |word: &str| codes("haas", &format!("G91 G99 G81 X1. Z-1. R-.5 {word} F100."));

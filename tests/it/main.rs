@@ -16,6 +16,7 @@ mod cycles;
 mod diff;
 mod editors;
 mod examples;
+mod fanuc_language;
 mod file_names;
 mod fmt;
 mod former_users;

@@ -79,7 +79,7 @@ fn a_new_file_is_right_as_it_is_and_with_its_rows() {
     let (head, rest) = rows.split_once("where your control differs.\n").unwrap();
     let (tables, codes) = rest.split_once("\n# The codes").unwrap();
     let tables: String = tables.lines().map(|line| format!("{}\n", line.strip_prefix("# ").unwrap())).collect();
-    assert_eq!(tables.matches(" = ").count(), 9, "{tables}");
+    assert_eq!(tables.matches(" = ").count(), 14, "{tables}");
     let rows = format!("{head}where your control differs.\n{tables}\n# The codes{codes}");
     folder.write("vf2.toml", rows);
     let lint = folder.run(&["lint", "own.pf"]);
@@ -298,7 +298,7 @@ M30
         .map(|(usual, ..)| format!("\"{usual}\" = {{ is = \"absent\" }}\n"));
     let own = rows.iter().map(|(_, code, row)| format!("\"{}\" = {{ {row} }}\n", code.trim_end_matches(" P")));
     let codes: String = absent.chain(own).collect();
-    folder.write("usual.toml", "name = \"usual\"\nlike = \"fanuc\"\n[codes]\n\"G73\" = { is = \"cycle\", words = \"LPQR\", makes = \"chipbreak\" }\n");
+    folder.write("usual.toml", "name = \"usual\"\nlike = \"fanuc\"\n[codes]\n\"G154\" = { is = \"work\", words = \"P\", work = \"P\" }\n\"G73\" = { is = \"cycle\", words = \"LPQR\", makes = \"chipbreak\" }\n");
     folder.write(
         "own.toml",
         format!("name = \"own\"\nlike = \"usual.toml\"\n[codes]\n{codes}").replace("usual.toml", "fanuc"),

@@ -538,7 +538,9 @@ fn a_length_offset_that_is_off_is_another_length() {
         let mut job = Job::nc(job);
         job.reading.control = proof.control;
         match proof.verify(job, std::io::Cursor::new(program)).unwrap().verdict {
-            Verdict::Different(found) => found.iter().map(|one| format!("{} {}", one.code.name(), one.message)).collect(),
+            Verdict::Different(found) => {
+                found.iter().map(|one| format!("{} {}", one.code.name(), one.message)).collect()
+            }
             verdict => verdict.to_string(),
         }
     };
@@ -546,7 +548,10 @@ fn a_length_offset_that_is_off_is_another_length() {
         assert_eq!(said(control, job, job), "identical", "{control}");
         for (from, to) in [("Y30.\n", "Y30.\nG49\n"), ("Y30.\n", "Y30.\nG43 H0\n"), ("G43 H1 Z50.", "Z50.")] {
             let found = said(control, job, &job.replace(from, to));
-            assert!(found.contains("PV014") && found.contains("the job's tool cuts with H1"), "{control} {to}: {found}");
+            assert!(
+                found.contains("PV014") && found.contains("the job's tool cuts with H1"),
+                "{control} {to}: {found}"
+            );
         }
     }
     // a tool without an offset, after a tool with one

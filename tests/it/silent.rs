@@ -354,8 +354,10 @@ fn after_a_macro_the_place_is_said_again() {
     for line in ["G65 P9010", "M98 P9010", "G154 P2", "G110", "G254", "G68.2 P1", "G16", "G51.1 P1", "G199"] {
         assert!(again("Control haas", line), "{line}: {:?}", lines("Control haas", line));
     }
-    for line in ["G187 P1", "G64", "G4 P1", "G5.1 Q1"] {
-        assert!(!again("Control haas", line), "{line}: {:?}", lines("Control haas", line));
+    for (head, line) in
+        [("Control haas", "G187 P1"), ("Control haas", "G64"), ("Control haas", "G4 P1"), ("Control fanuc", "G5.1 Q1")]
+    {
+        assert!(!again(head, line), "{line}: {:?}", lines(head, line));
     }
 }
 

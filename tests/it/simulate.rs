@@ -71,7 +71,7 @@ fn cycles_of_a_fanuc() {
         ["T 1 1 10", "T 1 1 2", "F 1 1 -5", "T 1 1 10", "T 2 1 10", "T 2 1 2", "F 2 1 -5", "T 2 1 10"]
     );
     assert_eq!(
-        drill("G99 G82 X1. Z-5. R2. P500 F100.\nX2. P1.5\nG80"),
+        drill("G99 G82 X1. Z-5. R2. P500 F100.\nX2. P1500\nG80"),
         ["T 1 0 10", "T 1 0 2", "F 1 0 -5", "dwell 0.5", "T 1 0 2", "T 2 0 2", "F 2 0 -5", "dwell 1.5", "T 2 0 2"]
     );
     // the words stay active when the cycle changes
@@ -309,7 +309,6 @@ fn the_same_program_however_it_is_written() {
     let wanted = motions(control("fanuc"), plain);
     let variants = [
         plain.replace('\n', "\r\n"),
-        plain.to_lowercase(),
         plain.replace(' ', ""),
         plain.replace(' ', "\t  "),
         plain.replace("G21", "(caf\u{e9} \u{fffd}) G21"),
@@ -320,6 +319,9 @@ fn the_same_program_however_it_is_written() {
     for text in variants {
         assert_eq!(motions(control("fanuc"), &text), wanted, "{text:?}");
     }
+    // a Fanuc may refuse small letters
+    assert_eq!(refused(control("fanuc"), &plain.to_lowercase()), ("PN016".into(), 2));
+    assert_eq!(motions(control("linuxcnc"), &plain.to_lowercase()), wanted);
     let latin1 = [&b"(90\xb0)\n"[..], &plain.as_bytes()[2..]].concat();
     let (calls, ended, _) = simulated(&latin1, RunSettings::new(control("fanuc")));
     assert_eq!((calls.len(), ended), (2, Ok(())));

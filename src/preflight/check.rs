@@ -157,6 +157,14 @@ impl<'m> Check<'m> {
                 self.places.adds = register.is_some() && (self.places.adds || run.adds_length());
                 self.takes_length(*register, line);
             }
+            Action::LeftOut(code, Meaning::SetOffsets) => {
+                if let Some(register) = run.set_length() {
+                    self.places.sets_length(register);
+                    let message = format!("{code} sets the length H{register}, so the length of the table is not used");
+                    let help = "use the interval that is printed, or remove G10 and set the length in the table";
+                    self.found(Code::PM015, &format!("H{register}"), message, help, line);
+                }
+            }
             Action::Work(_) => self.takes_offset(run, line),
             Action::Frame if run.presets() => self.places.reframed(),
             Action::Compensation(side) => self.was_compensated |= side.is_some(),
@@ -207,10 +215,10 @@ impl<'m> Check<'m> {
                 Base::Unknown => return None,
                 Base::Machine => (known?, self.spindle_to_tip(axis)?),
                 Base::Work(needs) if needs.work == work && needs.offset_unknown => {
-                    (0.0, self.added(axis, needs.register))
+                    (0.0, self.added(needs.register))
                 }
                 Base::Work(needs) if needs.offset_unknown => return None,
-                Base::Work(needs) => (known?, self.added(axis, needs.register)),
+                Base::Work(needs) => (known?, self.added(needs.register)),
             };
             *value = at[axis].value - base - length;
         }
@@ -223,13 +231,12 @@ impl<'m> Check<'m> {
         if axis != 2 {
             return Some(0.0);
         }
-        self.machine.tools.as_ref()?.0.get(&self.tool?)?.length
+        self.places.length(i32::try_from(self.tool?).ok()?)
     }
 
-    /// The tool length that is included in a position of an axis.
-    fn added(&self, axis: usize, register: Option<i32>) -> f64 {
-        let length = |register: i32| self.machine.tools.as_ref()?.length(register);
-        register.filter(|_| axis == 2 || !self.control.is_lathe()).and_then(length).unwrap_or(0.0)
+    /// The tool length that is included in a position.
+    fn added(&self, register: Option<i32>) -> f64 {
+        register.and_then(|register| self.places.length(register)).unwrap_or(0.0)
     }
 
     /// Calls `count` with the clock and the current positions of the axes, if there is a clock.

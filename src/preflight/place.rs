@@ -1,5 +1,7 @@
 //! Machine positions, calculated from program positions with the known offsets, lengths and frames.
 
+use std::collections::BTreeSet;
+
 use crate::machine::Machine;
 use crate::nc::{Position, Simulator, Turn, axes_of, sweep};
 use crate::toolpath::Direction;
@@ -60,6 +62,8 @@ pub struct Places<'m> {
     pub adds: bool,
     /// Whether the active length is that of another edge than the first one. The machine's table has no such lengths.
     edge: bool,
+    /// The length registers that the program sets itself.
+    set: BTreeSet<u32>,
     /// Whether a tool was changed and no Z position has been programmed since.
     changed: bool,
     /// Axes for which no position has been programmed since the tool length last changed, as bits.
@@ -99,6 +103,7 @@ impl<'m> Places<'m> {
             is_lathe,
             adds: false,
             edge: false,
+            set: BTreeSet::new(),
             changed: false,
             lengthened: 0,
             lost: 0,
@@ -261,7 +266,14 @@ impl<'m> Places<'m> {
 
     /// The tool length in a register, with its sign. For mills only: the machine's file does not contain the position
     /// of a lathe tool's cutting edge.
-    fn length(&self, register: i32) -> Option<f64> {
-        self.machine.tools.as_ref().filter(|_| !self.is_lathe)?.length(register)
+    pub fn length(&self, register: i32) -> Option<f64> {
+        let known = !self.is_lathe && !self.set.contains(&register.unsigned_abs());
+        self.machine.tools.as_ref().filter(|_| known)?.length(register)
+    }
+
+    /// Forgets the length in a register, because the program sets it. The program may set the length, or only its wear
+    /// or a part of it.
+    pub fn sets_length(&mut self, register: u32) {
+        self.set.insert(register);
     }
 }

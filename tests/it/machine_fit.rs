@@ -491,3 +491,18 @@ fn machine_positions_of_other_languages() {
     let (found, not_checked) = klartext("L Z+10 FMAX M92");
     assert!(found.is_empty() && not_checked.contains("positions with M92"), "{found}\n{not_checked}");
 }
+
+/// A length that the program sets by G10 is not the length of the machine's table.
+#[test]
+fn a_length_that_the_program_sets_is_not_the_one_of_the_table() {
+    finds("G0 Z100.", "", &[]);
+    for block in ["G10 L10 P5 R400.", "G90 G10 L11 P5 R1."] {
+        let program = format!("{block}\nG43 H5 Z100.");
+        finds(&program, "", &["PM015 5 G10 sets the length H5"]);
+        let machine = machine(&format!("{VF2}{KNOWN}"));
+        let said = fitted(&format!("{HEAD}{program}\nM30\n"), &machine).fit.sentences(&machine, control("haas"));
+        assert!(said.iter().any(|said| said.contains("the length H5")), "{said:?}");
+    }
+    // the diameter, and the length of another tool
+    finds("G10 L12 P5 R4.\nG43 H5 Z100.", "", &[]);
+}

@@ -110,6 +110,7 @@ fn what_no_job_can_say_is_refused() {
     let cases = [
         ("G18 G81 X1. Z1. Y-1. R.1 F5.\nG80 G17", "a cycle along another axis"),
         ("G1 Z-.1 F5.\nG10 L2 P1 X2.\nX1.", "a frame that moves between moves"),
+        ("G1 Z-.1 F5.\nG10 L12 P1 R5.\nX1.", "tool data that change between moves"),
         ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G92 Z5.\nG0 Z6.", "G92 at an unknown machine position"),
         ("G18\nG1 Z-.1 F5.\nG41 D1 X1.\nX2.\nG40 X3.", "compensation in another plane"),
         ("G44 H1 Z2.\nG1 Z-.1 F5.", "an offset that is taken off"),
@@ -135,7 +136,6 @@ fn what_no_job_can_say_is_refused() {
 fn what_is_left_out_is_warned_of() {
     let cases = [
         ("/G1 X1. F5.", "block delete"),
-        ("G10 L10 P1 R2.", "G10"),
         ("G61\nG1 X1. F5.", "G61"),
         ("G1 G9 X1. F5.", "G9"),
         ("M88\nG1 X1. F5.", "M88"),
@@ -152,6 +152,9 @@ fn what_is_left_out_is_warned_of() {
     }
     let (_, warnings) = printed(&format!("{HEAD}G1 X1. F5.\nM30\n")).unwrap();
     assert_eq!(warnings, Vec::<String>::new());
+    let before_moves = HEAD.replace("G90\n", "G90\nG10 L10 P1 R2.\n");
+    let (_, warnings) = printed(&format!("{before_moves}G1 X1. F5.\nM30\n")).unwrap();
+    assert!(warnings.iter().any(|warning| warning.contains("G10")), "{warnings:?}");
     let (_, warnings) = printed(&format!("{HEAD}G1 X1. F5.\nM99\n")).unwrap();
     assert!(warnings.iter().any(|warning| warning.contains("M99")), "{warnings:?}");
 }

@@ -173,6 +173,10 @@ pub(super) fn survey(
                     one(&mut survey.registers, |r| &mut r.diameter, *register, line, "diameter offsets, D")?;
                 }
                 Action::LeftOut(_, Meaning::RigidAhead) => {}
+                Action::LeftOut(code, Meaning::SetOffsets) if moved && simulator.sets_tool_data() => {
+                    let help = "set the tool data at the machine, or before the first move of the program";
+                    return unsaid(item.line, format!("{code} sets tool data between moves"), help);
+                }
                 Action::LeftOut(code, _) => left_out.entry(Some(*code)).or_insert((item.line, 0)).1 += 1,
                 Action::BlockDelete => left_out.entry(None).or_insert((item.line, 0)).1 += 1,
                 _ => {}

@@ -143,12 +143,12 @@ fn pair(
 fn find_moves(comparison: &mut Comparison, old: &Program, new: &Program, ignore: &Ignore) {
     let (mut gone, mut come) = (Vec::new(), Vec::new());
     for edit in comparison.edits() {
-        let (list, line, text) = match *edit {
-            Edit::Removed(line) => (&mut gone, line, old.line(line)),
-            Edit::Added(line) => (&mut come, line, new.line(line)),
+        let (list, line, program) = match *edit {
+            Edit::Removed(line) => (&mut gone, line, old),
+            Edit::Added(line) => (&mut come, line, new),
             _ => continue,
         };
-        if let Some(key) = key(text, ignore) {
+        if let Some(key) = key(program.line(line), ignore, program.targets()) {
             list.push((key, line as u32));
         }
     }

@@ -5,6 +5,7 @@ use std::hash::{BuildHasher, Hash, Hasher};
 use foldhash::quality::{FixedState, FoldHasher};
 
 use super::ignore::Ignore;
+use super::targets::Targets;
 use crate::nc::{Kind, Token, tokens};
 
 /// A hasher with the same results on every machine.
@@ -14,14 +15,17 @@ pub(super) fn hasher() -> FoldHasher<'static> {
 
 /// The key of a line; `None` if all of the line is ignored.
 ///
+/// The number of a block is compared if another block refers to it.
+///
 /// Two different lines have the same key with a chance of 1 in 2^64. A program has far fewer than 2^64 lines.
-pub(super) fn key(line: &[u8], ignore: &Ignore) -> Option<u64> {
+pub(super) fn key(line: &[u8], ignore: &Ignore, targets: &Targets) -> Option<u64> {
     let mut whole = hasher();
     let mut sum = 0u64;
     let (mut counts, mut has_blanks, mut leaves_out) = (false, false, false);
     let mut parts = tokens(line).peekable();
     while let Some(token) = parts.next() {
-        if !is_seen(&token, ignore) {
+        let is_target = matches!(token.kind, Kind::Word(b'N', number) if targets.has(number.value));
+        if !is_target && !is_seen(&token, ignore) {
             leaves_out |= !is_blank(&token);
             // the spaces after an ignored number are ignored as well
             while matches!(token.kind, Kind::Word(..)) && parts.next_if(|next| next.kind == Kind::Blank).is_some() {}
@@ -78,9 +82,9 @@ fn hash_token(token: &Token, line: &[u8], ignore: &Ignore, hasher: &mut impl Has
             } else {
                 text[0].hash(hasher)
             }
-            // -0 and 0 are equal
-            (number.value + 0.0).to_bits().hash(hasher);
+            ignore.value(number).hash(hasher);
         }
+        // in an expression, 5 and 5. are equal
         Kind::Number(number) if ignore.format => number.value.to_bits().hash(hasher),
         Kind::Comment | Kind::OpenComment | Kind::Remark => text.hash(hasher),
         _ => {

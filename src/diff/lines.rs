@@ -27,7 +27,7 @@ impl Lines {
         let end = part.end;
         let (mut keys, mut numbers) = (Vec::with_capacity(part.len()), Vec::with_capacity(part.len()));
         for number in part {
-            if let Some(key) = key(program.line(number), ignore) {
+            if let Some(key) = key(program.line(number), ignore, program.targets()) {
                 keys.push(key);
                 numbers.push(number as u32);
             }

@@ -7,6 +7,7 @@ mod key;
 mod lines;
 mod program;
 mod summary;
+mod targets;
 mod words;
 
 pub use align::{Comparison, Edit, Hunk, Options, compare};

@@ -1,11 +1,14 @@
 //! A program in memory: its bytes, and the positions of its lines.
 
+use super::targets::Targets;
+
 /// A program with an index of its lines.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     bytes: Vec<u8>,
     /// Start of each line in bytes, then the end of the last line.
     starts: Vec<u32>,
+    targets: Targets,
 }
 
 /// The error for a program whose positions don't fit into 32 bits. The number is the size of the program in bytes.
@@ -26,12 +29,18 @@ impl Program {
         if starts.last().is_some_and(|&last| (last as usize) < bytes.len()) {
             starts.push(bytes.len() as u32);
         }
-        Ok(Program { bytes, starts })
+        let targets = Targets::of(&bytes);
+        Ok(Program { bytes, starts, targets })
     }
 
     /// The text of the program.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
+    }
+
+    /// The block numbers to which blocks refer.
+    pub(super) fn targets(&self) -> &Targets {
+        &self.targets
     }
 
     /// The number of lines.

@@ -18,6 +18,8 @@ pub(super) struct Word {
     pub letter: u8,
     /// The number after the letter, if any.
     pub value: Option<f64>,
+    /// `false`: a decimal point is missing, and this is a difference.
+    point: bool,
     /// A hash of the compared parts. Two different words have the same hash with a chance of 1 in 2^64.
     key: u64,
 }
@@ -69,12 +71,14 @@ pub(super) fn words(line: &[u8], ignore: &Ignore) -> Vec<Word> {
             continue;
         }
         let (letter, value) = letter_and_value(token.kind);
-        let key = match value.filter(|_| ignore.format) {
-            Some(value) => key_of(&(letter, value.to_bits())),
+        let number = if let Kind::Word(_, number) = token.kind { ignore.value(number) } else { None };
+        let key = match number {
+            Some(number) => key_of(&(letter, number)),
             None if ignore.case && letter != 0 => key_of(&text.to_ascii_uppercase()),
             None => key_of(&text),
         };
-        list.push(Word { span: token.start..token.end, letter, value, key });
+        let point = number.is_none_or(|(_, point)| point);
+        list.push(Word { span: token.start..token.end, letter, value, point, key });
     }
     list
 }
@@ -89,7 +93,7 @@ fn key_of(part: &impl Hash) -> u64 {
 pub(super) fn within(old: &[Word], new: &[Word], tolerance: f64) -> bool {
     old.len() == new.len()
         && old.iter().zip(new).all(|(a, b)| match (a.value, b.value) {
-            (Some(x), Some(y)) => a.letter == b.letter && (x - y).abs() <= tolerance,
+            (Some(x), Some(y)) => a.letter == b.letter && a.point == b.point && (x - y).abs() <= tolerance,
             _ => a.key == b.key,
         })
 }

@@ -127,7 +127,7 @@ pub struct DiffArgs {
     /// The programs OLD and NEW; with --form: the JOB; with --forms: the forms OLD.pf and NEW.pf, then jobs or folders of jobs
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Differences to ignore: numbers, comments, spaces, case, format, order, all, none
+    /// Differences to ignore: numbers, comments, spaces, case, format, points, order, all, none
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = "numbers,spaces,case,format")]
     pub ignore: Vec<String>,
     /// Treat numbers as equal if they differ by no more than this

@@ -9,8 +9,9 @@ mod text;
 use std::io::{Cursor, IsTerminal, Write};
 use std::path::Path;
 
+use postform::internals::control::WithoutPoint;
 use postform::internals::diff::{Ignore, Options, Program, Summary, compare};
-use postform::internals::nc::{Kind, RunError, RunSettings, settings_for, tokens};
+use postform::internals::nc::{Kind, RunError, RunSettings, Unpointed, settings_for, tokens};
 use postform::internals::verify::{Motions, NoMotion, compare_motions};
 use postform::toolpath::Units;
 
@@ -77,7 +78,12 @@ fn difference(
     colour: Colour,
     reporter: &Reporter,
 ) -> Result<Result<Difference, Ending>, String> {
-    let options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance };
+    let mut options = Options { ignore: ignored(&args.ignore)?, tolerance: args.tolerance };
+    let reads_both = |settings: &RunSettings| {
+        settings.unpointed == Unpointed::Whole
+            || !settings.assumed && settings.control.traits().without_point == WithoutPoint::Units
+    };
+    options.ignore.points |= settings(args, old, new).1.iter().all(reads_both);
     if args.motion {
         return Ok(match motions(args, old, new, reporter)? {
             Outcome::Refused => {
@@ -86,6 +92,10 @@ fn difference(
                 Err(Ending::Findings)
             }
             Outcome::Compared(found) => {
+                if [old, new].iter().any(|side| has_slash(&side.program)) {
+                    let does = if args.control.block_delete { "skipped" } else { "run" };
+                    say(&format!("blocks with a slash are {does}: the verdict is for one position of the switch\n"));
+                }
                 say(&text::verdict(old, new, &found));
                 let shown = match args.format {
                     DiffFormat::Text => Shown::Text(text::motion(old, new, &found)),
@@ -153,6 +163,12 @@ fn units_of(program: &Program) -> Option<Units> {
         Kind::Word(b'G', number) if number.value == 21.0 => Some(Units::Mm),
         _ => None,
     })
+}
+
+/// Whether a program has blocks that the switch for block delete skips.
+fn has_slash(program: &Program) -> bool {
+    let first = |line| tokens(program.line(line)).find(|token| token.kind != Kind::Blank);
+    (0..program.len()).any(|line| first(line).is_some_and(|token| token.kind == Kind::Delete))
 }
 
 enum Outcome {

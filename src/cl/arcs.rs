@@ -73,7 +73,8 @@ fn extent(words: &[Word]) -> Done<(&[Word], Option<u32>, Option<f64>)> {
 /// Handles the GOTO after a CIRCLE: the arc ends there.
 pub(super) fn arc_to(arc: &PendingArc, to: [f64; 3], rapid: bool, state: &mut State<'_>) -> Done {
     if rapid {
-        return fault(Code::PL004, "a rapid along an arc", "remove RAPID or CIRCLE");
+        let help = "remove RAPID or CIRCLE; after CYCLE/OFF, write FEDRAT before the arc";
+        return fault(Code::PL004, "a rapid along an arc", help);
     }
     let Some(from) = state.motion.position else {
         return fault(Code::PR005, "the arc begins at an unknown position", "put a GOTO before the arc");

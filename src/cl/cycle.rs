@@ -20,13 +20,15 @@ pub(super) fn cycle(words: &[Word], state: &mut State<'_>) -> Done {
     };
     let dialect = state.job.notes.dialect();
     match first {
-        "OFF" | "NOMORE" => {
-            state.feeds.cut_off = None;
-            if !state.cycle.is_active() && dialect != Dialect::SolidWorksCam {
-                state.job.notes.warn(Code::PC051, format!("CYCLE/{first}, but no cycle is active"), "take it out");
-            }
+        "OFF" | "NOMORE" if state.cycle.is_active() => {
             end(&mut state.cycle, &mut state.job)?;
             state.motion.rapid_after_cycle = true;
+            Ok(())
+        }
+        "OFF" | "NOMORE" => {
+            if dialect != Dialect::SolidWorksCam {
+                state.job.notes.warn(Code::PC051, format!("CYCLE/{first}, but no cycle is active"), "take it out");
+            }
             Ok(())
         }
         "INIT" | "CLEAR" if dialect == Dialect::SolidWorksCam => Ok(()),
@@ -98,7 +100,7 @@ fn begin(coded: Coded, words: &[Word], whole: bool, state: &mut State<'_>) -> Do
     motion.rapid = false; // a RAPID before a cycle has no effect
     motion.rapid_after_cycle = false;
     feeds.cut_off = None;
-    if motion.cutcom.on || motion.cutcom.asked.is_some() {
+    if motion.cutcom.is_in_use() {
         return fault(
             Code::PC041,
             "a cycle under cutter compensation",

@@ -23,8 +23,7 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
         let other = match (dialect, word.name().unwrap_or("")) {
             (Dialect::Ncl, "FEDTO") if out.first().is_some_and(|word| word.is("CSINK")) => {
                 // CSINK of another system gives the diameter and the angle without words
-                out.push(name("DIAMET"));
-                out.extend(words.next().cloned());
+                out.extend([name("DIAMET"), value_of(word, &mut words)?]);
                 name("TLANGL")
             }
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "FEDTO") => {
@@ -34,7 +33,10 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
             (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RAPTO") => name("CLEAR"),
             // AUTO: return to the tool's position before the cycle, see `returns_to_start`
             (Dialect::Nx, "RTRCTO") if words.next_if(|word| word.is("AUTO")).is_some() => continue,
-            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RTRCTO") => name("RETURN"),
+            (Dialect::SolidWorksCam | Dialect::Nx | Dialect::Ncl, "RTRCTO") => {
+                out.extend([name("RETURN"), value_of(word, &mut words)?]);
+                continue;
+            }
             // RETURN,0 means that there is no return plane
             (Dialect::Catia, "RETURN") if words.next_if(|word| word.number() == Some(0.0)).is_some() => continue,
             (Dialect::Nx, "BORE") if at_type => {
@@ -44,13 +46,13 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
             (Dialect::SolidWorksCam, "DEEP2") if at_type => name("DEEP"),
             (Dialect::SolidWorksCam, "INCR") => name("STEP"),
             (Dialect::SolidWorksCam, "1STPECK") => {
-                first_peck = words.next().cloned();
+                first_peck = Some(value_of(word, &mut words)?);
                 continue;
             }
             (Dialect::SolidWorksCam, "SUBPECK") => {
                 out.push(name("STEP"));
                 out.extend(first_peck.take());
-                continue;
+                value_of(word, &mut words)?
             }
             // in PostWorks, DEEP breaks chips, THRU is the DEEP of GENER, and BORE leaves the hole at feed
             (Dialect::Ncl, "DEEP") if at_type => name("BRKCHP"),
@@ -71,6 +73,14 @@ pub(super) fn in_gener_words(words: &[Word], dialect: Dialect) -> Done<Vec<Word>
         out.extend([name("STEP"), first]);
     }
     Ok(out)
+}
+
+/// The number after a word that needs a number.
+fn value_of<'w>(word: &Word, words: &mut impl Iterator<Item = &'w Word>) -> Done<Word> {
+    match words.next() {
+        Some(number @ Word::Number(_)) => Ok(number.clone()),
+        _ => fault(Code::PC033, format!("{word} without its number"), format!("write {word},1")),
+    }
 }
 
 /// Words that modify BORE in files of NX.

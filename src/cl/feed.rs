@@ -14,7 +14,7 @@ use crate::toolpath::{Event, Units};
 const MM: f64 = 25.4;
 
 /// The feed that a unit word and a number give, in the file's units. `None`: the unit word is unknown.
-pub(super) fn feed_of(job: &Job<'_>, unit: &str, value: f64) -> Done<Option<Feed>> {
+pub(super) fn feed_of(job: &mut Job<'_>, unit: &str, value: f64) -> Done<Option<Feed>> {
     match unit {
         "PERMIN" | "UPM" => return Ok(Some(Feed::Minute(value))),
         "PERREV" | "UPR" => return Ok(Some(Feed::Revolution(value))),
@@ -53,19 +53,14 @@ pub(super) fn counted(job: &Job<'_>, feed: Feed) -> Done<f64> {
 
 /// Reads FEDRAT: a number and its unit, in either order.
 pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
-    if state.cycle.heights.is_some() {
-        return Ok(()); // Autodesk repeats the feed of a cycle at each of its points
-    }
-    if state.cycle.is_active() {
-        let help = "write the feed in the CYCLE statement";
-        state.job.notes.warn(Code::PC052, "FEDRAT inside a cycle is ignored", help);
+    if is_ignored("FEDRAT", state) {
         return Ok(());
     }
     let value = words.iter().find_map(Word::number);
     let feed = match (words, value) {
         ([Word::Number(value)], _) => Some(Feed::Minute(*value)),
         ([Word::Name(unit), Word::Number(value)] | [Word::Number(value), Word::Name(unit)], _) => {
-            feed_of(&state.job, unit, *value)?.filter(|_| unit != "TPI")
+            feed_of(&mut state.job, unit, *value)?.filter(|_| unit != "TPI")
         }
         _ => None,
     };
@@ -76,22 +71,40 @@ pub(super) fn fedrat(words: &[Word], state: &mut State<'_>) -> Done {
     if value.is_some_and(|value| value <= 0.0) {
         return fault(Code::PL001, "a feed that is not above zero", "give a feed above zero");
     }
-    state.feeds = Feeds { feed: Some(feed), cut_off: None };
-    state.motion.rapid_after_cycle = false;
+    set_feed(feed, state);
     Ok(())
 }
 
 /// Sets a feed that is part of a motion statement.
-pub(super) fn feed_on_goto(value: f64, feeds: &mut Feeds) -> Done {
+pub(super) fn feed_on_goto(value: f64, state: &mut State<'_>) -> Done {
     if value <= 0.0 {
         return fault(Code::PL001, "a feed that is not above zero", "give a feed above zero");
     }
-    let feed = match feeds.feed {
+    if is_ignored("a feed in a motion statement", state) {
+        return Ok(());
+    }
+    let feed = match state.feeds.feed {
         Some(Feed::Revolution(_)) => Feed::Revolution(value),
         _ => Feed::Minute(value),
     };
-    *feeds = Feeds { feed: Some(feed), cut_off: None };
+    set_feed(feed, state);
     Ok(())
+}
+
+/// Whether a feed is ignored because a cycle is active. `what` names the feed in the warning. Autodesk repeats the feed of a
+/// cycle at each of its points, so there is no warning then.
+fn is_ignored(what: &str, state: &mut State<'_>) -> bool {
+    if state.cycle.is_active() && state.cycle.heights.is_none() {
+        let help = "write the feed in the CYCLE statement";
+        state.job.notes.warn(Code::PC052, format!("{what} inside a cycle is ignored"), help);
+    }
+    state.cycle.is_active()
+}
+
+/// Sets the feed for the following cuts. After CYCLE/OFF, a feed makes the next motion a cut.
+fn set_feed(feed: Feed, state: &mut State<'_>) {
+    state.feeds = Feeds { feed: Some(feed), cut_off: None };
+    state.motion.rapid_after_cycle = false;
 }
 
 /// The feed for the next motion. `None`: the sink already has this feed.

@@ -86,20 +86,21 @@ impl<'s> Job<'s> {
         self.started
     }
 
-    /// Handles a UNITS statement.
+    /// Handles a UNITS statement. The units must be those of the values before it, which may be the assumed units.
     pub fn set_units(&mut self, units: Units) -> Done {
         if self.units.is_some_and(|before| before != units) {
-            return fault(Code::PL004, "the units change inside the file", "let the CAM system write one unit");
+            let help = "put UNITS at the beginning of the file, and let the CAM system write one unit";
+            return fault(Code::PL004, "these units differ from the units of the statements before them", help);
         }
         self.units = Some(units);
         Ok(())
     }
 
-    /// The file's units. The function fails if the units are unknown, because values with an explicit unit can't be
-    /// converted then.
-    pub fn units(&self) -> Done<Units> {
+    /// The file's units, for the conversion of a value. From then on, the units stay the same. The function fails if the units
+    /// are unknown, because values with an explicit unit can't be converted then.
+    pub fn units(&mut self) -> Done<Units> {
         match self.units.or(self.assumed_units) {
-            Some(units) => Ok(units),
+            Some(units) => Ok(*self.units.insert(units)),
             None => no_units(self, "the units of the file are not known yet"),
         }
     }
@@ -245,8 +246,8 @@ impl<'s> Job<'s> {
             change.spindle = Some(self.spindle.in_force()).filter(|spindle| *spindle != Default::default());
             change.name = self.tools.operation.take();
             if let Some(tool) = &mut change.tool {
-                tool.diameter = self.tools.diameter.filter(|_| self.machine == Machine::Mill);
-                tool.name.clone_from(&self.tools.name);
+                tool.diameter = self.tools.diameter.get().copied().filter(|_| self.machine == Machine::Mill);
+                tool.name = self.tools.name.get().cloned();
                 tool.comment = self.tools.said.take();
                 if tool.name.is_none() {
                     tool.name.clone_from(&tool.comment);
@@ -330,6 +331,13 @@ impl<'s> Job<'s> {
     /// Whether the job has no motion so far.
     pub fn is_unmoved(&self) -> bool {
         self.operations == 0 && !self.waiting.iter().any(|(waiting, _)| matches!(waiting, Waiting::Rapid(_)))
+    }
+
+    /// Handles the beginning of a motion: the statements before the motion are not for the next tool.
+    #[inline]
+    pub fn begin_motion(&mut self) {
+        self.spindle.is_new = false;
+        self.tools.begin_motion();
     }
 
     /// Whether a tool change is waiting to be completed.

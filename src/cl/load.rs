@@ -3,6 +3,8 @@
 use super::cycle;
 use super::dialect::Dialect;
 use super::fault::{Done, fault};
+use super::machine::no_cutcom_waits;
+use super::report::Notes;
 use super::state::State;
 use super::words::Word;
 use crate::diag::Code;
@@ -16,7 +18,7 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
         if !words.iter().any(|word| word.is("TURN")) {
             // in CATIA, TOOLNO only describes the tool that LOADTL loads
             if let Some(Word::Number(diameter)) = words.get(1) {
-                state.job.tools.diameter = Some(*diameter);
+                state.job.tools.diameter.set(Some(*diameter));
             }
             return Ok(());
         }
@@ -32,11 +34,10 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
     let tools = &mut state.job.tools;
     tools.greatest = tools.greatest.max(number);
     let register = match (dialect, &words[1..]) {
-        // the words are pocket, length and offset register
-        (Dialect::Autodesk, [_, _, Word::Number(register)]) => Some(*register),
+        (Dialect::Autodesk, words) => autodesk_register(words)?,
         // the other words only describe the tool
         (Dialect::Catia, _) if name == "TOOLNO" => None,
-        (_, words) => length_register(name, words)?,
+        (_, words) => length_register(name, number, words, &mut state.job.notes)?,
     };
     another_tool(Some(Tool { number, length_offset: register, ..Tool::default() }), state)
 }
@@ -45,14 +46,17 @@ pub(super) fn load(name: &str, words: &[Word], state: &mut State<'_>) -> Done {
 /// loaded or have an assumed number.
 pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
     let (operation, tool) = match words {
-        [operation, word, tool, ..] if word.is("TOOL") => (operation.to_string(), tool.to_string()),
-        _ => return Ok(()),
+        [operation, word, tool] if word.is("TOOL") => (operation.to_string(), tool.to_string()),
+        _ => {
+            let help = "write TOOL PATH/operation,TOOL,tool, with names that contain no comma, slash or parenthesis";
+            return fault(Code::PL001, "a TOOL PATH that can't be read, so its tool is unknown", help);
+        }
     };
     state.job.tools.operation = Some(operation);
-    if state.job.tools.name.as_ref() == Some(&tool) {
+    if state.job.tools.name.get() == Some(&tool) {
         return Ok(());
     }
-    state.job.tools.name = Some(tool);
+    state.job.tools.name.set(Some(tool));
     another_tool(None, state)
 }
 
@@ -60,34 +64,58 @@ pub(super) fn tool_path(words: &[Word], state: &mut State<'_>) -> Done {
 /// is named and not loaded so far.
 fn another_tool(tool: Option<Tool>, state: &mut State<'_>) -> Done {
     let State { job, motion, feeds, cycle, .. } = state;
+    no_cutcom_waits(&motion.cutcom, "a tool change")?;
     feeds.cut_off = cycle.is_active().then_some(job.notes.place.line).or(feeds.cut_off);
     cycle::end(cycle, job)?;
     let number = tool.as_ref().map(|tool| tool.number);
     job.begin_change(tool)?;
     motion.rapid_after_cycle = false; // the rapid would have belonged to the previous tool
+    (motion.has_moved, motion.jump) = (false, None);
     let is_in = number.is_some() && std::mem::replace(&mut job.tools.loaded, number) == number;
-    if !job.spindle.is_new && !is_in {
-        job.spindle.now = Spindle::default();
+    if !is_in {
+        job.tools.begin_tool();
+        if !job.spindle.is_new {
+            job.spindle.now = Spindle::default();
+        }
     }
     job.spindle.is_new &= number.is_none();
     Ok(())
 }
 
+/// Reads the numbers that Autodesk writes after a tool's number: pocket, length and length register.
+fn autodesk_register(words: &[Word]) -> Done<Option<f64>> {
+    match words {
+        [] => Ok(None),
+        [Word::Number(_), Word::Number(_), Word::Number(register)] => Ok(Some(*register)),
+        _ => {
+            let help = "Autodesk writes LOADTL/tool, pocket, length, register";
+            fault(Code::PL001, "a LOADTL of Autodesk that can't be read", help)
+        }
+    }
+}
+
 /// Reads the words after a tool's number. Returns the number of the length register.
-fn length_register(name: &str, words: &[Word]) -> Done<Option<f64>> {
+fn length_register(name: &str, tool: f64, words: &[Word], notes: &mut Notes<'_>) -> Done<Option<f64>> {
     let mut register = None;
     let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
-        match word.name() {
-            None => {}
-            Some("ADJUST" | "OFSETNO" | "OSETNO") => {
-                register = words.next_if(|word| word.number().is_some() || word.is("OFF")).and_then(Word::number);
+        match (word, word.name()) {
+            // the second number of CATIA only describes the tool
+            (Word::Number(number), _) if notes.dialect() == Dialect::Catia || *number == tool => {}
+            (Word::Number(number), _) => {
+                let message = format!("the number {number} of {name} is ignored, because its meaning is unknown");
+                notes.warn(Code::PL008, message, "if it is the length register, write ADJUST before it");
             }
-            Some("LENGTH" | "SPINDL") => {
+            (_, Some(kind @ ("ADJUST" | "OFSETNO" | "OSETNO"))) => match words.next() {
+                Some(Word::Number(number)) => register = Some(*number),
+                Some(word) if word.is("OFF") => register = None,
+                _ => return fault(Code::PL001, format!("{kind} without its number"), format!("write {kind},1")),
+            },
+            (_, Some("LENGTH" | "SPINDL" | "IN")) => {
                 words.next_if(|word| word.number().is_some());
             }
-            Some("MILL" | "DRILL" | "TURN" | "AUTO" | "MANUAL" | "IN") => {}
-            Some(word) => {
+            (_, Some("MILL" | "DRILL" | "TURN" | "AUTO" | "MANUAL")) => {}
+            _ => {
                 return fault(Code::PL002, format!("{name} can't take `{word}`"), format!("write {name}/1"));
             }
         }

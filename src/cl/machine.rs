@@ -45,30 +45,23 @@ pub(super) fn spindl(words: &[Word], cycle: &mut Cycle, job: &mut Job<'_>) -> Do
 }
 
 /// Reads the speed, its unit and the direction, in any order.
-fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
+fn spindle(words: &[Word], job: &mut Job<'_>) -> Done<Spindle> {
     let mut said = Spindle::default();
-    let mut surface = 1.0;
+    let (mut unit, mut is_on) = (None, false);
     let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
         match word {
             Word::Number(speed) if *speed >= 0.0 && said.speed.is_none() => said.speed = Some(*speed),
             Word::Name(name) => match name.as_str() {
-                "RPM" => said.css = Some(false),
-                "SFM" | "SMM" => {
-                    said.css = Some(true);
-                    // a surface speed is converted to feet or metres, as the file's units require
-                    let metric = job.units()? == Units::Mm;
-                    surface = match (name.as_str(), metric) {
-                        ("SFM", true) => METRES_A_FOOT,
-                        ("SMM", false) => 1.0 / METRES_A_FOOT,
-                        _ => 1.0,
-                    };
-                }
-                "CLW" => said.turn = Some(SpindleTurn::Cw),
-                "CCLW" => said.turn = Some(SpindleTurn::Ccw),
-                "OFF" | "STOP" => said.turn = Some(SpindleTurn::Off),
-                "ON" => said.turn = said.turn.or(Some(job.spindle.direction())),
-                "MAXRPM" => said.max = words.next().and_then(Word::number),
+                "RPM" | "SFM" | "SMM" => once(&mut unit, name.as_str(), word)?,
+                "CLW" => once(&mut said.turn, SpindleTurn::Cw, word)?,
+                "CCLW" => once(&mut said.turn, SpindleTurn::Ccw, word)?,
+                "OFF" | "STOP" => once(&mut said.turn, SpindleTurn::Off, word)?,
+                "ON" => is_on = true,
+                "MAXRPM" => match words.next().and_then(Word::number) {
+                    Some(max) => once(&mut said.max, max, word)?,
+                    None => return fault(Code::PL001, "MAXRPM without its number", "write MAXRPM,2000"),
+                },
                 "RANGE" | "LOW" | "MEDIUM" | "HIGH" => {
                     words.next_if(|word| word.number().is_some());
                 }
@@ -80,11 +73,42 @@ fn spindle(words: &[Word], job: &Job<'_>) -> Done<Spindle> {
             word => return fault(Code::PL001, format!("SPINDL with `{word}`"), "write SPINDL/1200,RPM,CLW"),
         }
     }
-    said.speed = said.speed.map(|speed| speed * surface);
-    if said.speed.is_some() && said.turn.is_none() && job.spindle.now.turn.is_none() {
-        said.turn = Some(SpindleTurn::Cw); // APT's default direction
-    }
+    let factor = unit.map_or(Ok(1.0), |unit| surface(unit, job))?;
+    said.speed = said.speed.map(|speed| speed * factor);
+    said.css = unit.map(|unit| unit != "RPM");
+    said.turn = said.turn.or_else(|| turn_without_word(is_on, said.speed.is_some(), job));
     Ok(said)
+}
+
+/// The factor that converts a speed to the unit of the job. Surface speeds are in feet or metres, as the file's units require.
+fn surface(unit: &str, job: &mut Job<'_>) -> Done<f64> {
+    if unit == "RPM" {
+        return Ok(1.0);
+    }
+    Ok(match (unit, job.units()? == Units::Mm) {
+        ("SFM", true) => METRES_A_FOOT,
+        ("SMM", false) => 1.0 / METRES_A_FOOT,
+        _ => 1.0,
+    })
+}
+
+/// The direction after a SPINDL without a direction. `None`: the direction stays unchanged. ON, or a speed while the spindle is
+/// off, turns the spindle in its last direction. For the first speed of a tool, the default of APT is clockwise.
+fn turn_without_word(is_on: bool, has_speed: bool, job: &Job<'_>) -> Option<SpindleTurn> {
+    match job.spindle.now.turn {
+        Some(SpindleTurn::Off) if has_speed => Some(job.spindle.direction()),
+        None if has_speed && !is_on => Some(SpindleTurn::Cw),
+        _ => is_on.then(|| job.spindle.direction()),
+    }
+}
+
+/// Sets a value that a statement may give only once.
+fn once<T: PartialEq>(value: &mut Option<T>, new: T, word: &Word) -> Done {
+    if value.as_ref().is_some_and(|before| *before != new) {
+        return fault(Code::PL002, format!("{word} contradicts a word before it"), "keep one of the two words");
+    }
+    *value = Some(new);
+    Ok(())
 }
 
 /// Handles COOLNT.
@@ -126,15 +150,15 @@ pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &m
     let known = ["XYPLAN", "OSETNO", "OFSETNO", "NORMDS"];
     let mut asked = None;
     for word in words {
-        match word {
-            Word::Name(name) if side(name).is_some() => asked = side(name),
-            Word::Name(name) if known.contains(&name.as_str()) => {}
-            Word::Number(_) => job.notes.warn(
+        match (word, word.name().and_then(side)) {
+            (_, Some(side)) => once(&mut asked, side, word)?,
+            (Word::Name(name), _) if known.contains(&name.as_str()) => {}
+            (Word::Number(_), _) => job.notes.warn(
                 Code::PL008,
                 "the offset register of the tool is printed, not the register of CUTCOM",
                 "check the D word in the program",
             ),
-            word => return fault(Code::PL002, format!("CUTCOM can't take `{word}`"), "write LEFT, RIGHT or OFF"),
+            _ => return fault(Code::PL002, format!("CUTCOM can't take `{word}`"), "write LEFT, RIGHT or OFF"),
         }
     }
     let Some(asked) = asked else {
@@ -143,8 +167,18 @@ pub(super) fn cutcom(words: &[Word], cutcom: &mut Cutcom, cycle: &Cycle, job: &m
     if cycle.is_active() && asked.is_some() {
         return fault(Code::PC041, "CUTCOM inside a cycle", "end the cycle first");
     }
+    if let Some(side) = cutcom.waiting_side().filter(|_| cutcom.asked != Some(asked)) {
+        let message = format!("CUTCOM/{side} has no effect: no motion in the plane comes before the next CUTCOM");
+        job.notes.warn(Code::PL008, message, "put CUTCOM before the motion that turns compensation on");
+    }
     // OFF has no effect if compensation is off
     cutcom.asked = Some(asked).filter(|_| asked.is_some() || cutcom.on);
-    cutcom.on = asked.is_some();
     Ok(())
+}
+
+/// Checks that compensation does not wait for a motion in the plane. `end` is what comes instead of this motion.
+pub(super) fn no_cutcom_waits(cutcom: &Cutcom, end: &str) -> Done {
+    let Some(side) = cutcom.waiting_side() else { return Ok(()) };
+    let message = format!("CUTCOM/{side} has no effect: {end} comes before a motion in the plane");
+    fault(Code::PL004, message, "put CUTCOM before the motion that turns compensation on, or remove it")
 }

@@ -9,7 +9,7 @@ use super::load::{load, tool_path};
 use super::machine::{coolnt, cutcom, spindl, units};
 use super::motion::{from, godlta, gohome, goto_words, rapid, tlaxis, trans};
 use super::setup::Setups;
-use super::setups::{csys, mcs, msys};
+use super::setups::{csys, mcs, msys, one_work_offset};
 use super::state::State;
 use super::tlon::{indirv, tlon};
 use super::words::Word;
@@ -58,6 +58,8 @@ pub(super) enum Major {
     Offset,
     Machin,
     Turret,
+    /// Selects an offset register of the tool.
+    Register,
     /// Known words that have no effect on motions.
     Ignored,
     Nurbs,
@@ -65,6 +67,14 @@ pub(super) enum Major {
     /// Known words that move or shift the part. These words are not supported, so they are errors.
     Refused,
     Unknown,
+}
+
+impl Major {
+    /// Whether a statement may end with a comma, because no value of the program comes from its last words. Some systems
+    /// continue such statements without `$`.
+    pub fn may_end_with_comma(self) -> bool {
+        matches!(self, Major::Ignored | Major::Unknown | Major::Cutter | Major::Data | Major::Machin | Major::None)
+    }
 }
 
 /// The table of major words. TLRGT and similar words are refused, because with these words the tool cuts beside a line
@@ -85,7 +95,7 @@ const MAJORS: &[(&str, Major)] = &[
     ("INTOL", Major::Ignored), ("OUTTOL", Major::Ignored), ("TOLER", Major::Ignored), ("AUTOPS", Major::Ignored),
     ("MODE", Major::Set), ("ARCSLP", Major::Ignored), ("CLEARP", Major::Ignored), ("SEQNO", Major::Ignored),
     ("SETUP", Major::Ignored), ("TRNTYP", Major::Ignored), ("CLAMP", Major::Unknown),
-    ("OFSETNO", Major::Ignored), ("OSETNO", Major::Ignored), ("LINTOL", Major::Ignored), ("CLRSRF", Major::Ignored),
+    ("OFSETNO", Major::Register), ("OSETNO", Major::Register), ("LINTOL", Major::Ignored), ("CLRSRF", Major::Ignored),
     ("TRACUT", Major::Refused), ("COPY", Major::Refused), ("INDEX", Major::Refused), ("BLOCK", Major::Refused),
     ("CALSUB", Major::Refused), ("DEFSUB", Major::Refused), ("ENDSUB", Major::Refused), ("MACRO", Major::Refused),
     ("CALL", Major::Refused), ("ROTABL", Major::Refused), ("ROTATE", Major::Refused), ("RETRCT", Major::Refused),
@@ -146,7 +156,12 @@ pub(super) fn run(major: Major, name: &str, words: &[Word], state: &mut State<'_
         Major::Auxfun => code('M', name, words, job),
         Major::Prefun => code('G', name, words, job),
         Major::Data => {
-            data(words, job);
+            data(words, setups.is_some(), job);
+            Ok(())
+        }
+        Major::Register => {
+            let message = format!("{} is ignored: the registers are those of LOADTL", shown(name, words));
+            job.notes.warn(Code::PL008, message, "write the length register into LOADTL, as LOADTL/1,ADJUST,5");
             Ok(())
         }
         Major::Machin => {
@@ -260,18 +275,24 @@ fn set(name: &str, words: &[Word], job: &mut Job<'_>) -> Done {
 /// Handles CUTTER and TLDATA. The first number is the tool's diameter. Turning tools have no diameter.
 fn cutter(words: &[Word], job: &mut Job<'_>) -> Done {
     if words.first().and_then(Word::name).is_some_and(|name| matches!(name, "TURN" | "GROOVE" | "THREAD")) {
-        job.tools.diameter = None;
+        job.tools.diameter.set(None);
         return job.turning();
     }
-    job.tools.diameter = words.iter().find_map(Word::number).filter(|diameter| *diameter > 0.0);
+    job.tools.diameter.set(words.iter().find_map(Word::number).filter(|diameter| *diameter > 0.0));
     Ok(())
 }
 
-/// Handles the data that Creo writes after `$$->`.
-fn data(words: &[Word], job: &mut Job<'_>) {
+/// Handles the data that Creo writes after `$$->`. `has_setups`: whether the file is read as several setups.
+fn data(words: &[Word], has_setups: bool, job: &mut Job<'_>) {
     match words {
-        [Word::Name(word), Word::Number(diameter)] if word == "CUTTER" => job.tools.diameter = Some(*diameter),
-        [Word::Name(word), ..] if word == "CSYS" || word == "MFGNO" => job.notes.fact(shown("", words)),
+        [Word::Name(word), Word::Number(diameter)] if word == "CUTTER" => job.tools.diameter.set(Some(*diameter)),
+        [Word::Name(word), system @ ..] if word == "CSYS" => {
+            job.notes.fact(shown("", words));
+            if !has_setups {
+                one_work_offset(system, job);
+            }
+        }
+        [Word::Name(word), ..] if word == "MFGNO" => job.notes.fact(shown("", words)),
         _ => {}
     }
 }

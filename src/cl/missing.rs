@@ -24,7 +24,7 @@ pub(super) fn no_units<T>(job: &Job<'_>, at: &str) -> Done<T> {
 /// The error if no tool is loaded. `option` sets the number of the tool.
 #[cold]
 pub(super) fn no_tool<T>(job: &Job<'_>, option: &str) -> Done<T> {
-    let (message, help) = match &job.tools.name {
+    let (message, help) = match job.tools.name.get() {
         Some(name) => (
             format!("the file names the tool {name} but does not load it"),
             format!("give the number of each tool with `{option}`"),

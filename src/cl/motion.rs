@@ -18,24 +18,30 @@ const SAME: f64 = 1e-6;
 /// Handles GOTO/x,y,z[,i,j,k][,feed].
 #[inline]
 pub(super) fn goto(values: &[f64], state: &mut State<'_>) -> Done {
-    let (tail, feed) = match values.len() {
+    let to = point_of("GOTO", values, state)?;
+    go(to, state)
+}
+
+/// Reads x,y,z[,i,j,k][,feed]: sets the tool axis and the feed, and returns the point.
+#[inline]
+fn point_of(name: &str, values: &[f64], state: &mut State<'_>) -> Done<[f64; 3]> {
+    let (axis, feed) = match values.len() {
         3 => (None, None),
         4 => (None, Some(values[3])),
-        6 => (Some(&values[3..6]), None),
-        7 => (Some(&values[3..6]), Some(values[6])),
+        6 => (Some([values[3], values[4], values[5]]), None),
+        7 => (Some([values[3], values[4], values[5]]), Some(values[6])),
         count => {
             let help = "write x, y, z, then the tool axis i, j, k or the feed";
-            return fault(Code::PL001, format!("GOTO with {count} numbers"), help);
+            return fault(Code::PL001, format!("{name} with {count} numbers"), help);
         }
     };
-    if let Some(axis) = tail {
-        set_axis([axis[0], axis[1], axis[2]], state)?;
+    if let Some(axis) = axis {
+        set_axis(axis, state)?;
     }
     if let Some(feed) = feed {
-        feed_on_goto(feed, &mut state.feeds)?;
+        feed_on_goto(feed, state)?;
     }
-    let to = state.motion.shift.of([values[0], values[1], values[2]]);
-    go(to, state)
+    Ok(state.motion.shift.of([values[0], values[1], values[2]]))
 }
 
 pub(super) fn goto_words(words: &[Word], state: &mut State<'_>) -> Done {
@@ -45,21 +51,23 @@ pub(super) fn goto_words(words: &[Word], state: &mut State<'_>) -> Done {
     }
 }
 
-/// Moves to a position as a rapid, a feed move, an arc or a hole, depending on the current state.
+/// Begins a motion to a position. Returns whether it is a rapid; `None` if the motion belongs to a setup that is not selected.
 #[inline]
-fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
-    let place = state.job.notes.place.line;
+fn begin(to: [f64; 3], state: &mut State<'_>) -> Done<Option<bool>> {
     let motion = &mut state.motion;
-    let rapid = std::mem::take(&mut motion.rapid) | std::mem::take(&mut motion.rapid_after_cycle);
+    let after_cycle = std::mem::take(&mut motion.rapid_after_cycle) && !motion.rapid;
+    let rapid = std::mem::take(&mut motion.rapid) | after_cycle;
+    // without a clearance in the file, the tool is at an unknown height above the last hole
+    let before = motion.position.or(motion.point);
     motion.point = Some(to);
     let frame = motion.frame.take();
-    state.job.spindle.is_new = false;
+    state.job.begin_motion();
     if let Some(setups) = &mut state.setups {
         let begins = std::mem::take(&mut setups.is_fresh);
-        setups.motion(place);
+        setups.motion(state.job.notes.place.line);
         if !setups.is_chosen() {
             state.arcs.pending = None;
-            return Ok(());
+            return Ok(None);
         }
         if begins && !rapid && !state.cycle.is_active() {
             let help = "the program of a setup can't begin inside a cut: such a cut needs a five-axis machine";
@@ -69,6 +77,27 @@ fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
     if let Some(frame) = frame {
         must_agree(frame, state.motion.axis.0)?;
     }
+    no_jump(&mut state.motion)?;
+    if after_cycle && before.is_some_and(|before| to[2] < before[2]) {
+        let message = "the first motion after CYCLE/OFF goes down, without RAPID and without a feed";
+        return fault(Code::PL004, message, "write RAPID before it if it is a rapid, or FEDRAT if it is a cut");
+    }
+    Ok(Some(rapid))
+}
+
+/// Checks that no FROM has changed the position since the last motion. Called at the beginning of each motion.
+#[inline]
+pub(super) fn no_jump(motion: &mut Motion) -> Done {
+    motion.has_moved = true;
+    let Some(line) = motion.jump.take() else { return Ok(()) };
+    let message = format!("the FROM of line {line} gives another position than the motion before it");
+    fault(Code::PL004, message, "if the tool must move there, write RAPID and GOTO instead of FROM")
+}
+
+/// Moves to a position as a rapid, a feed move, an arc or a hole, depending on the current state.
+#[inline]
+fn go(to: [f64; 3], state: &mut State<'_>) -> Done {
+    let Some(rapid) = begin(to, state)? else { return Ok(()) };
     if let Some(arc) = state.arcs.pending.take() {
         return arc_to(&arc, to, rapid, state);
     }
@@ -111,14 +140,12 @@ pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
         state.motion.position = None;
         return state.job.between(Event::Home);
     }
-    let values = numbers(words).unwrap_or_default();
-    let [x, y, z, axis @ ..] = values.as_slice() else {
-        return fault(Code::PL001, "a GOHOME that can't be read", "write GOHOME/x,y,z, or only GOHOME");
+    // GOHOME is a rapid, so it has no feed
+    let Some(values) = numbers(words).filter(|values| matches!(values.len(), 3 | 6)) else {
+        let help = "write GOHOME/x,y,z, or only GOHOME";
+        return fault(Code::PL001, "a GOHOME that can't be read", help);
     };
-    if let [i, j, k] = axis {
-        set_axis([*i, *j, *k], state)?;
-    }
-    let to = state.motion.shift.of([*x, *y, *z]);
+    let to = point_of("GOHOME", &values, state)?;
     // the direction away from the part: up on mills, outward on lathes
     let away = if state.job.turns_part() { 0 } else { 2 };
     if let Some(from) = state.motion.position.filter(|from| from[away] != to[away]) {
@@ -134,7 +161,9 @@ pub(super) fn gohome(words: &[Word], state: &mut State<'_>) -> Done {
 /// Pushes the motion that turns cutter compensation on or off.
 fn compensate(to: Axes, rapid: bool, motion: &mut Motion, feeds: &Feeds, job: &mut Job<'_>) -> Done {
     let feed = if rapid { feed_to_say(feeds, job).ok().flatten() } else { feed_to_say(feeds, job)? };
-    match motion.cutcom.asked.take().flatten() {
+    let side = motion.cutcom.asked.take().flatten();
+    motion.cutcom.on = side.is_some();
+    match side {
         Some(side) => job.push(Event::Infeed { infeed: &Infeed { to, side, rapid }, feed }),
         None => job.push(Event::Outfeed { to, feed, rapid }),
     }
@@ -149,7 +178,7 @@ pub(super) fn godlta(words: &[Word], state: &mut State<'_>) -> Done {
         [along] => state.motion.axis.0.map(|component| component * along),
         [x, y, z] => [*x, *y, *z],
         [x, y, z, feed] => {
-            feed_on_goto(*feed, &mut state.feeds)?;
+            feed_on_goto(*feed, state)?;
             [*x, *y, *z]
         }
         _ => return fault(Code::PL001, "GODLTA takes one, three or four numbers", "write dx, dy, dz"),
@@ -158,23 +187,22 @@ pub(super) fn godlta(words: &[Word], state: &mut State<'_>) -> Done {
     go([from[0] + delta[0], from[1] + delta[1], from[2] + delta[2]], state)
 }
 
-/// Handles FROM, which sets the tool's first position without a motion.
+/// Handles FROM, which sets the tool's first position without a motion. After a motion, FROM with another position is refused
+/// at the next motion, unless the tool changes before it.
 pub(super) fn from(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.is_active() {
         state.job.notes.warn(Code::PC058, "FROM inside a cycle", "remove FROM, or end the cycle before it");
     }
-    match numbers(words).as_deref() {
-        Some([x, y, z, axis @ ..]) => {
-            if let [i, j, k, ..] = axis {
-                set_axis([*i, *j, *k], state)?;
-            }
-            let motion = &mut state.motion;
-            motion.position = Some(motion.shift.of([*x, *y, *z]));
-            motion.point = motion.position;
-            Ok(())
-        }
-        _ => fault(Code::PL001, "FROM takes a position", "write x, y, z"),
+    let Some(values) = numbers(words) else {
+        return fault(Code::PL001, "FROM takes a position", "write x, y, z");
+    };
+    let to = point_of("FROM", &values, state)?;
+    let motion = &mut state.motion;
+    if motion.has_moved && motion.position.is_some_and(|position| position != to) {
+        motion.jump = Some(state.job.notes.place.line);
     }
+    (motion.position, motion.point) = (Some(to), Some(to));
+    Ok(())
 }
 
 /// Handles RAPID. RAPID applies to one motion, which may be part of the same statement.
@@ -217,11 +245,11 @@ fn another_setup(setups: &mut Setups, motion: &mut Motion, job: &mut Job<'_>) ->
     if !setups.turn(motion.axis.0) {
         return Ok(());
     }
-    if motion.cutcom.on {
+    if motion.cutcom.is_in_use() {
         let help = "end compensation before the axis turns";
         return fault(Code::PL004, "the tool axis turns under cutter compensation", help);
     }
-    (motion.position, motion.point) = (None, None);
+    (motion.position, motion.point, motion.jump) = (None, None, None);
     motion.shift.frame = setups.frame().filter(|_| setups.is_chosen());
     if setups.is_chosen() {
         job.begin_setup();

@@ -7,6 +7,7 @@ use super::fault::{Done, fault};
 use super::feed_unit::Feed;
 use super::job::Job;
 use super::lines::{LONGEST, Lines, text_statement, without_comment};
+use super::machine::no_cutcom_waits;
 use super::majors::{Major, major, run};
 use super::motion::{goto, goto_words};
 use super::options::Options;
@@ -201,6 +202,10 @@ impl Reader<'_> {
         let name = unnumbered(&name).to_owned();
         list.remove(0);
         self.major = major(&name);
+        if ends_with_comma(&list) && !self.major.may_end_with_comma() {
+            let help = "put `$` after the comma if the statement continues on the next line, or remove the comma";
+            return fault(Code::PL001, format!("{name} ends with a comma: a part of it may be missing"), help);
+        }
         self.ended = self.major == Major::Fini;
         if self.major == Major::Cutter {
             self.insert = None; // the INSERT before this statement described the tool
@@ -225,6 +230,7 @@ impl Reader<'_> {
             return fault(Code::PL007, message, help);
         }
         cycle::end(&mut self.state.cycle, &mut self.state.job)?;
+        no_cutcom_waits(&self.state.motion.cutcom, "the end of the file")?;
         match &self.state.setups {
             Some(setups) => setups.end(&mut self.state.job),
             None => self.state.job.finish(),
@@ -239,6 +245,11 @@ impl Reader<'_> {
         }
         stop.into()
     }
+}
+
+/// Whether one comma ends the statement. Several commas are empty fields, which CATIA writes.
+fn ends_with_comma(words: &[Word]) -> bool {
+    matches!(words, [.., last, Word::Null] if *last != Word::Null)
 }
 
 /// A major word without the record number before it, as in `N29 GOTO` or `100 GOTO`.

@@ -48,9 +48,13 @@ pub(super) fn csys(words: &[Word], motion: &mut Motion, setups: &mut Option<Setu
             setups.csys([rows[0], rows[4], rows[8]], z);
         }
     }
-    if setups.is_some() {
-        return; // each setup has its own frame
+    if setups.is_none() {
+        one_work_offset(words, job); // else each setup has its own frame
     }
+}
+
+/// Warns of a coordinate system that differs from the first one. Both are printed in the same work offset.
+pub(super) fn one_work_offset(words: &[Word], job: &mut Job<'_>) {
     match &job.setup {
         None => job.setup = Some((words.to_vec(), job.notes.place.line)),
         Some((before, line)) if before.as_slice() != words => {

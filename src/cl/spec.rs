@@ -81,7 +81,7 @@ fn clearances(cycle: &mut Cycle, coded: &Coded, kind: CycleKind, spec: &mut Cycl
 }
 
 /// Reads depths, steps and feeds.
-fn depths(job: &Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done {
+fn depths(job: &mut Job<'_>, coded: &Coded, kind: CycleKind, spec: &mut CycleSpec) -> Done {
     let pecks = matches!(kind, CycleKind::Deep | CycleKind::Chipbreak) || coded.mode.is_some();
     let feeds = coded.groups.iter().filter(|group| group.feed.is_some()).count();
     if feeds > 1 && (!pecks || coded.mode.is_some()) {

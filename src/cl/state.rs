@@ -32,9 +32,13 @@ pub(super) struct Motion {
     pub axis: Axis,
     /// Whether the next motion is a rapid.
     pub rapid: bool,
-    /// Whether the first motion after the end of a cycle is a rapid. A feed statement before this motion makes the
-    /// motion a cut.
+    /// Whether the first motion after the end of a cycle is a rapid. A feed in this motion or before it makes the motion a
+    /// cut.
     pub rapid_after_cycle: bool,
+    /// Whether the tool has moved since the last tool change.
+    pub has_moved: bool,
+    /// Line of a FROM that gives another position than the motion before it, if no motion has followed it.
+    pub jump: Option<u64>,
     pub cutcom: Cutcom,
     /// The last coordinate system of the file, if no motion has followed it: its z axis and its line.
     pub frame: Option<([f64; 3], u64)>,
@@ -84,8 +88,20 @@ impl Shift {
 pub(super) struct Cutcom {
     /// The change that the next motion makes: `Some(Some(side))` turns compensation on, `Some(None)` turns it off.
     pub asked: Option<Option<Side>>,
-    /// Whether compensation is on, or will be on after the next motion.
+    /// Whether compensation is on.
     pub on: bool,
+}
+
+impl Cutcom {
+    /// Whether compensation is on, or changes with the next motion.
+    pub fn is_in_use(&self) -> bool {
+        self.on || self.asked.is_some()
+    }
+
+    /// The word of the side to which the next motion would turn compensation on.
+    pub fn waiting_side(&self) -> Option<&'static str> {
+        self.asked.flatten().map(|side| if side == Side::Left { "LEFT" } else { "RIGHT" })
+    }
 }
 
 /// The next arc, and the direction of circles.

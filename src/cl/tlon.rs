@@ -2,6 +2,7 @@
 
 use super::arcs::arc_event;
 use super::fault::{Done, fault};
+use super::motion::no_jump;
 use super::state::{Arcs, PendingArc, Shift, State};
 use super::vector::cross;
 use super::words::{Word, numbers};
@@ -35,9 +36,12 @@ pub(super) fn tlon(words: &[Word], state: &mut State<'_>) -> Done {
     if state.cycle.is_active() {
         return fault(Code::PC042, "an arc inside a cycle", "end the cycle first, with CYCLE/OFF");
     }
-    if state.motion.rapid {
-        return fault(Code::PL004, "a rapid along an arc", "take RAPID out");
+    if state.motion.rapid || state.motion.rapid_after_cycle {
+        let help = "remove RAPID; after CYCLE/OFF, write FEDRAT before the arc";
+        return fault(Code::PL004, "a rapid along an arc", help);
     }
+    no_jump(&mut state.motion)?;
+    state.job.begin_motion();
     let shift = &state.motion.shift;
     let (centre, to) = (shift.of(centre), shift.of(to));
     let axis = if state.job.turns_part() { 1 } else { 2 };

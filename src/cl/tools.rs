@@ -3,15 +3,41 @@
 use super::options::{Assumed, AssumedSpeed};
 use crate::toolpath::{Coolant, Spindle, SpindleTurn};
 
+/// A property of a tool. A property that was set after the last motion may be for the next tool.
+#[derive(Default)]
+pub(super) struct Property<T> {
+    value: Option<T>,
+    is_new: bool,
+}
+
+impl<T> Property<T> {
+    /// The value for the current tool.
+    pub fn get(&self) -> Option<&T> {
+        self.value.as_ref()
+    }
+
+    /// Sets the value for the current or the next tool.
+    pub fn set(&mut self, value: Option<T>) {
+        (self.value, self.is_new) = (value, true);
+    }
+
+    /// Removes the value of the previous tool.
+    fn begin_tool(&mut self) {
+        if !self.is_new {
+            self.value = None;
+        }
+    }
+}
+
 /// The tools of a file.
 #[derive(Default)]
 pub(super) struct Tools {
     /// Numbers to assume for tools that the file does not load.
     assumed: Option<Assumed>,
     /// Diameter from the last CUTTER or TLDATA.
-    pub diameter: Option<f64>,
+    pub diameter: Property<f64>,
     /// Name of the current tool, from TOOL PATH.
-    pub name: Option<String>,
+    pub name: Property<String>,
     /// Name of the next operation, from TOOL PATH.
     pub operation: Option<String>,
     /// Text of TPRINT, which describes the next tool.
@@ -32,6 +58,18 @@ impl Tools {
         Tools { assumed, ..Tools::default() }
     }
 
+    /// Handles the beginning of a motion: the properties so far are those of the current tool.
+    #[inline]
+    pub fn begin_motion(&mut self) {
+        (self.diameter.is_new, self.name.is_new) = (false, false);
+    }
+
+    /// Handles the change to another tool.
+    pub fn begin_tool(&mut self) {
+        self.diameter.begin_tool();
+        self.name.begin_tool();
+    }
+
     /// The number of a tool that the file does not load. `first`: whether the tool is the first one.
     ///
     /// # Errors
@@ -40,14 +78,14 @@ impl Tools {
         let assumed = self.assumed.as_ref();
         let one = assumed.and_then(Assumed::one).filter(|_| first);
         let named = |name: &String| assumed.and_then(|list| list.of(name));
-        if let Some(number) = one.or_else(|| self.name.as_ref().and_then(named)) {
+        if let Some(number) = one.or_else(|| self.name.get().and_then(named)) {
             return Ok(number);
         }
-        if self.name.is_none() {
+        if self.name.get().is_none() {
             return Err("--assume-tool 1".into());
         }
         let mut next = self.greatest;
-        let new = self.name.iter().filter(|name| !self.not_loaded.contains(name));
+        let new = self.name.get().filter(|name| !self.not_loaded.contains(name));
         let all = self.not_loaded.iter().chain(new).map(|name| {
             let number = named(name).unwrap_or_else(|| {
                 next += 1.0;
@@ -60,8 +98,9 @@ impl Tools {
 
     /// Records that the current tool was only named, and that its number is known.
     pub fn goes_by_its_name(&mut self) {
-        let new = self.name.iter().filter(|name| !self.not_loaded.contains(name)).cloned().collect::<Vec<_>>();
-        self.not_loaded.extend(new);
+        if let Some(name) = self.name.get().filter(|name| !self.not_loaded.contains(name)) {
+            self.not_loaded.push(name.clone());
+        }
     }
 }
 

@@ -47,17 +47,17 @@ pub(super) fn numbers(words: &[Word]) -> Option<Vec<f64>> {
 /// Splits a statement into words at slashes, commas and parentheses. Spaces outside quotes are ignored. `Err`: the text of a
 /// number that is not finite.
 pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
-    let (mut list, mut word, mut quoted, mut after_comma) = (Vec::new(), String::new(), false, false);
+    let (mut list, mut word, mut quoted, mut before) = (Vec::new(), String::new(), false, b'\n');
     for &byte in text.iter().chain(b"\n") {
         match byte {
             b'\'' => quoted = !quoted,
             b',' | b'/' | b'(' | b')' | b'\n' if !quoted || byte == b'\n' => {
                 if !word.is_empty() {
                     list.push(one(&word)?);
-                } else if after_comma && byte == b',' {
+                } else if is_empty_field(before, byte) {
                     list.push(Word::Null);
                 }
-                after_comma = byte == b',';
+                before = byte;
                 word.clear();
             }
             b' ' | b'\t' | b'\r' if !quoted => {}
@@ -65,6 +65,12 @@ pub(super) fn words(text: &[u8]) -> Result<Vec<Word>, String> {
         }
     }
     Ok(list)
+}
+
+/// Whether there is an empty field between two separators without a word between them: a comma next to a comma, to a slash
+/// or to the end of the statement. `\n` is the beginning or the end.
+fn is_empty_field(before: u8, after: u8) -> bool {
+    matches!((before, after), (b',' | b'/' | b'\n', b',') | (b',', b'\n'))
 }
 
 fn one(word: &str) -> Result<Word, String> {
@@ -149,6 +155,9 @@ mod tests {
         let list = words(b"TLON,GOFWD/ (CIRCLE/ 1., .5, -2,, 3),ON 'a b'").unwrap();
         let shown: Vec<_> = list.iter().map(ToString::to_string).collect();
         assert_eq!(shown, ["TLON", "GOFWD", "CIRCLE", "1", "0.5", "-2", "nothing", "3", "ONa b"]);
+        let fields = |text: &[u8]| words(text).unwrap().iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+        assert_eq!(fields(b"GOTO/,1,,2, "), "GOTO nothing 1 nothing 2 nothing");
+        assert_eq!(fields(b"RAPID/"), "RAPID");
         assert_eq!(words(b"SPINDL/ 15 00,1STPECK").unwrap()[1..], [Word::Number(1500.0), Word::Name("1STPECK".into())]);
         assert!(words(b"GOTO/1e999").is_err());
     }

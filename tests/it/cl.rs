@@ -855,6 +855,199 @@ fn letters_of_old_files_are_kept() {
     assert_eq!(said(utf8.as_bytes()), ["GR\u{d6}SSE"]);
 }
 
+/// After CYCLE/OFF, the next motion is a rapid, unless it has a feed. A rapid that goes down must be written. Without an active
+/// cycle, CYCLE/OFF changes nothing.
+#[test]
+fn the_motion_after_a_cycle_is_a_rapid_only_without_a_feed() {
+    let after = |then: &str| format!("CYCLE/DRILL,DEPTH,5,CLEAR,2,MMPM,100\nGOTO/5,5,0\nCYCLE/OFF\n{then}");
+    let last = |then: &str| body(&after(then)).pop().unwrap();
+    assert_eq!(last("GOTO/9,9,2"), "G0 X9. Y9.");
+    assert_eq!(last("GOTO/9,9,-3,50"), "G1 X9. Y9. Z-3. F50.");
+    assert_eq!(last("FEDRAT/50\nGOTO/9,9,-3"), "G1 X9. Y9. Z-3. F50.");
+    assert_eq!(last("GODLTA/0,0,-3,50"), "G1 Z-3. F50.");
+    assert_eq!(last("RAPID\nGOTO/9,9,-3"), "G0 X9. Y9. Z-3.");
+    let down = "PL004 the first motion after CYCLE/OFF goes down, without RAPID and without a feed at 10:1";
+    assert_eq!(error(&after("GOTO/9,9,-3")), down);
+    for dialect in Dialect::names().filter(|name| *name != "autodesk") {
+        let options = Options { dialect: Dialect::parse(dialect).ok(), end: true, ..Options::default() };
+        let cycle = after("GOTO/9,9,-3")
+            .replace(
+                "DEPTH,5,CLEAR",
+                if matches!(dialect, "solidworks" | "nx" | "ncl") { "FEDTO,5,RAPTO" } else { "DEPTH,5,CLEAR" },
+            )
+            .replace("FEDTO,5", if dialect == "nx" { "FEDTO,-5" } else { "FEDTO,5" });
+        assert_eq!(read(&format!("{HEAD}{cycle}\nFINI\n"), options), [down], "{dialect}");
+    }
+    // without CLEAR, the tool is above the point of the hole
+    assert!(error(&after("GOTO/9,9,-3").replace("CLEAR,2,", "")).starts_with("PL004 the first motion after"));
+    let arc = "GOTO/1,0,0\nCYCLE/DRILL,DEPTH,5,CLEAR,10,MMPM,100\nGOTO/1,0,0\nCYCLE/OFF\nINDIRV/1,0,0\n\
+        TLON,GOFWD/(CIRCLE/1,1,10,1),ON,(LINE/1,1,10,2,1,10)";
+    assert!(error(arc).starts_with("PL004 a rapid along an arc"));
+    let lines = body("GOTO/0,0,-1\nCYCLE/OFF\nGOTO/9,9,-3");
+    assert_eq!(lines[..2], ["G1 Z-1. F100.", "X9. Y9. Z-3."]);
+    assert!(lines[2].starts_with("PC051"));
+}
+
+/// Feeds inside a cycle are ignored with a warning, whichever statement gives them.
+#[test]
+fn a_feed_inside_a_cycle_is_not_lost_silently() {
+    let drill = |point: &str| format!("CYCLE/DRILL,DEPTH,5,CLEAR,2,MMPM,100\n{point}\nCYCLE/OFF\nRAPID\nGOTO/1,1,9");
+    let lines = body(&drill("GOTO/6,6,0,77"));
+    assert!(lines.contains(&"G99 G81 X6. Y6. Z-5. R2. F100.".to_owned()), "{lines:?}");
+    assert_eq!(lines.last().unwrap(), "PC052 a feed in a motion statement inside a cycle is ignored");
+    assert_eq!(body(&drill("FEDRAT/77\nGOTO/6,6,0")).last().unwrap(), "PC052 FEDRAT inside a cycle is ignored");
+}
+
+/// The units of a file do not change after a value was converted, even if the value was converted with assumed units.
+#[test]
+fn units_stay_those_of_the_first_converted_value() {
+    let mm = || Options { units: Some(Units::Mm), ..Options::default() };
+    for first in ["FEDRAT/10,IPM", "SPINDL/100,SFM,CLW", "CYCLE/DRILL,DEPTH,1,IPM,9,CLEAR,1"] {
+        let file = |units: &str| {
+            format!("LOADTL/1\nSPINDL/100,RPM,CLW\n{first}\nUNITS/{units}\nRAPID\nGOTO/0,0,2\nCYCLE/OFF\nFINI\n")
+        };
+        assert_eq!(
+            read(&file("INCHES"), mm()),
+            ["PL004 these units differ from the units of the statements before them at 4:1"],
+            "{first}"
+        );
+        assert!(!read(&file("MM"), mm())[0].starts_with("PL004"), "{first}");
+    }
+    assert!(error("UNITS/INCHES").starts_with("PL004 these units differ"));
+}
+
+/// A damaged statement is an error, and is not read with a part of its values.
+#[test]
+fn a_statement_with_a_missing_value_is_not_read() {
+    for (text, found) in [
+        ("GOTO/10,20,-1,\n0,0,1", "PL001 GOTO ends with a comma: a part of it may be missing at 7:1"),
+        ("GOTO/10,20,-1,,", "PL001 GOTO takes only numbers"),
+        ("LOADTL/2,,", "PL002 LOADTL can't take `nothing`"),
+        ("FEDRAT/50,", "PL001 FEDRAT ends with a comma"),
+        ("CYCLE/DRILL,DEPTH,5,MMPM,9,CLEAR,2,\nRETURN,20", "PL001 CYCLE ends with a comma"),
+        ("GODLTA/,5", "PL001 GODLTA takes one, three or four numbers"),
+        ("GOTO/,1,2,3", "PL001 GOTO takes only numbers"),
+        ("GOTO/1,,2", "PL001 GOTO takes only numbers"),
+        ("GOHOME/0,7,0,50", "PL001 a GOHOME that can't be read"),
+        ("GOHOME/0,7,0,0,1", "PL001 a GOHOME that can't be read"),
+        ("FROM/0,0,40,20,1", "PL001 FROM with 5 numbers"),
+        ("SPINDL/2000,MAXRPM,CCLW", "PL001 MAXRPM without its number"),
+        ("SPINDL/2000,CLW,CCLW", "PL002 CCLW contradicts a word before it"),
+        ("SPINDL/200,SFM,RPM", "PL002 RPM contradicts a word before it"),
+        ("SPINDL/200,MAXRPM,500,MAXRPM,600", "PL002 MAXRPM contradicts a word before it"),
+        ("CUTCOM/LEFT,RIGHT", "PL002 RIGHT contradicts a word before it"),
+        ("LOADTL/2,ADJUST", "PL001 ADJUST without its number"),
+        ("TOOL PATH/B,C,TOOL,DRILL", "PL001 a TOOL PATH that can't be read"),
+        ("TOOL PATH/B,TOOL,DRILL(6)", "PL001 a TOOL PATH that can't be read"),
+        ("TOOL PATH/HOLES,DRILL_6", "PL001 a TOOL PATH that can't be read"),
+    ] {
+        assert!(error(text).starts_with(found), "{text}: {}", error(text));
+    }
+    // these statements give no value of the program
+    assert_eq!(body("SELECT/1,\nINTOL/.01,\nGOTO/1,0,10"), ["G1 X1. F100."]);
+    let by = |dialect, text: &str| {
+        let options = Options { dialect: Some(dialect), end: true, ..Options::default() };
+        read(&format!("{HEAD}{text}\nGOTO/1,1,0\nFINI\n"), options)[0].clone()
+    };
+    let nx = |options: &str| by(Dialect::Nx, &format!("CYCLE/DRILL,RAPTO,2,FEDTO,-5,{options}"));
+    for options in ["RTRCTO,DWELL", "RTRCTO,MMPM,90", "MMPM,90,RTRCTO"] {
+        assert!(nx(options).starts_with("PC033 RTRCTO without its number"), "{options}: {}", nx(options));
+    }
+    let pecks = |options: &str| by(Dialect::SolidWorksCam, &format!("CYCLE/DEEP2,FEDTO,9,{options},MMPM,90,RAPTO,2"));
+    assert!(pecks("1STPECK,SUBPECK,2").starts_with("PC033 1STPECK without its number"));
+    assert!(pecks("1STPECK,3,SUBPECK").starts_with("PC033 SUBPECK without its number"));
+    for load in ["LOADTL/2, 0, 50.0,", "LOADTL/2, 0, 50.0", "LOADTL/2, 0, 50.0, 11, 12"] {
+        assert!(by(Dialect::Autodesk, load).starts_with("PL001"), "{load}: {}", by(Dialect::Autodesk, load));
+    }
+}
+
+/// FROM makes no motion, so the motion after it would begin at another position than in the CAM system.
+#[test]
+fn a_tool_that_has_moved_is_not_placed_by_from() {
+    let jump = "PL004 the FROM of line 8 gives another position than the motion before it at 9:1";
+    assert_eq!(error("GOTO/1,0,5\nFROM/50,0,5\nGODLTA/0,5,0"), jump);
+    let arc = "GOTO/0,0,5\nFROM/1,0,5\nINDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/1,1,5,1),ON,(LINE/1,1,5,2,1,5)";
+    assert_eq!(error(arc), jump.replace("at 9:1", "at 10:1"));
+    assert_eq!(body("GOTO/1,0,5\nFROM/1,0,5\nGOTO/2,0,5"), ["G1 X1. Z5. F100.", "X2."]);
+    // before a tool change, FROM gives the position of the change
+    let change = body("GOTO/1,0,5\nFROM/0,0,90\nLOADTL/2\nSPINDL/900,CLW\nFROM/0,0,99\nRAPID\nGOTO/1,1,50");
+    assert!(change.contains(&"G0 G54 X1. Y1. Z50.".to_owned()) || change.len() > 2, "{change:?}");
+    let fed = "UNITS/MM\nLOADTL/1\nSPINDL/900,CLW\nFROM/0,0,40,20\nGOTO/0,0,1\nFINI\n";
+    assert_eq!(read(fed, Options::default()), ["G0 X0 Y0 Z40.", "G1 Z1. F20."]);
+}
+
+/// A speed turns the spindle on. After OFF, it turns in its last direction.
+#[test]
+fn a_speed_after_off_turns_the_spindle() {
+    assert_eq!(body("SPINDL/OFF\nSPINDL/1500,RPM\nGOTO/1,0,10"), ["S1500 M3", "G1 X1. F100."]);
+    let lines = body("SPINDL/500,CCLW\nGOTO/1,0,10\nSPINDL/OFF\nSPINDL/1500\nGOTO/2,0,10");
+    assert_eq!(lines, ["S500 M4", "G1 X1. F100.", "S1500 M4", "X2."]);
+}
+
+/// Compensation that never begins is an error.
+#[test]
+fn compensation_that_never_begins_is_not_lost() {
+    let end = "PL004 CUTCOM/LEFT has no effect: the end of the file comes before a motion in the plane";
+    assert!(error("GOTO/0,0,-1\nCUTCOM/LEFT\nGOTO/0,0,-3").starts_with(end));
+    let change = "PL004 CUTCOM/RIGHT has no effect: a tool change comes before a motion in the plane";
+    assert!(error("CUTCOM/RIGHT\nGOTO/0,0,-3\nLOADTL/2").starts_with(change));
+    let replaced = "PL008 CUTCOM/LEFT has no effect: no motion in the plane comes before the next CUTCOM";
+    assert_eq!(body("CUTCOM/LEFT\nCUTCOM/OFF\nGOTO/1,0,10"), ["G1 X1. F100.", replaced]);
+    let other = body("CUTCOM/LEFT\nCUTCOM/RIGHT\nGOTO/1,0,10\nCUTCOM/OFF\nGOTO/1,5,10");
+    assert_eq!(other, ["G1 G42 X1. D1 F100.", "G40 Y5.", replaced]);
+}
+
+/// Two origins in one file are reported in the data of Creo as in a plain CSYS. Registers outside LOADTL are reported.
+#[test]
+fn data_that_one_program_cannot_hold_is_reported() {
+    let csys = |x: u8| format!("$$-> CSYS / 1,0,0,{x}, $\n 0,1,0,0, $\n 0,0,1,0\n");
+    let creo = |text: &str| read(&format!("$$* Pro/CLfile\n{HEAD}{text}\nFINI\n"), Options::default());
+    let same = creo(&format!("{}GOTO/1,0,10\n{}GOTO/2,0,10", csys(0), csys(0)));
+    assert!(!same.iter().any(|line| line.starts_with("PL008")), "{same:?}");
+    let other = creo(&format!("{}GOTO/1,0,10\n{}GOTO/2,0,10", csys(0), csys(9)));
+    assert!(other.last().unwrap().starts_with("PL008 this CSYS differs from the CSYS of line 8"), "{other:?}");
+    assert_eq!(
+        body("OFSETNO/5\nGOTO/1,0,10").last().unwrap(),
+        "PL008 OFSETNO 5 is ignored: the registers are those of LOADTL"
+    );
+    let load = body("LOADTL/2,7\nSPINDL/9,CLW\nRAPID\nGOTO/1,0,10");
+    assert_eq!(load.last().unwrap(), "PL008 the number 7 of LOADTL is ignored, because its meaning is unknown");
+}
+
+/// A tool without CUTTER and TOOL PATH has no diameter and no name. CUTTER may come before LOADTL.
+#[test]
+fn a_tool_does_not_get_the_data_of_the_tool_before() {
+    let tools = |text: &str| {
+        let mut tools = ToolsSeen::default();
+        let text = format!("UNITS/MM\nSPINDL/900,CLW\nFEDRAT/100\n{text}FINI\n");
+        let options = Options { end: true, ..Options::default() };
+        read_cl(text.as_bytes(), &options, &mut Report::default(), &mut tools).unwrap();
+        tools.0
+    };
+    let path = "SPINDL/900,CLW\nRAPID\nGOTO/0,0,9\nGOTO/0,0,1\n";
+    assert_eq!(tools(&format!("LOADTL/1\nCUTTER/10\n{path}LOADTL/2\n{path}")), ["1 Some(10.0) None", "2 None None"]);
+    assert_eq!(
+        tools(&format!("CUTTER/10\nLOADTL/1\n{path}CUTTER/8\nLOADTL/2\n{path}LOADTL/2\n{path}")),
+        ["1 Some(10.0) None", "2 Some(8.0) None", "2 Some(8.0) None"]
+    );
+    let named = format!("TOOL PATH/A,TOOL,MILL\nTLDATA/MILL,12\nLOAD/TOOL,1\n{path}LOAD/TOOL,2\n{path}");
+    assert_eq!(tools(&named), ["1 Some(12.0) Some(\"MILL\")", "2 None None"]);
+}
+
+/// The tools of the tool changes: number, diameter and name.
+#[derive(Default)]
+struct ToolsSeen(Vec<String>);
+
+impl Sink for ToolsSeen {
+    fn event(&mut self, event: Event<'_>, _: Place) -> Flow {
+        if let Event::ToolChange(change) = event {
+            let tool = change.tool.as_ref().unwrap();
+            self.0.push(format!("{} {:?} {:?}", tool.number, tool.diameter, tool.name));
+        }
+        Flow::Continue(())
+    }
+}
+
 #[derive(Default)]
 struct Comments(Vec<String>);
 

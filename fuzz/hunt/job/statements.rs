@@ -233,7 +233,8 @@ impl File<'_> {
                 self.goto([x, y, high]);
             }
             1 => self.rapid([x, y, high]),
-            _ => self.goto([x, y, high]),
+            // without RAPID and FEDRAT, the motion after a cycle must not go down: this height is above every cycle
+            _ => self.goto([x, y, self.round(50.0 * self.unit)]),
         }
         // the feed of a cycle does not apply to other motions
         let (word, value) = self.fedrat();

@@ -203,6 +203,7 @@ codes! {
     PI003 Error "a record of an NCI file that a job can't contain"
     PI004 Error "an NCI file that is incomplete"
     PI005 Warning "a text of an NCI file that is printed as it is"
+    PI006 Warning "a value of an NCI file that is ignored"
     // PL: the CL file
     PL001 Error "a statement that can't be read"
     PL002 Error "an unknown minor word"

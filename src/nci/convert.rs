@@ -24,7 +24,10 @@ pub struct Convert<'r, 's> {
     place: Place,
     started: bool,
     over: bool,
+    /// The values for the next tool change.
     ahead: Ahead,
+    /// The values of the current tool.
+    tool: Ahead,
     pub(super) position: Option<[f64; 3]>,
     pub(super) feed: Option<f64>,
     pub(super) side: Option<Side>,
@@ -42,6 +45,7 @@ impl<'r, 's> Convert<'r, 's> {
             started: false,
             over: false,
             ahead: Ahead::default(),
+            tool: Ahead::default(),
             position: None,
             feed: None,
             side: None,
@@ -181,7 +185,8 @@ impl<'r, 's> Convert<'r, 's> {
             ));
         }
         let values = record.values(13)?;
-        let change = change(record, &values, &self.ahead)?;
+        self.tool = std::mem::take(&mut self.ahead).completed(values[3], std::mem::take(&mut self.tool));
+        let change = change(record, &values, &self.tool)?;
         if !self.started {
             let Some(units) = self.units else {
                 let help = "give --assume-units mm or inch: NCI files do not contain their units";
@@ -194,7 +199,6 @@ impl<'r, 's> Convert<'r, 's> {
         }
         self.place.operation += 1;
         self.place.item = 0;
-        self.ahead.comment = None;
         self.coolant = change.coolant;
         // after a tool change the position is unknown; record 1000 does not change it
         if record.code != 1000 {
@@ -246,9 +250,13 @@ impl<'r, 's> Convert<'r, 's> {
         self.end_cycle()?;
         let text = record.text.trim();
         let message = format!("`{text}` is printed unchanged, as typed in Mastercam");
-        let help = "check the meaning of this text on your control";
-        self.report.warnings.push(Diag::new(Code::PI005, message).help(help).place(self.place));
+        self.warn(Code::PI005, message, "check the meaning of this text on your control");
         self.push(Event::Text(text))
+    }
+
+    /// Adds a warning about the current record.
+    fn warn(&mut self, code: Code, message: String, help: &str) {
+        self.report.warnings.push(Diag::new(code, message).help(help).place(self.place));
     }
 
     /// Handles the plane of the tool or of the work. A plane that is turned or moved is refused.
@@ -299,6 +307,9 @@ impl<'r, 's> Convert<'r, 's> {
             Some(open) if record.code == 100 => open.next(record)?,
             _ => Drilling::read(record)?,
         };
+        if let Some(message) = hole.unread().filter(|_| record.code == 81) {
+            self.warn(Code::PI006, message, "compare it with the setting of the control");
+        }
         if let Some(flag) = hole.flag {
             self.flag(Some(&flag), record)?;
         }

@@ -26,6 +26,8 @@ pub struct Drilling {
     pub feed: f64,
     first_peck: f64,
     peck: f64,
+    /// The values between the pecks and the heights: probably the peck clearance and the retract after a chip.
+    between: [f64; 2],
     /// The control flag, if the hole has one.
     pub flag: Option<f64>,
 }
@@ -100,6 +102,7 @@ impl Drilling {
             feed: values[5],
             first_peck: values[6],
             peck: values[7],
+            between: [values[8], values[9]],
             flag: values.get(17).copied(),
         };
         drilling.checked(upper, record)
@@ -147,6 +150,16 @@ impl Drilling {
             spec.first_step = Some(self.first_peck).filter(|first| *first > 0.0 && *first != step);
         }
         Ok(spec)
+    }
+
+    /// A message if the cycle has a value that is not read, because no public document gives its meaning.
+    pub fn unread(&self) -> Option<String> {
+        let (place, value, meaning) = match self.kind {
+            CycleKind::Deep => (9, self.between[0], "the peck clearance"),
+            CycleKind::Chipbreak => (10, self.between[1], "the retract after a chip"),
+            _ => return None,
+        };
+        (value != 0.0).then(|| format!("value {place} of record 81, probably {meaning}, is ignored: it is {value}"))
     }
 
     /// The hole as an event.

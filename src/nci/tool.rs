@@ -9,6 +9,8 @@ use crate::toolpath::{FeedMode, Spindle, SpindleTurn, Tool, ToolChange};
 /// The values of the tool from the records before its tool change.
 #[derive(Clone, Debug, Default)]
 pub struct Ahead {
+    /// The number of the tool that has these values; `None` until the tool change.
+    pub number: Option<f64>,
     /// The diameter of the tool.
     pub diameter: Option<f64>,
     /// The corner radius of the tool.
@@ -17,6 +19,21 @@ pub struct Ahead {
     pub name: Option<String>,
     /// The comment of the operation.
     pub comment: Option<String>,
+}
+
+impl Ahead {
+    /// Completes the values for the change to the tool `number`. An operation with the same tool as before keeps the values of
+    /// this tool; another tool has only its own values.
+    pub fn completed(self, number: f64, before: Ahead) -> Ahead {
+        let before = if before.number == Some(number) { before } else { Ahead::default() };
+        Ahead {
+            number: Some(number),
+            diameter: self.diameter.or(before.diameter),
+            corner: self.corner.or(before.corner),
+            name: self.name.or(before.name),
+            comment: self.comment,
+        }
+    }
 }
 
 /// The coolant for a number in the file.

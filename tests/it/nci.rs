@@ -167,6 +167,39 @@ fn what_is_refused_has_its_line() {
     assert_eq!(read(&moved).unwrap_err().2, "a work coordinate system that is turned or moved");
 }
 
+/// The name and the diameter of a tool end at the change to another tool, and stay for another operation with the tool.
+#[test]
+fn a_tool_does_not_get_the_data_of_the_tool_before() {
+    let head = "1050\n9 100 1 2 2020 10 0 0 X.MC9\n1013\n0 10. 0. 1 1 0. 0. 0. 2 X\n20001\n10 MILL\n";
+    let change = |code: u32, tool: u32| {
+        format!("{code}\n7 100 2 {tool} 4{tool} {tool} 0 2000 300. 1 0. 0. 50. 0. 0. 0. 0 0.\n0\n0 0. 0. 50. -2. 0\n")
+    };
+    let text = format!("{head}{}{}{}1003\n0. 0. 0.\n", change(1001, 1), change(1000, 1), change(1002, 3));
+    let lines = read(&text).unwrap();
+    let tools: Vec<&str> = lines.iter().filter_map(|line| line.split_once(" DSome")).map(|(tool, _)| tool).collect();
+    assert_eq!(tools, ["tool 1 Some(10.0)", "tool 1 Some(10.0)", "tool 3 None"], "{lines:#?}");
+}
+
+/// Values of cycles that are not read are reported.
+#[test]
+fn values_of_pecks_that_are_not_read_are_reported() {
+    let warned = |text: &str| {
+        let mut job = Job::bytes(Format::Nci, text);
+        job.reading.units = Some(Units::Mm);
+        job.read(&mut Lines::default()).unwrap();
+        let found = job.report().warnings.iter().filter(|warning| warning.code == Code::PI006);
+        found.map(|warning| warning.message.clone()).collect::<Vec<_>>()
+    };
+    let text = sample();
+    let peck = "value 9 of record 81, probably the peck clearance, is ignored: it is 1";
+    assert_eq!(warned(&text), [peck]);
+    let (deep, chip) = ("1 10. 10. -20. 0.5 120. 5. 3. 1. 0. 50.", "2 10. 10. -20. 0.5 120. 5. 3. 1. 0.2 50.");
+    assert_eq!(text.matches(deep).count(), 1);
+    let retract = "value 10 of record 81, probably the retract after a chip, is ignored: it is 0.2";
+    assert_eq!(warned(&text.replace(deep, chip)), [retract]);
+    assert!(warned(&text.replace("5. 3. 1. 0. 50.", "5. 3. 0. 0. 50.")).is_empty());
+}
+
 #[test]
 fn a_file_needs_its_units_and_its_program_is_proven() {
     let folder = Folder::new("nci");

@@ -1,8 +1,8 @@
 //! Selects operations of a job by their tools. The selection begins with a given tool, ends with a given tool, contains
 //! only given tools, or excludes given tools.
 //!
-//! Some values of a left-out operation stay in force: work offset, spindle, coolant and set values. These values are
-//! added to the next operation that is selected. That operation starts at the position that the tool would have
+//! Some values of a left-out operation stay in force: work offset and set values, and spindle and coolant if the tool stays the
+//! same. These values are added to the next operation that is selected. That operation starts at the position that the tool would have
 //! reached.
 
 use crate::diag::{Code, Diag};
@@ -88,6 +88,7 @@ pub(super) struct Selecting<'s> {
 /// Values that stay in force from operation to operation.
 #[derive(Default)]
 struct Held {
+    tool: Option<f64>,
     spindle: Option<Spindle>,
     coolant: Option<Coolant>,
     work: Option<f64>,
@@ -152,9 +153,13 @@ impl<'s> Selecting<'s> {
         self.sink.event(Event::ToolChange(&change), place)
     }
 
-    /// Keeps the values that stay in force after the operation.
+    /// Keeps the values that stay in force after the operation. Spindle and coolant end at the change to another tool.
     fn hold(&mut self, change: &ToolChange) {
         let held = &mut self.held;
+        let tool = change.tool.as_ref().map(|tool| tool.number);
+        if tool.is_some() && tool != held.tool {
+            *held = Held { tool, spindle: None, coolant: None, ..std::mem::take(held) };
+        }
         held.spindle = change.spindle.map(|own| turned(own, held.spindle)).or(held.spindle);
         held.coolant = change.coolant.or(held.coolant);
         held.work = change.work.or(held.work);

@@ -177,6 +177,42 @@ fn a_job_is_split_by_tool_operation_and_work_offset() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// The direction of the spindle and the coolant end at the change to another tool, also if the operations before it are left
+/// out.
+#[test]
+fn a_part_begins_without_the_spindle_and_coolant_of_another_tool() {
+    let folder = shop("parts");
+    let job = |second: &str| {
+        format!(
+            "{{\"postform\":1,\"program\":1,\"units\":\"mm\",\"machine\":\"mill\",\"tools\":[{{\"number\":1}},{{\"number\":2}}],\
+             \"operations\":[{{\"tool\":1,\"work\":54,\"spindle\":{{\"speed\":2000,\"direction\":\"ccw\"}},\
+             \"coolant\":\"flood\",\"path\":[{{\"rapid\":[0,0,50]}},{{\"line\":[1,0,-1],\"feed\":100}},\
+             {{\"rapid\":[1,0,50]}}]}},{{{second}\"path\":[{{\"rapid\":[0,0,50]}},{{\"line\":[3,3,-1],\"feed\":200}},\
+             {{\"rapid\":[3,3,50]}}]}}]}}"
+        )
+    };
+    let run = |second: &str, arguments: &[&str]| {
+        folder.write("job.json", job(second));
+        folder.run(&[&["render", "job.json", "--form", "haas.pf"], arguments].concat())
+    };
+    let split = ["--split", "operation", "--out-dir", "nc", "--name", "{operation}-{number}"];
+    let no_turn = "\"tool\":2,\"spindle\":{\"speed\":500},";
+    for arguments in [&[][..], &split] {
+        let output = run(no_turn, arguments);
+        assert!(err(&output).contains("PR001"), "{}", err(&output));
+        assert_eq!(output.status.code(), Some(1));
+    }
+    // without coolant, the second tool is dry in the whole program and in its part
+    let dry = run("\"tool\":2,\"spindle\":{\"speed\":500,\"direction\":\"cw\"},", &split);
+    assert_eq!(dry.status.code(), Some(0), "{}", err(&dry));
+    assert!(!folder.read("nc/OP02-2.nc").contains("M8"), "{}", folder.read("nc/OP02-2.nc"));
+    // the same tool keeps its spindle and coolant
+    let same = run("\"tool\":1,", &split);
+    assert_eq!(same.status.code(), Some(0), "{}", err(&same));
+    let part = folder.read("nc/OP02-2.nc");
+    assert!(part.contains("S2000 M4") && part.contains("M8"), "{part}");
+}
+
 #[test]
 fn an_operation_in_two_work_offsets_is_no_part() {
     let folder = shop("offsets");

@@ -345,19 +345,19 @@ fn a_part_of_a_job_is_taken() {
     assert_eq!(tools(&["--skip", "1,3", "--until", "4"]), "T2 T4");
     let none = folder.run(&["render", "job.json", "--form", &form, "--only", "9"]);
     assert!(none.status.code() == Some(1) && err(&none).contains("the job has T1, T2, T3, T4, T5"), "{}", err(&none));
-    // values of a skipped operation still apply, and missing axes of the position are filled in
+    // the work offset of a skipped operation still applies, its spindle and coolant end with its tool, and missing axes of the position are filled in
     folder.write(
         "job.json",
         r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1},{"number":2}],"operations":[
 {"tool":1,"work":56,"coolant":"flood","spindle":{"speed":1500,"direction":"cw"},"feed":100,"path":[{"rapid":[1,2,30]},{"line":[1,2,-1]},{"rapid":[1,2,30]}]},
-{"tool":2,"spindle":{"speed":900},"feed":80,"path":[{"rapid":[9,null]},{"line":[9,2,-1]},{"rapid":[9,2,30]}]},
+{"tool":2,"spindle":{"speed":900,"direction":"ccw"},"feed":80,"path":[{"rapid":[9,null]},{"line":[9,2,-1]},{"rapid":[9,2,30]}]},
 {"tool":2,"feed":80,"path":[{"line":[9,5,-1]},{"rapid":[9,2,30]}]}]}"#,
     );
     let second = folder.run(&["render", "job.json", "--form", &form, "--from-tool", "2", "--set", "header=off"]);
     let program = out(&second);
     assert!(second.status.success(), "{}", err(&second));
     assert!(
-        program.contains("G56 X9. Y2.") && program.contains("S900 M3") && program.contains("H2 Z30. M8"),
+        program.contains("G56 X9. Y2.") && program.contains("S900 M4") && program.contains("H2 Z30. M9"),
         "{program}"
     );
     folder.write("cut.json", folder.read("job.json").replace("[{\"rapid\":[9,null]},", "["));

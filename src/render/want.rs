@@ -295,8 +295,9 @@ impl Want {
         let code = if first == Coolant::OFF { ends } else { codes_of(first, settings)?.on };
         self.set(VarId::Coolantoff, ends);
         if first != before {
-            // a new kind does not turn off a kind that has its own "off" code
-            let ended = ends != off && code != ends && (first == Coolant::OFF || !coolant.holds(before));
+            // a new kind turns off the previous kind only if neither has its own "off" code
+            let stays = ends != off || codes(first, settings).is_some_and(|codes| codes.own_off.is_some());
+            let ended = stays && before != Coolant::OFF && code != ends && !coolant.holds(before);
             self.ends_coolant = Some(ends).filter(|_| ended);
         }
         (self.coolant, self.coolant_is_said) = (coolant, true);

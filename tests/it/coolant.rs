@@ -209,6 +209,34 @@ fn the_forms_own_coolant_stands() {
     assert_eq!(rendered.notes[0].message, "the form prints M8, but the job requests M9, which is printed after it");
 }
 
+/// A kind with its own off code does not turn off flood coolant, so flood coolant is turned off before this kind begins. Off
+/// then turns off all coolant.
+#[test]
+fn coolant_that_another_kind_does_not_end_is_turned_off() {
+    let path =
+        "{\"line\":[1,0,0]},{\"coolant\":\"through\"},{\"line\":[2,0,0]},{\"coolant\":\"off\"},{\"line\":[3,0,0]}";
+    let print = |path: &str| codes(&form(KINDS, "M[cool]"), &job(&[(1, "flood", path)]));
+    assert_eq!(print(path), ["M8", "M9", "M88", "M89"]);
+    // air has no off code, so it replaces flood; flood as a second kind stays on
+    assert_eq!(print(&path.replace("through", "air")), ["M8", "M12", "M9"]);
+    let both = path.replace("\"through\"", "[\"through\",\"flood\"]");
+    assert_eq!(print(&both), ["M8", "M88", "M8", "M9", "M89"]);
+}
+
+/// Codes that postform prints by itself are not words of the form.
+#[test]
+fn coolant_that_ends_before_a_tool_change_is_no_word_of_the_form() {
+    let text = job(&[(1, "off", LINE), (2, "none", LINE)])
+        .replace("\"coolant\":\"off\"", "\"coolant\":[\"air\",\"flood\"]")
+        .replace("\"coolant\":\"none\",", "")
+        .replacen('{', "{\"program\":1,", 1);
+    let rendered = render(&plain_post("haas.pf"), &text).unwrap();
+    assert!(rendered.notes.iter().all(|note| note.code.name() != "PR056"), "{:?}", rendered.notes);
+    let second = rendered.text.split("T2 M6").nth(1).unwrap();
+    assert_eq!(second.matches("M84").count(), 1, "{second}");
+    assert_eq!(second.matches("M9\n").count(), 1, "{second}");
+}
+
 /// A speed that the tool change prints applies until the job changes the speed.
 #[test]
 fn the_forms_own_speed_stands() {

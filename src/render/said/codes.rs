@@ -95,8 +95,10 @@ impl Said {
         let begins = kinds.iter().any(|kind| kind.on == code);
         let ends = kinds.iter().any(|kind| kind.off == Some(code));
         let own = |cool: f64| kinds.iter().any(|kind| kind.on == cool && kind.off == Some(code));
+        let off = Some(shape.program.settings.coolant[1]);
+        let ends_last = self.conditions.get(VarId::Cool) == off && want.get(VarId::Cool) == Some(code);
         // a code that turns off one kind leaves another kind on
-        if begins || ends && self.conditions.get(VarId::Cool).is_some_and(own) {
+        if begins || ends && (ends_last || self.conditions.get(VarId::Cool).is_some_and(own)) {
             self.coolant_said(code, line, want, shape);
             self.switched = true;
         }

@@ -24,7 +24,9 @@ impl Said {
     /// Records a printed code of coolant.
     pub(super) fn coolant_said(&mut self, code: f64, line: Line, want: &Want, shape: &Shape) {
         self.conditions.put(VarId::Cool, Some(code));
-        self.own.cool = Some(code).filter(|_| !want.coolant_is_said);
+        if !line.is_generated() {
+            self.own.cool = Some(code).filter(|_| !want.coolant_is_said);
+        }
         self.typed(VarId::Cool, code, line, want, shape);
     }
 

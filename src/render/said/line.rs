@@ -39,6 +39,11 @@ impl Line {
         Line { begin: Some(op + 1) }
     }
 
+    /// Is this the line of a generated block?
+    pub fn is_generated(self) -> bool {
+        self.begin.is_none()
+    }
+
     /// Does the line have a word for which `asked` is true? The arguments of `asked` are the word's letter and, if the
     /// word has one, its variable.
     pub fn prints(self, shape: &Shape, asked: impl Fn(u8, Option<VarId>) -> bool) -> bool {

@@ -137,6 +137,7 @@ impl State {
                         Code::PN034,
                         "G88 does not retract: the simulation assumes that the operator retracts the tool before the \
                          next hole",
+                        "use G86, or retract by hand",
                     ));
                     self.comes_to(hole, true);
                     self.place.position = hole.over(hole.clear);
@@ -165,6 +166,7 @@ impl State {
                 Code::PN032,
                 "a peck is shorter than the back-off of the control: the rapid after it ends above the start of this \
                  peck",
+                "take longer pecks, or set the back-off of the control with `--back-off`",
             ));
         }
         let mut depth = from.unwrap_or(hole.r - hole.peck);

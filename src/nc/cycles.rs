@@ -42,6 +42,7 @@ impl State {
                 Code::PN030,
                 "R or the depth was written before a change of the units, the plane, or G90 and G91; after the change \
                  the same number is used again",
+                "write R and the depth again after the change",
             ));
         }
         if !reused {
@@ -159,7 +160,8 @@ impl State {
         if self.place.position[across] < hole.clear && across_too {
             let message =
                 "the rapid to this hole moves up and across at once, because the hole before returned only to R";
-            self.warnings.push((Code::PN031, message));
+            let help = "retract before the change to G98, or use only G98 or only G99 in the whole cycle";
+            self.warnings.push((Code::PN031, message, help));
         }
         self.rapid_clear(&hole, out);
         if hole.clear > hole.r || hole.heights != Heights::Given {
@@ -224,7 +226,8 @@ impl State {
                 return missing('P');
             }
             if word.is_some() && block.g_meaning(super::codes::Group::Once) == Some(Meaning::Dwell) {
-                self.warnings.push((Code::PN033, "P is the dwell of both G4 and the cycle"));
+                let help = "write G4 in a block of its own";
+                self.warnings.push((Code::PN033, "P is the dwell of both G4 and the cycle", help));
             }
             self.holes.series.dwell = word.or(self.holes.series.dwell);
             hole.dwell = self.holes.series.dwell.unwrap_or(0.0);

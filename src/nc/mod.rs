@@ -51,7 +51,7 @@ mod tool;
 mod tool_names;
 mod turning;
 mod unpointed;
-mod warned;
+mod warnings;
 mod way;
 
 pub use action::{Action, Cooling, Drilling, Item, Position, Rotation, Threading, Turn};

@@ -110,6 +110,8 @@ pub struct Simulator<'a> {
     begun: bool,
     /// Number of O words to skip before the first block.
     pub(super) passing: usize,
+    /// The warnings so far, each with its code and its text without the block.
+    pub(super) warnings: Vec<((Code, &'static str), Diag)>,
 }
 
 impl<'a> Simulator<'a> {
@@ -149,6 +151,7 @@ impl<'a> Simulator<'a> {
             ended: false,
             begun: false,
             passing: 0,
+            warnings: Vec::new(),
         }
     }
 
@@ -224,7 +227,9 @@ impl<'a> Simulator<'a> {
         }
         let behind = self.at;
         self.ran = behind.line;
-        let jump = match self.line_step(items) {
+        let stepped = self.line_step(items);
+        self.place_warnings();
+        let jump = match stepped {
             Ok(Jump::On) => return Ok(true),
             Ok(Jump::End) => {
                 self.over = true;
@@ -463,7 +468,8 @@ impl<'a> Simulator<'a> {
             // Grbl runs block by block, and needs no code for the end of the program
             if self.state.drive.spindle != Rotation::Stop {
                 let message = "the program ends while the spindle turns: check that the file is complete";
-                self.state.warnings.push((Code::PN037, message));
+                let help = "end the program with M5 and M30";
+                self.state.warnings.push((Code::PN037, message, help));
             }
             return Ok(false);
         }

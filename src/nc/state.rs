@@ -33,8 +33,8 @@ pub struct State {
     pub(super) turning: FirstBlocks,
     /// The active codes that change the moves of rotary axes.
     pub(super) rotary: Vec<&'static Row>,
-    /// Warnings of the block: the control accepts the block, but the user should check it.
-    pub(super) warnings: Vec<(Code, &'static str)>,
+    /// Warnings of the block, each with its help: the control accepts the block, but the user should check it.
+    pub(super) warnings: Vec<(Code, &'static str, &'static str)>,
 }
 
 /// The active modal codes.
@@ -267,11 +267,6 @@ impl State {
             true => self.modes.motion.filter(|row| row.meaning == Meaning::Cycle),
             false => self.holes.cycle,
         }
-    }
-
-    /// Returns the warnings since the last call of this function.
-    pub fn take_warnings(&mut self) -> Vec<(Code, &'static str)> {
-        std::mem::take(&mut self.warnings)
     }
 }
 

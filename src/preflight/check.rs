@@ -214,9 +214,7 @@ impl<'m> Check<'m> {
             let (base, length) = match at[axis].base {
                 Base::Unknown => return None,
                 Base::Machine => (known?, self.spindle_to_tip(axis)?),
-                Base::Work(needs) if needs.work == work && needs.offset_unknown => {
-                    (0.0, self.added(needs.register))
-                }
+                Base::Work(needs) if needs.work == work && needs.offset_unknown => (0.0, self.added(needs.register)),
                 Base::Work(needs) if needs.offset_unknown => return None,
                 Base::Work(needs) => (known?, self.added(needs.register)),
             };

@@ -77,6 +77,15 @@ fn surprises_are_warned_of() {
     for (blocks, code) in cases {
         assert!(warned(&format!("{start}{blocks}M2\n")).contains(&code.to_owned()), "{blocks}");
     }
+    // a warning has the first block that causes it, and help
+    let text = format!("{start}G83 X1 Z-1 R0 Q0.1\nX2\nG80\nG0 X9\nM2\n");
+    let mut simulator = Simulator::new(Cursor::new(text), RunSettings::new(control("linuxcnc")));
+    while let Ok(true) = simulator.step(&mut Vec::new()) {}
+    let warnings = simulator.take_warnings();
+    let [warning] = warnings.as_slice() else { panic!("{warnings:?}") };
+    assert!(warning.message.contains("G83 X1 Z-1"), "{}", warning.message);
+    assert_eq!(warning.place.as_ref().and_then(|place| place.line), Some(3));
+    assert!(warning.help.as_deref().unwrap_or_default().contains("--back-off"), "{:?}", warning.help);
     assert_eq!(warned(&format!("{start}G98 G81 X1 Z-5 R2\nX2\nG80\nM2\n")), Vec::<String>::new());
 }
 

@@ -160,6 +160,18 @@ fn a_pipe_that_stops_reading_is_no_success() {
     );
 }
 
+/// A full standard output fails every command, also the texts of the options.
+#[test_with::path(/dev/full)]
+#[test]
+fn a_full_standard_output_is_no_success() {
+    let folder = folder("full");
+    for line in ["--help", "--version", "render --help", "help lint", "controls", "render job.json --form form.pf"] {
+        let output = shell(&folder, &format!("exec \"$0\" {line} > /dev/full"));
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && text.contains("can't write standard output"), "{line}: {text}");
+    }
+}
+
 /// An output may be a file that a process has open. Such a file may have no name, or may contain other text. So
 /// postform writes to the file and does not replace it.
 #[test]

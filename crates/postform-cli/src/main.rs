@@ -105,9 +105,14 @@ fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            let code = if error.use_stderr() { Ending::Failed } else { Ending::Clean };
-            refused(&error);
-            return code.into();
+            return match error.use_stderr() {
+                true => {
+                    refused(&error);
+                    Ending::Failed.into()
+                }
+                // the text of --help or --version
+                false => ended(output::shown(|_| error.print())),
+            };
         }
     };
     let colour = arguments.color.on_stderr();
@@ -136,6 +141,11 @@ fn main() -> ExitCode {
         Command::Man => shells::man(),
         Command::Lsp(args) => lsp::run(&args),
     };
+    ended(ending)
+}
+
+/// The exit status of a command. Shows the message of a failed command.
+fn ended(ending: Result<Ending, String>) -> ExitCode {
     let ending = ending.unwrap_or_else(|text| {
         say::message(&text);
         Ending::Failed

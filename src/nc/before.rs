@@ -176,6 +176,12 @@ impl Simulator<'_> {
         self.block.get(b'P').filter(|_| sets).map(|register| register as u32)
     }
 
+    /// The words of the last block if it sets tool data: letters and values, in the units of the program.
+    pub fn tool_data(&self) -> impl Iterator<Item = (u8, f64)> + '_ {
+        let letters = (b'A'..=b'Z').filter(|letter| self.sets_tool_data() && !b"GNOM".contains(letter));
+        letters.filter_map(|letter| Some((letter, self.block.get(letter)?)))
+    }
+
     fn sets_offsets(&self) -> bool {
         self.block.row(Group::Once).is_some_and(|row| row.meaning == Meaning::SetOffsets)
     }

@@ -1,5 +1,7 @@
 //! Jumps in a program: subprograms, branches, loops.
 
+use std::io::{Seek as _, SeekFrom};
+
 use super::fault::{Done, Fault, refuse};
 use super::flow::{Flow, Step};
 use super::scan::{Kind, tokens};
@@ -8,6 +10,8 @@ use super::way::{Ends, Frame, Jump, Spot};
 use crate::control::{self, Meaning};
 use crate::diag::Code;
 
+/// Maximum number of loop rounds, calls and repeated blocks. A program with more of them is refused.
+const MOST_JUMPS: u64 = 1_000_000;
 /// Maximum nesting of subprograms and loops.
 const DEEPEST: usize = 64;
 
@@ -16,6 +20,33 @@ fn no_end() -> Box<Fault> {
 }
 
 impl Simulator<'_> {
+    /// Continues the run at a position of the program.
+    pub(super) fn go(&mut self, spot: Spot) -> Result<(), RunError> {
+        self.farthest = self.farthest.max(self.at.line);
+        if self.jumps == 0 {
+            // if the input can't seek, fail at the first jump, even if the target is still in the buffer
+            self.input.get_mut().stream_position()?;
+        }
+        let offset = i128::from(spot.byte) - i128::from(self.at.byte);
+        match i64::try_from(offset) {
+            // if possible, the target is read from the buffer
+            Ok(offset) => self.input.seek_relative(offset)?,
+            Err(_) => _ = self.input.seek(SeekFrom::Start(spot.byte))?,
+        }
+        self.at = spot;
+        self.count_jump()
+    }
+
+    /// Counts a jump. A program that jumps too often has a loop without an end.
+    pub(super) fn count_jump(&mut self) -> Result<(), RunError> {
+        self.jumps += 1;
+        if self.jumps > MOST_JUMPS {
+            let help = "check the condition of the loop";
+            return Err(self.refused(Fault::new(Code::PN015, "the program does not end", help)));
+        }
+        Ok(())
+    }
+
     pub(super) fn push(&mut self, frame: Frame) -> Done {
         if self.frames.len() == DEEPEST {
             let help = "find a subprogram that calls itself";

@@ -21,8 +21,6 @@ use crate::diag::{Code, Diag};
 
 /// Maximum length of a line on any control, in bytes.
 const LONGEST: usize = 1 << 16;
-/// Maximum number of loop rounds, calls and repeated blocks. A program with more of them is refused.
-const MOST_JUMPS: u64 = 1_000_000;
 
 /// Maximum number of actions from subprograms, loops and long blocks. A program with more actions is refused.
 const MOST_REPEATED: u64 = 20_000_000;
@@ -88,7 +86,7 @@ pub struct Simulator<'a> {
     over: bool,
     /// Whether the program ended with M99. The control would start the program again.
     pub(super) again: bool,
-    jumps: u64,
+    pub(super) jumps: u64,
     /// The highest line that was read before a jump. A jump back reads lines again only up to this line.
     pub(super) farthest: u64,
     /// Number of actions from subprograms, loops and long blocks.
@@ -475,30 +473,5 @@ impl<'a> Simulator<'a> {
         }
         let help = "a program ends with M2, M30 or %";
         refuse(Code::PN010, "the program is incomplete: its end is missing", help)
-    }
-
-    pub(super) fn go(&mut self, spot: Spot) -> Result<(), RunError> {
-        self.farthest = self.farthest.max(self.at.line);
-        if self.jumps == 0 {
-            // if the input can't seek, fail at the first jump, even if the target is still in the buffer
-            self.input.get_mut().stream_position()?;
-        }
-        let offset = i128::from(spot.byte) - i128::from(self.at.byte);
-        match i64::try_from(offset) {
-            // if possible, the target is read from the buffer
-            Ok(offset) => self.input.seek_relative(offset)?,
-            Err(_) => _ = self.input.seek(SeekFrom::Start(spot.byte))?,
-        }
-        self.at = spot;
-        self.count_jump()
-    }
-
-    pub(super) fn count_jump(&mut self) -> Result<(), RunError> {
-        self.jumps += 1;
-        if self.jumps > MOST_JUMPS {
-            let help = "check the condition of the loop";
-            return Err(self.refused(Fault::new(Code::PN015, "the program does not end", help)));
-        }
-        Ok(())
     }
 }

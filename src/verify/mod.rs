@@ -37,6 +37,7 @@ mod sides;
 mod strokes;
 mod subprograms;
 mod tables;
+mod tails;
 mod thread_starts;
 mod threads;
 mod unproven_codes;

@@ -64,6 +64,8 @@ pub(super) struct Passage {
     pub is_off: bool,
     /// Codes of the program that are not simulated: the letter, and the number times ten.
     pub codes: Vec<(u8, u16)>,
+    /// The words with which the program sets tool data (G10 L10 to L13), in their order.
+    pub tool_data: Vec<(u8, f64)>,
     /// Codes for threading and cutting a wire.
     pub does: Vec<Mark<Coded>>,
     /// Whether the tool was changed.
@@ -105,6 +107,7 @@ impl Passage {
             started: false,
             is_off: false,
             codes: Vec::new(),
+            tool_data: Vec::new(),
             does: Vec::new(),
             new_tool: false,
             turrets: Vec::new(),
@@ -132,6 +135,7 @@ impl Passage {
         self.turns.clear();
         (self.started, self.is_off) = (false, false);
         self.codes.clear();
+        self.tool_data.clear();
         self.does.clear();
         self.astray.clear();
         self.turrets.clear();

@@ -11,6 +11,7 @@ use crate::toolpath::StopKind;
 pub(super) fn between(old: &Program<'_>, new: &Program<'_>, names: Names, tolerance: f64) -> Option<String> {
     astray(old, new, tolerance)
         .or_else(|| frames(old, new, tolerance))
+        .or_else(|| tool_data(old, new))
         .or_else(|| pauses(old, new, tolerance))
         .or_else(|| turrets(old, new))
         .or_else(|| homes(old, new, names))
@@ -40,6 +41,17 @@ fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
         let [now, before] = both_shown(&now.at, &before.at);
         format!("the zero of the program is shifted to {now}, but to {before} in the old program")
     })
+}
+
+/// Compares the tool data that the programs set by G10, such as the length in a register.
+fn tool_data(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let text = |program: &Program<'_>| {
+        let word = |&(letter, value): &(u8, f64)| format!("{}{}", char::from(letter), number(value));
+        listed(&program.passage.tool_data.iter().map(word).collect::<Vec<_>>())
+    };
+    let (before, now) = (text(old), text(new));
+    (before != now)
+        .then(|| format!("the tool data set by G10 before this cut are {now}, but {before} in the old program"))
 }
 
 /// Compares stops and dwells between two cuts.

@@ -11,7 +11,8 @@ use super::program::{Doubt, Program};
 use super::program_cuts::{Names, differs};
 use super::program_passages::{between, leaving, switching};
 use super::rapid_path::RapidPath;
-use super::ways::{Compared, compare, leaves_low};
+use super::tails::leaves_low;
+use super::ways::{Compared, compare};
 use crate::nc::{RunError, RunSettings};
 use crate::toolpath::Units;
 

@@ -5,7 +5,8 @@ use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
 use super::passage::{Frame, Leg};
 use super::sides::Sides;
-use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_hole, leaves_hole, leaves_low};
+use super::tails::leaves_low;
+use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_hole, leaves_hole};
 use crate::diag::Code;
 use crate::lang::Machine;
 

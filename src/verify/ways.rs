@@ -51,7 +51,7 @@ impl Low {
 
 /// Greatest length, as a multiple of the tolerance, of a rapid across that may be a rapid straight up with rounded
 /// ends.
-const ROUNDED_ACROSS: f64 = 2.0;
+pub(super) const ROUNDED_ACROSS: f64 = 2.0;
 
 /// Whether both paths have the same rapids with the same state of the spindle.
 pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
@@ -148,7 +148,7 @@ fn leaves_turning_otherwise(job: &[Rapid], program: &[Rapid], tolerance: f64) ->
 }
 
 /// The height of a corner. A height that is known only at the machine is infinite.
-fn height(rapid: &Rapid) -> f64 {
+pub(super) fn height(rapid: &Rapid) -> f64 {
     if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] }
 }
 
@@ -171,7 +171,7 @@ fn along(place: &Place, from: &Place, to: &Place, tolerance: f64) -> Option<(f64
 /// Whether a rapid across stays above the job's rapids everywhere and follows the lines of the job's rapids. It may
 /// pass straight over corners between the job's rapids. A rapid whose start or end is unknown must be one of the job's
 /// rapids.
-fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
+pub(super) fn is_over(a: &Rapid, b: &Rapid, job: &[Rapid], tolerance: f64) -> bool {
     let is = |a: &Rapid, b: &Rapid| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
     if (a.unknown | b.unknown) & ACROSS != 0 {
         return across(job, tolerance).any(|(c, d)| is(a, c) && is(b, d));
@@ -261,7 +261,7 @@ fn compare_corners(job: &[Rapid], program: &[Rapid], known_start: bool, start: u
 
 /// The end of the first rapid straight up or down that is below the job's greatest height, at a position where the job
 /// has no corner. An example is a boring bar that leaves its hole at another distance from the wall.
-fn goes_upright_elsewhere(job: &[Rapid], program: &[Rapid], highest: f64, tolerance: f64) -> Option<Place> {
+pub(super) fn goes_upright_elsewhere(job: &[Rapid], program: &[Rapid], highest: f64, tolerance: f64) -> Option<Place> {
     let is_there =
         |at: &Rapid| job.iter().any(|own| own.unknown & 0b11 != 0 || same(&own.to, &at.to, ACROSS, tolerance));
     let goes = |pair: &&[Rapid]| {
@@ -319,52 +319,6 @@ pub(super) fn enters_hole(job: &RapidPath, program: &RapidPath, over: &Place, to
     };
     pairs.next().is_some_and(comes_over)
         && pairs.all(|(a, b)| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b))
-}
-
-/// Checks the program's path after the last cut. No move across may be lower than the job's moves across. Below the
-/// job's greatest height, a move across must be above one of the job's rapids. The tool may go down only where the job
-/// goes down.
-pub(super) fn leaves_low(job: &RapidPath, program: &RapidPath, tolerance: f64) -> Option<(Place, f64)> {
-    let heights = |corners: &[Rapid]| corners.iter().map(|corner| corner.to[DEPTH]).collect::<Vec<f64>>();
-    let highest = heights(&job.corners).into_iter().fold(f64::NEG_INFINITY, f64::max);
-    let crossing = across(&job.corners, tolerance).map(|(a, b)| a.to[DEPTH].min(b.to[DEPTH])).fold(highest, f64::min);
-    // if the job does not move across, rapids to machine positions must be higher than its last height
-    let stays = across(&job.corners, tolerance).next().is_none() && !job.corners.is_empty();
-    let low = across(&program.corners, ROUNDED_ACROSS * tolerance).find(|(a, b)| {
-        let at = height(a).min(height(b));
-        let is_elsewhere = at < highest - tolerance && !is_over(a, b, &job.corners, tolerance);
-        at < crossing - tolerance || is_elsewhere || stays && b.unknown & ACROSS != 0 && at < crossing + tolerance
-    });
-    if let Some((_, b)) = low {
-        return Some((b.to, crossing));
-    }
-    if let Some(to) = goes_upright_elsewhere(&job.corners, &program.corners, highest, tolerance) {
-        return Some((to, highest));
-    }
-    // The tool may go down only where the job goes down, and not lower. Elsewhere it must not be below the job's moves
-    // across. If the job only goes up, the tool must not go down.
-    let lowest = heights(&job.corners).into_iter().skip(1).reduce(f64::min).unwrap_or(highest);
-    let floor = |at: &Rapid| {
-        let there = |own: &&Rapid| {
-            at.unknown & 0b11 != 0 || own.unknown & 0b11 != 0 || same(&own.to, &at.to, ACROSS, tolerance)
-        };
-        let own = job.corners.iter().skip(1).filter(there).map(|own| own.to[DEPTH]).reduce(f64::min);
-        own.unwrap_or(lowest.max(crossing))
-    };
-    // a cycle of the control may leave the hole higher than the job; the program may then go straight down to the job's
-    // position
-    let comes_back = |at: usize| {
-        let is_left = |rapid: &Rapid, axes| {
-            let left = job.corners.first().filter(|left| left.unknown | rapid.unknown == 0);
-            left.is_some_and(|left| same(&left.to, &rapid.to, axes, tolerance))
-        };
-        program.corners[1..=at].iter().all(|rapid| is_left(rapid, ACROSS)) && is_left(&program.corners[at + 1], ALL)
-    };
-    let mut pairs = program.corners.windows(2).enumerate();
-    let dives = pairs.find(|(at, pair)| {
-        height(&pair[1]) < height(&pair[0]) && height(&pair[1]) < floor(&pair[1]) - tolerance && !comes_back(*at)
-    });
-    dives.map(|(_, pair)| (pair[1].to, floor(&pair[1])))
 }
 
 #[cfg(test)]
@@ -451,10 +405,8 @@ mod tests {
         assert!(
             matches!(compared(&job, &before), Compared::Elsewhere(to) if to == place(&[5.0, 0.0, 5.0, 0.0, 0.0, 0.0]))
         );
-        assert!(leaves_low(&way(&job), &way(&before), 1e-4).is_some());
         let divided = [[0.0, 0.0, -5.0], [5.0, 0.0, -5.0], [10.0, 0.0, -5.0], [10.0, 0.0, 5.0]];
         assert!(matches!(compared(&job, &divided), Compared::Same | Compared::AsGood { .. }));
-        assert_eq!(leaves_low(&way(&job), &way(&divided), 1e-4), None);
     }
 
     /// The path out of the hole is the same, although the job counts all turns of the rotary axis and the form

@@ -221,6 +221,13 @@ fn motions_differ_in_the_zero_of_the_program() {
         difference("siemens", ["TRANS X50", "TRANS X70"].map(shifted)).unwrap(),
         "the zero of the program is shifted to X70 Y0 Z0, but to X50 Y0 Z0 in the old program"
     );
+    let data = ["G10 L10 P1 R100.", "G10 L10 P1 R101.", ""];
+    assert_eq!(differs("fanuc", [data[0], "G10 L10 P1 R100.0"]), None);
+    assert_eq!(
+        differs("fanuc", [data[0], data[1]]).unwrap(),
+        "the tool data set by G10 before this cut are L10, P1, R101, but L10, P1, R100 in the old program"
+    );
+    assert!(differs("haas", [data[0], data[2]]).is_some() && differs("haas", [data[2], data[0]]).is_some());
     // the message about a cut along a rotary axis names this axis
     let turned = |word: &str| {
         format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. A0.\nG43 H1 Z10.\nG1 Z-1. F100.\nX10.{word}\nG0 Z50.\nM30\n")

@@ -88,7 +88,7 @@ fn real_programs_printed_by_another_form_make_the_same_motions() {
         let text = String::from_utf8_lossy(&program).into_owned();
         let expectation = Expectation::of_form(&form.settings, false);
         let mut comparer =
-            Comparer::new(Cursor::new(program), RunSettings::new(control("fanuc")), expectation, None, false);
+            Comparer::new(Cursor::new(program), RunSettings::new(control("haas")), expectation, None, false);
         let read = read(&mut comparer);
         let verdict = comparer.verdict().unwrap();
         assert!(read.is_ok() && !matches!(verdict, Verdict::Different(_)), "{name}: {verdict:?}\n{text}");

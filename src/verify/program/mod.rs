@@ -358,6 +358,7 @@ impl<'a> Program<'a> {
             // this is reported later, at the first move in the new frame
             Action::Frame if self.scale.axes(self.simulator.state().frame_unknown()) != 0 => {}
             Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
+                self.passage.tool_data.extend(self.simulator.tool_data());
                 let message = "the program moves its coordinate frame, so the positions of the job are shifted";
                 self.hazard(Code::PV021, item.line, message, "remove G10, G52 or G92");
             }

@@ -9,7 +9,7 @@ use super::options::JobOptions;
 use crate::control::{Code, Meaning};
 use crate::diag::{self, Diag, Location};
 use crate::lang::Machine;
-use crate::nc::action::Action;
+use crate::nc::action::{Action, Item, Position};
 use crate::nc::simulator::Simulator;
 use crate::source::text_of;
 use crate::toolpath::{About, ReadError, Start, Units};
@@ -65,122 +65,34 @@ pub(super) fn survey(
     options: &JobOptions,
     warnings: &mut Vec<Diag>,
 ) -> Result<Survey, ReadError> {
-    let mut survey = Survey { registers: vec![Registers::default()], top: f64::NEG_INFINITY, ..Survey::default() };
-    let mut left_out: BTreeMap<Option<Code>, (u64, u64)> = BTreeMap::new();
-    let mut items = Vec::new();
-    // the active length register, and whether it was turned on for the tool before this one
-    let (mut length, mut inherited) = (None, false);
-    // whether this tool has cut while its length offset was on
-    let mut with_length = false;
-    let (mut told, mut named) = (false, false);
-    // whether the tool went home by a code that ends the length offset, and whether the user was told about it
-    let (mut at_home, mut told_of_home) = (false, false);
-    // the names of tools whose numbers are unknown, with the line of the first call, and the greatest tool number
-    let (mut unknown, mut greatest): (Vec<(Arc<str>, u64)>, f64) = (Vec::new(), 0.0);
-    let (mut units, mut moved, mut last) = (options.units, false, [0.0; 6]);
-    let mut base = None;
+    let survey = Survey {
+        registers: vec![Registers::default()],
+        top: f64::NEG_INFINITY,
+        units: options.units,
+        ..Survey::default()
+    };
+    let mut run = Run {
+        survey,
+        warnings,
+        left_out: BTreeMap::new(),
+        length: None,
+        inherited: false,
+        with_length: false,
+        told: false,
+        at_home: false,
+        told_of_home: false,
+        unknown: Vec::new(),
+        greatest: 0.0,
+        moved: false,
+        last: [0.0; 6],
+        base: None,
+    };
+    let (mut items, mut named) = (Vec::new(), false);
     loop {
         items.clear();
         let more = simulator.step(&mut items).map_err(refused)?;
-        let shift = simulator.state().shift()[2];
         for item in &items {
-            if let Action::Feed { .. } | Action::Arc(_) = &item.action {
-                if std::mem::take(&mut at_home) && !std::mem::replace(&mut told_of_home, true) {
-                    let message = "a tool cuts after G28, G30 or G53 without another G43: the job assumes that its length \
-                                   offset is active again";
-                    let help =
-                        "check the manual of the control: many controls end the length offset at the machine zero";
-                    warnings.push(warning(item.line, message, help));
-                }
-                match length {
-                    None if with_length => {
-                        let help =
-                            "turn the length offset off after the tool's last cut: in a job a tool has one length";
-                        return unsaid(
-                            item.line,
-                            "a tool cuts with its length offset, and after G49 also without it",
-                            help,
-                        );
-                    }
-                    None if !std::mem::replace(&mut told, true) => {
-                        let message =
-                            "a tool cuts without a length offset, but the form turns the offset of the tool on";
-                        let help = "check whether the machine has tool lengths, and the values in its registers";
-                        warnings.push(warning(item.line, message, help));
-                    }
-                    Some(register) if std::mem::take(&mut inherited) => {
-                        one(&mut survey.registers, |r| &mut r.length, register, item.line, "length offsets, H")?;
-                        let message =
-                            format!("a tool cuts with length offset H{register}, which an earlier tool turned on");
-                        warnings.push(warning(
-                            item.line,
-                            message,
-                            "if the tool's own length is correct, write G43 with its H after M6",
-                        ));
-                    }
-                    _ => {}
-                }
-                with_length |= length.is_some();
-            }
-            let mut reach = |survey: &mut Survey, to: &[f64; 6], machine: u8| {
-                moved |= machine & 0b111 != 0b111;
-                for axis in 3..6 {
-                    if to[axis] != last[axis] {
-                        survey.rotary |= 1 << axis;
-                    }
-                }
-                last = *to;
-                if machine & 0b100 == 0 {
-                    // Z is measured in the frame of the first move, as in the job
-                    survey.top = survey.top.max(to[2] + shift - *base.get_or_insert(shift));
-                }
-            };
-            match &item.action {
-                Action::Rapid { to, machine, .. } => reach(&mut survey, to, *machine),
-                Action::Feed { to, .. } => reach(&mut survey, to, 0),
-                Action::Arc(turn) => reach(&mut survey, &turn.to, 0),
-                Action::Units(now) => {
-                    if moved && units.is_some_and(|units| units != *now) {
-                        let help = "write the program in one unit: a job has one unit";
-                        return unsaid(item.line, "the program changes its units after its first move", help);
-                    }
-                    units = Some(*now);
-                }
-                Action::Length(None) if simulator.ends_length() => at_home = true,
-                Action::Length(None) => length = None,
-                Action::Length(Some(register)) if *register < 0.0 => {
-                    let help = "write G43, and change the sign of the length in the register";
-                    return unsaid(item.line, "G44, a subtracted length offset", help);
-                }
-                Action::Tool(tool) => {
-                    match simulator.state().tool_name(*tool) {
-                        Some(name) if !unknown.iter().any(|(known, _)| *known == name) => {
-                            unknown.push((name, item.line));
-                        }
-                        Some(_) => {}
-                        None => greatest = greatest.max(*tool),
-                    }
-                    survey.registers.push(Registers::default());
-                    (inherited, with_length, at_home) = (true, false, false);
-                }
-                Action::Length(Some(register)) => {
-                    (length, inherited, at_home) = (Some(*register), false, false);
-                    let line = item.line;
-                    one(&mut survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
-                }
-                Action::Compensation(Some((_, Some(register)))) => {
-                    let line = item.line;
-                    one(&mut survey.registers, |r| &mut r.diameter, *register, line, "diameter offsets, D")?;
-                }
-                Action::LeftOut(_, Meaning::RigidAhead) => {}
-                Action::LeftOut(code, Meaning::SetOffsets) if moved && simulator.sets_tool_data() => {
-                    let help = "set the tool data at the machine, or before the first move of the program";
-                    return unsaid(item.line, format!("{code} sets tool data between moves"), help);
-                }
-                Action::LeftOut(code, _) => left_out.entry(Some(*code)).or_insert((item.line, 0)).1 += 1,
-                Action::BlockDelete => left_out.entry(None).or_insert((item.line, 0)).1 += 1,
-                _ => {}
-            }
+            run.take(item, simulator)?;
         }
         if !more {
             break;
@@ -189,29 +101,167 @@ pub(super) fn survey(
         if !named && simulator.program().is_some() {
             named = true;
             let name = simulator.comment().map(|name| text_of(name).trim().to_owned());
-            survey.name = name.filter(|name| !name.is_empty());
+            run.survey.name = name.filter(|name| !name.is_empty());
         }
     }
-    if let Some((name, line)) = unknown.first() {
-        let numbers = (1..).map(|count: u32| greatest + f64::from(count));
-        let all = unknown.iter().zip(numbers).map(|((name, _), number)| format!("{name}={number}"));
-        let help = format!("give the numbers with `--assume-tool '{}'`", all.collect::<Vec<_>>().join(","));
-        let message = format!("the number of the tool \"{name}\" is unknown");
-        return Err(Box::new(Diag::new(diag::Code::PL009, message).help(help).place(Location::at(*line, 1))).into());
+    run.end(simulator)
+}
+
+/// The state of the first run.
+struct Run<'w> {
+    survey: Survey,
+    warnings: &'w mut Vec<Diag>,
+    /// The codes that a job can't contain, with the line of the first one and their number. `None`: a block delete.
+    left_out: BTreeMap<Option<Code>, (u64, u64)>,
+    /// The active length register.
+    length: Option<f64>,
+    /// Whether the length register was turned on for the tool before this one.
+    inherited: bool,
+    /// Whether this tool has cut while its length offset was on.
+    with_length: bool,
+    /// Whether a cut without a length offset was reported.
+    told: bool,
+    /// Whether the tool went home by a code that ends the length offset.
+    at_home: bool,
+    /// Whether a cut after such a move home was reported.
+    told_of_home: bool,
+    /// The names of tools whose numbers are unknown, with the line of the first call.
+    unknown: Vec<(Arc<str>, u64)>,
+    /// The greatest tool number.
+    greatest: f64,
+    /// Whether the program has moved to a known position.
+    moved: bool,
+    /// The last position.
+    last: Position,
+    /// The shift along Z at the first known height. Z of the job is measured in this frame.
+    base: Option<f64>,
+}
+
+impl Run<'_> {
+    fn take(&mut self, item: &Item, simulator: &Simulator<'_>) -> Result<(), ReadError> {
+        let (line, shift) = (item.line, simulator.state().shift()[2]);
+        match &item.action {
+            Action::Rapid { to, machine, .. } => self.reach(to, *machine, shift),
+            Action::Feed { to, .. } => {
+                self.cut(line)?;
+                self.reach(to, 0, shift);
+            }
+            Action::Arc(turn) => {
+                self.cut(line)?;
+                self.reach(&turn.to, 0, shift);
+            }
+            Action::Units(now) => {
+                if self.moved && self.survey.units.is_some_and(|units| units != *now) {
+                    let help = "write the program in one unit: a job has one unit";
+                    return unsaid(line, "the program changes its units after its first move", help);
+                }
+                self.survey.units = Some(*now);
+            }
+            Action::Length(None) if simulator.ends_length() => self.at_home = true,
+            Action::Length(None) => self.length = None,
+            Action::Length(Some(register)) if *register < 0.0 => {
+                let help = "write G43, and change the sign of the length in the register";
+                return unsaid(line, "G44, a subtracted length offset", help);
+            }
+            Action::Tool(tool) => self.tool(*tool, simulator.state().tool_name(*tool), line),
+            Action::Length(Some(register)) => {
+                (self.length, self.inherited, self.at_home) = (Some(*register), false, false);
+                one(&mut self.survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
+            }
+            Action::Compensation(Some((_, Some(register)))) => {
+                one(&mut self.survey.registers, |r| &mut r.diameter, *register, line, "diameter offsets, D")?;
+            }
+            Action::LeftOut(_, Meaning::RigidAhead) => {}
+            Action::LeftOut(code, Meaning::SetOffsets) if self.moved && simulator.sets_tool_data() => {
+                let help = "set the tool data at the machine, or before the first move of the program";
+                return unsaid(line, format!("{code} sets tool data between moves"), help);
+            }
+            Action::LeftOut(code, _) => self.left_out.entry(Some(*code)).or_insert((line, 0)).1 += 1,
+            Action::BlockDelete => self.left_out.entry(None).or_insert((line, 0)).1 += 1,
+            _ => {}
+        }
+        Ok(())
     }
-    for (code, (line, count)) in left_out {
-        let name = code.map_or("block delete".to_owned(), |code| code.to_string());
-        let times = if count > 1 { format!(", {count} times") } else { String::new() };
-        let message = format!("{name}{times} is left out: a job can't contain it");
-        warnings.push(warning(line, message, "if the machine needs it, let the form print it"));
+
+    /// Checks the length offset at a cut.
+    fn cut(&mut self, line: u64) -> Result<(), ReadError> {
+        if std::mem::take(&mut self.at_home) && !std::mem::replace(&mut self.told_of_home, true) {
+            let message = "a tool cuts after G28, G30 or G53 without another G43: the job assumes that its length \
+                           offset is active again";
+            let help = "check the manual of the control: many controls end the length offset at the machine zero";
+            self.warnings.push(warning(line, message, help));
+        }
+        match self.length {
+            None if self.with_length => {
+                let help = "turn the length offset off after the tool's last cut: in a job a tool has one length";
+                return unsaid(line, "a tool cuts with its length offset, and after G49 also without it", help);
+            }
+            None if !std::mem::replace(&mut self.told, true) => {
+                let message = "a tool cuts without a length offset, but the form turns the offset of the tool on";
+                let help = "check whether the machine has tool lengths, and the values in its registers";
+                self.warnings.push(warning(line, message, help));
+            }
+            Some(register) if std::mem::take(&mut self.inherited) => {
+                one(&mut self.survey.registers, |r| &mut r.length, register, line, "length offsets, H")?;
+                let message = format!("a tool cuts with length offset H{register}, which an earlier tool turned on");
+                let help = "if the tool's own length is correct, write G43 with its H after M6";
+                self.warnings.push(warning(line, message, help));
+            }
+            _ => {}
+        }
+        self.with_length |= self.length.is_some();
+        Ok(())
     }
-    if simulator.begins_again() {
-        let message = "the program ends with M99 and begins again, but a job runs only once";
-        warnings.push(warning(simulator.line(), message, "print M99 in the sequence EndCode"));
+
+    /// Records a position. `machine`: as bits, the axes whose position is known only at the machine.
+    fn reach(&mut self, to: &Position, machine: u8, shift: f64) {
+        self.moved |= machine & 0b111 != 0b111;
+        for axis in (3..6).filter(|&axis| to[axis] != self.last[axis]) {
+            self.survey.rotary |= 1 << axis;
+        }
+        self.last = *to;
+        if machine & 0b100 == 0 {
+            // Z is measured in the frame of the first move, as in the job
+            self.survey.top = self.survey.top.max(to[2] + shift - *self.base.get_or_insert(shift));
+        }
     }
-    survey.program = simulator.program();
-    survey.units = units;
-    Ok(survey)
+
+    /// Records a tool change. `name`: the name of a tool whose number is unknown.
+    fn tool(&mut self, number: f64, name: Option<Arc<str>>, line: u64) {
+        match name {
+            Some(name) if !self.unknown.iter().any(|(known, _)| *known == name) => self.unknown.push((name, line)),
+            Some(_) => {}
+            None => self.greatest = self.greatest.max(number),
+        }
+        self.survey.registers.push(Registers::default());
+        (self.inherited, self.with_length, self.at_home) = (true, false, false);
+    }
+
+    /// Reports what a job can't contain.
+    ///
+    /// # Errors
+    /// The number of a tool is unknown.
+    fn end(mut self, simulator: &Simulator<'_>) -> Result<Survey, ReadError> {
+        if let Some((name, line)) = self.unknown.first() {
+            let numbers = (1..).map(|count: u32| self.greatest + f64::from(count));
+            let all = self.unknown.iter().zip(numbers).map(|((name, _), number)| format!("{name}={number}"));
+            let help = format!("give the numbers with `--assume-tool '{}'`", all.collect::<Vec<_>>().join(","));
+            let message = format!("the number of the tool \"{name}\" is unknown");
+            return Err(Box::new(Diag::new(diag::Code::PL009, message).help(help).place(Location::at(*line, 1))).into());
+        }
+        for (code, (line, count)) in self.left_out {
+            let name = code.map_or("block delete".to_owned(), |code| code.to_string());
+            let times = if count > 1 { format!(", {count} times") } else { String::new() };
+            let message = format!("{name}{times} is left out: a job can't contain it");
+            self.warnings.push(warning(line, message, "if the machine needs it, let the form print it"));
+        }
+        if simulator.begins_again() {
+            let message = "the program ends with M99 and begins again, but a job runs only once";
+            self.warnings.push(warning(simulator.line(), message, "print M99 in the sequence EndCode"));
+        }
+        self.survey.program = simulator.program();
+        Ok(self.survey)
+    }
 }
 
 /// Records the register of a tool. A tool may have only one register of each kind.

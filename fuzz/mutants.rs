@@ -1,4 +1,4 @@
-//! `mutants FILE [TEST ...]`: does a test fail for every small change of a source file?
+//! `mutants FILE [TEST ...]` checks whether a test fails for every small change of a source file.
 //!
 //! All changes are compiled at once into a copy of the repository, each under a number. The environment variable
 //! `POSTFORM_MUTANT` selects one change, so the given tests are built only once and run once for each change. A change

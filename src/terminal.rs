@@ -1,7 +1,7 @@
 //! Text from files, made safe for a terminal.
 
-/// Does a character control the terminal or the text direction instead of being visible? These characters are C0 and
-/// C1, the marks of bidirectional text, and the separators of lines and paragraphs.
+/// Whether a character controls the terminal or the text direction instead of being visible. These characters are C0
+/// and C1, the marks of bidirectional text, and the separators of lines and paragraphs.
 pub fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
@@ -12,7 +12,7 @@ pub fn is_invisible(c: char) -> bool {
     steers(c) || (c.is_whitespace() && c != ' ') || ('\u{200b}'..='\u{200f}').contains(&c) || c == '\u{feff}'
 }
 
-/// Text from a file made safe for a terminal: control characters become escapes.
+/// Makes text from a file safe for a terminal: replaces control characters by escapes.
 pub fn escaped(text: &str) -> String {
     with_escapes(text, steers)
 }

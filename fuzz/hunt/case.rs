@@ -246,12 +246,12 @@ impl Case {
         Some(against.map_or(Ok(()), Err))
     }
 
-    /// Does a program match its job within the resolution of the form's digits? Feeds are not compared.
+    /// Whether a program matches its job within the resolution of the form's digits. Feeds are not compared.
     pub fn is_rounded(&self, program: &str) -> bool {
         self.is_within(program, self.form.within)
     }
 
-    /// Does a program match its job, with positions that may differ by this number of millimetres?
+    /// Whether a program matches its job, with positions that may differ by this number of millimetres.
     pub fn is_within(&self, program: &str, within: f64) -> bool {
         let unit = if self.is_inch() { 25.4 } else { 1.0 };
         match self.form.verify(program, self.reads(&self.bytes()), self.inch, Some(within / unit)) {

@@ -225,7 +225,7 @@ pub enum Proof {
 }
 
 impl Proof {
-    /// Is the verdict identical or equivalent?
+    /// Whether the verdict is identical or equivalent.
     pub fn holds(&self) -> bool {
         matches!(self, Proof::Identical | Proof::Equivalent)
     }

@@ -78,8 +78,9 @@ impl<'r> Notes<'r> {
         self.report.dialect.unwrap_or(Dialect::Gener)
     }
 
-    /// The direction of circles if the caller named the CAM system, otherwise `None`. Circles of GENER are left-handed.
-    /// This applies only if the caller named GENER, and not to a file of an unknown system.
+    /// The direction of circles if the caller named the CAM system, otherwise `None`. If the caller named GENER,
+    /// circles are left-handed. postform also reads files of an unknown system as GENER, but assumes no direction for
+    /// the circles of these files.
     #[inline]
     pub fn said_sense(&self) -> Option<Sense> {
         match self.report.dialect.filter(|_| self.said)? {

@@ -1,5 +1,5 @@
-//! Finds the parts in which two programs differ, by comparing lines byte for byte. Most compared programs differ in few
-//! blocks, and only the parts with differences need a key for each line and a search.
+//! Finds the parts in which two programs differ, by comparing lines byte for byte. Two programs usually
+//! differ in only a few blocks. Only the parts with differences need a key for each line and a search.
 
 use std::ops::Range;
 

@@ -216,7 +216,7 @@ mod tests {
     use crate::sema::{Limits, analyse};
     use crate::source::Source;
 
-    /// The actions at the mark, each with the form after the action.
+    /// The actions that are offered at this byte offset, each with the text of the form after the action.
     fn done(document: &Document, offset: u32) -> Vec<(Action, String)> {
         let at = Span { file: 0, start: offset, end: offset };
         let read = |changed: &Changed| {

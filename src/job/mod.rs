@@ -208,7 +208,7 @@ impl<'a> Job<'a> {
         Job { reading: self.reading.clone(), name: self.name.clone(), ..Job::new(self.format, input) }
     }
 
-    /// Can the job be read only once?
+    /// Whether the job can be read only once.
     pub fn is_stream(&self) -> bool {
         match &self.input {
             Input::Stream(_) => true,

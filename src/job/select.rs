@@ -28,7 +28,7 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// Are all operations selected?
+    /// Whether all operations are selected.
     pub fn is_all(&self) -> bool {
         *self == Selection::default()
     }
@@ -46,7 +46,7 @@ struct Progress {
 }
 
 impl Progress {
-    /// Is the next operation selected, given its tool and work offset?
+    /// Whether the next operation is selected, given its tool and work offset.
     fn takes(&mut self, selection: &Selection, tool: Option<f64>, work: Option<f64>) -> bool {
         self.count += 1;
         self.takes_tool(selection, tool)

@@ -91,8 +91,8 @@ pub struct Foreign {
     pub text: Vec<u8>,
 }
 
-/// Detects the language of a program by its first blocks. `None`: the first blocks contain no mark of a language in the
-/// table.
+/// Detects the language of a program by its first blocks. `None`: the first blocks contain none of the marks in
+/// `LANGUAGES`.
 pub fn foreign(start: &[u8]) -> Option<Foreign> {
     let start = start.get(..SEARCHED).unwrap_or(start);
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);

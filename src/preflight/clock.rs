@@ -131,7 +131,8 @@ impl Clock {
         }
     }
 
-    /// Adds an arc at a feed in millimetres per minute. Motion outside of the plane of the arc comes from the two positions.
+    /// Adds an arc at a feed in millimetres per minute. The travel outside the plane of the arc is calculated from the
+    /// positions `before` and `after` the arc.
     pub fn arc(&mut self, mut curve: Curve, before: &[At; 6], after: &[At; 6], feed: f64) {
         curve.rise = self.way(before, after);
         curve.plane.iter().for_each(|&axis| curve.rise[axis] = 0.0);

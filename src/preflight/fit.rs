@@ -1,5 +1,5 @@
-//! The values with which a program fits into a machine: an allowed range for each offset and length that the machine's
-//! file does not contain.
+//! Finds the work offsets and tool lengths with which a program fits into a machine. The result contains an allowed
+//! range for each of these values that the machine's file does not contain.
 
 use std::collections::BTreeMap;
 

@@ -24,7 +24,7 @@ const REACH: [[(VarId, VarId); 3]; 2] = [
     [(VarId::Rhmin, VarId::Rhmax), (VarId::Rvmin, VarId::Rvmax), (VarId::Rdmin, VarId::Rdmax)],
 ];
 
-/// Is this a variable of the program's extents?
+/// Whether this is a variable of the program's extents.
 pub fn is_reach(var: VarId) -> bool {
     REACH.iter().flatten().any(|(least, most)| var == *least || var == *most)
 }

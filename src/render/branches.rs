@@ -80,7 +80,7 @@ fn set_by_list(list: &List, set: &mut Kept, shape: &Shape, want: &Want, said: &S
     }
 }
 
-/// Does any node contain a `@set`?
+/// Whether any node contains a `@set`.
 fn sets(nodes: &[Node], shape: &Shape) -> bool {
     nodes.iter().any(|node| match node {
         Node::Set(..) => true,
@@ -108,8 +108,8 @@ fn holds(condition: &Formula, span: Span, now: &Now) -> bool {
     }
 }
 
-/// Does a condition depend on the order of tools while that order is unknown? A condition that properties alone decide
-/// does not depend on the order.
+/// Whether a condition depends on the order of tools while that order is unknown. A condition that properties alone
+/// decide does not depend on the order.
 fn asks_unknown_order(condition: &Formula, now: &Now) -> bool {
     now.want.tool_order.is_none()
         && now.want.tool_changes > 0

@@ -51,7 +51,7 @@ pub fn file_name_of(program: &Program, options: Options, start: &Start) -> Strin
     file_name(&shape, &want)
 }
 
-/// Is this a device name that Windows reserves, with any extension?
+/// Whether this file name is a device name that Windows reserves. The extension is ignored.
 fn is_device(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().to_ascii_uppercase();
     let port = |begin: &str| stem.strip_prefix(begin).is_some_and(|n| n.len() == 1 && n.as_bytes()[0].is_ascii_digit());

@@ -73,7 +73,7 @@ pub struct Renderer<'p> {
     out: Printer,
     /// The open cycle.
     drill: Drilling,
-    /// The open parts of the path; the last element began last.
+    /// The sections of the path that have begun but not ended, in the order in which they began.
     sections: Vec<Section>,
     subs: Subprograms,
     /// State of the event stream, for the check of its order.
@@ -139,13 +139,13 @@ impl<'p> Renderer<'p> {
         file_name::file_name(&self.shape, &self.want)
     }
 
-    /// Has the end of the job been printed?
+    /// Whether the end of the job has been printed.
     pub(crate) fn is_over(&self) -> bool {
         self.order == Order::End
     }
 
-    /// Dispatches an event. An open cycle ends before every event, except the holes of the cycle and events after which
-    /// the cycle may continue.
+    /// Handles an event. An open cycle ends before the event, unless the event is a hole, a feed, a tilt or the start
+    /// of a subprogram.
     fn take(&mut self, event: Event<'_>) -> Done {
         let goes_on = matches!(event, Event::Hole(_) | Event::Feed(_) | Event::Tilt(_) | Event::SubStart(_));
         let Renderer { shape, want, said, out, drill, sections, subs, parts, .. } = self;

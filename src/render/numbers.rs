@@ -77,7 +77,7 @@ pub fn unprintable<T>(why: Unprintable, what: &str, value: f64, format: &LetterF
 /// Relative rounding error of a feed that is accepted without a note.
 pub const ROUNDED: f64 = 0.01;
 
-/// Does the relative rounding error of a printed value exceed `part`?
+/// Whether the relative rounding error of a printed value exceeds `part`.
 pub fn loses(value: f64, printed: f64, part: f64) -> bool {
     (printed.abs() - value.abs()).abs() > value.abs() * part
 }

@@ -307,17 +307,17 @@ impl Printer {
         self.page.text.get(self.start + length..).unwrap_or_default()
     }
 
-    /// Does the open block end inside round brackets?
+    /// Whether the open block ends inside round brackets.
     pub fn is_in_brackets(&self) -> bool {
         self.block().iter().rev().find(|c| b"()".contains(c)) == Some(&b'(')
     }
 
-    /// Does the open block end between quotation marks?
+    /// Whether the open block ends between quotation marks.
     pub fn is_in_quotes(&self) -> bool {
         self.block().iter().filter(|&&c| c == b'"').count() % 2 == 1
     }
 
-    /// Is a block open?
+    /// Whether a block is open.
     #[inline]
     pub fn has_words(&self) -> bool {
         self.words > 0
@@ -434,13 +434,13 @@ impl Printer {
         Some(())
     }
 
-    /// Is the open block longer than the control accepts?
+    /// Whether the open block is longer than the control accepts.
     #[inline]
     pub fn is_too_long(&self) -> bool {
         self.page.text.len() - self.start > self.layout.longest
     }
 
-    /// Is the open block short enough for the control so far? The first block that is too long is recorded.
+    /// Whether the open block is short enough for the control so far. The first block that is too long is recorded.
     #[inline]
     fn fits(&mut self, replaced: Option<Span>) -> bool {
         let length = self.page.text.len() - self.start;

@@ -5,7 +5,7 @@ use crate::compile::{LetterKind, Op, Routine};
 use crate::control::{Code, Group};
 use crate::lang::{Origin, VarId};
 
-/// Does a sequence contain a typed code for which `asked` is true?
+/// Whether a sequence contains a typed code for which `asked` is true.
 pub fn prints_code(routine: &Routine, asked: impl Fn(Code) -> bool, shape: &Shape) -> bool {
     routine.steps().any(|i| match shape.program.ops[i] {
         Op::Literal { index, .. } => shape.program.literals[index as usize].code.is_some_and(&asked),
@@ -13,7 +13,7 @@ pub fn prints_code(routine: &Routine, asked: impl Fn(Code) -> bool, shape: &Shap
     })
 }
 
-/// Does a sequence print a word of this letter?
+/// Whether a sequence prints a word of this letter.
 pub fn prints_letter(routine: &Routine, asked: u8, shape: &Shape) -> bool {
     routine.steps().any(|i| match shape.program.ops[i] {
         Op::Var { letter, .. } | Op::Formula { letter, .. } => letter == asked,
@@ -22,7 +22,7 @@ pub fn prints_letter(routine: &Routine, asked: u8, shape: &Shape) -> bool {
     })
 }
 
-/// Does a sequence print its motion code, either typed or by a variable?
+/// Whether a sequence prints its motion code, either typed or by a variable.
 pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     let by_variable = |i: usize| match shape.program.ops[i] {
         Op::Var { letter, var, .. } => {
@@ -33,14 +33,14 @@ pub fn prints_motion(routine: &Routine, shape: &Shape) -> bool {
     prints_code(routine, |code| shape.group_of(code) == Some(Group::Motion), shape) || routine.steps().any(by_variable)
 }
 
-/// Does a sequence print a motion code, or a code without a modal group, which may move the axes by itself?
+/// Whether a sequence prints a motion code, or a code without a modal group, which may move the axes by itself.
 pub fn prints_own_motion(routine: &Routine, shape: &Shape) -> bool {
     let own = |code: Code| code.letter == b'G' && matches!(shape.group_of(code), None | Some(Group::Motion));
     prints_motion(routine, shape) || prints_code(routine, own, shape)
 }
 
-/// Does a sequence print axis words before its first motion code? A block with a code without a modal group, such as
-/// G28, does not count, because the code moves the axes by itself.
+/// Whether a sequence prints axis words before its first motion code. A block with a code without a modal group, such
+/// as G28, does not count, because the code moves the axes by itself.
 pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     let is_line = |i: &usize| matches!(shape.program.ops[*i], Op::Line { .. });
     for start in routine.steps().filter(is_line) {
@@ -56,12 +56,12 @@ pub fn moves_without_motion(routine: &Routine, shape: &Shape) -> bool {
     false
 }
 
-/// Does a sequence print the work offset? An argument of a macro does not count as a work offset.
+/// Whether a sequence prints the work offset. An argument of a macro does not count as a work offset.
 pub fn says_work(routine: &Routine, shape: &Shape) -> bool {
     routine.steps().any(|op| shape.program.work.says(op))
 }
 
-/// Does a sequence print the speed mode (G96, G97), either typed or by a variable?
+/// Whether a sequence prints the speed mode (G96, G97), either typed or by a variable.
 pub fn says_speed_mode(routine: &Routine, shape: &Shape) -> bool {
     routine.vars.has(VarId::Speedtype)
         || prints_code(routine, |code| shape.group_of(code) == Some(Group::SpeedMode), shape)
@@ -79,12 +79,12 @@ pub fn words_of(axis: usize, shape: &Shape) -> &'static [VarId] {
     }
 }
 
-/// Does a sequence print the target of a linear axis?
+/// Whether a sequence prints the target of a linear axis.
 pub fn prints_axis(routine: &Routine, axis: usize, shape: &Shape) -> bool {
     words_of(axis, shape).iter().any(|&var| routine.vars.has(var))
 }
 
-/// Does a sequence print axis words? `typed`: only words with typed or calculated numbers, which move the tool away
+/// Whether a sequence prints axis words. `typed`: only words with typed or calculated numbers, which move the tool away
 /// from its position.
 pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool {
     routine.steps().any(|i| {
@@ -99,7 +99,7 @@ pub fn prints_axis_words(routine: &Routine, typed: bool, shape: &Shape) -> bool 
     })
 }
 
-/// Does a sequence print the angle of a rotary axis?
+/// Whether a sequence prints the angle of a rotary axis.
 pub fn prints_angle(routine: &Routine, axis: usize, shape: &Shape) -> bool {
     routine.steps().any(|i| {
         matches!(shape.program.ops[i], Op::Var { letter, var: VarId::Rotangle | VarId::Lastrotangle, .. }

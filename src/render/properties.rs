@@ -50,7 +50,7 @@ impl Properties {
         &self.now[usize::from(row)].value
     }
 
-    /// Is a length in the form's units? Otherwise the length is in the program's units.
+    /// Whether the length in this row is in the form's units. Otherwise the length is in the program's units.
     pub fn is_in_forms_units(&self, row: u16) -> bool {
         self.now[usize::from(row)].in_forms_units
     }

@@ -208,7 +208,7 @@ pub fn speed_mode_before(writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// Is the work offset the only change that waits?
+/// Whether no change except the work offset waits.
 pub fn only_work_waits(shape: &Shape, want: &Want, said: &Said) -> bool {
     said.lacks(want, shape).without(VarSet::of(&[VarId::Work])).is_empty()
 }

@@ -160,12 +160,12 @@ impl<'p> Shape<'p> {
         self.meaning_of(code)?.group()
     }
 
-    /// Does a code start a cycle of the form's control?
+    /// Whether a code starts a cycle of the form's control.
     pub fn is_cycle(&self, code: Code) -> bool {
         self.meaning_of(code).is_some_and(Meaning::is_cycle)
     }
 
-    /// Does a code select the plane of arcs?
+    /// Whether a code selects the plane of arcs.
     pub fn is_plane(&self, code: Code) -> bool {
         self.group_of(code) == Some(Group::Plane)
     }
@@ -175,7 +175,7 @@ impl<'p> Shape<'p> {
         if self.linear == ROTARY.start { ROTARY } else { 0..0 }
     }
 
-    /// Is this the letter of an axis that the form ignores?
+    /// Whether this is the letter of an axis that the form ignores.
     pub fn is_ignored(&self, letter: u8) -> bool {
         let settings = &self.program.settings;
         settings.is_flat && letter == settings.axes[2]
@@ -187,7 +187,7 @@ impl<'p> Shape<'p> {
     }
 }
 
-/// Must every move set the position variables?
+/// Whether every move must set the position variables.
 fn sets_targets(program: &Program) -> bool {
     let moves = [SequenceId::RapidCode, SequenceId::LineCode, SequenceId::CwCode, SequenceId::CcwCode];
     program.printed.with(program.asked).with(program.upon_vars).meets(LAST_VARS)

@@ -15,7 +15,8 @@ pub fn warn_of_standing(shape: &Shape, want: &mut Want, out: &mut Printer) {
     }
 }
 
-/// Is the spindle off in a cut that needs it? A tap starts the spindle by itself, and a manual cycle does not cut.
+/// Whether the spindle of a mill is off, or has the speed 0, in a cut that needs the spindle. A tap starts the spindle
+/// by itself, and a manual cycle does not cut.
 fn stands(shape: &Shape, want: &Want) -> bool {
     let settings = &shape.program.settings;
     let off = want.get(VarId::Direct) == Some(settings.spindle[2]) && !want.cycle.is_some_and(CycleKind::is_tap);

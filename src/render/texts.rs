@@ -73,7 +73,7 @@ impl Texts {
     }
 }
 
-/// Are all texts of a comment empty? `property` returns whether the text of a property is empty.
+/// Whether all texts of a comment are empty. `property` returns whether the text of a property is empty.
 pub fn are_empty(comment: &[Op], texts: &Texts, property: &dyn Fn(u16) -> bool) -> bool {
     comment.iter().all(|op| match op {
         Op::TextVar { var, .. } => texts.get(var.id).is_empty(),

@@ -14,7 +14,7 @@ pub fn last_line(shape: &Shape, want: &Want, said: &Said) -> Option<usize> {
     routine.steps().rev().filter(is_line).find(|&line| !is_percent(line, shape))
 }
 
-/// Is this line the end of the text: a `%`, or `END PGM` in Klartext? Subprograms come before this line.
+/// Whether this line is the end of the text: a `%`, or `END PGM` in Klartext. Subprograms come before this line.
 pub fn is_closing(line: usize, shape: &Shape) -> bool {
     let is_klartext = shape.program.settings.control().rules() == Rules::Klartext;
     is_percent(line, shape)
@@ -23,7 +23,7 @@ pub fn is_closing(line: usize, shape: &Shape) -> bool {
                 if shape.program.texts[*index as usize].starts_with("END PGM"))
 }
 
-/// Is this line a `%` line?
+/// Whether this line is a `%` line.
 pub fn is_percent(line: usize, shape: &Shape) -> bool {
     matches!(shape.program.ops.get(line + 1), Some(Op::Text { index, .. })
         if shape.program.texts[*index as usize].starts_with('%'))

@@ -13,14 +13,14 @@ use crate::compile::{LetterKind, Op, Routine, Upon};
 use crate::diag::Code;
 use crate::lang::{SequenceId, VarId, VarSet};
 
-/// Must an Upon sequence print now? The first use of its variable only stores the value, unless the Upon prints at
-/// every use.
+/// Whether an Upon sequence must print now. The first use of its variable only stores the value, unless the Upon prints
+/// at every use.
 fn is_due(upon: &Upon, before: Option<f64>, value: f64) -> bool {
     upon.every || before.is_some_and(|before| before != value)
 }
 
-/// Is an Upon sequence due before these variables are used? `moving`: consider only Upon sequences that print axis
-/// words.
+/// Whether an Upon sequence is due before these variables are used. `moving`: consider only Upon sequences that print
+/// axis words.
 pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said: &Said) -> bool {
     shape.program.upon_vars.meets(used)
         && shape.program.upons.iter().zip(&said.upon_used).any(|(upon, before)| {
@@ -30,9 +30,9 @@ pub fn upon_is_due(used: VarSet, moving: bool, shape: &Shape, want: &Want, said:
         })
 }
 
-/// Does Index replace the `Upon` of the work offset, if the offset changes together with the angle? Index replaces the
-/// `Upon` if Index retracts the tool and moves over the new position, and if the Upon has no other effects. If Index
-/// replaces the `Upon`, only the code of the offset is printed.
+/// Whether Index replaces the `Upon` of the work offset, if the offset changes together with the angle. Index replaces
+/// the `Upon` if Index retracts the tool and moves over the new position, and if the Upon has no other effects. If
+/// Index replaces the `Upon`, only the code of the offset is printed.
 pub fn index_replaces_work_upon(shape: &Shape) -> bool {
     let retracts =
         shape.program.routine(SequenceId::Index).is_some_and(|routine| prints_axis_words(routine, true, shape));

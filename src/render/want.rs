@@ -353,7 +353,7 @@ fn surface_scale(shape: &Shape) -> f64 {
     }
 }
 
-/// Does the form's control have no work offset code with this number?
+/// Whether the form's control has no work offset code with this number.
 pub fn is_no_work(number: f64, shape: &Shape) -> bool {
     control::Code::of(b'G', number).and_then(|code| shape.group_of(code)) != Some(Group::Work)
 }

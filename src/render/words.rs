@@ -57,7 +57,7 @@ pub fn axis_words(target: &Axes, axes: &AxisUnits, shape: &Shape, said: &mut Sai
     Ok(())
 }
 
-/// Does the printed value of a target differ from the printed value of the tool's position? A zero increment is no
+/// Whether the printed value of a target differs from the printed value of the tool's position. A zero increment is no
 /// move, even if the last value of the letter is unknown.
 #[cold]
 fn has_increment(target: &Axes, shape: &Shape, said: &Said) -> Done<bool> {

@@ -47,7 +47,7 @@ pub struct Operation {
     pub spindle: Spindle,
     /// The work offset in which the operation begins.
     pub work: f64,
-    /// Sums of the moves of the operation.
+    /// The totals of all moves of the operation.
     pub totals: Totals,
 }
 
@@ -58,7 +58,7 @@ pub struct ToolUse {
     pub tool: Tool,
     /// The operation that uses the tool first: an index into [`Survey::operations`].
     pub first: usize,
-    /// Sums of the moves with the tool.
+    /// The totals of all moves with the tool.
     pub totals: Totals,
     /// The operations that use the tool: indexes into [`Survey::operations`].
     pub operations: Vec<usize>,
@@ -69,7 +69,7 @@ pub struct ToolUse {
 pub struct WorkUse {
     /// The offset, in the numbering of the form.
     pub work: f64,
-    /// Sums of the moves in the offset.
+    /// The totals of all moves in the work offset.
     pub totals: Totals,
     /// The operations in the offset: indexes into [`Survey::operations`].
     pub operations: Vec<usize>,
@@ -78,7 +78,7 @@ pub struct WorkUse {
 /// The contents of a job. Lengths are in the job's units.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
-    /// Sums of the whole job.
+    /// The totals of the whole job.
     pub whole: Totals,
     /// The operations in their order.
     pub operations: Vec<Operation>,

@@ -1,7 +1,7 @@
 //! The time of moves on axes that accelerate. The speed along the path has a trapezoidal profile and is planned ahead
 //! over the next blocks.
 //!
-//! Lengths are in millimetres or degrees, times in seconds.
+//! Linear travel is in millimetres, rotary travel is in degrees, and times are in seconds.
 
 mod corner;
 mod curve;

@@ -10,7 +10,7 @@ pub(super) enum Compared {
     /// rapids into parts.
     Same,
     /// The path moves the axes in another order, or is higher than the job's path, but is nowhere lower.
-    /// `step_by_step`: each move across corresponds to a move across in the job.
+    /// `step_by_step`: each move of the program in X or Y corresponds to a move of the job in X or Y.
     AsGood { step_by_step: bool },
     /// The path is lower than the job's path.
     Lower(Low),

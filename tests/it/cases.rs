@@ -81,7 +81,8 @@ fn every_form_that_ships_prints_its_standard_cases() {
     assert!(said.lines().last().unwrap().contains("21 forms") && said.contains("all as expected"), "{said}");
 }
 
-/// Is this a line of a form that prints words? It begins with a letter that is followed by a number or a variable.
+/// Whether this line of a form prints words. Such a line begins with a letter that is followed by a number or a
+/// variable.
 fn is_block(line: &str) -> bool {
     let mut letters = line.trim().chars();
     letters.next().is_some_and(|letter| letter.is_ascii_uppercase())

@@ -46,7 +46,7 @@ fn own_doing(meaning: Meaning) -> &'static [Code] {
     }
 }
 
-/// Is the finding a refusal of the typed block itself?
+/// Whether the finding is a refusal of the typed block itself.
 fn refuses(finding: &Finding, block: &str) -> bool {
     finding.code == Code::PV015 && finding.message.contains(&format!("in `{block}"))
 }

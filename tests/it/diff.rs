@@ -31,7 +31,7 @@ fn compared(old: &str, new: &str, ignore: Ignore, tolerance: f64) -> Comparison 
     compare(&program(old), &program(new), &Options { ignore, tolerance })
 }
 
-/// Do both programs make the same motions?
+/// Whether both programs make the same motions.
 fn same_motion(old: &str, new: &str) -> bool {
     let settings = RunSettings::new(control("fanuc"));
     compare_motions([old, new].map(|text| (Cursor::new(text), settings)), Units::Mm, 1e-6)

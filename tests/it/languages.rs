@@ -27,7 +27,7 @@ fn actions(program: &str, name: &str) -> (Vec<Action>, Option<String>) {
     }
 }
 
-/// Does the machine's value match the expected one? An expectation without a value matches all values.
+/// Whether the machine's value matches the expected value. An expectation without a value matches all values.
 fn near(said: &Value, is: f64) -> bool {
     said.as_f64().is_none_or(|said| (said - is).abs() < 1e-6)
 }
@@ -38,8 +38,8 @@ fn is_place(said: &Value, at: &[f64; 6]) -> bool {
         && said["at_most"].as_f64().is_none_or(|most| at[2] <= most + 1e-9)
 }
 
-/// Does an action match a row of expectations? The rows give all feeds per minute, even if the program has feeds per
-/// revolution.
+/// Whether an action matches a row of expectations. The rows give all feeds per minute, even if the program has feeds
+/// per revolution.
 fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
     match (said["kind"].as_str().unwrap(), action) {
         ("rapid" | "retract", Action::Rapid { to, machine, .. }) => *machine & 0b100 == 0 && is_place(said, to),
@@ -66,7 +66,8 @@ fn is_expected(said: &Value, action: &Action, per_turn: f64) -> bool {
     }
 }
 
-/// Must the case list this action? A move, a dwell and a stop always; an orientation only if the case lists any.
+/// Whether the case must list this action. The case must list every move, dwell and stop. It must list an orientation
+/// only if it lists any orientation.
 fn counts(action: &Action, listed: &[Value]) -> bool {
     let lists = |kind: &str| listed.iter().any(|said| said["kind"] == kind);
     match action {

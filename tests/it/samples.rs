@@ -103,8 +103,8 @@ fn item<'a>(job: &'a Value, path: &str) -> Option<&'a Value> {
     })
 }
 
-/// Is a location before another one in the job? The end of a cycle has the location of its item, and comes after all
-/// points.
+/// Whether a location is before another location in the job. The end of a cycle has the location of its item, and comes
+/// after all points.
 fn before(place: Place, other: Place) -> bool {
     let item = |place: Place| (place.operation, place.item);
     item(place) < item(other) || item(place) == item(other) && place.point > 0 && place.point < other.point

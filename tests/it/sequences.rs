@@ -19,7 +19,7 @@ fn no_sequence_is_without_a_sample_that_prints_it() {
     }
 }
 
-/// Does this sequence print a line of a sample's program?
+/// Whether this sequence prints a line of a sample's program.
 fn printed(sample: &str, id: postform::internals::lang::SequenceId) -> bool {
     let folder = root().join("samples").join(sample);
     let own = sample_form(&folder);

@@ -13,8 +13,8 @@ use super::files;
 /// Maximum number of forms of a folder that are searched for calls.
 const MOST_FORMS: usize = 200;
 
-/// Is a file a form? A file is a form if it has the name of a form, if postform.toml names the file, or if a form calls
-/// the file.
+/// Whether a file is a form. A file is a form if it has the name of a form, if postform.toml names the file, or if a
+/// form calls the file.
 ///
 /// # Errors
 /// A message: postform.toml makes no sense.

@@ -16,12 +16,12 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// Is standard error coloured?
+    /// Whether standard error is coloured.
     pub fn on_stderr(self) -> bool {
         self.on(std::io::stderr().is_terminal())
     }
 
-    /// Is standard output coloured?
+    /// Whether standard output is coloured.
     pub fn on_stdout(self) -> bool {
         self.on(std::io::stdout().is_terminal())
     }

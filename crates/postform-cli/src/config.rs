@@ -180,8 +180,8 @@ fn has(properties: &[Property], name: &str) -> bool {
     properties.iter().any(|property| property.name.eq_ignore_ascii_case(name))
 }
 
-/// Is the folder the root, or a folder in which every user may create files, such as /tmp? A postform.toml in such a
-/// folder does not belong to the shop.
+/// Whether the folder is the root folder, or a folder in which every user may create files, such as /tmp. A
+/// postform.toml in such a folder does not belong to the shop.
 fn is_common(folder: &Path) -> bool {
     #[cfg(unix)]
     {

@@ -36,7 +36,7 @@ pub fn destination(path: &Path) -> io::Result<Destination> {
     }
 }
 
-/// Is the path the name of an open file, such as /dev/fd/3 and /proc/self/fd/1?
+/// Whether the path is the name of an open file, such as /dev/fd/3 and /proc/self/fd/1.
 fn is_open(path: &Path) -> bool {
     let place = folder(path).canonicalize().unwrap_or_default();
     place.ends_with("fd") && (place.starts_with("/proc") || place.starts_with("/dev"))

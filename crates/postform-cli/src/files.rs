@@ -143,7 +143,7 @@ impl Seek for Steady {
     }
 }
 
-/// Does a file have the name of a form?
+/// Whether a file has the name of a form.
 pub fn is_form(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pf"))
 }

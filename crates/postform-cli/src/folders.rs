@@ -60,7 +60,7 @@ pub fn listed(folder: &Path) -> Result<Vec<PathBuf>, String> {
     Ok(entries)
 }
 
-/// Is the file an expected result: a program or an error?
+/// Whether the file is an expected result: a program or an error.
 pub fn is_expected(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name.starts_with("expected.") || name.contains(".expected.")

@@ -45,7 +45,7 @@ pub fn are_many() {
     read.files = Some(read.names.iter().filter_map(|path| Identity::of_input(path)).collect());
 }
 
-/// Would an output replace a file that was read?
+/// Whether an output would replace a file that was read.
 pub fn holds(output: &Path) -> bool {
     let Some(output) = Identity::of_output(output) else { return false };
     let read = READ.lock().unwrap_or_else(PoisonError::into_inner);

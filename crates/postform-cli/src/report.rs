@@ -195,7 +195,7 @@ fn drawn(diags: &[Diag]) -> impl Iterator<Item = &Diag> {
 /// Longest line that is drawn.
 const LONGEST_LINE: usize = 400;
 
-/// Is a line around the labels too long for a terminal?
+/// Whether a line of a label, or a line directly before or after it, is too long for a terminal.
 fn too_long_to_draw(diag: &Diag, source: &Source, file: u32) -> bool {
     let starts = source.line_starts();
     diag.labels.iter().filter(|label| label.span.file == file).any(|label| {

@@ -18,7 +18,7 @@ pub fn say(report: &str) {
     });
 }
 
-/// Are messages of this thread kept instead of written?
+/// Whether messages of this thread are kept instead of written.
 pub fn is_kept() -> bool {
     KEPT.with_borrow(Option::is_some)
 }

@@ -19,7 +19,7 @@ fn cuts(what: &What) -> bool {
     matches!(what, What::Feed | What::Arc { .. } | What::Hole { .. } | What::Thread(_))
 }
 
-/// Is the item equal to the previous item?
+/// Whether the item has the same request and the same final height as the previous item.
 fn again(before: &Wanted, wanted: &Wanted) -> bool {
     before.want == wanted.want && before.to[2] == wanted.to[2]
 }
@@ -335,7 +335,7 @@ impl Judge<'_> {
     }
 }
 
-/// Is `b` on the straight line from `a` to `c`?
+/// Whether `b` is on the straight line from `a` to `c`.
 fn between(a: &Place, b: &Place, c: &Place, within: f64) -> bool {
     let length: f64 = (0..3).map(|axis| (c[axis] - a[axis]).powi(2)).sum();
     let along: f64 = (0..3).map(|axis| (b[axis] - a[axis]) * (c[axis] - a[axis])).sum::<f64>() / length;

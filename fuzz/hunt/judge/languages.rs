@@ -41,7 +41,7 @@ struct Writer {
 
 type Done<T = ()> = Result<T, String>;
 
-/// Does a control use one of these languages?
+/// Whether a control uses one of these languages.
 pub fn is_one(control: &str) -> bool {
     matches!(control, "siemens" | "heidenhain" | "okuma")
 }

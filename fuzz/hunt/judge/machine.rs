@@ -72,7 +72,7 @@ pub struct Act {
 }
 
 impl Act {
-    /// Does it cut?
+    /// Whether the act is a cut.
     pub fn cuts(&self) -> bool {
         match self.what {
             What::Feed => !super::same(&self.from, &self.to, 1e-6),
@@ -82,7 +82,7 @@ impl Act {
         }
     }
 
-    /// Is the act a move straight up or down?
+    /// Whether the act is a move straight up or down.
     pub fn plunges(&self) -> bool {
         (0..6).all(|axis| axis == 2 || super::near(self.from[axis], self.to[axis], 1e-9))
     }
@@ -347,7 +347,7 @@ impl Machine {
         self.state.work = number;
     }
 
-    /// Handles F, S, T, and the letters that select offsets by themselves.
+    /// Handles the F, S and T words, and the E and H words that select an offset without a G code.
     fn letters(&mut self, block: &Block<'_>) {
         if let Some(feed) = block.get(b'F') {
             let scale = if self.state.feed.1 == 93.0 { 1.0 } else { self.scale };

@@ -25,17 +25,17 @@ pub type Place = [f64; 6];
 /// Millimetres in an inch.
 pub const INCH: f64 = 25.4;
 
-/// Are two values equal within this number of millimetres? Two unknown values count as equal.
+/// Whether two values are equal within this number of millimetres. Two unknown values count as equal.
 pub fn near(a: f64, b: f64, within: f64) -> bool {
     (a.is_nan() && b.is_nan()) || (a - b).abs() <= within
 }
 
-/// Are two positions equal? Whole turns of a rotary axis are ignored.
+/// Whether two positions are equal. Whole turns of a rotary axis are ignored.
 pub fn same(a: &Place, b: &Place, within: f64) -> bool {
     (0..3).all(|axis| near(a[axis], b[axis], within)) && turned(a, b)
 }
 
-/// Are the angles of two positions equal, apart from whole turns?
+/// Whether the angles of two positions are equal, apart from whole turns.
 pub fn turned(a: &Place, b: &Place) -> bool {
     (3..6).all(|axis| {
         let apart = (a[axis] - b[axis]).rem_euclid(360.0);

@@ -33,12 +33,12 @@ impl Family {
     }
 }
 
-/// Does a G code have no effect on the cuts?
+/// Whether a G code has no effect on the cuts.
 pub fn is_harmless(code: f64) -> bool {
     [5.1, 8.0, 9.0, 11.0, 15.0, 22.0, 23.0, 50.0, 61.0, 64.0, 67.0, 69.0, 91.1, 103.0, 187.0].contains(&code)
 }
 
-/// Is a G code a canned cycle of a mill?
+/// Whether a G code is a canned cycle of a mill.
 pub fn is_cycle(code: f64) -> bool {
     [73.0, 74.0, 76.0, 77.0, 78.0, 81.0, 82.0, 83.0, 84.0, 85.0, 86.0, 87.0, 88.0, 89.0].contains(&code)
 }

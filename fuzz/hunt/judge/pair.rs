@@ -45,7 +45,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// Does the part stay correct in spite of this difference?
+    /// Whether the part stays correct in spite of this difference.
     pub fn is_harmless(self) -> bool {
         matches!(self, Class::Way | Class::Pecks | Class::Tail | Class::Near | Class::Short)
     }
@@ -112,7 +112,7 @@ fn plunges(acts: &[Act]) -> Vec<Plunge> {
     list
 }
 
-/// Are two cuts passes of the same thread?
+/// Whether two cuts are passes of the same thread.
 fn is_pass(one: &Act, two: &Act) -> bool {
     let (What::Thread(lead), What::Thread(other)) = (one.what, two.what) else { return false };
     near(lead, other, 0.003 * lead) && near(one.from[2], two.from[2], 0.01) && near(one.to[2], two.to[2], 0.01)
@@ -211,12 +211,12 @@ fn arc_middle(act: &Act) -> Option<[f64; 2]> {
     Some([center[0] + from[0] * cos - from[1] * sin, center[1] + from[0] * sin + from[1] * cos])
 }
 
-/// Are two positions equal, apart from their heights?
+/// Whether two positions are equal, apart from their heights.
 fn above(a: &Place, b: &Place, within: f64) -> bool {
     (0..2).all(|axis| near(a[axis], b[axis], within)) && turned(a, b)
 }
 
-/// Do two cuts have the same start and end, and turn by the same angle?
+/// Whether two cuts have the same start and end, and turn by the same angle.
 fn same_places(a: &Act, b: &Act, within: f64) -> bool {
     let turns = |act: &Act, axis: usize| act.to[axis] - act.from[axis];
     same(&a.from, &b.from, within)

@@ -17,7 +17,7 @@ pub fn code(action: &str) -> f64 {
     ACTIONS.iter().find(|(name, _)| *name == action).map_or(f64::NAN, |(_, code)| *code)
 }
 
-/// Is the code a stop or an action?
+/// Whether the code is a stop or an action.
 fn is_done(code: f64) -> bool {
     code < 2.0 || ACTIONS.iter().any(|(_, own)| *own == code)
 }

@@ -130,7 +130,7 @@ impl Cycle {
         }
     }
 
-    /// Does the cycle contain this word, which has no number?
+    /// Whether the cycle contains this word, which has no number.
     pub fn is(&self, flag: &str) -> bool {
         self.flags.iter().any(|own| own == flag)
     }

@@ -21,7 +21,7 @@ pub fn per_minute(word: &str, value: f64, file_unit: f64, revolutions: f64) -> O
     }
 }
 
-/// Is the word the name of a feed unit?
+/// Whether the word is the name of a feed unit.
 pub fn is_feed(word: &str) -> bool {
     ["IPM", "IPR", "MMPM", "MMPR", "PERMIN", "PERREV", "TPI"].contains(&word)
 }

@@ -17,7 +17,7 @@ impl Height {
         Height { from: z, to: z }
     }
 
-    /// Is this height in the range, within this number of millimetres?
+    /// Whether the height `z` is in the range, with a tolerance of `within` millimetres.
     pub fn holds(&self, z: f64, within: f64) -> bool {
         z >= self.from - within && z <= self.to + within
     }

@@ -100,7 +100,8 @@ mod tests {
         list
     }
 
-    /// Does this motion match the motion of the example? An angle or time that no word defines matches every value.
+    /// Whether this motion matches the motion of the example. An angle or time that no word defines matches every
+    /// value.
     fn is(wanted: &Wanted, motion: &[Value]) -> bool {
         let number = |at: usize| motion.get(at).and_then(Value::as_f64).unwrap_or(f64::NAN);
         let near = |a: f64, b: f64| a.is_nan() || (a - b).abs() < 1e-4;

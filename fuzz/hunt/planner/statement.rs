@@ -27,7 +27,7 @@ impl Minor {
         }
     }
 
-    /// Is it this word?
+    /// Whether the value is this word.
     pub fn is(&self, word: &str) -> bool {
         matches!(self, Minor::Word(own) if own == word)
     }
@@ -39,7 +39,7 @@ impl Statement {
         self.minors.iter().filter_map(Minor::number).collect()
     }
 
-    /// Does the statement contain this word?
+    /// Whether the statement contains this word after the slash.
     pub fn has(&self, word: &str) -> bool {
         self.minors.iter().any(|minor| minor.is(word))
     }

@@ -144,7 +144,7 @@ fn at_one(a: Point, b: Point, within: f64) -> bool {
     near(a[0], b[0], within) && near(a[1], b[1], within)
 }
 
-/// Is it a cut of zero length?
+/// Whether the move is a cut of zero length.
 pub fn is_point(one: &Move) -> bool {
     matches!(one.kind, Kind::Feed | Kind::Thread) && at_one(one.from, one.to, 1e-5)
 }

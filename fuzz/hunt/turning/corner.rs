@@ -77,8 +77,8 @@ impl Machine<'_> {
 }
 
 impl Corner {
-    /// Does this block leave the corner correctly? The block must be a G1 along the other axis alone, in the corner's
-    /// direction, and at least as long as the corner.
+    /// Checks that this block leaves the corner correctly. The block must be a G1 along the other axis alone, in the
+    /// corner's direction, and at least as long as the corner.
     pub(super) fn is_left(&self, words: &Words, motion: f64, to: Point) -> Result<(), Stopped> {
         // PS0051
         if motion != 1.0 || only_axis(words) != Some(self.axis) {

@@ -421,7 +421,7 @@ impl Machine<'_> {
     }
 }
 
-/// Does an arc cross no quadrant line?
+/// Whether a part of the profile crosses no quadrant line. The result is `true` for a straight part.
 fn is_monotone(part: &Part) -> bool {
     let Kind::Arc(center, ccw) = part.kind else { return true };
     let angle = |at: Point| (at[0] - center[0]).atan2(at[1] - center[1]);

@@ -12,7 +12,7 @@ pub struct Without {
     told: &'static str,
 }
 
-/// A default with these arguments for every form.
+/// A default with these arguments. The other methods add different arguments for lathes or for one unit.
 pub(super) const fn of(usual: &'static str) -> Without {
     Without { usual, lathe: None, inch: None, mm: None, told: "" }
 }

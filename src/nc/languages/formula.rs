@@ -148,8 +148,9 @@ fn binary(cursor: &mut Cursor<'_>, rules: Rules<'_>, strength: usize, depth: u32
     Ok(compared(cursor, rules, strength, depth)?.0)
 }
 
-/// The value of a part of a formula, and whether the part compares values without brackets around it. The controls rank
-/// comparisons and logical operators differently, so both in one formula need brackets.
+/// The value of a part of a formula, and whether the part compares values without brackets around it. The precedence of
+/// comparisons and logical operators differs between the controls. A formula that joins comparisons with logical
+/// operators therefore needs brackets around each comparison.
 fn compared(cursor: &mut Cursor<'_>, rules: Rules<'_>, strength: usize, depth: u32) -> Done<(f64, bool)> {
     let Some(operators) = OPERATORS.get(strength) else { return Ok((unary(cursor, rules, depth)?, false)) };
     let (mut value, mut compares) = compared(cursor, rules, strength + 1, depth)?;

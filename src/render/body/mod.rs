@@ -352,7 +352,8 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// May the word be left out because the control already has its value? `var` is `None` for a calculated value.
+    /// Whether the word may be left out because the control already has its value. `var` is `None` for a calculated
+    /// value.
     fn drops_word(&self, letter: u8, var: Option<VarId>, value: f64, units: i64) -> bool {
         let is = |set: VarSet| var.is_some_and(|var| set.has(var));
         let settings = &self.writer.shape.program.settings;
@@ -425,7 +426,7 @@ impl Body<'_> {
         no_value(var)
     }
 
-    /// The current values of the variables, for a word with this letter.
+    /// The sources of the current values for a word with this letter. The letter selects the rotary axis of an angle.
     fn now(&self, letter: u8) -> Now<'_, '_> {
         let block = Some(self.writer.out.number());
         Now {

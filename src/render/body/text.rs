@@ -1,4 +1,4 @@
-//! Output of a line other than words with letters: text, values inside text, comments.
+//! Prints the parts of a line that are not words with letters: text, values inside text, and comments.
 
 use super::Body;
 use crate::lang::VarId;
@@ -7,7 +7,7 @@ use crate::render::texts;
 use crate::render::values::property_text;
 
 impl Body<'_> {
-    /// In this job, are all texts of the comment at this operation empty?
+    /// Whether all texts of the comment at the index `at` of the compiled operations are empty in this job.
     pub(super) fn comment_is_empty(&self, at: usize, words: usize) -> bool {
         texts::are_empty(&self.writer.shape.program.ops[at + 1..][..words], &self.writer.want.texts, &|row| {
             property_text(row, self.writer.want, self.writer.said).is_empty()

@@ -161,8 +161,8 @@ fn says_the_hole(way: &Routine, drill: &Drilling, shape: &Shape) -> Done {
     fault_at(Code::PR017, message, "print the value in every branch", Some(way.span))
 }
 
-/// Does the hole need a position perpendicular to the tool axis that its sequence does not print? An example is a hole
-/// on a lathe.
+/// Whether the hole needs a position perpendicular to the tool axis that its sequence does not print. An example is a
+/// hole on a lathe.
 fn sequence_loses(routine: &Routine, target: &Axes, shape: &Shape, said: &Said) -> bool {
     let mut across = (0..2).filter(|&axis| axis != shape.depth);
     across.any(|axis| target.get(axis) != said.stand.position.get(axis) && !prints_axis(routine, axis, shape))

@@ -69,7 +69,7 @@ impl Setup {
         Setup { vars: want.values().clone(), kept: said.kept.clone() }
     }
 
-    /// Do the current values differ from these values?
+    /// Whether the current values of `sources` differ from their values when the cycle was started.
     pub fn differs(&self, sources: Sources, want: &Want, said: &Said) -> bool {
         let other = |target| {
             self.kept.of(target) != said.kept.of(target) || self.kept.text_of(target) != said.kept.text_of(target)
@@ -132,8 +132,8 @@ pub fn cancel(cx: &mut Cx<'_>, drill: &mut Drilling) -> Done {
     Ok(())
 }
 
-/// Is the cycle a rigid tap, with the feed synchronised to the spindle on the way in and out? A tap without a reversal
-/// of the spindle is printed as a face or drill cycle.
+/// Whether the cycle is a rigid tap, with the feed synchronised to the spindle on the way in and out. A tap without a
+/// reversal of the spindle is printed as a face or drill cycle.
 pub fn is_rigid(spec: &CycleSpec, shape: &Shape) -> bool {
     let reverses = spec.kind.is_tap() && !spec.norevr && !spec.rapout;
     reverses && spec.rigid.unwrap_or(shape.program.settings.rigid_tap)

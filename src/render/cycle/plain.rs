@@ -75,7 +75,7 @@ pub fn plain_hole(hole: &Hole, words: &PositionWords, cx: &mut Cx<'_>, drill: &m
     words.print(at, &mut cx.writer())
 }
 
-/// Are the words of this sequence the only output for a hole, whatever the position of the hole is?
+/// Whether the words of this sequence are the only output for a hole, at any position of the hole.
 #[cold]
 fn prints_no_more(routine: &Routine, cycle: &ActiveCycle, cx: &Cx<'_>) -> bool {
     let (shape, program) = (cx.shape, cx.shape.program);

@@ -121,8 +121,8 @@ fn exit_of_cycle(routine: &Routine, heights: Heights, shape: &Shape, drill: &Dri
     (exit, known)
 }
 
-/// Is the tool certainly at the clearance after an emulated sequence? The tool is at the clearance if G99 is active and
-/// no axis word follows the control's cycle.
+/// Whether the tool is certainly at the clearance after an emulated sequence. The tool is at the clearance if G99 is
+/// active and no axis word follows the control's cycle.
 fn stays_at_clearance(routine: &Routine, heights: Heights, shape: &Shape) -> bool {
     let number = shape.program.settings.return_plane[0];
     let chosen = routine.vars.has(VarId::Retplane) && heights.return_plane <= heights.clear + SAME;
@@ -180,7 +180,7 @@ fn way_to_hole(routine: &Routine, writer: &mut Writer<'_>) -> Done {
     Ok(())
 }
 
-/// In a cycle with `[count]`, do the first lines drill a hole themselves? Lines with K0 or L0 drill no hole.
+/// Whether the first lines of a cycle with `[count]` drill a hole themselves. Lines with K0 or L0 drill no hole.
 fn drills_at_once(routine: &Routine, shape: &Shape) -> bool {
     let typed = |asked: &dyn Fn(&Literal) -> bool| {
         routine.steps_in(routine.ops.start..routine.repeat).any(|i| match shape.program.ops[i] {
@@ -221,7 +221,7 @@ fn settle_between_holes(hole: &Planned, cx: &mut Cx<'_>, drill: &Drilling) -> Do
     Ok(())
 }
 
-/// Must the whole cycle be printed at this hole?
+/// Whether the whole cycle must be printed at this hole.
 fn starts_cycle(
     routine: &Routine,
     heights: Heights,
@@ -244,7 +244,7 @@ fn starts_cycle(
     !first.is_empty() && routine.style != CycleStyle::WholeLine && cycle.setup.differs(first, want, said)
 }
 
-/// Does a position word change at this hole? If a block has no position word, most controls do not drill a hole.
+/// Whether a position word changes at this hole. If a block has no position word, most controls do not drill a hole.
 fn changes_position(routine: &Routine, shape: &Shape, want: &Want, said: &Said) -> Done<bool> {
     for i in routine.steps() {
         let crate::compile::Op::Var { letter, var, .. } = shape.program.ops[i] else { continue };

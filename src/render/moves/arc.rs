@@ -115,7 +115,7 @@ fn in_plane(position: &Axes, axes: [usize; 2]) -> Option<[f64; 2]> {
     Some([position.get(axes[0])?, position.get(axes[1])?])
 }
 
-/// Does the target differ from the tool's position along this axis?
+/// Whether the target differs from the tool's position along this axis.
 fn differs_by(target: &Axes, axis: usize, said: &Said) -> bool {
     target.get(axis).is_some() && target.get(axis) != said.stand.position.get(axis)
 }

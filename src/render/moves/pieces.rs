@@ -26,7 +26,7 @@ use crate::sema;
 use crate::sema::ArcCentre;
 use crate::toolpath::{Axes, PlaneArc};
 
-/// Does a sequence define the arc's end by centre and angle?
+/// Whether a sequence defines the arc's end by the centre and an angle.
 fn ends_by_angle(routine: &Routine, axes: [usize; 2]) -> bool {
     let angle = routine.vars.has(VarId::Endang) || routine.vars.has(VarId::Sweep);
     angle && axes.iter().all(|&axis| CENTRE_OF[axis].iter().any(|&var| routine.vars.has(var)))
@@ -136,8 +136,8 @@ fn print_piece(piece: &Piece, cx: &mut Cx<'_>) -> Done {
     Ok(())
 }
 
-/// Do start and end of the arc print as the same position? With equal printed ends, the control would read a short arc
-/// as a full circle.
+/// Whether the start and the end of the arc print as the same position. With equal printed ends, the control would read
+/// a short arc as a full circle.
 pub fn ends_meet(target: &Axes, axes: [usize; 2], shape: &Shape, said: &Said) -> bool {
     axes.iter().all(|&axis| {
         let printed = |value: f64| as_printed_back(axis, value, shape).ok();

@@ -49,7 +49,7 @@ pub fn split_rapid(target: &Axes, cx: &mut Cx<'_>) -> Done {
     }
 }
 
-/// Is the tool's last known height below the target? A tool at an unknown height counts as above the target.
+/// Whether the tool's last known height is below the target. A tool at an unknown height counts as above the target.
 pub fn is_below(target: &Axes, shape: &Shape, said: &Said) -> bool {
     let from = said.stand.position.get(shape.depth).or(said.stand.left_at);
     from.is_some_and(|from| target.values[shape.depth] > from)

@@ -172,7 +172,7 @@ fn next_begins(
     Ok(begins)
 }
 
-/// Does the spindle turn counterclockwise?
+/// Whether the job requests that the spindle turns counterclockwise.
 fn turns_back(want: &Want, shape: &Shape) -> bool {
     want.get(VarId::Direct) == Some(shape.program.settings.spindle[1])
 }

@@ -146,7 +146,7 @@ pub fn append_waiting(out: &mut Printer, subs: &mut Subprograms) {
     out.append(std::mem::take(&mut subs.waiting));
 }
 
-/// Are there stored subprograms that must be printed before the end of the program?
+/// Whether there are stored subprograms that must be printed before the end of the program.
 pub fn has_waiting(subs: &Subprograms) -> bool {
     !subs.waiting.text.is_empty()
 }

@@ -32,8 +32,8 @@ impl Subprograms {
         self.by_number.get(&key(number)).copied()
     }
 
-    /// Does a subprogram tap without setting the spindle direction first? The subprograms that this subprogram calls
-    /// are included.
+    /// Whether a subprogram taps without setting the spindle direction first. Subprograms that this subprogram calls
+    /// with an unknown spindle direction are included.
     pub fn taps(&self, sub: usize) -> bool {
         let mut seen = vec![false; self.defined.len()];
         let mut open = vec![sub];
@@ -50,8 +50,9 @@ impl Subprograms {
         false
     }
 
-    /// Which subprograms end? A subprogram ends if all subprograms that it calls end. A subprogram that does not end is
-    /// part of a cycle of calls, or calls a subprogram in such a cycle.
+    /// Whether each subprogram ends, by the index of the subprogram in `defined`. A subprogram ends if all subprograms
+    /// that it calls end. A subprogram that does not end is part of a cycle of calls, or calls a subprogram in such a
+    /// cycle.
     pub fn ending(&self) -> Vec<bool> {
         let mut open = vec![0_usize; self.defined.len()];
         let mut callers = vec![Vec::new(); self.defined.len()];
@@ -102,7 +103,7 @@ pub struct Left {
 }
 
 impl Left {
-    /// Does the subprogram set no condition and contain no stop? A second run then begins in the same state as the
+    /// Whether the subprogram sets no condition and contains no stop. A second run then begins in the same state as the
     /// first run.
     pub fn is_nothing(&self) -> bool {
         self.conditions.known().is_empty() && !self.spins.stops

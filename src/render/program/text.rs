@@ -83,7 +83,7 @@ fn is_the_jobs(code: Code, shape: &Shape, want: &mut Want) {
     want.set(var, code.value());
 }
 
-/// Does the code select units that differ from the program's units?
+/// Whether the code selects units that differ from the program's units.
 fn changes_units(code: Code, shape: &Shape, want: &Want) -> bool {
     shape.group_of(code) == Some(Group::Units) && want.get(VarId::Unitmode) != Some(code.value())
 }

@@ -37,17 +37,17 @@ impl Angles {
         }
     }
 
-    /// Is any angle known? In a subprogram: did the subprogram print an angle?
+    /// Whether any angle is known. In a subprogram: whether the subprogram printed an angle.
     pub fn is_known(&self) -> bool {
         self.now.iter().any(Option::is_some)
     }
 
-    /// Has Unwind removed turns from any axis?
+    /// Whether Unwind has removed turns from any axis.
     pub fn is_wound(&self) -> bool {
         self.wound != [0.0; 3]
     }
 
-    /// Are the turns that Unwind removed equal in both states?
+    /// Whether the turns that Unwind removed are equal in both states.
     pub fn wound_as(&self, other: &Angles) -> bool {
         self.wound == other.wound
     }

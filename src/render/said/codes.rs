@@ -153,16 +153,17 @@ impl Said {
     }
 }
 
-/// Do known positions stay valid after a G code without a modal group? The positions stay valid if the form's control
-/// defines the code, or if the form's commands name the code. In a cycle the positions stay valid too, because the end
-/// of the cycle discards the positions anyway.
+/// Whether known positions stay valid after a G code without a modal group. The positions stay valid if the form's
+/// control defines the code, or if the form's commands name the code. In a cycle the positions stay valid too, because
+/// the end of the cycle discards the positions anyway.
 fn is_harmless(code: Code, meaning: Option<Meaning>, want: &Want, shape: &Shape) -> bool {
     let known =
         meaning.is_some_and(|meaning| !matches!(meaning, Meaning::Unsaid | Meaning::Probe) && !meaning.is_call());
     known || shape.program.settings.names_code(code) || want.cycle.is_some()
 }
 
-/// Does a code run external code: a macro, a subprogram, or a code that the control's file lists without a meaning?
+/// Whether a code runs external code: a macro, a subprogram, or a code that the control's file lists without a meaning.
+/// A code without a meaning does not count if the form's commands name the code.
 fn runs_elsewhere(code: Code, row: &Row, shape: &Shape) -> bool {
     let settings = &shape.program.settings;
     let unsaid = row.meaning == Meaning::Unsaid;

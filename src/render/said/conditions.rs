@@ -33,7 +33,7 @@ impl Conditions {
         at.is_some()
     }
 
-    /// Is this value the last printed value of the condition?
+    /// Whether this value is the last printed value of the condition.
     pub fn holds(&self, var: VarId, value: f64) -> bool {
         self.get(var) == Some(value)
     }

@@ -39,13 +39,13 @@ impl Line {
         Line { begin: Some(op + 1) }
     }
 
-    /// Is this the line of a generated block?
+    /// Whether this is the line of a generated block.
     pub fn is_generated(self) -> bool {
         self.begin.is_none()
     }
 
-    /// Does the line have a word for which `asked` is true? The arguments of `asked` are the word's letter and, if the
-    /// word has one, its variable.
+    /// Whether the line has a word for which `asked` is true. The arguments of `asked` are the word's letter and, if
+    /// the word has one, its variable.
     pub fn prints(self, shape: &Shape, asked: impl Fn(u8, Option<VarId>) -> bool) -> bool {
         let Some(begin) = self.begin else { return false };
         let ops = &shape.program.ops[begin..];
@@ -62,7 +62,7 @@ impl Line {
         self.begin.map(|begin| shape.program.spans[begin - 1])
     }
 
-    /// Does the line have words of axes?
+    /// Whether the line has axis words.
     pub fn prints_axes(self, shape: &Shape) -> bool {
         self.prints(shape, |letter, _| shape.axis_bit(letter) != 0)
     }

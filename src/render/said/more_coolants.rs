@@ -34,7 +34,7 @@ impl Beside {
         self.sure = Coolant::OFF;
     }
 
-    /// Is a kind of coolant certainly on?
+    /// Whether a kind of coolant is certainly on.
     pub fn holds(self, kind: Coolant) -> bool {
         self.sure.holds(kind)
     }
@@ -46,7 +46,7 @@ impl Beside {
 }
 
 impl Said {
-    /// Do the additional kinds of coolant that the job requests differ from the additional kinds that are on?
+    /// Whether the additional kinds of coolant that the job requests differ from the additional kinds that are on.
     pub(super) fn lacks_beside(&self, want: &Want) -> bool {
         let others = want.coolant.without(want.coolant.first());
         self.beside.other_than(others).is_some() || others.without(self.beside.sure) != Coolant::OFF

@@ -61,7 +61,7 @@ impl Stand {
         self.astray &= !axes;
     }
 
-    /// Has this axis moved since the last target was set?
+    /// Whether this axis has moved since the last target was set.
     pub fn is_astray(&self, axis: usize) -> bool {
         self.astray & 1 << axis != 0
     }

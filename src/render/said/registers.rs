@@ -36,7 +36,7 @@ impl Registers {
         self.letters = [Register::default(); 128];
     }
 
-    /// Is this the last printed value of the letter?
+    /// Whether this is the last printed value of the letter.
     #[inline]
     pub fn holds(&self, letter: u8, units: i64, decimals: u8) -> bool {
         self.letters[usize::from(letter & 0x7f)] == Register { units, scale: decimals + 1 }
@@ -66,7 +66,7 @@ impl Registers {
         self.groups[group as usize]
     }
 
-    /// Is this code the last printed code of its group?
+    /// Whether this code is the last printed code of its group.
     #[inline]
     pub fn holds_code(&self, code: Code) -> bool {
         self.groups.contains(&Some(code))

@@ -122,7 +122,7 @@ impl Said {
         self.registers.set(info.printed, units, info.format.dec.count);
     }
 
-    /// Is this the last printed value of the letter?
+    /// Whether this is the last printed value of the letter.
     #[inline]
     pub fn holds(&self, info: &Letter, units: i64) -> bool {
         self.registers.holds(info.printed, units, info.format.dec.count)
@@ -133,8 +133,8 @@ impl Said {
         self.registers.get(info.printed)
     }
 
-    /// Does the control already have this value of a letter? If letter and value are a code: is the code active in its
-    /// modal group?
+    /// Whether the control already has this value of a letter. If the letter and the value are a code: whether the code
+    /// is active in its modal group.
     pub fn holds_value(&self, info: &Letter, units: i64, value: f64) -> bool {
         match info.kind {
             LetterKind::GCode | LetterKind::MCode => {
@@ -144,34 +144,36 @@ impl Said {
         }
     }
 
-    /// May a motion block leave out this code, because it is active in its modal group?
+    /// Whether a motion block may leave out this code because the code is active in its modal group.
     #[inline]
     pub fn code_drops(&self, code: Code, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
         settings.modality && self.registers.holds_code(code) && settings.modal_codes.contains(&code)
     }
 
-    /// Is this motion code active, so that the next move need not print it?
+    /// Whether this motion code is active, so that the next move need not print it.
     pub fn motion_in_force(&self, code: &sema::Code) -> bool {
         self.registers.group(Group::Motion) == Some(code.code)
     }
 
-    /// Is this motion code active on the control? True even if the next move must print the code again.
+    /// Whether this motion code is active on the control. The result is `true` even if the next move must print the
+    /// code again.
     pub fn is_in_motion(&self, code: &sema::Code) -> bool {
         self.motion == Some(code.code)
     }
 
-    /// Is this plane active on the control?
+    /// Whether this plane is active on the control.
     pub fn is_in_plane(&self, plane: Code) -> bool {
         self.plane == Some(plane)
     }
 
-    /// Is the control in the distance mode of this number (G90, G91)?
+    /// Whether the control is in the distance mode of this number (G90, G91).
     pub fn is_in_distance(&self, number: f64) -> bool {
         self.distance.is_some_and(|code| code.value() == number)
     }
 
-    /// Would the control read generated positions as increments, or generated increments as positions?
+    /// Whether the control would read generated positions as increments, or generated increments as positions. The
+    /// result is always `false` on a lathe.
     pub fn distance_is_wrong(&self, shape: &Shape) -> bool {
         let settings = &shape.program.settings;
         let wrong = settings.inc_abs[usize::from(settings.incremental)];
@@ -193,7 +195,7 @@ impl Said {
         others.or_else(diameters)
     }
 
-    /// Would the control misread generated positions?
+    /// Whether the control would misread generated positions.
     pub fn is_misread(&self, shape: &Shape, want: &Want) -> bool {
         self.distance_is_wrong(shape) || self.misread_by(shape, want).is_some()
     }
@@ -209,7 +211,7 @@ impl Said {
         self.registers.group(Group::ArcDistance).filter(|&code| shape.meaning_of(code) == Some(wrong))
     }
 
-    /// Along any of these axes, does the target differ from the last printed value?
+    /// Whether the target differs from the last printed value along any of these axes.
     pub fn differs_from(&self, target: &Axes, axes: u8, shape: &Shape) -> bool {
         (0..6).any(|axis| {
             let bit = 1 << axis;
@@ -223,7 +225,8 @@ impl Said {
         })
     }
 
-    /// May the control's state differ from the job's request, so that something must be printed before the next move?
+    /// Whether the control's state may differ from the state that the job requires. The renderer then prints the
+    /// missing changes before the next move.
     #[inline]
     pub fn is_unsettled(&self, want: &Want) -> bool {
         want.changed || self.differs
@@ -338,12 +341,12 @@ impl Said {
         self.depth_moved = moved;
     }
 
-    /// Do the axis words that are printed now use another coordinate frame than the positions of the job?
+    /// Whether the axis words that are printed now use another coordinate frame than the positions of the job.
     pub fn is_elsewhere(&self, shape: &Shape) -> bool {
         self.shift != Shift::None || !shape.program.settings.incremental && self.distance_is_wrong(shape)
     }
 
-    /// Was anything switched since the last call of this function?
+    /// Whether anything was switched since the last call of this function.
     pub fn take_switched(&mut self) -> bool {
         std::mem::take(&mut self.switched)
     }
@@ -355,7 +358,7 @@ impl Said {
         shape.rotary().filter(move |&axis| target.get(axis).is_some() && target.get(axis) != self.stand.angle(axis))
     }
 
-    /// Does a target turn the part?
+    /// Whether a target turns the part.
     #[inline]
     pub fn turns(&self, target: &Axes, shape: &Shape) -> bool {
         self.turned_axes(target, shape).next().is_some()

@@ -66,8 +66,8 @@ fn is_of_arc(part: &[u8]) -> bool {
     }
 }
 
-/// Is a text that begins with `#` an assignment to a variable of the program? Assignments to variables of the control
-/// do not count.
+/// Whether a text that begins with `#` is an assignment to a variable of the program. Assignments to variables of the
+/// control do not count.
 fn sets_variable(text: &[u8]) -> bool {
     let mut tokens = tokens(text).filter(|token| token.kind != Kind::Blank).skip(1);
     let own = match tokens.next().map(|token| token.kind) {

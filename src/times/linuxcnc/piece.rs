@@ -39,7 +39,7 @@ pub(super) struct Piece {
     pub acceleration: f64,
     pub round: Option<Round>,
     pub is_cut: bool,
-    /// The row of the move in the times of blocks.
+    /// The index of this move in the list of block times.
     pub row: usize,
     pub end: End,
     /// Whether no move follows. Without a next move, the acceleration for the end of the move does not reduce the speed
@@ -65,7 +65,7 @@ pub(super) struct Round {
 }
 
 impl Piece {
-    /// A line; `None`: the line has no length, or its speed is unknown.
+    /// Creates the piece for a line. Returns `None` if the line has no length, or if its speed is unknown.
     pub fn line(way: &Way, feed: Option<f64>, rates: &Rates) -> Option<Piece> {
         let length = rates.length(way);
         if length == 0.0 {
@@ -83,7 +83,7 @@ impl Piece {
         Some(Piece::new([direction; 2], length, [most, wanted], acceleration, feed.is_some()))
     }
 
-    /// An arc; `None`: the arc has no length, or its speed is unknown.
+    /// Creates the piece for an arc. Returns `None` if the arc has no length, or if its speed is unknown.
     pub fn arc(curve: &Curve, feed: f64, rates: &Rates) -> Option<Piece> {
         let [a, b] = curve.plane;
         let (radius, length) = (curve.radius(), curve.length());

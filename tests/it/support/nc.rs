@@ -37,7 +37,7 @@ pub enum Call {
 }
 
 impl Call {
-    /// Are two actions equal within the four decimals that the interpreter prints?
+    /// Whether two actions are equal within the four decimals that the interpreter prints.
     pub fn is(&self, other: &Call) -> bool {
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 6e-5);
         match (self, other) {

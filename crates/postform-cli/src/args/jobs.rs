@@ -126,7 +126,7 @@ impl ReadArgs {
         reading
     }
 
-    /// Is an option given that only applies to a CL file?
+    /// Whether an option is given that only applies to a CL file.
     pub fn assumes_of_cl(&self) -> bool {
         self.assume_speed.is_some() || self.assume_feed.is_some() || self.assume_end || self.setup.is_some()
     }
@@ -260,12 +260,12 @@ impl RenderOptions {
         options
     }
 
-    /// Does a warning prevent printing?
+    /// Whether a warning prevents printing.
     pub fn denies_warnings(&self) -> bool {
         self.deny == Some(DenyArg::Warnings)
     }
 
-    /// Is a finding shown? With --quiet, only findings that prevent printing are.
+    /// Whether a finding is shown. With --quiet, only findings that prevent printing are shown.
     pub fn shows(&self, diag: &Diag) -> bool {
         diag.is_error() || !self.quiet || self.denies_warnings() && diag.severity == Severity::Warning
     }

@@ -171,7 +171,7 @@ pub fn origin(server: &Server, text: &Text, number: u32) -> Option<Origin> {
     Some(Origin { form, item })
 }
 
-/// Are two programs equal, apart from their line ends?
+/// Whether two programs are equal, apart from their line ends.
 fn same_lines(one: &str, other: &str) -> bool {
     one.lines().eq(other.lines())
 }

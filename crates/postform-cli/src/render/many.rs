@@ -270,7 +270,7 @@ fn same_numbers(planned: &[Planned], forms: &[Ready]) {
     }
 }
 
-/// Does a program exist that is newer than all of its sources?
+/// Whether the program exists and is newer than all of its sources.
 fn is_current(program: &Planned, newest: Option<SystemTime>) -> bool {
     let changed = |path: &Path| fs::metadata(path).and_then(|meta| meta.modified()).ok();
     let made = program.to.as_ref().ok().and_then(|to| changed(to));

@@ -62,7 +62,7 @@ impl Pattern {
         if pieces.is_empty() { Err(wrong("the name is empty".to_owned())) } else { Ok(Pattern(pieces)) }
     }
 
-    /// Do all fields have values if jobs are split in this way?
+    /// Checks that all fields have values if jobs are split in this way.
     ///
     /// # Errors
     /// A message: a field has no value.

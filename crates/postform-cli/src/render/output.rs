@@ -12,7 +12,7 @@ use super::super::files::{self, io_message};
 use super::super::output::Target;
 use super::super::say::message;
 
-/// Is the output a folder? In a folder, the program gets its name from the form and the job.
+/// Whether the output is a folder. In a folder, the program gets its name from the form and the job.
 fn is_folder(output: &Path) -> bool {
     output.is_dir() || output.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR])
 }

@@ -113,7 +113,7 @@ impl End {
         }
     }
 
-    /// Is the result acceptable?
+    /// Whether the result is acceptable.
     pub fn is_right(&self) -> bool {
         matches!(self, End::Passed | End::Written { .. })
     }
@@ -309,8 +309,8 @@ impl Case {
     }
 }
 
-/// Can this error be an expected result? The answer is no if the job can't be read, or if the program differs from its
-/// job.
+/// Whether this error can be an expected result. The result is `false` for errors of the job (PJ), of the proof (PV)
+/// and of postform itself (PX).
 pub fn may_be_expected(code: &str) -> bool {
     !["PJ", "PV", "PX"].iter().any(|family| code.starts_with(family))
 }

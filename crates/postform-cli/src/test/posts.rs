@@ -59,7 +59,7 @@ impl Posts {
         Ok(posts)
     }
 
-    /// Are there forms on the command line?
+    /// Whether there are forms on the command line.
     pub fn are_named(&self) -> bool {
         self.named.is_some()
     }

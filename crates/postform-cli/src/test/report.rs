@@ -28,7 +28,7 @@ pub struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// Are all results as expected?
+    /// Whether there were no problems and all results are acceptable.
     pub fn is_clean(&self) -> bool {
         self.problems.is_empty() && self.tried.iter().all(|tried| tried.end.is_right())
     }

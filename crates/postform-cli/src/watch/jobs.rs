@@ -29,7 +29,7 @@ struct Events {
 }
 
 impl Events {
-    /// Do the events belong to this job, and was its file in this state when the events were read?
+    /// Whether the events belong to this job, and whether its file was in this state when the events were read.
     fn is_of(&self, job: &Opened, stamp: Option<Stamp>) -> bool {
         self.content == job.content && self.stamp == stamp
     }
@@ -69,7 +69,7 @@ impl Opened {
         }
     }
 
-    /// Is this job the sample job?
+    /// Whether this job is the sample job.
     pub fn is_sample(&self) -> bool {
         matches!(self.content, Content::Sample)
     }

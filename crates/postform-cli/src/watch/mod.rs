@@ -226,7 +226,7 @@ impl Shared {
     }
 }
 
-/// Has the client closed the connection?
+/// Whether the client has closed the connection.
 fn is_closed(stream: &TcpStream) -> bool {
     let closed = stream.set_nonblocking(true).is_err() || matches!(stream.peek(&mut [0]), Ok(0));
     stream.set_nonblocking(false).is_err() || closed

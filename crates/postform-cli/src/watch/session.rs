@@ -163,7 +163,7 @@ impl Session {
         paths
     }
 
-    /// Does `paths` contain all files of the form that is shown?
+    /// Whether `paths` contains all files of the form that is shown.
     pub fn watches(&self, paths: &[PathBuf]) -> bool {
         lock(&self.shown).iter().all(|path| paths.contains(path))
     }
@@ -389,7 +389,7 @@ impl Session {
         shown.iter().find(|path| files::name(path) == name && !path.exists()).cloned()
     }
 
-    /// Does the form itself exist?
+    /// Whether the file of the form itself exists.
     pub fn has_form(&self) -> bool {
         self.form.exists()
     }

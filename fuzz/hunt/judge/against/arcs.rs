@@ -21,7 +21,7 @@ pub(super) fn turn(wanted: &Wanted) -> f64 {
     part + turns * TAU
 }
 
-/// Is the act an arc of less than half a turn?
+/// Whether the act is an arc of less than half a turn.
 pub(super) fn is_short(act: &Act) -> bool {
     let What::Arc { plane, center, ccw, turns } = act.what else { return false };
     let [first, second] = axes(match plane {

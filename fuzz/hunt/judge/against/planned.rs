@@ -247,7 +247,7 @@ fn begins(hole: &Hole) -> Height {
         .unwrap_or(clear)
 }
 
-/// Does the act leave the hole and the positions beside it?
+/// Whether the act leaves the hole and the positions beside it.
 fn leaves(act: &Act, hole: &Hole, within: f64) -> bool {
     let beside = hole.moves.iter().any(|part| {
         matches!(part, Move::Rapid(over, _) if (0..2).all(|axis| over[axis].is_nan() || near(over[axis], act.to[axis], within)))

@@ -366,6 +366,9 @@ for options in ((), ("--ignore", "all"), ("--ignore", "none"), ("--format", "jso
     @row(" ".join(("diff: words of one line", *options)), (10_000, 100_000), status=(1,), seconds=2.0)
     def _(n, options=options): return pair(n), ["diff", "a.nc", "b.nc", *options]
 
+@row("diff: P words of one line", (50_000, 500_000))
+def _(n): return {"a.nc": many("P1", n) + "\nM30\n", "b.nc": "G1 " + many("P1", n) + "\nM30\n"}, ["diff", "a.nc", "b.nc"]
+
 @row("diff: codes of one line", (10_000, 100_000), status=(1,), seconds=2.0)
 def _(n):
     return ({"a.nc": " ".join(f"G{i % 99}.{i}" for i in range(n)) + "\nM30\n",

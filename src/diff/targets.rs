@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::nc::{Kind, tokens};
+use crate::nc::{Kind, Token, tokens};
 
 /// The block numbers to which blocks of a program refer: by a jump, or as the ends of a profile of a lathe.
 #[derive(Clone, Debug, Default)]
@@ -16,13 +16,16 @@ impl Targets {
     /// Finds the references in a program.
     pub fn of(text: &[u8]) -> Targets {
         let mut targets = Targets::default();
-        let mut last = None;
         // a reference has a P, or the O of GOTO
-        for at in memchr::memchr2_iter(b'P', b'p', text).chain(memchr::memchr2_iter(b'O', b'o', text)) {
-            let start = memchr::memrchr(b'\n', &text[..at]).map_or(0, |line| line + 1);
-            if last.replace(start) != Some(start) {
-                let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |line| at + line);
-                targets.read(&text[start..end]);
+        for [capital, small] in [*b"Pp", *b"Oo"] {
+            // the end of the last line that was read
+            let mut read = 0;
+            for at in memchr::memchr2_iter(capital, small, text) {
+                if at >= read {
+                    let start = memchr::memrchr(b'\n', &text[read..at]).map_or(read, |end| read + end + 1);
+                    read = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |end| at + end);
+                    targets.read(&text[start..read]);
+                }
             }
         }
         targets
@@ -39,9 +42,8 @@ impl Targets {
         if words().any(|word| CODES.contains(&word)) {
             self.0.extend(words().filter(|(letter, _)| matches!(letter, b'P' | b'Q')).map(|(_, number)| number as u64));
         }
-        let goes = |token: &crate::nc::Token| {
-            token.kind == Kind::Name && line[token.start..token.end].eq_ignore_ascii_case(b"GOTO")
-        };
+        let goes =
+            |token: &Token| token.kind == Kind::Name && line[token.start..token.end].eq_ignore_ascii_case(b"GOTO");
         for token in tokens(line).filter(goes) {
             let digits = line[token.end..].trim_ascii_start();
             let length = digits.iter().take_while(|byte| byte.is_ascii_digit()).count();

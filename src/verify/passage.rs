@@ -230,7 +230,7 @@ impl Passage {
     #[inline]
     pub fn is_too_long(&self) -> bool {
         let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
-        self.rapids.len() + self.codes.len() + self.astray.len() > MOST
+        self.rapids.len() + self.codes.len() + self.astray.len() + self.tool_data.len() > MOST
             || marks > MOST_MARKS
             || self.legs.len() > MOST_LEGS
     }

@@ -45,6 +45,9 @@ fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
 
 /// Compares the tool data that the programs set by G10, such as the length in a register.
 fn tool_data(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    if old.passage.tool_data == new.passage.tool_data {
+        return None;
+    }
     let text = |program: &Program<'_>| {
         let word = |&(letter, value): &(u8, f64)| format!("{}{}", char::from(letter), number(value));
         listed(&program.passage.tool_data.iter().map(word).collect::<Vec<_>>())

@@ -9,6 +9,9 @@ impl Simulator<'_> {
     /// the first of these blocks.
     pub fn take_warnings(&mut self) -> Vec<Diag> {
         self.place_warnings();
+        if self.warnings.is_empty() && self.slash.is_none() {
+            return Vec::new();
+        }
         let slash = self.slash.take().map(|(line, text)| {
             let (does, help) = match self.state.settings.block_delete {
                 true => ("skipped", "leave --block-delete out for the program with these blocks"),
@@ -23,6 +26,13 @@ impl Simulator<'_> {
     /// Gives the warnings of the current block their location.
     #[inline]
     pub(super) fn place_warnings(&mut self) {
+        if !self.state.warnings.is_empty() {
+            self.place_each();
+        }
+    }
+
+    #[cold]
+    fn place_each(&mut self) {
         for (code, message, help) in std::mem::take(&mut self.state.warnings) {
             if !self.warnings.iter().any(|(known, _)| *known == (code, message)) {
                 let diag = Fault::new(code, message, help).diag(self.at.line, self.text());

@@ -29,6 +29,9 @@ fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
 
 /// Compares the coordinate frames (G52, G92, G10, TRANS, TRANS DATUM) from which both programs measure positions.
 fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
+    if !old.moves_zero && !new.moves_zero {
+        return None;
+    }
     let [before, now] = [old.zero(), new.zero()];
     if (before.set, before.unknown) != (now.set, now.unknown) {
         return Some("only one program sets the work offset, or shifts it from an unknown machine position".to_owned());

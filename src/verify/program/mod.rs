@@ -59,6 +59,8 @@ pub(super) struct Program<'a> {
     coolant: [f64; 3],
     /// Everything between the last cut and the next cut.
     pub passage: Passage,
+    /// Whether the program has moved its zero or has set tool data.
+    pub moves_zero: bool,
     cuts: bool,
     /// The reason why the current cut can't be compared.
     doubt: Option<Doubt>,
@@ -116,6 +118,7 @@ impl<'a> Program<'a> {
             wire: expectation.wire.clone().unwrap_or_default(),
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
+            moves_zero: false,
             cuts: false,
             doubt: None,
             ended: false,
@@ -354,14 +357,7 @@ impl<'a> Program<'a> {
             }
             Action::SpeedLimit(limit) => self.state.limit = Some(*limit),
             Action::Plane(plane) => self.state.plane = *plane,
-            Action::Frame if self.scale.flat && !self.frame_goes_across() => {}
-            // this is reported later, at the first move in the new frame
-            Action::Frame if self.scale.axes(self.simulator.state().frame_unknown()) != 0 => {}
-            Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => {
-                self.passage.tool_data.extend(self.simulator.tool_data());
-                let message = "the program moves its coordinate frame, so the positions of the job are shifted";
-                self.hazard(Code::PV021, item.line, message, "remove G10, G52 or G92");
-            }
+            Action::Frame | Action::LeftOut(_, Meaning::SetOffsets) => self.zero_moves(&item.action, item.line),
             Action::FeedMode(mode) => self.mode = *mode,
             Action::Work(code) if self.state.work != Some(*code) => {
                 self.state.work = Some(*code);

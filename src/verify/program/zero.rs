@@ -1,6 +1,8 @@
 //! The zero from which a program measures its positions: the work offset, with the shifts of G52 and G92.
 
 use super::Program;
+use crate::diag::Code;
+use crate::nc::Action;
 use crate::verify::cut::Place;
 
 /// The zero of a program. A work offset that the program does not set is at the machine's zero.
@@ -16,6 +18,19 @@ pub(in crate::verify) struct Zero {
 }
 
 impl Program<'_> {
+    /// Runs a block that moves the zero, or that sets tool data.
+    pub(super) fn zero_moves(&mut self, action: &Action, line: u64) {
+        self.moves_zero = true;
+        self.passage.tool_data.extend(self.simulator.tool_data());
+        let stays = self.scale.flat && !self.frame_goes_across();
+        // a shift from an unknown position is reported at the first move in the new frame
+        let is_reported_later = self.scale.axes(self.simulator.state().frame_unknown()) != 0;
+        if *action != Action::Frame || !stays && !is_reported_later {
+            let message = "the program moves its coordinate frame, so the positions of the job are shifted";
+            self.hazard(Code::PV021, line, message, "remove G10, G52 or G92");
+        }
+    }
+
     /// The active zero.
     pub fn zero(&self) -> Zero {
         let state = self.simulator.state();

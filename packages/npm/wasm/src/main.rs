@@ -133,7 +133,7 @@ fn simulate(request: &Request) -> Value {
             Ok(true) => {}
             Ok(false) => break None,
             Err(RunError::Refused(mut diag, line)) => {
-                diag.place.get_or_insert_with(|| Location::line(line));
+                diag.place.get_or_insert_with(|| Box::new(Location::line(line)));
                 break Some(json!(row(&diag, &[])));
             }
             Err(RunError::Io(error)) => return json!({ "error": error.to_string(), "findings": [] }),

@@ -43,7 +43,8 @@ pub fn lint(checked: &Checked, levels: &Levels) -> Found {
         (rule.check)(&view, &mut found);
         debug_assert!(found[from..].iter().all(|diag| diag.code == rule.code), "{:?}", rule.code);
     }
-    let mut diags: Vec<Diag> = checked.diags.iter().cloned().chain(found).collect();
+    let mut diags = found;
+    diags.splice(0..0, checked.diags.iter().cloned());
     diags.retain_mut(|diag| levels.apply(diag));
     let suppressed = allow::take_allowed(checked, levels, &mut diags);
     leave_causes(checked, &mut diags);

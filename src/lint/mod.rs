@@ -36,14 +36,13 @@ pub struct Found {
 /// Finds everything that is wrong in a form: the findings of its analysis and of the rules.
 pub fn lint(checked: &Checked, levels: &Levels) -> Found {
     let view = View::new(checked);
-    let mut found = Vec::new();
+    let mut diags: Vec<Diag> = Vec::new();
     let is_run = view.settings.control().prints_codes();
     for rule in RULES.iter().filter(|rule| is_run || !rule.of_codes) {
-        let from = found.len();
-        (rule.check)(&view, &mut found);
-        debug_assert!(found[from..].iter().all(|diag| diag.code == rule.code), "{:?}", rule.code);
+        let from = diags.len();
+        (rule.check)(&view, &mut diags);
+        debug_assert!(diags[from..].iter().all(|diag| diag.code == rule.code), "{:?}", rule.code);
     }
-    let mut diags = found;
     diags.splice(0..0, checked.diags.iter().cloned());
     diags.retain_mut(|diag| levels.apply(diag));
     let suppressed = allow::take_allowed(checked, levels, &mut diags);

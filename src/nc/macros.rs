@@ -7,8 +7,8 @@ use crate::diag::Code;
 /// A macro language.
 #[derive(Debug)]
 pub struct Language {
-    operators: &'static [Operator],
-    functions: &'static [(&'static str, Function)],
+    operators: [&'static [Operator]; 2],
+    functions: [&'static [(&'static str, Function)]; 2],
     /// Whether the language is the one of LinuxCNC: parameters have names, `#` and signs may be repeated, an assignment
     /// may be beside words, and the value of an assignment is a single value. On other controls, the value of an
     /// assignment is an expression without brackets, and nothing else is in its block.
@@ -51,17 +51,19 @@ impl Language {
 
     /// The operator with this name.
     pub fn operator(&self, name: &[u8]) -> Option<&'static Operator> {
-        self.operators.iter().find(|operator| operator.name.as_bytes().eq_ignore_ascii_case(name))
+        self.operators.into_iter().flatten().find(|operator| operator.name.as_bytes().eq_ignore_ascii_case(name))
     }
 
     /// The function with this name, in upper case.
     pub fn function(&self, name: &str) -> Option<Function> {
-        self.functions.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+        self.functions.into_iter().flatten().find(|(known, _)| *known == name).map(|(_, function)| *function)
     }
 
-    /// The names of the functions.
+    /// The names of the functions, in alphabetical order.
     pub fn names(&self) -> String {
-        self.functions.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(" ")
+        let mut names: Vec<&str> = self.functions.into_iter().flatten().map(|(name, _)| *name).collect();
+        names.sort_unstable();
+        names.join(" ")
     }
 }
 
@@ -74,102 +76,100 @@ const fn alone(name: &'static str, apply: fn(f64, f64) -> Done<f64>) -> Operator
     Operator { name, rank: 0, alone: true, apply }
 }
 
+/// The operators that all languages have.
+const ARITHMETIC: &[Operator] = &[
+    operator("+", 2, |left, right| Ok(left + right)),
+    operator("-", 2, |left, right| Ok(left - right)),
+    operator("*", 3, |left, right| Ok(left * right)),
+    operator("/", 3, quotient),
+];
+
+/// The functions that all languages have.
+const COMMON: &[(&str, Function)] = &[
+    ("ABS", Function::Of(|x| Ok(x.abs()))),
+    ("ACOS", Function::Of(|x| Ok(x.acos().to_degrees()))),
+    ("COS", Function::Of(|x| Ok(x.to_radians().cos()))),
+    ("SIN", Function::Of(|x| Ok(x.to_radians().sin()))),
+    ("SQRT", Function::Of(|x| Ok(x.sqrt()))),
+    ("TAN", Function::Of(|x| Ok(x.to_radians().tan()))),
+];
+
 static LINUXCNC: Language = Language {
-    operators: &[
-        operator("AND", 0, |left, right| truth(left != 0.0 && right != 0.0)),
-        operator("OR", 0, |left, right| truth(left != 0.0 || right != 0.0)),
-        operator("XOR", 0, |left, right| truth((left != 0.0) != (right != 0.0))),
-        // values that differ by less than 0.0001 are equal
-        operator("EQ", 1, |left, right| truth((left - right).abs() < 1e-4)),
-        operator("NE", 1, |left, right| truth((left - right).abs() >= 1e-4)),
-        operator("GT", 1, |left, right| truth(left > right)),
-        operator("GE", 1, |left, right| truth(left >= right)),
-        operator("LT", 1, |left, right| truth(left < right)),
-        operator("LE", 1, |left, right| truth(left <= right)),
-        operator("+", 2, |left, right| Ok(left + right)),
-        operator("-", 2, |left, right| Ok(left - right)),
-        operator("*", 3, |left, right| Ok(left * right)),
-        operator("/", 3, quotient),
-        operator("MOD", 3, |left, right| divisor(right).map(|right| left.rem_euclid(right.abs()))),
-        operator("**", 4, power),
+    operators: [
+        ARITHMETIC,
+        &[
+            operator("AND", 0, |left, right| truth(left != 0.0 && right != 0.0)),
+            operator("OR", 0, |left, right| truth(left != 0.0 || right != 0.0)),
+            operator("XOR", 0, |left, right| truth((left != 0.0) != (right != 0.0))),
+            // values that differ by less than 0.0001 are equal
+            operator("EQ", 1, |left, right| truth((left - right).abs() < 1e-4)),
+            operator("NE", 1, |left, right| truth((left - right).abs() >= 1e-4)),
+            operator("GT", 1, |left, right| truth(left > right)),
+            operator("GE", 1, |left, right| truth(left >= right)),
+            operator("LT", 1, |left, right| truth(left < right)),
+            operator("LE", 1, |left, right| truth(left <= right)),
+            operator("MOD", 3, |left, right| divisor(right).map(|right| left.rem_euclid(right.abs()))),
+            operator("**", 4, power),
+        ],
     ],
-    functions: &[
-        ("ABS", Function::Of(|x| Ok(x.abs()))),
-        ("ACOS", Function::Of(|x| Ok(x.acos().to_degrees()))),
-        ("ASIN", Function::Of(|x| Ok(x.asin().to_degrees()))),
-        ("ATAN", Function::Ratio(|y, x| ratio(y, x).map(|(y, x)| y.atan2(x).to_degrees()))),
-        ("COS", Function::Of(|x| Ok(x.to_radians().cos()))),
-        ("EXP", Function::Of(|x| Ok(x.exp()))),
-        ("FIX", Function::Of(|x| Ok(x.floor()))),
-        ("FUP", Function::Of(|x| Ok(x.ceil()))),
-        ("LN", Function::Of(|x| Ok(x.ln()))),
-        ("ROUND", Function::Of(|x| Ok(x.round()))),
-        ("SIN", Function::Of(|x| Ok(x.to_radians().sin()))),
-        ("SQRT", Function::Of(|x| Ok(x.sqrt()))),
-        ("TAN", Function::Of(|x| Ok(x.to_radians().tan()))),
+    functions: [
+        COMMON,
+        &[
+            ("ASIN", Function::Of(|x| Ok(x.asin().to_degrees()))),
+            ("ATAN", Function::Ratio(|y, x| ratio(y, x).map(|(y, x)| y.atan2(x).to_degrees()))),
+            ("EXP", Function::Of(|x| Ok(x.exp()))),
+            ("FIX", Function::Of(|x| Ok(x.floor()))),
+            ("FUP", Function::Of(|x| Ok(x.ceil()))),
+            ("LN", Function::Of(|x| Ok(x.ln()))),
+            ("ROUND", Function::Of(|x| Ok(x.round()))),
+        ],
     ],
     is_linuxcnc: true,
 };
 
 /// The operator's manuals of the 0i and 30i: comparisons are only in conditions.
 static FANUC: Language = Language {
-    operators: &[
-        alone("AND", |left, right| bits(left, right, |left, right| left & right)),
-        alone("OR", |left, right| bits(left, right, |left, right| left | right)),
-        alone("XOR", |left, right| bits(left, right, |left, right| left ^ right)),
-        operator("+", 2, |left, right| Ok(left + right)),
-        operator("-", 2, |left, right| Ok(left - right)),
-        operator("*", 3, |left, right| Ok(left * right)),
-        operator("/", 3, quotient),
-        operator("MOD", 3, remainder),
-    ],
-    functions: &[
-        ("ABS", Function::Of(|x| Ok(x.abs()))),
-        ("ACOS", Function::Of(|x| Ok(x.acos().to_degrees()))),
-        ("ASIN", Function::Of(|x| positive("ASIN", x.asin().to_degrees()))),
-        ("ATAN", Function::Ratio(|y, x| ratio(y, x).and_then(|(y, x)| positive("ATAN", y.atan2(x).to_degrees())))),
-        ("COS", Function::Of(|x| Ok(x.to_radians().cos()))),
-        ("EXP", Function::Of(|x| Ok(x.exp()))),
-        ("FIX", Function::Of(|x| Ok(x.trunc()))),
-        ("FUP", Function::Of(|x| Ok(x.abs().ceil().copysign(x)))),
-        ("LN", Function::Of(|x| Ok(x.ln()))),
-        ("ROUND", Function::Round),
-        ("SIN", Function::Of(|x| Ok(x.to_radians().sin()))),
-        ("SQRT", Function::Of(|x| Ok(x.sqrt()))),
-        ("TAN", Function::Of(|x| Ok(x.to_radians().tan()))),
+    operators: [ARITHMETIC, &[alone("AND", and), alone("OR", or), alone("XOR", xor), operator("MOD", 3, remainder)]],
+    functions: [
+        COMMON,
+        &[
+            ("ASIN", Function::Of(|x| positive("ASIN", x.asin().to_degrees()))),
+            ("ATAN", Function::Ratio(|y, x| ratio(y, x).and_then(|(y, x)| positive("ATAN", y.atan2(x).to_degrees())))),
+            ("EXP", Function::Of(|x| Ok(x.exp()))),
+            ("FIX", Function::Of(|x| Ok(x.trunc()))),
+            ("FUP", Function::Of(|x| Ok(x.abs().ceil().copysign(x)))),
+            ("LN", Function::Of(|x| Ok(x.ln()))),
+            ("ROUND", Function::Round),
+        ],
     ],
     is_linuxcnc: false,
 };
 
 /// The operator's manual of the mills (2017), chapter 6.14: comparisons are also in expressions, and ATAN has one value.
 static HAAS: Language = Language {
-    operators: &[
-        alone("AND", |left, right| bits(left, right, |left, right| left & right)),
-        alone("OR", |left, right| bits(left, right, |left, right| left | right)),
-        alone("XOR", |left, right| bits(left, right, |left, right| left ^ right)),
-        alone("EQ", |left, right| truth(left == right)),
-        alone("NE", |left, right| truth(left != right)),
-        alone("GT", |left, right| truth(left > right)),
-        alone("GE", |left, right| truth(left >= right)),
-        alone("LT", |left, right| truth(left < right)),
-        alone("LE", |left, right| truth(left <= right)),
-        operator("+", 2, |left, right| Ok(left + right)),
-        operator("-", 2, |left, right| Ok(left - right)),
-        operator("*", 3, |left, right| Ok(left * right)),
-        operator("/", 3, quotient),
-        operator("MOD", 3, remainder),
+    operators: [
+        ARITHMETIC,
+        &[
+            alone("AND", and),
+            alone("OR", or),
+            alone("XOR", xor),
+            alone("EQ", |left, right| truth(left == right)),
+            alone("NE", |left, right| truth(left != right)),
+            alone("GT", |left, right| truth(left > right)),
+            alone("GE", |left, right| truth(left >= right)),
+            alone("LT", |left, right| truth(left < right)),
+            alone("LE", |left, right| truth(left <= right)),
+            operator("MOD", 3, remainder),
+        ],
     ],
-    functions: &[
-        ("ABS", Function::Of(|x| Ok(x.abs()))),
-        ("ACOS", Function::Of(|x| Ok(x.acos().to_degrees()))),
-        ("ASIN", Function::Of(|x| positive("ASIN", x.asin().to_degrees()))),
-        ("ATAN", Function::Ratio(arctangent)),
-        ("COS", Function::Of(|x| Ok(x.to_radians().cos()))),
-        ("FIX", Function::Of(|x| Ok(x.trunc()))),
-        ("ROUND", Function::Round),
-        ("SIN", Function::Of(|x| Ok(x.to_radians().sin()))),
-        ("SQRT", Function::Of(|x| Ok(x.sqrt()))),
-        ("TAN", Function::Of(|x| Ok(x.to_radians().tan()))),
+    functions: [
+        COMMON,
+        &[
+            ("ASIN", Function::Of(|x| positive("ASIN", x.asin().to_degrees()))),
+            ("ATAN", Function::Ratio(arctangent)),
+            ("FIX", Function::Of(|x| Ok(x.trunc()))),
+            ("ROUND", Function::Round),
+        ],
     ],
     is_linuxcnc: false,
 };
@@ -191,6 +191,18 @@ fn power(left: f64, right: f64) -> Done<f64> {
         return refuse(Code::PN014, "a negative number with a fractional exponent", "check the exponent");
     }
     Ok(left.powf(right))
+}
+
+fn and(left: f64, right: f64) -> Done<f64> {
+    bits(left, right, |left, right| left & right)
+}
+
+fn or(left: f64, right: f64) -> Done<f64> {
+    bits(left, right, |left, right| left | right)
+}
+
+fn xor(left: f64, right: f64) -> Done<f64> {
+    bits(left, right, |left, right| left ^ right)
 }
 
 /// Joins two values bit by bit. The result for a fraction or a negative number is not public.

@@ -1,7 +1,7 @@
 //! Codes that change the moves of rotary axes in a way that is not simulated, such as M126 of a Heidenhain control.
 
 use super::block::Block;
-use super::codes::{Motion, letters};
+use super::codes::{Group, Motion, letters};
 use super::fault::{Done, refuse};
 use super::state::State;
 use crate::control::{Meaning, StopsRotary};
@@ -40,7 +40,7 @@ impl State {
 
     /// Whether a rotary axis moves in a block.
     fn turns(&self, block: &Block, axis: usize) -> bool {
-        let in_machine = block.g_meaning(super::codes::Group::Once) == Some(Meaning::Machine);
+        let in_machine = block.g_meaning(Group::Once) == Some(Meaning::Machine);
         let start = if self.is_absolute(block, axis) { self.place.position[axis] } else { 0.0 };
         self.axis_word(block, axis).is_some_and(|value| in_machine || value != start)
     }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
-use super::action::{Action, Item, Rotation};
+use super::action::{Item, Rotation};
 use super::block::Block;
 use super::fault::{Done, Fault, refuse};
 use super::foreign::{Foreign, foreign, turned};
@@ -82,7 +82,7 @@ pub struct Simulator<'a> {
     /// The first block with a slash, until its warning is taken: its line and text.
     pub(super) slash: Option<(u64, Vec<u8>)>,
     /// Whether the program has had a block with a slash.
-    has_slash: bool,
+    pub(super) has_slash: bool,
     over: bool,
     /// Whether the program ended with M99. The control would start the program again.
     pub(super) again: bool,
@@ -442,14 +442,8 @@ impl<'a> Simulator<'a> {
             }
             return Ok(Some(Jump::On));
         }
-        if self.block.deleted {
-            if !std::mem::replace(&mut self.has_slash, true) {
-                self.slash = Some((self.at.line, self.line.clone()));
-            }
-            if self.state.settings.block_delete {
-                return Ok(Some(Jump::On));
-            }
-            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        if self.block.deleted && self.deletes(items) {
+            return Ok(Some(Jump::On));
         }
         self.blocks += 1;
         self.words |= !self.block.is_empty();

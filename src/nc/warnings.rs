@@ -1,5 +1,6 @@
 //! Warnings about blocks that the control runs, but that the user should check.
 
+use super::action::{Action, Item};
 use super::fault::Fault;
 use super::simulator::Simulator;
 use crate::diag::{Code, Diag};
@@ -21,6 +22,23 @@ impl Simulator<'_> {
             Fault::new(Code::PN038, message, help).diag(line, &text)
         });
         std::mem::take(&mut self.warnings).into_iter().map(|(_, diag)| diag).chain(slash).collect()
+    }
+
+    /// Whether the program has had a block with a slash.
+    pub fn has_slash(&self) -> bool {
+        self.has_slash
+    }
+
+    /// Runs the slash of the current block. Returns whether the block is skipped. The first block with a slash causes a
+    /// warning.
+    pub(super) fn deletes(&mut self, items: &mut Vec<Item>) -> bool {
+        if !std::mem::replace(&mut self.has_slash, true) {
+            self.slash = Some((self.at.line, self.line.clone()));
+        }
+        if !self.state.settings.block_delete {
+            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        }
+        self.state.settings.block_delete
     }
 
     /// Gives the warnings of the current block their location.

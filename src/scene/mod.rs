@@ -31,8 +31,7 @@ use crate::picture::{Picture, draw};
 use crate::post::{Files, Options, Post, Program, Proof};
 use crate::preflight::preflight_by_block;
 use crate::sema::{Limits, analyse};
-use crate::source::Source;
-use crate::source::text_of;
+use crate::source::{Source, text_of};
 use crate::terminal::escaped;
 use crate::toolpath::Units;
 

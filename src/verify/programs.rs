@@ -42,6 +42,8 @@ pub struct Motions {
     pub feeds: u64,
     /// Number of cuts compared.
     pub cuts: u64,
+    /// Whether a compared block has a slash: the result is for one position of the switch for block delete.
+    pub has_slash: bool,
 }
 
 /// The reason why motions can't be compared: program 0 (old) or 1 (new) can't be read, or the control of this program
@@ -68,7 +70,9 @@ pub fn compare_motions(
     b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
     let ways = [RapidPath::default(), RapidPath::default()];
-    Pair { a, b, names, tolerance, ways, motions: Motions::default() }.compare()
+    let mut pair = Pair { a, b, names, tolerance, ways, motions: Motions::default() };
+    pair.compare()?;
+    Ok(Motions { has_slash: pair.a.has_slash() || pair.b.has_slash(), ..pair.motions })
 }
 
 /// Two programs that are compared.
@@ -85,7 +89,7 @@ struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    fn compare(mut self) -> Result<Motions, NoMotion> {
+    fn compare(&mut self) -> Result<(), NoMotion> {
         loop {
             let x = self.a.run_to_cut().map_err(|error| NoMotion(0, error))?.cloned();
             let y = self.b.run_to_cut().map_err(|error| NoMotion(1, error))?.cloned();
@@ -109,10 +113,10 @@ impl Pair<'_> {
             if let Some(message) = message {
                 let blocks = [block(&self.a, &x), block(&self.b, &y)];
                 self.motions.difference = Some(MotionDifference { message, blocks });
-                return Ok(self.motions);
+                return Ok(());
             }
             if x.is_none() {
-                return Ok(self.motions);
+                return Ok(());
             }
         }
     }

@@ -63,7 +63,7 @@ impl Holes {
     }
 }
 
-/// The meaning of a tool for which the job names no length register.
+/// How a tool is compared for which the job contains no length register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unnamed {
     /// The job leaves the register open.
@@ -97,7 +97,7 @@ pub(super) struct Sides<'a> {
     pub slips: u32,
     /// Whether the machine loads tools.
     pub tools: bool,
-    /// What the job says about tools without a length register.
+    /// How tools of the job without a length register are compared.
     pub unnamed: Unnamed,
     /// Whether the machine has a torch or laser. Such a machine has no tool change.
     pub switches: bool,

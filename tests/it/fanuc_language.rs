@@ -235,7 +235,7 @@ fn a_subprogram_returns_its_value() {
 
 /// The note on blocks with a slash: a verdict is for one position of the switch.
 #[test]
-fn blocks_with_a_slash_are_told() {
+fn blocks_with_a_slash_are_noted() {
     let folder = Folder::new("fanuc-slash");
     let program = |slash: &str| {
         format!(

@@ -819,3 +819,23 @@ fn codes_that_turn_rotary_axes_are_refused() {
         assert!(said.contains(message), "{blocks}: {said}");
     }
 }
+
+/// A block with a slash causes one warning in each language: the result is for one position of the switch.
+#[test]
+fn blocks_with_a_slash_are_reported() {
+    let klartext = "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\n/L X+1 R0 FMAX\n/L X+2 FMAX\nM30\nEND PGM T MM\n";
+    let siemens = "G17 G710 G90\n/G0 X1\n/2 G0 X2\nM30\n";
+    for (name, program) in [("heidenhain", klartext), ("siemens", siemens), ("okuma", "G90\n/G0 X1\n/G0 X2\nM02\n")] {
+        for (block_delete, does) in [(false, "are run"), (true, "are skipped")] {
+            let settings = RunSettings { block_delete, ..RunSettings::new(control(name)) };
+            let mut run = Simulator::new(Cursor::new(program), settings);
+            let mut items = Vec::new();
+            while run.step(&mut items).unwrap() {}
+            let warnings = run.take_warnings();
+            let [warning] = warnings.as_slice() else { panic!("{name}: {warnings:?}") };
+            assert!(warning.code.name() == "PN038" && warning.message.contains(does), "{name}: {}", warning.message);
+            let moves = items.iter().filter(|item| matches!(item.action, Action::Rapid { .. })).count();
+            assert_eq!(moves, if block_delete { 0 } else { 2 }, "{name}");
+        }
+    }
+}

@@ -29,10 +29,10 @@ use super::{Ending, many, output};
 pub fn run(args: &VerifyArgs, colour: bool) -> Result<Ending, String> {
     let reporter = &Reporter::new(colour);
     if let Some(job) = many::single(&args.jobs) {
-        files::check_format(job, &args.read).map_err(|why| turned_around(why, job, args))?;
         if job == Path::new("-") && args.nc.as_deref() == Some(Path::new("-")) {
             return Err("error: job and program can't both be standard input".into());
         }
+        files::check_format(job, &args.read).map_err(|why| turned_around(why, job, args))?;
         let config = Config::near(job)?;
         let form = form_of(args, &config);
         let prepared = match &form {

@@ -261,6 +261,11 @@ impl<'a> Program<'a> {
         self.control
     }
 
+    /// Whether the program has had a block with a slash.
+    pub fn has_slash(&self) -> bool {
+        self.simulator.has_slash()
+    }
+
     /// Takes the warnings of the simulator.
     pub fn warnings(&mut self) -> Vec<Diag> {
         self.simulator.take_warnings()

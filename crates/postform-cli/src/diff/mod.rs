@@ -92,7 +92,7 @@ fn difference(
                 Err(Ending::Findings)
             }
             Outcome::Compared(found) => {
-                if [old, new].iter().any(|side| has_slash(&side.program)) {
+                if found.has_slash {
                     let does = if args.control.block_delete { "skipped" } else { "run" };
                     say(&format!("blocks with a slash are {does}: the verdict is for one position of the switch\n"));
                 }
@@ -163,12 +163,6 @@ fn units_of(program: &Program) -> Option<Units> {
         Kind::Word(b'G', number) if number.value == 21.0 => Some(Units::Mm),
         _ => None,
     })
-}
-
-/// Whether a program has blocks that the switch for block delete skips.
-fn has_slash(program: &Program) -> bool {
-    let first = |line| tokens(program.line(line)).find(|token| token.kind != Kind::Blank);
-    (0..program.len()).any(|line| first(line).is_some_and(|token| token.kind == Kind::Delete))
 }
 
 enum Outcome {

@@ -7,7 +7,7 @@ use super::super::cursor::{Cursor, capitals};
 use super::block::{Path, Words};
 use super::is_parameter;
 use crate::diag::Code;
-use crate::nc::action::{Action, Item};
+use crate::nc::action::Item;
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
@@ -154,11 +154,8 @@ impl Simulator<'_> {
         let mut cursor = Cursor::new(&text, 0);
         let deleted = cursor.peek() == Some(b'/');
         skip_number(&mut cursor);
-        if cursor.takes(b"/") || deleted {
-            if self.state.settings.block_delete {
-                return Ok(Some(Jump::On));
-            }
-            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        if (cursor.takes(b"/") || deleted) && self.deletes(items) {
+            return Ok(Some(Jump::On));
         }
         if cursor.is_over() {
             return Ok(self.block.comment.is_none().then_some(Jump::On));

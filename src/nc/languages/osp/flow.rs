@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::super::cursor::{Cursor, capitals};
 use super::block::{Said, Words};
 use crate::diag::Code;
-use crate::nc::action::{Action, Item};
+use crate::nc::action::Item;
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
@@ -100,11 +100,8 @@ impl Simulator<'_> {
         let mut deleted = cursor.takes(b"/");
         pass_block_name(&mut cursor);
         deleted |= cursor.takes(b"/");
-        if deleted {
-            if self.state.settings.block_delete {
-                return Ok(Some(Jump::On));
-            }
-            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
+        if deleted && self.deletes(items) {
+            return Ok(Some(Jump::On));
         }
         if cursor.is_over() {
             return Ok(self.block.comment.is_none().then_some(Jump::On));

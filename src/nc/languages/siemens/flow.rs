@@ -6,7 +6,7 @@ use super::block::{EQUAL, Words};
 use super::head::{Head, head, number, section, without_comment};
 use super::ways::{Kind, Repeat, Saved, Siemens, Variable};
 use crate::diag::Code;
-use crate::nc::action::{Action, Item};
+use crate::nc::action::Item;
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::Simulator;
 use crate::nc::state::{Modes, State};
@@ -117,10 +117,9 @@ impl Simulator<'_> {
             if cursor.peek().is_some_and(|byte| byte.is_ascii_digit()) {
                 cursor.unsigned();
             }
-            if self.state.settings.block_delete {
+            if self.deletes(items) {
                 return Ok(Some(Jump::On));
             }
-            items.push(Item { line: self.at.line, by_cycle: false, action: Action::BlockDelete });
         }
         let mut cursor = number(line).1;
         if cursor.is_words() {

@@ -215,7 +215,8 @@ fn a_job_from_standard_input_may_have_any_format() {
         assert!(!piped.stdout.is_empty(), "{name}: {}", text(&piped.stderr));
     }
     let refused = fed(&["check", "-"], b"hello");
-    assert!(text(&refused.stderr).contains("this is not JSON"), "{}", text(&refused.stderr));
+    assert!(text(&refused.stderr).contains("the format of standard input is unknown"), "{}", text(&refused.stderr));
+    assert!(text(&fed(&["check", "-"], b"").stderr).contains("the job is empty"));
 }
 
 /// A program with its job as `--job`: the message shows the correct call.

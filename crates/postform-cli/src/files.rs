@@ -317,14 +317,15 @@ fn format_of(
     }
 }
 
-/// The format by the first bytes of a file or of standard input. If the first bytes of standard input contain no mark
-/// of a format, it is JSON. Other inputs that are not seekable are not examined.
+/// The format by the first bytes of a file or of standard input. An empty standard input is an empty JSON job. Other
+/// inputs that are not seekable are not examined.
 fn by_content(path: &Path) -> Result<Option<Format>, String> {
     let fail = |error: io::Error| io_message("read", path, &error);
     if path == Path::new("-") {
         // the bytes stay in the buffer of standard input
         let mut input = io::stdin().lock();
-        return Ok(Some(Format::of_content(input.fill_buf().map_err(fail)?).unwrap_or(Format::Json)));
+        let start = input.fill_buf().map_err(fail)?;
+        return Ok(Format::of_content(start).or(start.trim_ascii().is_empty().then_some(Format::Json)));
     }
     if !std::fs::metadata(path).map_err(fail)?.is_file() {
         return Ok(None);

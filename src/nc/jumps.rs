@@ -7,13 +7,18 @@ use super::flow::{Flow, Step};
 use super::scan::{Kind, tokens};
 use super::simulator::{RunError, Simulator};
 use super::way::{Ends, Frame, Jump, Spot};
-use crate::control::{self, Meaning};
+use crate::control::{self, Meaning, Rules};
 use crate::diag::Code;
 
 /// Maximum number of loop rounds, calls and repeated blocks. A program with more of them is refused.
 const MOST_JUMPS: u64 = 1_000_000;
 /// Maximum nesting of subprograms and loops.
 const DEEPEST: usize = 64;
+
+fn another_program(label: &str, line: u64) -> Box<Fault> {
+    let message = format!("O{label} of line {line} is another program, because it has no M99; it is not run");
+    Fault::new(Code::PN015, message, "write each main program into a file of its own")
+}
 
 fn no_end() -> Box<Fault> {
     Fault::new(Code::PN015, "the subprogram has no end", "end the subprogram with M99 before the next O number")
@@ -115,7 +120,12 @@ impl Simulator<'_> {
     /// Runs the beginning of a program or subprogram, as on a Fanuc. A subprogram without M99 that continues into this
     /// beginning is an error.
     fn program_begins(&mut self, label: String) -> Done<Jump> {
-        self.program = self.program.or(label.parse().ok());
+        let number = label.parse().ok();
+        if self.frames.is_empty() && self.program.is_some_and(|main| Some(main) != number) {
+            let message = format!("O{label} begins another program before M30 has ended this program");
+            return refuse(Code::PN015, message, "write M30 before it, or remove the O word");
+        }
+        self.program = self.program.or(number);
         self.begins_at(label, self.at)?;
         match self.frames.last() {
             Some(Frame::Call { .. }) => Err(no_end()),
@@ -320,6 +330,30 @@ impl Simulator<'_> {
             }
             returns |= self.has_return();
         }
+        Ok(())
+    }
+
+    /// Checks the lines after the end of the program: they may contain subprograms, but not another main program, which
+    /// would not be run.
+    pub(super) fn check_after_end(&mut self) -> Result<(), RunError> {
+        if self.state.settings.control.rules() != Rules::Fanuc {
+            return Ok(());
+        }
+        let (end, text) = (self.at, self.line.clone());
+        self.ended = true; // nothing is run after an error in these lines
+        let mut last = None; // the beginning of the last program, until its M99 is found
+        while self.read_line()? && !self.line.starts_with(b"%") {
+            if let Some((label, Step::Program)) = Flow::head(&self.line)
+                && let Some((label, line)) = last.replace((label, self.at.line))
+            {
+                return Err(self.refused(another_program(&label, line)));
+            }
+            last = last.filter(|_| !self.has_return());
+        }
+        if let Some((label, line)) = last {
+            return Err(self.refused(another_program(&label, line)));
+        }
+        (self.at, self.line) = (end, text);
         Ok(())
     }
 

@@ -103,7 +103,7 @@ pub struct Simulator<'a> {
     /// State of an Okuma program.
     pub(super) osp: Box<Osp>,
     /// Whether the input has ended, so that nothing more can be run.
-    ended: bool,
+    pub(super) ended: bool,
     /// Whether the first block has been read, or is being read.
     begun: bool,
     /// Number of O words to skip before the first block.
@@ -231,7 +231,7 @@ impl<'a> Simulator<'a> {
             Ok(Jump::On) => return Ok(true),
             Ok(Jump::End) => {
                 self.over = true;
-                return Ok(false);
+                return self.check_after_end().map(|()| false);
             }
             Ok(Jump::To(spot)) => self.go(spot),
             Ok(Jump::Find(label, times)) => self.find(label, times),

@@ -6,7 +6,7 @@ use super::parameters::Parameters;
 use super::settings::RunSettings;
 use super::simulator::Simulator;
 use super::state::State;
-use crate::control::{Control, Meaning};
+use crate::control::{Code, Control, Meaning, Words};
 use crate::toolpath::Units;
 
 impl Simulator<'_> {
@@ -179,6 +179,13 @@ impl Simulator<'_> {
     /// The words of the last block if it sets tool data: letters and values, in the units of the program.
     pub fn tool_data(&self) -> impl Iterator<Item = (u8, f64)> + '_ {
         let letters = (b'A'..=b'Z').filter(|letter| self.sets_tool_data() && !b"GNOM".contains(letter));
+        letters.filter_map(|letter| Some((letter, self.block.get(letter)?)))
+    }
+
+    /// The words of the last block that belong to one of its codes: letters and values, in the units of the program.
+    pub fn words_of(&self, code: Code) -> impl Iterator<Item = (u8, f64)> + '_ {
+        let words = self.block.rows().find(|row| row.code == code).map_or(Words::NONE, |row| row.words);
+        let letters = (b'A'..=b'Z').filter(move |letter| words.has(*letter));
         letters.filter_map(|letter| Some((letter, self.block.get(letter)?)))
     }
 

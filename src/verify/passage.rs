@@ -62,8 +62,8 @@ pub(super) struct Passage {
     pub started: bool,
     /// Whether a torch or a laser is off now.
     pub is_off: bool,
-    /// Codes of the program that are not simulated: the letter, and the number times ten.
-    pub codes: Vec<(u8, u16)>,
+    /// Codes of the program that are not simulated, each followed by its words: the letter, and the number.
+    pub codes: Vec<(u8, f64)>,
     /// The words with which the program sets tool data (G10 L10 to L13), in their order.
     pub tool_data: Vec<(u8, f64)>,
     /// Codes for threading and cutting a wire.
@@ -74,6 +74,9 @@ pub(super) struct Passage {
     pub turrets: Vec<u8>,
     /// Axes that went to a machine position that the program gives as a number.
     pub homes: u8,
+    /// For X, Y and Z: these positions in their order, measured from the zero of the program. The reference point of G28
+    /// is at the machine's zero.
+    pub machine: [Vec<f64>; 3],
     /// Whether the job's path moves away from the axis of its hole.
     pub aside: bool,
     /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
@@ -112,6 +115,7 @@ impl Passage {
             new_tool: false,
             turrets: Vec::new(),
             homes: 0,
+            machine: Default::default(),
             aside: false,
             left_aside: false,
             astray: Vec::new(),
@@ -140,7 +144,18 @@ impl Passage {
         self.astray.clear();
         self.turrets.clear();
         self.homes = 0;
+        self.machine.iter_mut().for_each(Vec::clear);
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
+    }
+
+    /// Records a rapid of these axes to a machine position.
+    pub fn reaches_machine(&mut self, axes: u8, to: &Place) {
+        self.homes |= axes;
+        for (axis, places) in self.machine.iter_mut().enumerate().filter(|(axis, _)| axes & 1 << axis != 0) {
+            if places.last() != Some(&to[axis]) {
+                places.push(to[axis]);
+            }
+        }
     }
 
     /// Skips a cut that does not matter. The passage then continues from the end of the skipped cut.

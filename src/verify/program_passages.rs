@@ -15,6 +15,8 @@ pub(super) fn between(old: &Program<'_>, new: &Program<'_>, names: Names, tolera
         .or_else(|| pauses(old, new, tolerance))
         .or_else(|| turrets(old, new))
         .or_else(|| homes(old, new, names))
+        .or_else(|| machine_positions(old, new, names, tolerance))
+        .or_else(|| units(old, new, names))
         .or_else(|| standing(old, new))
 }
 
@@ -44,6 +46,22 @@ fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
         let [now, before] = both_shown(&now.at, &before.at);
         format!("the zero of the program is shifted to {now}, but to {before} in the old program")
     })
+}
+
+/// Compares whether the programs set their units. A program without a code for units runs in the units of the machine,
+/// which may be other units than those of the other program.
+fn units(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
+    let message = || match new.sets_units {
+        true => "the new program sets its units, but the old program has no code for units".to_owned(),
+        false => "the new program has no code for units, but the old program sets its units".to_owned(),
+    };
+    (!names.by_order && old.sets_units != new.sets_units).then(message)
+}
+
+/// Compares the ends of the programs. M99 in a main program starts the program again.
+pub(super) fn endings(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
+    let (before, now) = (old.ending(), new.ending());
+    (before != now).then(|| format!("the new program {now}, but the old program {before}"))
 }
 
 /// Compares the tool data that the programs set by G10, such as the length in a register.
@@ -137,6 +155,23 @@ fn homes(old: &Program<'_>, new: &Program<'_>, names: Names) -> Option<String> {
         .collect();
     (!axes.is_empty() && !names.by_order)
         .then(|| format!("the tool no longer goes home along {} before this cut", axes.join(" and ")))
+}
+
+/// Compares the machine positions along each axis for which both programs give such positions as numbers.
+fn machine_positions(old: &Program<'_>, new: &Program<'_>, names: Names, tolerance: f64) -> Option<String> {
+    let alike = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance);
+    let [before, now] = [old, new].map(|program| &program.passage.machine);
+    let axis = (0..3).find(|&axis| {
+        let (a, b) = (&before[axis], &now[axis]);
+        !a.is_empty() && !b.is_empty() && !alike(a, b)
+    })?;
+    let text = |places: &[Vec<f64>; 3]| {
+        let words = places[axis].iter().map(|value| format!("{}{}", ["X", "Y", "Z"][axis], number(*value)));
+        listed(&words.collect::<Vec<_>>())
+    };
+    let message =
+        || format!("before this cut, the machine positions are {}, but {} in the old program", text(now), text(before));
+    (!names.by_order).then(message)
 }
 
 /// Compares the angles at which the spindle is stopped during rapids.

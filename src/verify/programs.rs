@@ -9,7 +9,7 @@ use super::folded::{begin_alike, hole, rounded_alike};
 use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
 use super::program_cuts::{Names, differs};
-use super::program_passages::{between, leaving, switching};
+use super::program_passages::{between, endings, leaving, switching};
 use super::rapid_path::RapidPath;
 use super::tails::leaves_low;
 use super::ways::{Compared, compare};
@@ -173,9 +173,11 @@ impl Pair<'_> {
         let low = |a: usize, b: usize| leaves_low(&self.ways[a], &self.ways[b], self.tolerance).is_some();
         let same_way = self.ways[0].is(&self.ways[1], self.tolerance);
         self.motions.ways += u64::from(!same_way);
-        between(&self.a, &self.b, self.names, self.tolerance).or_else(|| leaving(&self.a, &self.b, self.names)).or_else(
-            || (!same_way && (low(0, 1) || low(1, 0))).then(|| "the path after the last cut is different".to_owned()),
-        )
+        let elsewhere = || !same_way && (low(0, 1) || low(1, 0));
+        between(&self.a, &self.b, self.names, self.tolerance)
+            .or_else(|| leaving(&self.a, &self.b, self.names))
+            .or_else(|| elsewhere().then(|| "the path after the last cut is different".to_owned()))
+            .or_else(|| endings(&self.a, &self.b))
     }
 
     /// Compares the depths of a hole that both programs make in other pecks, and ends the hole.

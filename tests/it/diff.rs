@@ -236,6 +236,63 @@ fn motions_differ_in_the_zero_of_the_program() {
     assert_eq!(found, "a cut goes to X10 Y0 Z-1 A30, but to X10 Y0 Z-1 A0 in the old program");
 }
 
+/// Two programs differ if only one of them sets its units, or if they end in different ways.
+#[test]
+fn motions_differ_in_units_and_end() {
+    let part = |head: &str, end: &str| {
+        format!("{head}G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z10.\nG1 Z-5. F100.\nG0 Z50.\n{end}\n")
+    };
+    let differs = |a: [&str; 2], b: [&str; 2]| difference("fanuc", [a, b].map(|[head, end]| part(head, end)));
+    assert_eq!(differs(["G21 ", "M30"], ["G21 ", "M2"]), None);
+    assert_eq!(
+        differs(["G21 ", "M30"], ["", "M30"]).unwrap(),
+        "the new program has no code for units, but the old program sets its units"
+    );
+    assert_eq!(
+        differs(["G21 ", "M30"], ["G21 ", "M99"]).unwrap(),
+        "the new program ends with M99, which starts it again, but the old program ends with M2, M30 or the like"
+    );
+}
+
+/// Machine positions that both programs give as numbers are compared. The reference point of G28 counts as 0.
+#[test]
+fn motions_differ_in_machine_positions() {
+    let part = |way: &str| {
+        format!(
+            "G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z10.\n{way}\nX50. Y0.\nG43 H1 Z10.\nG1 Z-5. F100.\nG0 Z50.\nM30\n"
+        )
+    };
+    let differs = |ways: [&str; 2]| difference("haas", ways.map(part));
+    assert_eq!(differs(["G53 G0 Z0.", "G91 G28 Z0.\nG90"]), None);
+    assert_eq!(
+        differs(["G53 G0 Z0.", "G53 G0 Z-100."]).unwrap(),
+        "before this cut, the machine positions are Z-100, but Z0 in the old program"
+    );
+    assert_eq!(differs(["G53 G0 Z0.", "G53 G0 Z0.\nG53 X-20."]), None);
+}
+
+/// Codes that are not simulated are compared with their words.
+#[test]
+fn codes_that_are_not_simulated_have_words() {
+    let part = |code: &str| {
+        format!("G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z10.\n{code}\nG1 Z-5. F100.\nG0 Z50.\nM30\n")
+    };
+    for (name, codes) in [
+        ("linuxcnc", ["M67 E0 Q10", "M67 E0 Q50"]),
+        ("linuxcnc", ["G64 P.01", "G64 P1"]),
+        ("fanuc", ["G5.1 Q1", "G5.1 Q0"]),
+        ("haas", ["G187 P1", "G187 P3"]),
+    ] {
+        let settings = RunSettings::new(control(name));
+        let counted = |codes: [&str; 2]| {
+            let texts = codes.map(|code| (Cursor::new(part(code)), settings));
+            compare_motions(texts, Units::Mm, 1e-6).unwrap().codes
+        };
+        assert_eq!(counted([codes[0]; 2]), 0, "{name}");
+        assert_eq!(counted(codes), 1, "{name}: {codes:?}");
+    }
+}
+
 /// After the last cut, a rapid at the depth of the cut is allowed only if the old program has the same rapid. The
 /// spindle must turn as in the old program.
 #[test]

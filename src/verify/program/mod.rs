@@ -61,6 +61,8 @@ pub(super) struct Program<'a> {
     pub passage: Passage,
     /// Whether the program has moved its zero or has set tool data.
     pub moves_zero: bool,
+    /// Whether the program has set its units.
+    pub sets_units: bool,
     cuts: bool,
     /// The reason why the current cut can't be compared.
     doubt: Option<Doubt>,
@@ -119,6 +121,7 @@ impl<'a> Program<'a> {
             coolant: expectation.coolant,
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             moves_zero: false,
+            sets_units: false,
             cuts: false,
             doubt: None,
             ended: false,
@@ -261,6 +264,15 @@ impl<'a> Program<'a> {
         self.control
     }
 
+    /// The end of the program, as text for a message.
+    pub fn ending(&self) -> &'static str {
+        match self.ended {
+            true => "ends with M2, M30 or the like",
+            false if self.simulator.begins_again() => "ends with M99, which starts it again",
+            false => "has no end",
+        }
+    }
+
     /// Whether the program has had a block with a slash.
     pub fn has_slash(&self) -> bool {
         self.simulator.has_slash()
@@ -354,6 +366,7 @@ impl<'a> Program<'a> {
             }
             Action::Units(units) => {
                 self.scale.units = *units;
+                self.sets_units = true;
                 self.due.units_are_set();
             }
             Action::SurfaceSpeed(limit) => {
@@ -462,7 +475,8 @@ impl<'a> Program<'a> {
     /// Handles a code that is not simulated. The code may be a coolant code of the form, or the code that makes the
     /// next tap rigid.
     fn left_out(&mut self, code: control::Code, meaning: Meaning) {
-        self.passage.codes.push((code.letter, code.tenths));
+        self.passage.codes.push((code.letter, f64::from(code.tenths) / 10.0));
+        self.passage.codes.extend(self.simulator.words_of(code));
         if meaning == Meaning::RigidAhead && self.state.rigid.is_some() {
             self.state.rigid = Some(true);
             self.is_rigid_ahead = true;

@@ -1,5 +1,7 @@
 //! A block: its words with their values, its codes, and the check that these words and codes may be used together.
 
+use std::cell::Cell;
+
 use super::call::{Call, Pattern};
 use super::codes::{AXES, CHECKED, Group, bit};
 use super::fault::{Done, refuse};
@@ -21,6 +23,8 @@ pub struct Block {
     pub given: u32,
     /// Bit i: the value of letter i is a number without a decimal point.
     pub whole: u32,
+    /// Bit i: the control has read the word with letter i.
+    read: Cell<u32>,
     /// G codes by group.
     pub(super) g: [Option<&'static Row>; GROUPS],
     /// Whether the block has a G code at all.
@@ -76,7 +80,36 @@ impl Block {
     /// The value of a word; `None`: the block does not have the word.
     #[inline]
     pub fn get(&self, letter: u8) -> Option<f64> {
+        self.read.set(self.read.get() | bit(letter));
         (self.given & bit(letter) != 0).then(|| self.values[usize::from(letter - b'A')])
+    }
+
+    /// Records words as read that the simulator does not use, because another part of postform does.
+    pub(super) fn takes(&self, words: u32) {
+        self.read.set(self.read.get() | words);
+    }
+
+    /// Checks that the value of every word was read while the block ran. `free`: as bits, the letters that need no code.
+    ///
+    /// # Errors
+    /// A word was not read.
+    #[inline]
+    pub fn check_read(&self, free: u32) -> Done {
+        let unread = self.given & !(self.read.get() | free);
+        if unread == 0 { Ok(()) } else { self.check_unread(unread) }
+    }
+
+    /// A harmless code may use its own words, which the simulator does not read. All other words that were not read are
+    /// an error.
+    #[cold]
+    fn check_unread(&self, unread: u32) -> Done {
+        let harmless = self.rows().filter(|row| row.meaning == Meaning::Harmless);
+        no_code_uses(harmless.fold(unread, |left, row| left & !row.words.bits()))
+    }
+
+    /// The value of a word that the block has. The word does not count as read.
+    pub(super) fn peek(&self, letter: u8) -> f64 {
+        self.values[usize::from(letter - b'A')]
     }
 
     /// Changes the value of a word. The block must have the word.
@@ -121,6 +154,12 @@ impl Block {
     #[inline]
     pub fn m(&self) -> impl Iterator<Item = (u16, &'static Row)> {
         self.m[..self.m_count].iter().flatten().copied()
+    }
+
+    /// The control's rows for all codes of the block.
+    pub fn rows(&self) -> impl Iterator<Item = &'static Row> {
+        let g = self.g.iter().filter(|_| self.has_g).flatten().copied();
+        g.chain(self.m().map(|(_, row)| row))
     }
 
     /// Whether the block has M codes.
@@ -169,6 +208,7 @@ impl Block {
     pub fn clear(&mut self) {
         self.given = 0;
         self.whole = 0;
+        self.read.set(0);
         self.m_count = 0;
         self.is_empty = true;
         self.plain = false;
@@ -226,24 +266,9 @@ impl Block {
     }
 
     fn check_used(&self, motion: Option<&Row>, free: u32) -> Done {
-        let mut used = motion.map_or(0, |row| row.words.bits());
-        if self.has_g {
-            used |= self.g.iter().flatten().fold(0, |words, row| words | row.words.bits());
-        }
-        used |= self.m().fold(0, |words, (_, row)| words | row.words.bits());
-        used |= free;
-        let unused = self.given & CHECKED & !used;
-        if unused != 0 {
-            let letter = char::from(b'A' + unused.trailing_zeros() as u8);
-            let message = format!("the block has {letter}, but no code that uses {letter}");
-            let help = match letter {
-                'H' => {
-                    "write G43 in this block, or name the control: `--control`, for a job `--job-control`".to_owned()
-                }
-                _ => format!("remove the {letter}, or write its code in this block"),
-            };
-            return refuse(Code::PN005, message, help);
-        }
+        let of_motion = motion.map_or(0, |row| row.words.bits());
+        let used = self.rows().fold(of_motion | free, |words, row| words | row.words.bits());
+        no_code_uses(self.given & CHECKED & !used)?;
         let spindle =
             self.m().any(|(_, row)| row.meaning == Meaning::Orient || row.meaning.group() == Some(Group::Spindle))
                 || self.g_meaning(Group::SpeedMode).is_some()
@@ -257,4 +282,18 @@ impl Block {
         }
         Ok(())
     }
+}
+
+/// Refuses the first of these letters: no code of the block uses its word.
+fn no_code_uses(words: u32) -> Done {
+    if words == 0 {
+        return Ok(());
+    }
+    let letter = char::from(b'A' + words.trailing_zeros() as u8);
+    let message = format!("the block has {letter}, but no code that uses {letter}");
+    let help = match letter {
+        'H' => "write G43 in this block, or name the control: `--control`, for a job `--job-control`".to_owned(),
+        _ => format!("remove the {letter}, or write its code in this block"),
+    };
+    refuse(Code::PN005, message, help)
 }

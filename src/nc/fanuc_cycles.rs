@@ -3,14 +3,14 @@
 use super::action::{Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::letters;
+use super::codes::{AXES, letters};
 use super::fault::{Done, refuse};
 use super::holes::{Series, Work};
 use super::out::Out;
 use super::state::State;
 use crate::control::{Motions, PitchUnit, Row};
 use crate::diag::Code;
-use crate::toolpath::{FeedMode, Units};
+use crate::toolpath::{FeedMode, Plane, Units};
 
 impl State {
     /// Makes a cycle active. If no cycle was active before, a new series of holes begins.
@@ -45,13 +45,16 @@ impl State {
         let by_pitch = self.tap_by_pitch(row)?;
         self.check_fanuc_cycle(cycle, r, bottom, by_pitch.is_some())?;
         let own = |letter: u8| block.get(letter).filter(|_| row.runs.speed_out != Some(letter));
-        let times = match own(b'K').filter(|_| !motions.shifts()).or(own(b'L')) {
+        let times = match own(b'K').filter(|_| !self.k_shifts(motions, block)).or(own(b'L')) {
             None => 1,
             Some(times) if times.fract() == 0.0 && (0.0..=9999.0).contains(&times) => times as u32,
             Some(times) => {
                 return refuse(Code::PN018, format!("{times} is not a number of repeats"), "write K1 to K9999");
             }
         };
+        if times == 0 {
+            block.takes(AXES); // K0 stores the words of the cycle, and makes no hole at the position
+        }
         let clear = match motions {
             Motions::Back => series.initial,
             _ if self.modes.to_initial => series.initial.max(r),
@@ -80,6 +83,11 @@ impl State {
         super::cycles::check_moves(times, &hole)?;
         self.holes.work = Some(Work { hole, times, begun: 0, level: self.place.position[across], depth: None });
         self.make_holes(block, out)
+    }
+
+    /// Whether K is the shift of a bore along Z. In G17, K is a number of repeats.
+    pub(super) fn k_shifts(&self, motions: Motions, block: &Block) -> bool {
+        motions.shifts() && block.plane().unwrap_or(self.modes.plane) != Plane::Xy
     }
 
     /// The feed and the peck of a tapping cycle that has a separate word for the pitch. `None`: the cycle has no word

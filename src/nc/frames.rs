@@ -2,7 +2,7 @@
 
 use super::action::Position;
 
-/// The shift that G92 (on LinuxCNC also G52) adds to positions of the program.
+/// The shift that G92 and G52 add to positions of the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shift {
     /// Distance by which the frame was moved.
@@ -23,8 +23,10 @@ pub struct Frames {
     rotation: Vec<f64>,
     /// Index of the active work offset.
     pub active: usize,
-    /// The active shift of G92, on LinuxCNC also of G52.
+    /// The active shift of G92 and G52 together.
     pub shift: Shift,
+    /// The part of the shift that comes from G52. On LinuxCNC, G52 and G92 set the same shift, and this part is 0.
+    pub local: Position,
     /// The shift that G92.3 restores.
     pub shift_kept: Shift,
     /// Tool length offset on X, Y, Z.
@@ -43,6 +45,7 @@ impl Default for Frames {
             rotation: vec![0.0; OFFSETS],
             active: 1,
             shift: Shift::default(),
+            local: Position::default(),
             shift_kept: Shift::default(),
             tool: [0.0; 3],
         }
@@ -138,6 +141,7 @@ impl Frames {
         let linear = |place: &mut Position| place[..3].iter_mut().for_each(|v| *v *= factor);
         self.work.iter_mut().for_each(linear);
         linear(&mut self.shift.by);
+        linear(&mut self.local);
         linear(&mut self.shift_kept.by);
         self.tool.iter_mut().for_each(|v| *v *= factor);
     }

@@ -2,7 +2,7 @@
 
 use super::action::{Action, Passes, Rotation, Threading};
 use super::block::Block;
-use super::codes::{Group, letters};
+use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
@@ -85,7 +85,15 @@ impl State {
         let Some(packed) = block.get(b'P').filter(|p| (0.0..=999_999.0).contains(p) && p.fract() == 0.0) else {
             return refuse(Code::PN007, "the first block of G76 without P", "write P010060: passes, chamfer, angle");
         };
-        let (least, allowance) = (block.get(b'Q').unwrap_or(0.0), block.get(b'R').unwrap_or(0.0));
+        // the control keeps Q and R of an earlier first block; without an earlier block, it takes them from its parameters
+        let kept = self.threads.first;
+        let least = block.get(b'Q').map(|least| self.increments(least)).or(kept.map(|first| first.least));
+        let allowance = block.get(b'R').or(kept.map(|first| first.allowance));
+        let (Some(least), Some(allowance)) = (least, allowance) else {
+            let letter = if least.is_none() { "Q" } else { "R" };
+            let message = format!("the first block of G76 without {letter}: the control takes it from a parameter");
+            return refuse(Code::PN007, message, "write Q (the smallest cut) and R (the allowance), as Q100 R0.05");
+        };
         if least < 0.0 || allowance < 0.0 {
             return refuse(Code::PN018, "a negative Q or R in the first block of G76", "write Q and R without a sign");
         }
@@ -96,7 +104,7 @@ impl State {
         }
         self.threads.first = Some(FirstBlock {
             last: (packed / 10_000.0) as u32,
-            least: self.increments(least),
+            least,
             allowance,
             pull_out: (packed / 100.0).trunc() % 100.0 / 10.0,
             flanks,
@@ -104,11 +112,32 @@ impl State {
         Ok(())
     }
 
+    /// The taper of a pass: R, or I on some controls.
+    fn taper(block: &Block) -> Done<Option<f64>> {
+        match (block.get(b'R'), block.get(b'I')) {
+            (Some(_), Some(_)) => refuse(Code::PN004, "R and I in one block: both are the taper", "write only R"),
+            (r, i) => Ok(r.or(i)),
+        }
+    }
+
+    /// Refuses an axis other than X and Z in the block of a cycle that makes several passes.
+    pub(super) fn only_turns(&self, block: &Block) -> Done {
+        match b"YVABC".iter().find(|letter| block.has(bit(**letter))) {
+            Some(letter) => {
+                let letter = char::from(*letter);
+                let message = format!("{letter} in the block of a turning cycle, which moves only X and Z");
+                refuse(Code::PN016, message, format!("write {letter} in a block before the cycle"))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// The end and the taper of a pass, from the words of the block and the stored pass.
     pub(super) fn pass_end(&mut self, does: Meaning, block: &Block) -> Done<([f64; 6], f64)> {
+        self.only_turns(block)?;
         let mut end = self.target(block)?;
         let says = [letters("XU"), letters("ZW")].map(|words| block.has(words));
-        let taper = block.get(b'R').or(block.get(b'I'));
+        let taper = Self::taper(block)?;
         let code =
             block.row(Group::Motion).or(self.modes.motion).map_or("a pass".to_owned(), |row| row.code.to_string());
         let kept = self.threads.pass.filter(|pass| pass.made_by == does);
@@ -153,6 +182,11 @@ impl State {
         }));
         let (begin, unsaid) = (self.place.position, self.place.at_machine);
         if does == Meaning::Thread {
+            if let Some(letter) = b"IKR".iter().find(|letter| block.get(**letter).is_some_and(|value| value != 0.0)) {
+                let letter = char::from(*letter);
+                let message = format!("{letter} in a thread of one cut, where the positions of X and Z give the taper");
+                return refuse(Code::PN016, message, format!("remove the {letter}, and write X and Z of the end"));
+            }
             let end = self.target(block)?;
             self.place.feed_to(end, self.drive.feed, lead, out);
             return Ok(());
@@ -161,7 +195,8 @@ impl State {
             Meaning::ThreadPass => self.pass_end(does, block)?,
             _ => {
                 self.begins_in_the_program("G76")?;
-                (self.target(block)?, block.get(b'R').or(block.get(b'I')).unwrap_or(0.0))
+                self.only_turns(block)?;
+                (self.target(block)?, Self::taper(block)?.unwrap_or(0.0))
             }
         };
         let mut ways = vec![end[0]];

@@ -39,9 +39,9 @@ impl State {
         self.compensated(block.changes_tool(), "a tool change")?;
         self.spindle_and_tool(block, out)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
-            let x_is_no_time = block.has(bit(b'X')) && block.has(bit(b'P'));
-            if !self.control.is_linuxcnc() && (block.has(letters("YZABC")) || x_is_no_time) {
-                let help = "write the dwell in a separate block: X is also its time";
+            let times = b"PXU".iter().filter(|letter| block.has(bit(**letter))).count();
+            if !self.control.is_linuxcnc() && (block.has(letters("YZABC")) || times > 1) {
+                let help = "write the dwell in a separate block, with one time: P, or X";
                 return refuse(Code::PN004, "G4 and axis words in one block", help);
             }
             let time = block.get(b'X').or(block.get(b'U'));

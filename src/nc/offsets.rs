@@ -2,9 +2,9 @@
 
 use super::action::Action;
 use super::block::Block;
-use super::codes::Group;
+use super::codes::{Group, letters};
 use super::fault::{Done, refuse};
-use super::frames::Shift;
+use super::frames::{Frames, Shift};
 use super::out::Out;
 use super::state::State;
 use crate::control::{self, Meaning, Rules};
@@ -37,7 +37,9 @@ impl State {
     fn set_data(&mut self, code: control::Code, block: &Block, out: &mut Out<'_>) -> Done {
         let l = block.get(b'L').unwrap_or(-1.0);
         if !self.control.is_linuxcnc() && l != 2.0 && l != 20.0 {
-            // G10 sets tool registers here; no position in the simulator depends on them
+            // G10 sets tool registers here; no position in the simulator depends on them, but the comparison of two
+            // programs reads them (`Simulator::tool_data`)
+            block.takes(if self.control.is_lathe() { letters("PQRXYZCUW") } else { letters("PR") });
             out.push(Action::LeftOut(code, Meaning::SetOffsets));
             return Ok(());
         }
@@ -79,7 +81,10 @@ impl State {
                 }
             }
         }
-        if let Some(angle) = block.get(b'R') {
+        // only LinuxCNC has work offsets with a rotation
+        if control.is_linuxcnc()
+            && let Some(angle) = block.get(b'R')
+        {
             *rotation = angle;
         }
         let changed = [*work, [*rotation; 6]] != before;
@@ -96,7 +101,10 @@ impl State {
         let place = self.place.frames.to_machine(&self.place.position);
         let (before, mut lost) = (self.place.frames.shift, false);
         match does {
-            Meaning::FrameOff => (self.place.frames.shift, self.place.frames.shift_kept) = Default::default(),
+            Meaning::FrameOff => {
+                let Frames { shift, shift_kept, local, .. } = &mut self.place.frames;
+                (*shift, *shift_kept, *local) = Default::default();
+            }
             Meaning::FrameSuspend => self.place.frames.shift = Shift::default(),
             Meaning::FrameRestore => self.place.frames.shift = self.place.frames.shift_kept,
             _ => {
@@ -117,15 +125,19 @@ impl State {
                         continue;
                     }
                     let Some(value) = self.axis_word(block, axis) else { continue };
-                    let shift = &mut self.place.frames.shift;
-                    if does == Meaning::Frame {
-                        shift.by[axis] = value;
-                        if is_linuxcnc {
-                            shift.unknown &= !(1 << axis); // on a Fanuc, G52 does not replace G92: both are added
+                    let Frames { shift, local, .. } = &mut self.place.frames;
+                    match (does == Meaning::Frame, is_linuxcnc) {
+                        (true, true) => {
+                            (shift.by[axis], shift.unknown) = (value, shift.unknown & !(1 << axis));
+                            continue;
                         }
-                        continue;
+                        // on a Fanuc, G52 is measured from the zero that G92 has shifted, and G92 ends G52
+                        (true, false) => {
+                            shift.by[axis] += value - std::mem::replace(&mut local[axis], value);
+                            continue;
+                        }
+                        (false, _) => (shift.by[axis], local[axis]) = (shift.by[axis] + at - value, 0.0),
                     }
-                    shift.by[axis] += at - value;
                     if unknown {
                         shift.unknown |= 1 << axis;
                         self.place.given(axis); // in the shifted frame, the position is known
@@ -148,6 +160,10 @@ impl State {
     fn go_home(&mut self, which: usize, ends_length: u8, block: &Block, out: &mut Out<'_>) -> Done {
         if self.tool.side.is_some() {
             return refuse(Code::PN013, "G28 or G30 under cutter compensation", "end the compensation with G40 first");
+        }
+        if let Some(point) = block.get(b'P').filter(|point| ![2.0, 3.0, 4.0].contains(point)) {
+            let message = format!("P{point} is not a reference point of G30");
+            return refuse(Code::PN018, message, "write P2, P3 or P4");
         }
         let is_named = |axis: usize| self.axis_word(block, axis).or(self.increment(block, axis)).is_some();
         let named: u8 = (0..6).filter(|&axis| is_named(axis)).map(|axis| 1 << axis).sum();

@@ -6,6 +6,7 @@ use super::codes::{ARCS, Group, Motion, STRAIGHT, bit, is_one_of, letters};
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::state::State;
+use super::stops::runs_last;
 use super::unpointed::SCALED;
 use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
@@ -30,6 +31,20 @@ impl State {
         if block.plain && self.cuts_plainly(block, &mut Out::new(items, line)) {
             return Ok(Next::On);
         }
+        let next = self.run_codes(block, line, items)?;
+        self.check_read(block, next)
+    }
+
+    /// Refuses a word whose value no code has read when the block is complete. LinuxCNC has rules of its own for such
+    /// words; `Block::check_words` has these rules.
+    fn check_read(&self, block: &Block, next: Next) -> Done<Next> {
+        if !matches!(next, Next::Rest) && !self.control.is_linuxcnc() {
+            block.check_read(letters("NO"))?;
+        }
+        Ok(next)
+    }
+
+    fn run_codes(&mut self, block: &mut Block, line: u64, items: &mut Vec<Item>) -> Done<Next> {
         if !self.control.is_linuxcnc() && block.whole & SCALED != 0 {
             self.unpointed(block)?;
         }
@@ -76,6 +91,10 @@ impl State {
             if self.control.is_lathe()
                 && let Some(asked) = self.turning_cycle(block, &mut out)?
             {
+                if let Some((code, _)) = block.m().find(|(_, row)| runs_last(row.meaning)) {
+                    let message = format!("M{code} in the block of a turning cycle would take effect after the cycle");
+                    return refuse(Code::PN016, message, "write the code in a block after the cycle");
+                }
                 return Ok(Next::Profile(asked));
             }
         }
@@ -104,7 +123,8 @@ impl State {
         let mut out = Out::new(items, line);
         self.make_holes(block, &mut out)?;
         self.make_pattern(&mut out)?;
-        self.finish(block, &mut out)
+        let next = self.finish(block, &mut out)?;
+        self.check_read(block, next)
     }
 
     /// Runs the M codes that take effect after everything else in the block.

@@ -10,6 +10,12 @@ use crate::control::Meaning;
 use crate::diag::Code;
 use crate::toolpath::StopKind;
 
+/// Whether a code of this meaning takes effect after everything else in its block.
+pub(super) fn runs_last(meaning: Meaning) -> bool {
+    use Meaning as M;
+    meaning.is_stop() || matches!(meaning, M::SpindleOff | M::CoolantOff | M::End | M::Call | M::Return)
+}
+
 impl State {
     /// Runs stops and subprogram calls, the last codes of a block.
     pub(super) fn after(&mut self, block: &Block, out: &mut Out<'_>) -> Done<Next> {

@@ -22,8 +22,10 @@ impl State {
         if block.row(Group::Other).is_some() || block.means(Meaning::Orient) {
             return Ok(()); // the words of these codes are not lengths
         }
-        // in a cycle without a shift, K is a number of repeats, not a length
-        let cycle = self.cycle_of(block).is_some_and(|row| row.runs.motions.is_none_or(|motions| !motions.shifts()));
+        // a number of repeats is not a length
+        let repeats = self
+            .cycle_of(block)
+            .is_some_and(|row| row.runs.motions.is_none_or(|motions| !self.k_shifts(motions, block)));
         // not lengths: P and Q of a turning cycle (block numbers or increments), Q of a thread (an angle), R of a
         // pattern cycle (number of passes)
         let motion = block.row(Group::Motion).or(self.modes.motion).map(|row| row.meaning);
@@ -36,11 +38,14 @@ impl State {
         };
         let more = more | if self.control.is_lathe() { letters("UVW") } else { 0 };
         let feed = if self.scales_feed(block) { bit(b'F') } else { 0 };
-        let whole = block.whole & (LENGTHS & !less | more | feed) & if cycle { !bit(b'K') } else { !0 };
+        let whole = block.whole & (LENGTHS & !less | more | feed) & if repeats { !bit(b'K') } else { !0 };
         // the unit of a time without a point is 0.001 seconds, also with inches
         let times = if block.g_meaning(Group::Once) == Some(Meaning::Dwell) { letters("XU") } else { 0 };
         for letter in (b'A'..=b'Z').filter(|&letter| whole & bit(letter) != 0) {
-            let Some(value) = block.get(letter).filter(|&value| value != 0.0) else { continue };
+            let value = block.peek(letter);
+            if value == 0.0 {
+                continue;
+            }
             match self.settings.unpointed {
                 Unpointed::Whole => {}
                 Unpointed::Increments if letter != b'F' || self.is_feed_increment() => {

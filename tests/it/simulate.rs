@@ -262,6 +262,84 @@ fn what_a_control_refuses_is_an_error_with_its_block() {
     assert_eq!(refused(control("fanuc"), &long), ("PN001".into(), 1));
 }
 
+/// A word that no code of the block reads is refused: without it, the simulation would be of another program.
+#[test]
+fn words_that_no_code_reads_are_refused() {
+    let cases = [
+        ("fanuc", "M3 S100 P11", "PN005"),
+        ("fanuc", "M8 R5.", "PN005"),
+        ("fanuc", "G10 L2 P1 X1. R7.", "PN005"),
+        ("fanuc", "G10 L10 P1 R5. X7.", "PN005"),
+        ("fanuc", "G91 G30 P7 Z0.", "PN018"),
+        ("fanuc", "G4 P100 X1.", "PN004"),
+        ("haas", "M30 P5", "PN005"),
+        ("fanuc-lathe", "G4 U1. W2.", "PN005"),
+        ("fanuc-lathe", "G0 H90.", "PN005"),
+        ("fanuc-lathe", "G32 Z-5. F1. R2.", "PN016"),
+        ("fanuc-lathe", "G90 X8. Z-5. F.2 Y1.", "PN016"),
+        ("fanuc-lathe", "G92 X8. Z-5. F1. C5.", "PN016"),
+        ("fanuc-lathe", "G92 X8. Z-5. F1. R1. I1.", "PN004"),
+        ("fanuc-lathe", "G76 P010060", "PN007"),
+        ("fanuc-lathe", "G74 R1.\nG74 Z-5. Q1000 F.1 C5.", "PN016"),
+        ("haas-lathe", "G0 H90.", "PN005"),
+    ];
+    for (name, blocks, code) in cases {
+        let start = if name.ends_with("lathe") { "G21 G99\nT0101\nM3 S500\nG0 X10. Z1.\n" } else { START };
+        assert_eq!(refused(control(name), &format!("{start}{blocks}\nM30\n")).0, code, "{name}: {blocks}");
+    }
+    let cycle = |end: &str| {
+        let profile = "N1 G0 X4.\nG1 Z-3. F.1\nN2 X10.";
+        format!("G21 G99\nT0101\nM3 S500\nG0 X10. Z1.\nG71 U1. R1.\nG71 P1 Q2 U0 W0 F.2{end}\n{profile}\nM30\n")
+    };
+    assert!(motions(control("fanuc-lathe"), &cycle(" M8")).len() > 5);
+    for code in ["M30", "M5", "M9", "M0", "M99"] {
+        let found = refused(control("fanuc-lathe"), &cycle(&format!(" {code}")));
+        assert_eq!(found, ("PN016".into(), 6), "{code} would take effect after the cycle");
+    }
+}
+
+/// K is the number of fine bores in G17. In another plane, K may be the shift of the tool.
+#[test]
+fn the_repeats_of_a_fine_bore() {
+    let holes = |k: &str| fanuc(&format!("G91 G76 X5. R-5. Z-3. Q.5 F10.{k}\nG80"));
+    assert_eq!(holes("").len() * 3, holes(" K3").len());
+}
+
+/// An O word begins a program. A file can contain subprograms after the main program, but no other main program.
+#[test]
+fn a_file_has_one_main_program() {
+    let cut = "G1 X5. F10.";
+    let sub = "O5\nG1 X9.\nM99\n";
+    assert_eq!(motions(control("fanuc"), &format!("O7\n{START}{cut}\nM30\n{sub}%\nO8\nM30\n")).len(), 3);
+    for name in ["fanuc", "haas", "mazak"] {
+        let inside = format!("O7\n{START}O5\n{cut}\nM30\n");
+        assert_eq!(refused(control(name), &inside), ("PN015".into(), 5), "{name}");
+        let another = format!("O7\n{START}{cut}\nM30\n{sub}O8\n{cut}\nM30\n");
+        assert_eq!(refused(control(name), &another).0, "PN015", "{name}");
+    }
+}
+
+/// On a Fanuc, the zero of G52 is measured from the zero that G92 has shifted, and G92 ends G52. LinuxCNC has one shift
+/// for both codes.
+#[test]
+fn g52_and_g92_add_up_on_a_fanuc() {
+    let machine = |name: &str, blocks: &str| {
+        let text = format!("{START}X5.\n{blocks}\nG1 G53 X0. F10.\nM30\n");
+        motions(control(name), &text).last().unwrap().clone()
+    };
+    for (blocks, fanuc_x, linuxcnc_x) in [
+        ("G92 X0. Y0. Z10.", "-5", "-5"),
+        ("G92 X0. Y0. Z10.\nG52 X0. Y0. Z0.", "-5", "0"),
+        ("G92 X0. Y0. Z10.\nG52 X3.", "-8", "-3"),
+        ("G52 X3.\nG92 X1. Y0. Z10.", "-4", "-4"),
+    ] {
+        for (name, x) in [("fanuc", fanuc_x), ("linuxcnc", linuxcnc_x)] {
+            let found = machine(name, blocks);
+            assert_eq!(found.split(' ').nth(1), Some(x), "{name}: {blocks}: {found}");
+        }
+    }
+}
+
 /// In a block with G28, G0 sets the motion of later blocks, and the axis words belong to G28. In a block with G53, the
 /// axis words belong to G0 or G1.
 #[test]

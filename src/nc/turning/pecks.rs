@@ -52,6 +52,7 @@ impl State {
             }
         };
         self.begins_in_the_program(code)?;
+        self.only_turns(block)?;
         let begin = self.place.position;
         let end = self.target(block)?;
         let (depth, width) = (end[along] - begin[along], end[across] - begin[across]);

@@ -198,6 +198,10 @@ impl Block {
                 }
             }
             b'$' if control.is_linuxcnc() => {
+                if value != 0.0 {
+                    let message = format!("spindle {value}: only spindle 0 is simulated");
+                    return Err(Fault::at(Code::PN016, column, message, "run the program without the other spindles"));
+                }
                 self.spindle = true;
                 Ok(())
             }

@@ -273,6 +273,7 @@ fn words_that_no_code_reads_are_refused() {
         ("fanuc", "G91 G30 P7 Z0.", "PN018"),
         ("fanuc", "G4 P100 X1.", "PN004"),
         ("haas", "M30 P5", "PN005"),
+        ("linuxcnc", "M3 $1 S500", "PN016"),
         ("fanuc-lathe", "G4 U1. W2.", "PN005"),
         ("fanuc-lathe", "G0 H90.", "PN005"),
         ("fanuc-lathe", "G32 Z-5. F1. R2.", "PN016"),

@@ -4,8 +4,8 @@
 //! The arguments are `jobs COUNT SEED KIND FORM`; each may be missing. `FOUND=FOLDER` keeps each fault. A fault is
 //! printed with its seed (`jobs 1 SEED` makes the fault again) and with a job that was made as small as possible. The
 //! exit status is failure in three cases: postform proves a wrong program, postform reports a difference in a program
-//! that the judge accepts, or a form prints a wrong program. The third case does not count if digits are lost and lint
-//! or the renderer warns about the lost digits.
+//! that the judge accepts, or a form prints a wrong program. The third case does not count if lint or the renderer
+//! warns that digits are lost.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -31,7 +31,7 @@ const WRONG_FORMS: u64 = 4;
 /// Differences that depend only on words that are typed in a form: whether the spindle stops in Bore, how a wire is
 /// threaded, the codes of its coolant.
 const FORMS_OWN: [&str; 3] = ["out with the spindle turning", "Stop is missing", "coolant"];
-/// Two units of the last digit of a length in inches, in millimetres.
+/// Two units of the last digit of a length in inches. The value is in millimetres.
 const DIGITS: f64 = 0.0052;
 /// Tolerance of positions in `verify`, in millimetres.
 const PLACES: f64 = 0.002;

@@ -92,7 +92,8 @@ impl WorkWord {
         !self.is_code && self.code.is_some_and(|code| control.group(code) == Some(Group::Work))
     }
 
-    /// Whether the word is a parameter of a code for additional offsets: offsets that have no code of their own.
+    /// Whether the word is a parameter of a code for additional work offsets, such as P of G54.1. An additional offset
+    /// has only a number.
     fn is_additional(&self, control: &Control) -> bool {
         let row = self.code.and_then(|code| control.row(code));
         self.is_parameter(control) && !matches!(row.and_then(|row| row.runs.work), Some(WorkOffset::Counted(_)))

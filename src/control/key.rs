@@ -36,7 +36,7 @@ impl Key {
         }
     }
 
-    /// Whether the key names only codes with this whole number.
+    /// Whether all codes that this key names have this whole number.
     pub(super) fn is_within(self, letter: u8, whole: u16) -> bool {
         let is = |code: Code| code.letter == letter && code.tenths / 10 == whole;
         match self {

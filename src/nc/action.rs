@@ -82,7 +82,7 @@ pub enum Action {
     Frame,
     /// A hole of a canned cycle. The moves of the hole follow as separate actions.
     Hole(Box<Drilling>),
-    /// The data of the thread that the next moves cut.
+    /// The data of a thread. The next moves cut this thread.
     Threading(Threading),
     /// A thread that is cut in passes. The moves of the passes follow as separate actions.
     Passes(Box<Passes>),

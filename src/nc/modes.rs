@@ -111,8 +111,8 @@ impl State {
     /// a decimal point is in seconds, but only on controls of the Fanuc kind that read such a P.
     ///
     /// # Errors
-    /// P has a decimal point, and the control reads P only as a whole number. If the control is only assumed, such a P is
-    /// read as on other controls.
+    /// P has a decimal point, and the control reads P only as a whole number. If the control is only assumed, such a P
+    /// is in seconds, as on most controls.
     pub(super) fn seconds(&self, p: f64, block: &Block) -> Done<f64> {
         let dwell = self.control.traits().dwell;
         let has_point = !self.control.rules().is_nist() && block.whole & bit(b'P') == 0;

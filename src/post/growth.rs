@@ -14,7 +14,8 @@ const TIMES: u64 = 1000;
 
 /// Compares the size of a program with the size of its job.
 pub struct Growth {
-    /// Number of bytes of the job that were read so far; `None`: any size is accepted, or the size of the job is unknown.
+    /// Number of bytes of the job that were read so far. `None` if any size is accepted, or if the size of the job is
+    /// unknown.
     pub read: Option<Rc<Cell<u64>>>,
     /// Number of bytes that were printed so far.
     pub printed: u64,

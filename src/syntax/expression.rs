@@ -163,7 +163,7 @@ fn unread(text: &str, at: usize, span: Span) -> Unread {
     }
 }
 
-/// A correction for syntax of other languages.
+/// The correction that a message shows for an operator of another language.
 fn instead(read: &str, rest: &str) -> Option<String> {
     /// Texts at the point where reading stopped, each with its correction.
     const OTHERS: [(&str, &str); 8] = [

@@ -114,7 +114,7 @@ impl RapidPath {
     }
 }
 
-/// The moves between corners that change any axis except Z.
+/// The moves between two corners, without the moves that change only Z.
 pub(super) fn across(corners: &[Rapid], tolerance: f64) -> impl Iterator<Item = (&Rapid, &Rapid)> {
     let pairs = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
     // a full turn of a rotary axis is a move, although it ends where it began

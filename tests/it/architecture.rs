@@ -31,7 +31,7 @@ fn files(path: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
-/// Each row of `allowed!` names the one file that counts the allowance.
+/// Each row of `allowed!` is a difference that the proof accepts. The row names the one file that counts these differences.
 #[test]
 fn an_allowance_is_decided_in_one_file() {
     let table = fs::read_to_string(root().join("src/verify/verdict.rs")).unwrap();

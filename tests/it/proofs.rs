@@ -992,7 +992,7 @@ fn a_typed_feed_counts_where_its_sequence_prints() {
     assert!(matches!(feeds(&plain, "F100.", "F150."), Verdict::Different(_)));
 }
 
-/// A last peck that is shorter than the last digit has its own feed.
+/// If the last peck is shorter than one unit of the last printed digit, it has its own feed.
 #[test]
 fn the_feed_of_a_short_last_peck_is_its_own() {
     let job = one(

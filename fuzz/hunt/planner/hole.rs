@@ -88,7 +88,7 @@ impl Hole {
 /// Largest second clearance if no word defines it, in millimetres: 0.1 inch.
 const SECOND: f64 = 2.6;
 
-/// The values on which the moves at a point depend, besides the cycle.
+/// The values, besides those of the cycle, that decide which moves are made at a point.
 pub struct At {
     /// The point, in millimetres.
     pub point: Point,

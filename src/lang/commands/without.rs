@@ -37,8 +37,8 @@ impl Without {
         Without { told, ..self }
     }
 
-    /// The default arguments for a form with this machine and these units; empty if the command has no default. If the
-    /// default consists of several lines with the command, commas separate the arguments of these lines.
+    /// The default arguments for a form with this machine and these units; empty if the command has no default. The
+    /// default may be several lines with the command. Commas then separate the arguments of these lines.
     pub fn arguments(self, machine: Machine, units: UnitChoice) -> &'static str {
         let by_units = match units {
             UnitChoice::Inch => self.inch,

@@ -37,7 +37,8 @@ fn goes_on_with_its_tool(body: &Body, view: &View) -> bool {
     }
 }
 
-/// The code that cancels the tool length offset, if no later word of the sequence activates the offset again.
+/// Finds the code that cancels the tool length offset. `None` if a later word of the sequence activates the offset
+/// again.
 fn ends_length<'a>(body: &Body<'a>, view: &View) -> Option<&'a Word> {
     let mut ended = None;
     for line in body.lines {

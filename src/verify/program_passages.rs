@@ -174,10 +174,11 @@ fn machine_positions(old: &Program<'_>, new: &Program<'_>, names: Names, toleran
     (!names.by_order).then(message)
 }
 
-/// Compares the angles at which the spindle is stopped during rapids.
+/// Compares the angles at which the spindle is stopped during rapids, and at the cut.
 fn standing(old: &Program<'_>, new: &Program<'_>) -> Option<String> {
     let angles = |program: &Program<'_>| -> Vec<String> {
-        let stands = program.passage.rapids.iter().filter_map(|rapid| match rapid.spin? {
+        let spins = program.passage.rapids.iter().filter_map(|rapid| rapid.spin).chain([program.spin()]);
+        let stands = spins.filter_map(|spin| match spin {
             Spin::At(angle) => Some(format!("{} degrees", number(angle))),
             Spin::Oriented => Some("the control's own angle".to_owned()),
             Spin::Turns(_) => None,

@@ -175,6 +175,12 @@ fn motions_differ_where_the_spindle_stands_at_another_angle() {
             .map(|found| found.message)
     };
     assert_eq!(differs("M19 R90.", "M19 R90."), None);
+    // a cut with a stopped spindle, as in broaching
+    let broach = |angle: &str| bore(&format!("M19 R{angle}.\nG1 Y1."));
+    assert_eq!(difference("haas", ["90", "90"].map(broach)), None);
+    assert!(
+        difference("haas", ["90", "270"].map(broach)).unwrap().starts_with("the spindle angle before this cut is 270")
+    );
     for (new, angle) in [("M19 R270.", "270 degrees"), ("M5", "no angle")] {
         let found = differs("M19 R90.", new).unwrap();
         assert_eq!(found, format!("the spindle angle before this cut is {angle}, but 90 degrees in the old program"));

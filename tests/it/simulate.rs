@@ -281,6 +281,7 @@ fn words_that_no_code_reads_are_refused() {
         ("fanuc-lathe", "G92 X8. Z-5. F1. C5.", "PN016"),
         ("fanuc-lathe", "G92 X8. Z-5. F1. R1. I1.", "PN004"),
         ("fanuc-lathe", "G76 P010060", "PN007"),
+        ("fanuc-lathe", "G71 U1. R1. P7", "PN007"),
         ("fanuc-lathe", "G74 R1.\nG74 Z-5. Q1000 F.1 C5.", "PN016"),
         ("haas-lathe", "G0 H90.", "PN005"),
     ];

@@ -59,7 +59,7 @@ impl State {
     fn first_of(&mut self, row: &Row, block: &Block) -> Done {
         let meaning = row.meaning;
         // on a Haas, the cycle has only one block
-        if meaning == Meaning::Finish || row.words.has(b'D') || !block.has(letters("UWR")) {
+        if meaning == Meaning::Finish || row.words.has(b'D') || block.has(letters("PQ")) || !block.has(letters("UWR")) {
             return refuse(
                 Code::PN007,
                 "a turning cycle without P and Q",

@@ -259,6 +259,11 @@ impl<'a> Program<'a> {
         self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, spin: None })
     }
 
+    /// The state of the spindle now.
+    pub fn spin(&self) -> Spin {
+        self.spin
+    }
+
     /// The control that runs the program.
     pub fn control(&self) -> &'static Control {
         self.control

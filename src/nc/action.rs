@@ -6,6 +6,9 @@ use crate::toolpath::{Direction, FeedMode, Plane, Side, StopKind, Units};
 /// X Y Z A B C in program coordinates: lengths in the program's units, angles in degrees.
 pub type Position = [f64; 6];
 
+/// The rotary axes A, B and C of a position, as bits.
+pub const ROTARY: u8 = 0b11_1000;
+
 /// One action, with the line of its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {

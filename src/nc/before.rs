@@ -1,6 +1,6 @@
 //! The settings that a simulator gets before its first block, and queries about the block that was run last.
 
-use super::action::Position;
+use super::action::{Position, ROTARY};
 use super::codes::Group;
 use super::parameters::Parameters;
 use super::settings::RunSettings;
@@ -19,6 +19,12 @@ impl Simulator<'_> {
     /// positions are in machine coordinates (millimetres and degrees). Call this function before the first block.
     pub fn begin_on(&mut self, offsets: &mut dyn Iterator<Item = (usize, Position)>, homes: [Position; 2]) {
         self.state.begin_on(offsets, homes);
+    }
+
+    /// Makes the positions of the rotary axes unknown until the program gives them, as after a stop of the machine. Call
+    /// this function before the first block.
+    pub fn begin_turned(&mut self) {
+        self.state.place.becomes_unknown(ROTARY);
     }
 
     /// Sets the number of programs before the main one in the input. The programs before the main one are subprograms
@@ -116,6 +122,18 @@ impl Simulator<'_> {
     /// Axes for which the last block contains positions, as bits.
     pub fn says_positions(&self) -> u8 {
         self.state.said_positions(&self.block)
+    }
+
+    /// Rotary axes for which the last block has words, as bits.
+    pub fn named_rotary(&self) -> u8 {
+        let is_named = |axis: &usize| ROTARY & 1 << axis != 0 && self.state.axis_word(&self.block, *axis).is_some();
+        (0..6).filter(is_named).map(|axis| 1 << axis).sum()
+    }
+
+    /// The code of the last block that changes the pallet.
+    pub fn pallet_code(&self) -> Option<Code> {
+        let change = self.block.m().find(|(_, row)| row.meaning == Meaning::Pallet);
+        change.map(|(number, _)| Code::m(number))
     }
 
     /// Whether the last block adds a second length offset to the tool length.

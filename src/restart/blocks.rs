@@ -1,7 +1,7 @@
 //! Writes the blocks of the new program: the head, the blocks that restore the modal state, the approach, and the rest.
 
 use super::entry::{Entry, Found};
-use super::{Asked, Refused, Way, refuse};
+use super::{AXES, Asked, Refused, Way, refuse};
 use crate::control::{Code, Control, Meaning, ToolLength};
 use crate::machine::offsets;
 use crate::nc::Rotation;
@@ -212,12 +212,12 @@ impl Written<'_> {
     fn approach(&mut self) -> Result<(), Refused> {
         let Entry { standing, switches, height, .. } = self.entry;
         let rapid = self.rapid();
-        let mut across: Vec<String> = (0..2)
+        // every axis whose position the program has given, also at 0: the machine may have stopped at any position
+        let across: Vec<String> = [0, 1, 3, 4, 5]
+            .into_iter()
             .filter(|axis| standing.unknown & 1 << axis == 0)
-            .map(|axis| format!("{}{}", ["X", "Y"][axis], number(standing.position[axis])))
+            .map(|axis| format!("{}{}", AXES[axis], number(standing.position[axis])))
             .collect();
-        let turned = (3..6).filter(|axis| standing.position[*axis] != 0.0);
-        across.extend(turned.map(|axis| format!("{}{}", ["A", "B", "C"][axis - 3], number(standing.position[axis]))));
         if !across.is_empty() {
             self.blocks.push(format!("{rapid} {}", across.join(" ")));
         }

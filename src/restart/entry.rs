@@ -33,6 +33,8 @@ pub struct Entry {
     pub said: Said,
     /// The height from which the tool moves down; `None`: the tool moves from the tool change position.
     pub height: Option<f64>,
+    /// Rotary axes that the program has moved before this line, as bits.
+    pub turned: u8,
     /// The depth to which the tool moves at feed from this height, if the program begins in the middle of a cut.
     pub depth: Option<f64>,
 }
@@ -51,6 +53,8 @@ pub struct Switches {
     pub limit: Option<f64>,
     /// Whether the program has selected a work offset.
     pub work: bool,
+    /// The angle at which the spindle is stopped (M19).
+    pub oriented: Option<f64>,
 }
 
 /// Whether the program has set these modes. Setting a mode that was already active also counts.
@@ -72,6 +76,8 @@ impl Switches {
             Action::SurfaceSpeed(limit) => self.surface = *limit,
             Action::SpeedLimit(limit) => self.limit = Some(*limit),
             Action::Work(_) => self.work = true,
+            Action::Orient(angle) => self.oriented = Some(*angle),
+            Action::Spindle(..) | Action::Tool(_) => self.oriented = None,
             _ => {}
         }
     }
@@ -146,6 +152,8 @@ struct Search<'t> {
     kept: usize,
     /// The reason why no entry after the head is possible.
     never: Option<String>,
+    /// Rotary axes that the program has moved so far, as bits.
+    turned: u8,
     /// Whether the last block was a move.
     moved: bool,
     levels: Levels,
@@ -177,6 +185,7 @@ impl<'t> Search<'t> {
             never: None,
             levels: Levels::default(),
             moved: false,
+            turned: 0,
             came_at_rapid: false,
             height_by_other: false,
             tool_line: None,
@@ -232,6 +241,12 @@ impl<'t> Search<'t> {
         if self.head.is_some() && computes(run.text()) {
             self.never.get_or_insert(format!("line {line} computes values from the blocks before"));
         }
+        if self.head.is_some()
+            && let Some(code) = run.pallet_code()
+        {
+            self.codes.push((line, code.to_string()));
+        }
+        self.turned |= run.named_rotary();
         let [units, feed_mode] = run.says_modes();
         self.said.units |= units;
         self.said.feed_mode |= feed_mode;
@@ -296,7 +311,9 @@ impl<'t> Search<'t> {
     /// at the height of its rapids.
     fn entry_before(&mut self, before: &Standing, line: u64, changes: bool, run: &Simulator<'_>) -> Option<Entry> {
         let control = run.control();
-        let is_free = !before.compensated && !before.has_cycle && !before.is_shifted;
+        // the tool change stops the spindle at an angle of its own
+        let is_oriented = self.switches.oriented.is_some() && !changes;
+        let is_free = !before.compensated && !before.has_cycle && !before.is_shifted && !is_oriented;
         if self.moved {
             self.tool_line = None;
         }
@@ -306,6 +323,7 @@ impl<'t> Search<'t> {
             switches: self.switches.clone(),
             said: self.said,
             height,
+            turned: self.turned,
             depth: None,
         };
         let names_tool = run.names_tool();
@@ -317,8 +335,8 @@ impl<'t> Search<'t> {
         if names_tool && is_free && !control.is_lathe() {
             self.tool_line = Some(entry(None));
         }
-        if control.is_lathe() || !is_free || !self.came_at_rapid || self.height_by_other || before.unknown & 0b111 != 0
-        {
+        let is_unknown = self.is_unknown(before);
+        if control.is_lathe() || !is_free || !self.came_at_rapid || self.height_by_other || is_unknown {
             return None;
         }
         let height = before.position[2];
@@ -326,6 +344,11 @@ impl<'t> Search<'t> {
         // without a motion code, a moving block would depend on the last motion of the old program
         let goes_on = before.is_rapid || run.names_motion() || !run.has_axes();
         (is_high && goes_on).then(|| entry(Some(height)))
+    }
+
+    /// Whether the position of an axis that the program moves is known only at the machine.
+    fn is_unknown(&self, before: &Standing) -> bool {
+        before.unknown & (0b111 | self.turned) != 0
     }
 
     /// The entry at the requested block itself. The tool goes to the height of its last rapid, and from this height at
@@ -344,7 +367,9 @@ impl<'t> Search<'t> {
             "cutter compensation is on in the block, but the program must begin before the move that turns it on"
         } else if before.has_cycle {
             "a canned cycle is active, and its words are in the blocks before"
-        } else if before.is_shifted || self.height_by_other || before.unknown & 0b111 != 0 {
+        } else if self.switches.oriented.is_some() {
+            "the spindle is stopped at an angle, and the code for this is in the blocks before"
+        } else if before.is_shifted || self.height_by_other || self.is_unknown(before) {
             "the position of the tool at this block is unknown"
         } else if before.feed <= 0.0 || before.feed_mode == FeedMode::InverseTime {
             "no feed is active for the move down"
@@ -353,8 +378,8 @@ impl<'t> Search<'t> {
         } else if height.is_none() {
             "the tool has made no rapid at a known height above its cuts, from which it could feed down"
         } else {
-            let (standing, switches, said) = (*before, self.switches.clone(), self.said);
-            return Some(Entry { line, standing, switches, said, height, depth: Some(depth) });
+            let (standing, switches, said, turned) = (*before, self.switches.clone(), self.said, self.turned);
+            return Some(Entry { line, standing, switches, said, height, turned, depth: Some(depth) });
         };
         self.never = Some(why.to_owned());
         None

@@ -2,14 +2,17 @@
 
 use std::fmt::Write as _;
 
-use super::entry::{Found, Switches};
-use super::{Refused, refuse};
-use crate::nc::{Action, Drilling, Item, RunError, RunSettings, Simulator, Standing};
+use super::entry::{Entry, Found, Switches};
+use super::{AXES, Refused, refuse};
+use crate::nc::{Action, Drilling, Item, Position, ROTARY, RunError, RunSettings, Simulator, Standing};
 use crate::toolpath::Plane;
 
 /// Two positions are equal if they differ by at most this value. The value is in the program's units; positions are
 /// written with six decimals.
 const SAME: f64 = 2e-6;
+
+/// X and Y, as bits.
+const ACROSS: u8 = 0b11;
 
 /// Runs both programs in parallel and returns the number of equal moves. `across`: whether the new program has moved to
 /// the X and Y of the entry, as far as X and Y are known.
@@ -26,24 +29,19 @@ pub fn same(
     old.reach("the program")?;
     new.reach("the new program")?;
     let mut moves = 0;
-    // if the program does not repeat X and Y after the entry, both programs must be at the same X and Y there
-    let placed = across && found.entry.standing.unknown & 0b11 == 0;
+    let open = open(&found.entry, across);
     loop {
         let (one, other) = (old.next("the program")?, new.next("the new program")?);
         match (&one, &other) {
             (None, None) => break,
-            (Some(one), Some(_)) if !placed && one.goes_down_unsaid() => {
-                return refuse(
-                    format!(
-                        "at line {} the tool moves down, but the X and Y of the move are given only before the entry",
-                        old.line()
-                    ),
-                    "begin at another line, so that X and Y are given between this line and the move down",
-                );
+            (Some(one), Some(_)) if one.goes_down_unsaid(open) != 0 => {
+                return goes_down_unsaid(old.line(), one.goes_down_unsaid(open));
             }
             (Some(one), Some(other)) if one.is_as(other) => moves += 1,
             _ => {
-                let text = |seen: &Option<Seen>| seen.as_ref().map_or("it has ended".to_owned(), Seen::text);
+                let apart = one.as_ref().zip(other.as_ref()).map_or(0, |(one, other)| one.apart(other));
+                let text =
+                    |seen: &Option<Seen>| seen.as_ref().map_or("it has ended".to_owned(), |seen| seen.text(apart));
                 return refuse(
                     format!(
                         "the new program would not make the same moves: at line {} of the old program {}, in the new \
@@ -58,6 +56,32 @@ pub fn same(
         }
     }
     Ok(moves)
+}
+
+/// As bits, the axes whose positions at the entry the new program does not restore. If the program does not give them
+/// after the entry, the tool must not move down.
+fn open(entry: &Entry, across: bool) -> u8 {
+    let unknown = entry.standing.unknown;
+    let is_placed = across && unknown & ACROSS == 0;
+    let turned = unknown & entry.turned & ROTARY;
+    if is_placed { turned } else { turned | ACROSS }
+}
+
+/// Refuses a move down at an unknown position of these axes.
+fn goes_down_unsaid<T>(line: u64, axes: u8) -> Result<T, Refused> {
+    let turned = (3..6).find(|axis| axes & 1 << axis != 0).map(|axis| AXES[axis]);
+    let (why, given) = match turned {
+        None => ("the X and Y of the move are given only before the entry".to_owned(), "X and Y are".to_owned()),
+        Some(axis) => {
+            let why =
+                format!("its angle {axis} is unknown: it was given as a machine position or in another work offset");
+            (why, format!("{axis} is"))
+        }
+    };
+    refuse(
+        format!("at line {line} the tool moves down, but {why}"),
+        format!("begin at another line, so that {given} given between this line and the move down"),
+    )
 }
 
 /// A move or a stop, with the modal state at this move or stop.
@@ -85,7 +109,8 @@ impl Seen {
                     && lead == own_lead
             }
             (Action::Arc(turn), Action::Arc(own)) => {
-                near(&turn.to, &own.to)
+                near_known(&turn.to, &own.to, turn.machine)
+                    && turn.machine == own.machine
                     && near(&turn.center, &own.center)
                     && (turn.plane, turn.direction, turn.turns) == (own.plane, own.direction, own.turns)
                     && near(&[turn.feed], &[own.feed])
@@ -123,25 +148,45 @@ impl Seen {
         let stands = (one.tool, one.work, one.units, one.plane, one.feed_mode, one.compensated)
             == (two.tool, two.work, two.units, two.plane, two.feed_mode, two.compensated)
             && turns;
-        // at a machine height the tool length has no effect
+        // at a machine height the tool length and the angle of the spindle have no effect
         let (mut on, own) = (self.switches.clone(), &other.switches);
         if self.is_at_machine_height() {
-            on.length = own.length;
+            (on.length, on.oriented) = (own.length, own.oriented);
         }
         same && stands && on == *own
     }
 
-    /// Whether the move goes down or cuts while X or Y (X or Z on a lathe) is at an unknown machine position.
-    fn goes_down_unsaid(&self) -> bool {
-        let across = |machine: u8| machine & if self.standing.plane == Plane::Xz { 0b101 } else { 0b011 } != 0;
+    /// As bits, those of the open axes that are at an unknown machine position while the move goes down or cuts. On a
+    /// lathe, these are X and Z instead of X and Y.
+    fn goes_down_unsaid(&self, open: u8) -> u8 {
+        let is_turned = self.standing.plane == Plane::Xz;
+        let open = if is_turned && open & ACROSS != 0 { open & ROTARY | 0b101 } else { open };
         match &self.action {
-            Action::Feed { machine, .. } => across(*machine),
-            Action::Arc(turn) => across(turn.machine),
-            Action::Rapid { machine, .. } => {
-                self.standing.plane != Plane::Xz && machine & 0b100 == 0 && across(*machine)
-            }
-            _ => false,
+            Action::Feed { machine, .. } => machine & open,
+            Action::Arc(turn) => turn.machine & open,
+            Action::Rapid { machine, .. } if !is_turned && machine & 0b100 == 0 => machine & open,
+            _ => 0,
         }
+    }
+
+    /// The end of the move, and as bits the axes whose end is a machine position.
+    fn end(&self) -> Option<(&Position, u8)> {
+        match &self.action {
+            Action::Rapid { to, machine, .. } | Action::Feed { to, machine, .. } => Some((to, *machine)),
+            Action::Arc(turn) => Some((&turn.to, turn.machine)),
+            Action::Hole(hole) => Some((&hole.at, 0)),
+            _ => None,
+        }
+    }
+
+    /// As bits, the axes on which two moves end at different positions.
+    fn apart(&self, other: &Seen) -> u8 {
+        let Some(((to, machine), (own, of_own))) = self.end().zip(other.end()) else { return 0 };
+        let differs = |axis: &usize| {
+            (machine ^ of_own) & 1 << axis != 0
+                || (machine | of_own) & 1 << axis == 0 && (to[*axis] - own[*axis]).abs() > SAME
+        };
+        (0..6).filter(differs).map(|axis| 1 << axis).sum()
     }
 
     fn is_at_machine_height(&self) -> bool {
@@ -153,7 +198,9 @@ impl Seen {
         }
     }
 
-    fn text(&self) -> String {
+    /// The move as text: X, Y and Z, and those of the axes `apart` that the move or the other move has.
+    fn text(&self, apart: u8) -> String {
+        let at = |to: &Position| at(to, self.end().map_or(0, |(_, machine)| machine), apart);
         let mut text = match &self.action {
             Action::Rapid { to, .. } => format!("a rapid goes to {}", at(to)),
             Action::Feed { to, feed, .. } => format!("a cut goes to {} at F{feed}", at(to)),
@@ -167,12 +214,22 @@ impl Seen {
         };
         let Standing { tool, speed, rotation, .. } = &self.standing;
         _ = write!(text, " with T{} and the spindle {} S{speed}", tool.unwrap_or(0.0), rotation.name());
+        if let Some(angle) = self.switches.oriented {
+            _ = write!(text, " at {angle} degrees");
+        }
         text
     }
 }
 
-fn at(to: &[f64; 6]) -> String {
-    format!("X{} Y{} Z{}", to[0], to[1], to[2])
+/// A position as text: X, Y and Z, and the angles that are in `axes`. Of the axes in `axes`, those that are also in
+/// `machine` are at unknown positions.
+fn at(to: &Position, machine: u8, axes: u8) -> String {
+    let word = |axis: usize| match machine & axes & 1 << axis {
+        0 => format!("{}{}", AXES[axis], to[axis]),
+        _ => format!("an unknown {}", AXES[axis]),
+    };
+    let words: Vec<String> = (0..6).filter(|axis| (axes | 0b111) & 1 << axis != 0).map(word).collect();
+    words.join(" ")
 }
 
 /// Whether two positions are equal. An axis is not compared if the program does not contain its position.

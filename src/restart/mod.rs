@@ -62,6 +62,9 @@ fn refuse<T>(why: impl Into<String>, help: impl Into<String>) -> Result<T, Refus
     Err(Refused::Why(why.into(), help.into()))
 }
 
+/// The letters of the axes of a position.
+const AXES: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
+
 /// Maximum size of a program, in bytes.
 const LARGEST: u64 = 1 << 30;
 
@@ -111,7 +114,12 @@ struct Way {
     turning: bool,
 }
 
-/// A simulator for a text.
+/// A simulator for a text. On a mill, the rotary axes are at unknown angles until the program gives them: after an
+/// interruption, the table may be at any angle. The C axis of a lathe is its spindle.
 fn run(text: &[u8], settings: RunSettings) -> crate::nc::Simulator<'_> {
-    crate::nc::Simulator::new(Cursor::new(text), settings)
+    let mut run = crate::nc::Simulator::new(Cursor::new(text), settings);
+    if !settings.control.is_lathe() {
+        run.begin_turned();
+    }
+    run
 }

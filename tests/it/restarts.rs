@@ -189,6 +189,53 @@ fn a_cut_is_where_it_was() {
     assert!(way_in(&new, "M30").contains("G56 / S1000 M3"), "{new}");
 }
 
+/// After an interruption, the table may be at any angle: the new program turns every rotary axis that the old program
+/// has turned, also to 0. A turned angle that is unknown at a line is no entry.
+#[test]
+fn the_table_is_turned_as_in_the_old_program() {
+    let folder = Folder::new("restart-turned");
+    // (blocks before the entry, the approach, the first line of the old program)
+    let cases = [
+        ("A0.\nX3.", "G0 X3. Y0. A0.", 12),
+        ("A-90.\nX3.", "G0 X3. Y0. A-90.", 12),
+        ("G91 A-90.\nG90 X3.", "G0 X3. Y0. A0.", 12),
+        // the angle of a machine position is unknown
+        ("G53 A0.\nX3.", "G0 X0. Y0. A90.", 10),
+    ];
+    for (blocks, approach, line) in cases {
+        let text = format!(
+            "G21 G90 G94\nT1 M6\nG0 G54 X0. Y0. A90. S1000 M3\nG43 H1 Z50.\nZ2.\nG1 Z-1. F100.\nG0 Z50.\nX5.\nX0.\n{blocks}\n(NEXT)\nZ2.\nG1 Z-1.\nG0 Z50.\nA0.\nM30\n"
+        );
+        folder.write("a.nc", &text);
+        let (new, said) = restarted(&folder, "haas", &["--operation", "next"]).unwrap();
+        assert!(new.contains(&format!("\n{approach}\nG43 H1 Z50.\n")), "{blocks}: {new}");
+        assert!(said.contains(&format!("begins at line {line}")), "{blocks}: {said}");
+    }
+    // at a tool change, the new program turns the part before it goes down
+    let change = "G21 G90 G94\nT1 M6\nG0 G54 X0. Y0. A0. S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nG0 G53 Z0.\nT2 M6\nX9. Y9. S500 M3\nG43 H2 Z50.\nG1 Z-1.\nG0 Z50.\nM30\n";
+    folder.write("a.nc", change);
+    let (new, _) = restarted(&folder, "haas", &["--tool", "2"]).unwrap();
+    assert!(way_in(&new, "T2 M6").contains("G0 X0. Y0. A0."), "{new}");
+    folder.write("a.nc", change.replace("T2 M6", "G53 A0.\nT2 M6"));
+    let said = restarted(&folder, "haas", &["--tool", "2"]).unwrap_err();
+    assert!(said.contains("at line 11 the tool moves down, but its angle A is unknown"), "{said}");
+}
+
+/// The new program does not begin while the spindle is stopped at an angle, and a change of the pallet is named.
+#[test]
+fn an_oriented_spindle_and_a_pallet_are_not_forgotten() {
+    let folder = Folder::new("restart-oriented");
+    let text = "G21 G90 G94\nT1 M6\nG0 G54 X0. Y0. S1000 M3\nG43 H1 Z50.\nG1 Z-1. F100.\nG0 Z50.\nX5.\nM19 P90\nX9.\n(BORE)\nZ-1.\nX8.\nZ50.\nM3\nG1 Z-2.\nG0 Z50.\nM30\n";
+    folder.write("a.nc", text);
+    let (new, said) = restarted(&folder, "haas", &["--operation", "bore"]).unwrap();
+    assert!(said.contains("begins at line 8") && new.contains("\nM19 P90\n"), "{said}{new}");
+    let said = restarted(&folder, "haas", &["--operation", "bore", "--exactly"]).unwrap_err();
+    assert!(said.contains("the spindle is stopped at an angle"), "{said}");
+    folder.write("a.nc", text.replace("M19 P90", "M60"));
+    let (_, said) = restarted(&folder, "fanuc", &["--operation", "bore"]).unwrap();
+    assert!(said.contains("M60 of line 8 is not run again"), "{said}");
+}
+
 /// These do not prevent a restart: subprograms, a T word long before its M6, and a list of operations in the header.
 #[test]
 fn subprograms_and_tools_named_before_are_no_obstacle() {

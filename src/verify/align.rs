@@ -1,7 +1,7 @@
 //! Pairs each cut of the job with a cut of the program. Two kinds of cuts have no partner: cuts shorter than the
 //! program's digits, and cuts that the program repeats after the tool was taken out.
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lead_alike, lies_between, same};
+use super::cut::{ACROSS, ALL, Cut, DEPTH, What, apart, lead_alike, lies_between, same, same_ends};
 use super::intent::Done;
 use super::modal::has_feed;
 use super::passage::Passage;
@@ -69,8 +69,7 @@ fn vanishes(s: &mut Sides<'_>, cut: &Cut) -> Done<bool> {
     let joins = found.unknown == 0
         && (shows || joins_alike(s))
         && has_feed(cut, &found, false)
-        && same(&found.from, &cut.from, ALL, tolerance)
-        && same(&found.end(), &cut.end(), ALL, tolerance);
+        && same_ends(cut, &found, tolerance);
     let pauses = |passage: &Passage| (passage.stops.len(), passage.waits.len());
     let joins = joins && pauses(&s.program.passage) == pauses(&s.job);
     // a cut in another direction belongs to another cut of the job
@@ -96,10 +95,7 @@ fn is_nothing(s: &Sides<'_>, found: &Cut) -> bool {
 fn is_itself(s: &Sides<'_>, cut: &Cut, found: &Cut) -> bool {
     let tolerance = s.limits.tolerance;
     // this also covers a full circle, which ends where it begins
-    same(&cut.from, &found.from, ALL, tolerance)
-        && same(&cut.end(), &found.end(), ALL, tolerance)
-        && cut.is_short(4.0 * tolerance)
-        && lead_alike(cut, found)
+    same_ends(cut, found, tolerance) && cut.is_short(4.0 * tolerance) && lead_alike(cut, found)
 }
 
 /// Whether a short cut of the program is the first part of the job's cut. `false` if the program's cut ends at the

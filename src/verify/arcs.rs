@@ -1,9 +1,10 @@
 //! Compares arcs. A program may divide an arc into parts or into short lines.
 
-use super::cut::{ALL, Cut, Place, What, position, same, shown};
+use super::cut::{ALL, Cut, Place, What, position, same, shown, turns_between, with_turns};
 use super::intent::Done;
 use super::modal;
 use super::sides::Sides;
+use super::tables::ANGLE;
 use crate::diag::Code;
 use crate::nc::{Turn, axes_of, sweep};
 use crate::toolpath::{Direction, FeedMode};
@@ -31,6 +32,8 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
     // rounding changes the angle of a small arc more than that of a large one
     let slack_angle = 1e-3 + OFF * tolerance / radius;
     let (mut swept, mut parts) = (0.0, 0);
+    // the program may count its angles from another turn than the job
+    let mut turns = None;
     loop {
         let Some(found) = s.next()? else {
             let message = format!("the program ends inside the arc to {}", shown(&cut.end(), 0b111));
@@ -78,6 +81,13 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
         swept += angle;
         let height = cut.from[across] + (turn.to[across] - cut.from[across]) * (swept / whole).min(1.0);
         let ends = same(&end, &cut.end(), ALL, tolerance);
+        let turned = with_turns(&end, turns.get_or_insert_with(|| turns_between(&found.from, &cut.from)));
+        // the rounding of each part changes its angle
+        let is_whole = ends && swept > whole - slack_angle * f64::from(parts + 1);
+        let share = if is_whole { 1.0 } else { (swept / whole).min(1.0) };
+        if let Some(message) = turns_unevenly(cut, &turned, share, (OFF * tolerance / (radius * whole)).min(1.0)) {
+            return s.differs(Code::PV001, found.line, message, "check the angle that the form prints for this arc");
+        }
         let in_it = !ends && (parts > 0 || swept < whole - 1e-6);
         // on a steep helix, rounded X and Y change the height by up to this amount
         let steep = ((turn.to[across] - cut.from[across]) / (radius * whole)).abs() * tolerance;
@@ -95,12 +105,27 @@ pub(super) fn arc(s: &mut Sides<'_>, cut: &Cut, turn: &Turn) -> Done {
         modal::feeds(s, &part, &found, false);
         s.program.take();
         parts += 1;
-        // the rounding of each part changes its angle
-        if ends && swept > whole - slack_angle * f64::from(parts) {
+        if is_whole {
             s.report.allowed.arcs += u64::from(parts > 1);
             return Ok(());
         }
     }
+}
+
+/// The message about a part of an arc at whose end the part is not turned in proportion to the arc. `end`: this end,
+/// with the turns of the job. `share`: the part of the arc before this end; rounding may change it by `slack`.
+fn turns_unevenly(cut: &Cut, end: &Place, share: f64, slack: f64) -> Option<String> {
+    let whole = cut.end();
+    let even: Place = std::array::from_fn(|axis| cut.from[axis] + share * (whole[axis] - cut.from[axis]));
+    let is_even = |axis: &usize| {
+        let near = ANGLE + slack * (whole[*axis] - cut.from[*axis]).abs();
+        (end[*axis] - even[*axis]).abs() <= near
+    };
+    let axes: u8 = (3..6).filter(|axis| !is_even(axis)).map(|axis| 1 << axis).sum();
+    (axes != 0).then(|| {
+        let [is, wanted] = [end, &even].map(|place| shown(place, axes));
+        format!("an arc turns the part to {is} at {}, but the job's arc to {wanted}", shown(end, 0b111))
+    })
 }
 
 /// The point in the plane of the arc that a part of the arc reaches after this angle. For a straight part, the point is

@@ -2,7 +2,7 @@
 
 use std::io::{Read, Seek};
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, Rapid, What, is_straight, over, same, shown};
+use super::cut::{ACROSS, Cut, DEPTH, Rapid, What, is_straight, over, same, same_ends, shown};
 use super::expectation::Expectation;
 use super::intended::Job;
 use super::intent::{Done, Expected, Intent, Threaded};
@@ -248,9 +248,7 @@ impl Intent for Sides<'_> {
         let end = cut.end();
         let found = self.next()?;
         let tolerance = self.limits.tolerance;
-        let feeds = found.is_some_and(|found| {
-            same(&found.from, &cut.from, ALL, tolerance) && same(&found.end(), &end, ALL, tolerance)
-        });
+        let feeds = found.is_some_and(|found| same_ends(cut, &found, tolerance));
         if feeds {
             self.report.allowed.slow += 1;
             return self.cut(&Cut { feed: None, ..cut.clone() }, None);

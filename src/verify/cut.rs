@@ -242,12 +242,42 @@ pub(super) fn without_turns(difference: f64) -> f64 {
     difference - 360.0 * (difference / 360.0).round()
 }
 
-/// Whether the rotary axes turn by the same angle in two cuts.
+/// Whether the rotary axes turn by the same number of turns and in the same direction in two moves. Both moves have the
+/// same start and the same end, except for full turns.
 pub(super) fn turn_as_far(a: [&Place; 2], b: [&Place; 2]) -> bool {
-    (3..6).all(|axis| ((a[1][axis] - a[0][axis]) - (b[1][axis] - b[0][axis])).abs() <= 2.0 * ANGLE)
+    turned_otherwise(a, b) == 0
 }
 
-/// Whether the position `b` is on the straight line from `a` to `c`, within the tolerance.
+/// As bits, the rotary axes that turn in another direction in two moves, or by more turns. Both moves have the same
+/// start and the same end, except for full turns.
+pub(super) fn turned_otherwise(a: [&Place; 2], b: [&Place; 2]) -> u8 {
+    let way = |ends: [&Place; 2], axis: usize| ends[1][axis] - ends[0][axis];
+    (3..6).filter(|&axis| (way(a, axis) - way(b, axis)).abs() > 180.0).map(|axis| 1 << axis).sum()
+}
+
+/// Whether two cuts have the same start and the same end, and turn the part as far.
+pub(super) fn same_ends(a: &Cut, b: &Cut, tolerance: f64) -> bool {
+    let (own, other) = (a.end(), b.end());
+    same(&a.from, &b.from, ALL, tolerance)
+        && same(&own, &other, ALL, tolerance)
+        && turn_as_far([&a.from, &own], [&b.from, &other])
+}
+
+/// The full turns, in degrees, that must be added to the angles of `from` so that they are near the angles of `like`.
+pub(super) fn turns_between(from: &Place, like: &Place) -> Place {
+    std::array::from_fn(|axis| match axis {
+        3..6 => 360.0 * ((like[axis] - from[axis]) / 360.0).round(),
+        _ => 0.0,
+    })
+}
+
+/// The position with these turns added.
+pub(super) fn with_turns(place: &Place, turns: &Place) -> Place {
+    std::array::from_fn(|axis| place[axis] + turns[axis])
+}
+
+/// Whether the position `b` is on the straight line from `a` to `c`, within the tolerance, and its angles are in
+/// proportion.
 pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> bool {
     let (mut along, mut length) = (0.0, 0.0);
     for axis in 0..8 {
@@ -259,7 +289,10 @@ pub(super) fn lies_between(a: &Place, b: &Place, c: &Place, tolerance: f64) -> b
     }
     let part = along / length;
     (0.0..=1.0).contains(&part)
-        && (0..8).all(|axis| (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= tolerance)
+        && (0..8).all(|axis| {
+            let near = if (3..6).contains(&axis) { tolerance.max(ANGLE) } else { tolerance };
+            (a[axis] + part * (c[axis] - a[axis]) - b[axis]).abs() <= near
+        })
 }
 
 /// Whether two cuts have roughly the same direction: the angle between them is less than 90 degrees. If `b` is an arc,

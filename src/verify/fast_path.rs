@@ -3,7 +3,7 @@
 //! compared without copies. The general comparison handles all other cuts; it would have the same result for the cuts
 //! of this module.
 
-use super::cut::{ALL, Cut, What, same, turn_as_far};
+use super::cut::{ALL, Cut, What, same, same_ends, turn_as_far};
 use super::intent::{Done, Expected};
 use super::modal::{has_feed, is_feed};
 use super::rapids::{moves_as_before, same_rapids};
@@ -51,7 +51,7 @@ pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool
     s.run_to_cut()?;
     let tolerance = s.limits.tolerance;
     let Some(found) = s.program.cut() else { return Ok(false) };
-    let (What::Line { to }, What::Line { to: is }) = (&cut.what, &found.what) else { return Ok(false) };
+    let (What::Line { to }, What::Line { .. }) = (&cut.what, &found.what) else { return Ok(false) };
     let is_long = (0..3).any(|axis| (to[axis] - cut.from[axis]).abs() > LONG * tolerance);
     let both_plain = [&s.job, &s.program.passage].into_iter().all(|passage| passage.only_moves() && !passage.new_tool);
     let agree = s.agreed.as_ref().is_some_and(|[wanted, is]| *wanted == cut.state && *is == found.state);
@@ -63,9 +63,7 @@ pub(super) fn drills(s: &mut Sides<'_>, cut: &Cut, hole: &Expected) -> Done<bool
         && cut.mode == found.mode
         && cut.lead.is_none()
         && found.lead.is_none()
-        && same(&cut.from, &found.from, ALL, tolerance)
-        && same(to, is, ALL, tolerance)
-        && turn_as_far([&cut.from, to], [&found.from, is])
+        && same_ends(cut, found, tolerance)
         && has_feed(cut, found, hole.is_tap)
         && moves_as_before(s)
         && same_rapids(s);

@@ -1,6 +1,6 @@
 //! Compares pecked holes. The cycle of a control may make the job's hole with other pecks than the job.
 
-use super::cut::{ACROSS, ALL, Cut, DEPTH, What, number, over, same, same_dwell, shown};
+use super::cut::{ACROSS, Cut, DEPTH, What, number, over, same, same_dwell, same_ends, shown};
 use super::intent::{Done, Expected};
 use super::modal;
 use super::pauses;
@@ -24,7 +24,7 @@ pub(super) fn compare_pecks(s: &mut Sides<'_>, hole: &Expected) -> Done {
     let mut count = 0;
     while let Some(found) = s.next()? {
         let wanted = pecks.get(count);
-        let is_one = wanted.is_some_and(|wanted| is_same(wanted, &found, tolerance));
+        let is_one = wanted.is_some_and(|wanted| same_ends(wanted, &found, tolerance));
         // at the bottom, another cut belongs to this hole only if the cycle of the same block makes it
         let same_block = found.by_cycle && found.line == line;
         // only a tap that is printed as single moves feeds up again; a tapping cycle of the control leaves the hole itself
@@ -142,7 +142,7 @@ fn peck_state(
     let cutting = || all().filter(|(peck, begin)| within(peck, **begin));
     // try the job's peck with the same index first, because a hole may have thousands of pecks
     let own = pecks.get(count).zip(begins.get(count)).filter(|(peck, begin)| {
-        is_way(peck) && (is_same(peck, found, tolerance) || within(peck, **begin) && is_meant(peck))
+        is_way(peck) && (same_ends(peck, found, tolerance) || within(peck, **begin) && is_meant(peck))
     });
     let meant = own.or_else(|| cutting().find(|(peck, _)| is_meant(peck)));
     let any = || cutting().next().or_else(|| all().next());
@@ -190,8 +190,4 @@ fn stays_in(s: &Sides<'_>, hole: &Expected, found: &Cut) -> bool {
         && here(&found.from)
         && here(&found.end())
         && passage.rapids.iter().all(|rapid| rapid.unknown == 0 && here(&rapid.to))
-}
-
-fn is_same(wanted: &Cut, found: &Cut, tolerance: f64) -> bool {
-    same(&wanted.from, &found.from, ALL, tolerance) && same(&wanted.end(), &found.end(), ALL, tolerance)
 }

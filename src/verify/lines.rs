@@ -1,7 +1,8 @@
 //! Compares straight cuts. A program may divide a straight cut into parts.
 
 use super::cut::{
-    ACROSS, ALL, Cut, DEPTH, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
+    ACROSS, ALL, Cut, DEPTH, Place, What, apart, is_straight, lies_between, number, over, same, shown, turn_as_far,
+    turned_otherwise, turns_between, with_turns,
 };
 use super::intent::{Done, Expected};
 use super::modal;
@@ -17,11 +18,14 @@ pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expe
     let tolerance = s.limits.tolerance;
     let end = cut.end();
     let is_tap = hole.is_some_and(|hole| hole.is_tap);
+    // the program may count its angles from another turn than the job
+    let turns = turns_between(&first.from, &cut.from);
+    let is_end = |to: &Place| same(to, &end, ALL, tolerance) && turn_as_far([&cut.from, &end], [&cut.from, to]);
     let mut found = first.clone();
     let mut parts = 1;
     loop {
-        let to = found.end();
-        if same(&to, &end, ALL, tolerance) || !lies_between(&cut.from, &to, &end, tolerance) {
+        let to = with_turns(&found.end(), &turns);
+        if is_end(&to) || !lies_between(&cut.from, &to, &end, tolerance) {
             break;
         }
         modal::feeds(s, &in_parts(cut, &found), &found, is_tap);
@@ -31,36 +35,33 @@ pub(super) fn line(s: &mut Sides<'_>, cut: &Cut, first: &Cut, hole: Option<&Expe
                 What::Line { .. } => true,
                 What::Arc(turn) => is_straight(next, turn, tolerance), // part of a helix whose circle is smaller than the digits
             };
-            is_line
-                && s.program.passage.is_plain()
-                && (same(&next.end(), &end, ALL, tolerance) || lies_between(&to, &next.end(), &end, tolerance))
+            let next = with_turns(&next.end(), &turns);
+            is_line && s.program.passage.is_plain() && (is_end(&next) || lies_between(&to, &next, &end, tolerance))
         });
-        let Some(next) = next else { return ends(s, cut, &found, hole) };
+        let Some(next) = next else { return ends(s, cut, (&to, found.line), hole) };
         found = next;
         parts += 1;
         modal::compare(s, cut, &found, is_tap);
     }
     modal::feeds(s, &in_parts(cut, &found), &found, is_tap);
     s.report.allowed.parts += u64::from(parts > 1);
-    ends(s, cut, &found, hole)?;
+    ends(s, cut, (&with_turns(&found.end(), &turns), found.line), hole)?;
     s.program.take();
     Ok(())
 }
 
-/// Checks that both straight cuts end at the same position.
-fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> Done {
+/// Checks that the straight cut of the job and the last part of it in the program end at the same position. `is`: the
+/// end of this part, with the turns of the job.
+fn ends(s: &mut Sides<'_>, cut: &Cut, (is, line): (&Place, u64), hole: Option<&Expected>) -> Done {
     let tolerance = s.limits.tolerance;
-    let (from, end, is, line) = (&cut.from, cut.end(), found.end(), found.line);
+    let (from, end, is) = (&cut.from, cut.end(), *is);
     if same(&end, &is, ALL, tolerance) {
-        if turn_as_far([from, &end], [&found.from, &is]) {
+        let turned = turned_otherwise([from, &end], [from, &is]);
+        if turned == 0 {
             s.slips = 0;
             return Ok(());
         }
-        let message = format!(
-            "in the move to {} the part turns in another direction than in the job, or by more turns",
-            shown(&end, ALL)
-        );
-        return s.differs(Code::PV001, line, message, "check the travel of the rotary axis (`Limits`)");
+        return turns_otherwise(s, &end, turned, line);
     }
     s.slipped = Some([end, is]);
     if let Some(hole) = hole
@@ -90,6 +91,15 @@ fn ends(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) -> D
     }
     s.found(Code::PV001, line, help, message);
     Ok(())
+}
+
+/// Reports a cut in which these axes turn otherwise than in the job.
+pub(super) fn turns_otherwise<T>(s: &mut Sides<'_>, end: &Place, axes: u8, line: u64) -> Done<T> {
+    let message = format!(
+        "in the move to {} the part turns in another direction than in the job, or by more turns",
+        shown(end, 0b111 | axes)
+    );
+    s.differs(Code::PV001, line, message, "check the travel of the rotary axis (`Limits`)")
 }
 
 /// The required values for one part of a cut. In inverse time mode, the required feed is scaled by the length of the

@@ -1,6 +1,6 @@
 //! Compares a cut of one program with a cut of another program.
 
-use super::cut::{ALL, Cut, Place, State, What, number, place, same, shown};
+use super::cut::{ALL, Cut, Place, State, What, number, place, same, shown, turned_otherwise};
 use super::program::Program;
 use super::ways::Compared;
 use crate::control::{Control, ToolLength};
@@ -85,6 +85,12 @@ pub(super) fn differs(
         Compared::Elsewhere(to) => {
             return Some(format!("the rapids near {} follow another path than in the old program", shown(&to, 0b111)));
         }
+        Compared::Turned(to, axes) => {
+            return Some(format!(
+                "before the tool is retracted, a rapid to {} turns the part otherwise than in the old program",
+                shown(&to, 0b111 | axes)
+            ));
+        }
     }
     match (cut.what, found.what) {
         (What::Arc(a), What::Arc(b)) => {
@@ -101,6 +107,15 @@ pub(super) fn differs(
     if !same(&a, &b, ALL, tolerance) {
         let [new, old] = both_shown(&b, &a);
         return Some(format!("a cut goes to {new}, but to {old} in the old program"));
+    }
+    let unknown = cut.unknown | cut.open;
+    let turned = turned_otherwise([&cut.from, &a], [&found.from, &b]) & !unknown;
+    if turned != 0 {
+        let [new, old] = [found, cut].map(|cut| {
+            let ends = [cut.from, cut.end()].map(|place| shown(&place, turned));
+            format!("from {} to {}", ends[0], ends[1])
+        });
+        return Some(format!("a cut turns the part {new}, but {old} in the old program"));
     }
     match (cut.lead, found.lead) {
         (None, None) => {}

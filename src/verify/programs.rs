@@ -10,7 +10,7 @@ use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
 use super::program_cuts::{Names, differs};
 use super::program_passages::{between, endings, leaving, switching};
-use super::rapid_path::RapidPath;
+use super::rapid_path::{RapidPath, turn_alike, turned_low};
 use super::tails::leaves_low;
 use super::ways::{Compared, compare};
 use crate::nc::{RunError, RunSettings};
@@ -157,10 +157,12 @@ impl Pair<'_> {
     fn way(&mut self) -> Compared {
         let known = [&self.a, &self.b].iter().all(|program| program.start().unknown == 0);
         let [left, right] = &mut self.ways;
-        if left.is(right, self.tolerance) {
+        if left.is(right, self.tolerance) && turn_alike(&left.corners, &right.corners) {
             return Compared::Same;
         }
         match compare(left, right, known, self.tolerance) {
+            Compared::Same if known => turned_low(&right.corners, &left.corners, self.tolerance)
+                .map_or(Compared::Same, |(to, axes)| Compared::Turned(to, axes)),
             Compared::AsGood { .. } => higher(compare(right, left, known, self.tolerance)),
             other => other,
         }
@@ -170,10 +172,14 @@ impl Pair<'_> {
     /// their codes are compared only at the cut.
     fn tail(&mut self) -> Option<String> {
         // check both directions, because a higher path after the last cut also counts as another motion
-        let low = |a: usize, b: usize| leaves_low(&self.ways[a], &self.ways[b], self.tolerance).is_some();
+        let low = |a: usize, b: usize| {
+            let (a, b) = (&self.ways[a], &self.ways[b]);
+            leaves_low(a, b, self.tolerance).is_some() || turned_low(&a.corners, &b.corners, self.tolerance).is_some()
+        };
         let same_way = self.ways[0].is(&self.ways[1], self.tolerance);
+        let alike = same_way && turn_alike(&self.ways[0].corners, &self.ways[1].corners);
         self.motions.ways += u64::from(!same_way);
-        let elsewhere = || !same_way && (low(0, 1) || low(1, 0));
+        let elsewhere = || !alike && (low(0, 1) || low(1, 0));
         between(&self.a, &self.b, self.names, self.tolerance)
             .or_else(|| leaving(&self.a, &self.b, self.names))
             .or_else(|| elsewhere().then(|| "the path after the last cut is different".to_owned()))

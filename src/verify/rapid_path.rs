@@ -1,6 +1,7 @@
 //! Paths of rapids between two cuts.
 
-use super::cut::{ACROSS, ALL, DEPTH, Rapid, distance, lies_between, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, distance, lies_between, same, turned_otherwise};
+use super::tables::ANGLE;
 
 /// Minimum length of a rapid, as a multiple of the tolerance. The direction of a shorter rapid can't be determined from
 /// its printed digits.
@@ -112,6 +113,40 @@ impl RapidPath {
         let known = |rapid: &Rapid| rapid.unknown & 1 << DEPTH == 0;
         across(&self.corners, 0.0).all(|(a, b)| [a, b].iter().all(|corner| !known(corner) || corner.to[DEPTH] > height))
     }
+}
+
+/// Whether the rotary axes turn by the same turns on two paths whose corners are equal except for full turns.
+pub(super) fn turn_alike(a: &[Rapid], b: &[Rapid]) -> bool {
+    let pairs = a.windows(2).zip(b.windows(2));
+    pairs.into_iter().all(|(a, b)| {
+        turned_otherwise([&a[0].to, &a[1].to], [&b[0].to, &b[1].to]) & !(a[0].unknown | a[1].unknown) == 0
+    })
+}
+
+/// The program's first rapid that turns the part through angles through which the job does not turn it on this path:
+/// the end of the rapid, and as bits the axes that turn it. Above the start of the path, and not below the job's greatest height, the part may turn in any way.
+pub(super) fn turned_low(job: &[Rapid], program: &[Rapid], tolerance: f64) -> Option<(Place, u8)> {
+    let start = job.first()?.to[DEPTH];
+    let highest = job.iter().map(|corner| corner.to[DEPTH]).fold(start, f64::max);
+    let is_free = |a: &Rapid, b: &Rapid| {
+        let height = |rapid: &Rapid| if rapid.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { rapid.to[DEPTH] };
+        let low = height(a).min(height(b));
+        low >= highest - tolerance && low > start + tolerance
+    };
+    let turns_as_job = |a: &Rapid, b: &Rapid, axis: usize| {
+        let (low, high) = (a.to[axis].min(b.to[axis]), a.to[axis].max(b.to[axis]));
+        let angles = || job.iter().filter(|corner| corner.unknown & 1 << axis == 0).map(|corner| corner.to[axis]);
+        let (from, to) = (angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max));
+        let slack = 2.0 * ANGLE.max(tolerance);
+        // the program may count its angles from another turn
+        let turns = 360.0 * ((from - slack - low) / 360.0).ceil();
+        (a.unknown | b.unknown) & 1 << axis != 0 || high - low <= slack || high + turns <= to + slack
+    };
+    let low = program.windows(2).filter(|pair| !is_free(&pair[0], &pair[1])).map(|pair| {
+        let otherwise = (3..6).filter(|&axis| !turns_as_job(&pair[0], &pair[1], axis));
+        (pair[1].to, otherwise.map(|axis| 1 << axis).sum())
+    });
+    low.into_iter().find(|(_, axes)| *axes != 0)
 }
 
 /// The moves between two corners, without the moves that change only Z.

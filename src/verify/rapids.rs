@@ -4,6 +4,7 @@
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
 use super::idle;
 use super::passage::{Frame, Leg};
+use super::rapid_path::{turn_alike, turned_low};
 use super::sides::Sides;
 use super::tails::leaves_low;
 use super::ways::{Compared, Low, are_the_same, compare as compare_way, enters_hole, leaves_hole};
@@ -14,7 +15,10 @@ use crate::lang::Machine;
 pub(super) fn same_rapids(s: &Sides<'_>) -> bool {
     let tolerance = s.limits.tolerance;
     let (Some(a), Some(b)) = (s.job.start, s.program.passage.start) else { return false };
-    are_the_same(&[a], &[b], tolerance) && are_the_same(&s.job.rapids, &s.program.passage.rapids, tolerance)
+    let (own, other) = (&s.job.rapids, &s.program.passage.rapids);
+    are_the_same(&[a], &[b], tolerance)
+        && are_the_same(own, other, tolerance)
+        && own.first().zip(other.first()).is_none_or(|(to, is)| turn_alike(&[a, *to], &[b, *is]))
 }
 
 /// Compares the paths of job and program to the next cut.
@@ -67,6 +71,7 @@ pub(super) fn compare(s: &mut Sides<'_>, line: u64) {
         }
         Compared::AsGood { .. } => stays_at_wall(s, line),
         Compared::Turning => turns_otherwise(s, line),
+        Compared::Turned(to, axes) => turns_part_otherwise(s, &to, axes, line),
         Compared::Lower(low) => {
             let help = "print the height before the position, or return to [rplane]";
             s.found(Code::PV009, line, help, || low.message());
@@ -88,6 +93,18 @@ fn stays_at_wall(s: &mut Sides<'_>, line: u64) {
 fn turns_otherwise(s: &mut Sides<'_>, line: u64) {
     s.found(Code::PV011, line, "check the spindle codes of the cycle", || {
         "while the tool retracts, the spindle does not turn, or does not stop at an angle, as in the job".to_owned()
+    });
+}
+
+/// Reports a rapid before the retract that turns the part otherwise than the job.
+fn turns_part_otherwise(s: &mut Sides<'_>, to: &Place, axes: u8, line: u64) {
+    let help = "retract before the part turns, or check the travel of the rotary axis (`Limits`)";
+    s.found(Code::PV001, line, help, || {
+        format!(
+            "before the tool is retracted, a rapid to {} turns the part in another direction than in the job, or by \
+             more turns",
+            shown(to, 0b111 | axes)
+        )
     });
 }
 
@@ -209,13 +226,16 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     let before_home = beyond.and_then(|(_, beyond)| crosses(own.last().or(s.job.start.as_ref()), beyond, tolerance));
     job.set(s.job.start, own, tolerance);
     program.set(s.program.passage.start, other, tolerance);
+    let turned = turned_low(&job.corners, &program.corners, tolerance);
     match leaves_hole(job, program, tolerance) {
         Some(Compared::Turning) => turns_otherwise(s, line),
         Some(_) if aside => stays_at_wall(s, line),
         // the job's own path, and then only rapids to a machine height
-        _ if as_job && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
+        _ if as_job && turned.is_none() && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
         _ => {
-            if let Some(to) = before_home {
+            if let Some((to, axes)) = turned {
+                turns_part_otherwise(s, &to, axes, line);
+            } else if let Some(to) = before_home {
                 s.found(Code::PV001, line, "print the move home before the next position", || {
                     format!("a rapid goes to {} before the tool goes home", shown(&to, 0b111))
                 });

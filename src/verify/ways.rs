@@ -1,7 +1,7 @@
 //! Compares the program's path from one cut to the next with the job's path.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, Spin, lies_between, number, same, shown, without_turns};
-use super::rapid_path::{RapidPath, across};
+use super::rapid_path::{RapidPath, across, turn_alike, turned_low};
 
 /// The result of comparing the program's path with the job's path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,9 @@ pub(super) enum Compared {
     Lower(Low),
     /// The path moves across to this position, to which the job does not go.
     Elsewhere(Place),
+    /// At the height of the cuts, a rapid to this position turns the part by these axes in another direction than the
+    /// job, or by more turns.
+    Turned(Place, u8),
     /// The program has the job's path, but the spindle is in another state than the job requires.
     Turning,
 }
@@ -56,7 +59,7 @@ pub(super) const ROUNDED_ACROSS: f64 = 2.0;
 /// Whether both paths have the same rapids with the same state of the spindle.
 pub(super) fn are_the_same(job: &[Rapid], program: &[Rapid], tolerance: f64) -> bool {
     let is = |a: &Rapid, b: &Rapid| b.unknown == 0 && same(&a.to, &b.to, ALL, tolerance) && spins(a, b);
-    job.len() == program.len() && job.iter().zip(program).all(|(a, b)| is(a, b))
+    job.len() == program.len() && job.iter().zip(program).all(|(a, b)| is(a, b)) && turn_alike(job, program)
 }
 
 /// Compares the program's path with the job's path, rapid by rapid. If the paths differ, joins the parts of straight
@@ -80,6 +83,9 @@ pub(super) fn compare(job: &mut RapidPath, program: &mut RapidPath, known_start:
 /// is unknown (after a tool change), the program may come to the job's first position from anywhere, but not lower than
 /// that position.
 fn compare_as_they_are(job: &RapidPath, program: &RapidPath, known_start: bool, tolerance: f64) -> Compared {
+    if known_start && let Some((to, axes)) = turned_low(&job.corners, &program.corners, tolerance) {
+        return Compared::Turned(to, axes);
+    }
     let Some(first) = job.corners.first().filter(|_| !known_start) else {
         return compare_corners(
             &job.corners,

@@ -1,5 +1,6 @@
 //! Rotary axes: the part turns before the tool moves down, and no angle is lost.
 
+use crate::support::folder::{Folder, err, out};
 use crate::support::{job, mill, path_lines, plain_post, program};
 
 const DRILL: &str = "Drill\nG81 X[h] Y[v] Z[d] R[vclear] F[frate]\nEnd Cancel";
@@ -121,4 +122,90 @@ fn another_work_offset_turns_the_part_before_the_tool_goes_down() {
     let plain = |line: &str| line.split_once(' ').map_or(line.to_owned(), |(_, rest)| rest.to_owned());
     let around: Vec<String> = lines[at - 1..at + 3].iter().map(|line| plain(line)).collect();
     assert_eq!(around, ["G0 G53 Z0", "G55 A90.", "X0 Y0", "Z50."]);
+}
+
+/// A job in inches with a path, and a program with these blocks.
+fn job_and_program(folder: &Folder, path: &str, blocks: &str) {
+    folder.write("job.json", &format!(
+        r#"{{"postform":1,"program":1,"units":"inch","tools":[{{"number":1}}],"operations":[{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":10,"path":[{{"rapid":[0,0,5,0]}},{{"line":[0,0,-0.1]}},{path}]}}]}}"#
+    ));
+    folder.write("a.nc", &nc(blocks));
+}
+
+fn nc(blocks: &str) -> String {
+    format!(
+        "%\nO1\nG20 G17 G40 G49 G80 G90 G94\nT1 M6\nG0 G54 X0. Y0. A0. S1000 M3\nG43 H1 Z5.\nG1 Z-.1 F10.\n{blocks}\nM5\nG91 G28 Z0.\nM30\n%\n"
+    )
+}
+
+/// The way by which a part turns is a part of each cut, and of each rapid before the retract: verify and diff compare
+/// the direction and the number of turns.
+#[test]
+fn the_way_of_a_turn_is_compared_not_only_its_end() {
+    let line = r#"{"line":[1,0,-0.1,90]},{"rapid":[1,0,5]}"#;
+    let alone = r#"{"line":[0,0,-0.1,360]},{"rapid":[0,0,5]}"#;
+    let arc = r#"{"arc":{"to":[1,0,-0.1,90],"center":[0.5,0],"direction":"cw"}},{"rapid":[1,0,5]}"#;
+    let circle = r#"{"arc":{"to":[0,0,-0.1,0],"center":[0.5,0],"direction":"cw"}},{"rapid":[0,0,5]}"#;
+    let rapid = r#"{"line":[1,0,-0.1]},{"rapid":[1,0,-0.1,90]},{"line":[2,0,-0.1]},{"rapid":[2,0,5]}"#;
+    let leaves = r#"{"line":[1,0,-0.1]},{"rapid":[1,0,-0.1,90]},{"rapid":[1,0,5]}"#;
+    let otherwise = "in another direction than in the job, or by more turns";
+    // (the job's path, the right blocks, the wrong blocks, the message of verify, the message of diff)
+    let cases = [
+        (line, "X1. A90.\nG0 Z5.", "X1. A-270.\nG0 Z5.", otherwise, "turns the part from A0 to A-270"),
+        (line, "X1. A90.\nG0 Z5.", "X1. A450.\nG0 Z5.", otherwise, "turns the part from A0 to A450"),
+        (alone, "A360.\nG0 Z5.", "A-360.\nG0 Z5.", otherwise, "turns the part from A0 to A-360"),
+        (arc, "G2 X1. I.5 A90.\nG0 Z5.", "G2 X1. I.5 A-270.\nG0 Z5.", "to A-270 at X1", "from A0 to A-270"),
+        (circle, "G2 I.5\nG0 Z5.", "G2 I.5 A360.\nG0 Z5.", "to A360 at X0", "from A0 to A360"),
+        (
+            rapid,
+            "X1.\nG0 A90.\nG1 X2.\nG0 Z5.",
+            "X1.\nG0 A-270.\nG1 X2.\nG0 Z5.",
+            "before the tool is retracted, a rapid to X1 Y0 Z-0.1 A-270 turns",
+            "before the tool is retracted, a rapid to X1 Y0 Z-0.1 A-270 turns",
+        ),
+        (leaves, "X1.\nG0 A90.\nZ5.", "X1.\nG0 A-270.\nZ5.", "a rapid to X1 Y0 Z-0.1 A-270 turns", "the path after"),
+    ];
+    let folder = Folder::new("rotary-turns");
+    let verify = ["verify", "job.json", "--nc", "a.nc", "--control", "haas"];
+    let text =
+        |output: &std::process::Output| (out(output) + &err(output)).split_whitespace().collect::<Vec<_>>().join(" ");
+    for (path, right, wrong, in_verify, in_diff) in cases {
+        job_and_program(&folder, path, right);
+        let proven = text(&folder.run(&verify));
+        assert!(proven.contains("identical"), "{right}: {proven}");
+        folder.write("b.nc", &nc(wrong));
+        let diff = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
+        assert!(text(&diff).contains(in_diff), "{wrong}: {}", text(&diff));
+        job_and_program(&folder, path, wrong);
+        let said = text(&folder.run(&verify)).replace("│ ", "");
+        assert!(said.contains(in_verify), "{wrong}: {said}");
+    }
+}
+
+/// Parts of a cut turn the part in proportion. The program may count its angles from another turn than the job, and
+/// above the part it may turn by another way.
+#[test]
+fn parts_of_a_cut_turn_in_proportion() {
+    let line = r#"{"line":[1,0,-0.1,90]},{"rapid":[1,0,5]}"#;
+    let arc = r#"{"arc":{"to":[1,0,-0.1,90],"center":[0.5,0],"direction":"cw"}},{"rapid":[1,0,5]}"#;
+    let turns = r#"{"line":[1,0,-0.1,720]},{"rapid":[1,0,5]},{"rapid":[1,0,0.1,750]},{"line":[2,0,-0.1,840]},{"rapid":[2,0,5]}"#;
+    let cases = [
+        (line, "X.5 A45.\nX1. A90.\nG0 Z5.", "1 straight cut made of parts"),
+        (line, "X.5 A60.\nX1. A90.\nG0 Z5.", "different"),
+        (arc, "G2 X.5 Y.5 I.5 A45.\nX1. Y0. J-.5 A90.\nG0 Z5.", "1 arc made of parts"),
+        (arc, "G2 X.5 Y.5 I.5 A90.\nX1. Y0. J-.5\nG0 Z5.", "different"),
+        (
+            turns,
+            "X1. A720.\nG0 Z5.\nA30.\nZ.1\nG1 X1.5 Z0. A75.\nX2. Z-.1 A120.\nG0 Z5.",
+            "1 straight cut made of parts",
+        ),
+        (turns, "X1. A720.\nG0 Z5.\nA390.\nZ.1\nG1 X2. Z-.1 A480.\nG0 Z5.", "equivalent"),
+    ];
+    let folder = Folder::new("rotary-parts");
+    for (path, blocks, verdict) in cases {
+        job_and_program(&folder, path, blocks);
+        let run = folder.run(&["verify", "job.json", "--nc", "a.nc", "--control", "haas"]);
+        let said = out(&run) + &err(&run);
+        assert!(said.contains(verdict), "{blocks}: {said}");
+    }
 }

@@ -211,7 +211,7 @@ impl State {
             // an active cycle still returns to the initial level of the former work offset
             self.holes.series.initial_elsewhere |= self.holes.series.running;
             if self.settings.places_unknown {
-                self.place.becomes_unknown(0b111);
+                self.place.loses_all();
             }
         }
         out.push(Action::Work(work));

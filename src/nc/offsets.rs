@@ -180,8 +180,8 @@ impl State {
         for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {
             to[axis] = home[axis];
         }
-        // a rotary axis is at an angle of zero at its reference point
-        self.place.goes_home(axes & 0b111);
+        // without axis words, only axes that surely exist go home
+        self.place.goes_home(axes & (0b111 | self.place.turned | named));
         self.place.rapid_to(to, out);
         self.end_length(axes & ends_length, out);
         Ok(())

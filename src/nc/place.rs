@@ -1,8 +1,11 @@
 //! The position of the tool, and the frames that position refers to.
 
-use super::action::{Action, Position};
+use super::action::{Action, Position, ROTARY};
 use super::frames::Frames;
 use super::out::Out;
+
+/// X, Y and Z, as bits.
+const LINEAR: u8 = 0b111;
 
 /// The position of the tool and its coordinate frames.
 #[derive(Clone, Debug)]
@@ -17,6 +20,8 @@ pub struct Place {
     pub astray: u8,
     /// As bits, the `at_machine` axes whose machine position the program contains.
     pub placed: u8,
+    /// As bits, the rotary axes that the program has moved.
+    pub turned: u8,
     /// The coordinate frames of the program.
     pub frames: Frames,
     /// The active work offset, by its code or number; `None`: the program has selected none, and the control has no default.
@@ -33,6 +38,7 @@ impl Place {
             at_machine,
             astray: 0,
             placed: 0,
+            turned: 0,
             frames: Frames::default(),
             work,
             homes: [[0.0; 6]; 2],
@@ -54,6 +60,7 @@ impl Place {
     /// Records that the program contains the positions of these axes. The positions are known from now on.
     #[inline]
     pub fn are_given(&mut self, axes: u8) {
+        self.turned |= axes & ROTARY;
         self.at_machine &= !axes;
         self.astray &= !axes;
         self.placed &= !axes;
@@ -62,6 +69,7 @@ impl Place {
     /// Moves an axis by an increment.
     #[inline]
     pub fn moves_by(&mut self, axis: usize, by: f64) {
+        self.turned |= 1 << axis & ROTARY;
         if by != 0.0 {
             self.astray |= self.at_machine & 1 << axis;
             self.placed &= !(1 << axis);
@@ -77,6 +85,7 @@ impl Place {
 
     /// Moves axes to a machine position that the program contains.
     pub fn goes_home(&mut self, axes: u8) {
+        self.turned |= axes & ROTARY;
         self.at_machine |= axes;
         self.astray &= !axes;
         self.placed |= axes;
@@ -87,6 +96,12 @@ impl Place {
     pub fn goes_to_machine(&mut self, axes: u8) {
         self.goes_home(axes);
         self.placed &= !axes;
+    }
+
+    /// Makes the positions of all axes unknown, such as in another work offset. A rotary axis that the program has never
+    /// moved may not exist.
+    pub fn loses_all(&mut self) {
+        self.becomes_unknown(LINEAR | self.turned);
     }
 
     /// Makes the position of axes unknown, although the axes do not move. From now on, the position is known only at

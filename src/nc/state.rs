@@ -183,7 +183,7 @@ impl State {
     pub(super) fn gives_up_block(&mut self) {
         (self.holes.work, self.holes.pattern) = (None, None);
         if self.settings.places_unknown {
-            self.place.becomes_unknown(0b111);
+            self.place.loses_all();
         }
     }
 

@@ -1,5 +1,6 @@
 //! Compares a cut of one program with a cut of another program.
 
+use super::begin::unsaid;
 use super::cut::{ALL, Cut, Place, State, What, number, place, same, shown, turned_otherwise};
 use super::program::Program;
 use super::ways::Compared;
@@ -62,7 +63,7 @@ pub(super) fn differs(
     if cut.unknown != found.unknown {
         let [new, old] = [found, cut].map(|cut: &Cut| match cut.unknown {
             0 => shown(&cut.from, 0b111),
-            _ => "an unknown machine position".to_owned(),
+            axes => format!("an unknown machine position of {}", unsaid(axes).unwrap_or_default()),
         });
         return Some(format!("a cut begins at {new}, but at {old} in the old program"));
     }

@@ -209,3 +209,80 @@ fn parts_of_a_cut_turn_in_proportion() {
         assert!(said.contains(verdict), "{blocks}: {said}");
     }
 }
+
+/// The zero of a rotary axis is another one in each work offset, and machine positions are known only at the machine.
+/// After both, the angle is unknown until the program gives it again.
+#[test]
+fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
+    // the first cut is at A90 in G54; `blocks` lead to the second cut
+    let program = |blocks: &str| nc(&format!("G0 Z5.\nA90.\nZ.1\nG1 Z-.1\nG0 Z5.\n{blocks}\nG1 Z-.1\nG0 Z5."));
+    let folder = Folder::new("rotary-offsets");
+    let compared = |old: &str, new: &str| {
+        folder.write("a.nc", &program(old));
+        folder.write("b.nc", &program(new));
+        let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
+        (run.status.success(), out(&run) + &err(&run))
+    };
+    let given = "G55 X0. Y0. A90.\nZ5.";
+    let home = "G91 G28 A0.\nG90 G0 A0.\nG43 H1 Z5.";
+    let there = "A0.\nG43 H1 Z5.";
+    // (old, new, whether the motions are the same)
+    let cases = [
+        (given, given, true),
+        ("G55 X0. Y0.\nZ5.", "G55 X0. Y0.\nZ5.", true),
+        (given, "G55 X0. Y0.\nZ5.", false),
+        (home, home, true),
+        (home, there, true),
+        (there, "G91 G28 A0.\nG90 G43 H1 Z5.", false),
+        (there, "G91 G30 A0.\nG90 G43 H1 Z5.", false),
+        ("A0.", "G53 A0.", false),
+        // an axis that the program never moves may not exist
+        ("G55 X0. Y0. A90.\nZ5.", "G91 G28 Z0.\nG90 G55 X0. Y0. A90.\nG43 H1 Z5.", true),
+    ];
+    for (old, new, same) in cases {
+        let (is_same, said) = compared(old, new);
+        assert!(is_same == same, "{old} / {new}: {said}");
+        assert!(same || said.contains("an unknown machine position of A"), "{old} / {new}: {said}");
+    }
+    // as a job, a program must give the angle before each cut
+    let form = crate::support::root().join("postforms/haas-4axis.pf").to_string_lossy().into_owned();
+    for (blocks, proven) in [(given, true), (home, true), ("G55 X0. Y0.\nZ5.", false), ("G53 A0.\nX0.", false)] {
+        folder.write("a.nc", &program(blocks));
+        let run = folder.run(&["render", "a.nc", "--form", &form, "--job-control", "haas", "-o", "b.nc"]);
+        let said = err(&run) + &out(&run);
+        assert_eq!(run.status.success(), proven, "{blocks}: {said}");
+        assert!(
+            proven || said.contains("PN036") && said.contains("unknown angle of a rotary axis"),
+            "{blocks}: {said}"
+        );
+    }
+    // a job with its own angle in each operation
+    let operation = |work: u8| {
+        format!(
+            r#"{{"tool":1,"work":{work},"spindle":{{"speed":1000,"direction":"cw"}},"feed":10,"path":[{{"rapid":[0,0,5,90]}},{{"rapid":[0,0,0.1,90]}},{{"line":[0,0,-0.1,90]}},{{"rapid":[0,0,5,90]}}]}}"#
+        )
+    };
+    folder.write(
+        "job.json",
+        &format!(
+            r#"{{"postform":1,"program":1,"units":"inch","tools":[{{"number":1}}],"operations":[{},{}]}}"#,
+            operation(54),
+            operation(55)
+        ),
+    );
+    let cuts = |turn: &str| {
+        let text = program(turn);
+        text.replacen("G1 Z-.1 F10.\nG0 Z5.\nA90.\nZ.1\nG1 Z-.1\n", "A90.\nZ.1\nG1 Z-.1 F10.\n", 1)
+    };
+    for (blocks, verdict) in [
+        ("G55 X0. Y0. A90.\nZ5.\nZ.1", "identical"),
+        ("G55 X0. Y0.\nZ5.\nA90.\nZ.1", "identical"),
+        ("G55 X0. Y0.\nZ5.\nZ.1", "A is not printed since a change of the work offset"),
+        ("G55 X0. Y0.\nZ.1\nA90.", "PV009"),
+    ] {
+        folder.write("a.nc", &cuts(blocks));
+        let run = folder.run(&["verify", "job.json", "--nc", "a.nc", "--control", "haas"]);
+        let said = out(&run) + &err(&run);
+        assert!(said.contains(verdict), "{blocks}: {said}");
+    }
+}

@@ -15,9 +15,9 @@ impl Reader<'_> {
         if self.operation || self.turning.is_some() {
             return false;
         }
-        let place = self.place;
+        let (place, used) = (self.place, self.used());
         let Some(pattern) = &mut self.cycle else { return false };
-        if machine & 0b111 != 0 || !pattern.may_lead(to) {
+        if machine & used != 0 || !pattern.may_lead(to) {
             return false;
         }
         pattern.way.push((*to, place));

@@ -10,7 +10,7 @@ use super::switches::Switches;
 use crate::control::{Meaning, ToolLength, WorkOffset};
 use crate::diag::Diag;
 use crate::lang::{Machine, additional_work};
-use crate::nc::action::{Action, Item, Position, Turn};
+use crate::nc::action::{Action, Item, Position, ROTARY, Turn};
 use crate::source::text_of;
 use crate::toolpath::{Arc, Axes, Event, FeedMode, First, Infeed, Place, Plane, Side, Sink, StopKind};
 
@@ -105,7 +105,7 @@ impl<'a> Reader<'a> {
             plane: Plane::Xy,
             at: [0.0; 6],
             counted: [0.0; 6],
-            known: 0,
+            known: ROTARY,
             home: None,
             cycle: None,
             moves: None,
@@ -165,7 +165,10 @@ impl<'a> Reader<'a> {
             }
             Action::Feed { to, feed, .. } => self.feed(to, *feed, behind.unknown),
             Action::Arc(turn) => self.arc(turn, behind.unknown),
-            Action::Hole(hole) => self.hole(hole),
+            Action::Hole(hole) => {
+                self.is_turned(behind.unknown)?;
+                self.hole(hole)
+            }
             Action::CycleOff => Ok(()), // the next action shows whether the cycle really ends
             Action::Dwell(seconds) => self.between(Event::Dwell(*seconds)),
             Action::Stop(kind) => self.between(Event::Stop(*kind)),
@@ -277,8 +280,12 @@ impl<'a> Reader<'a> {
 
     /// The target of a move, with the axes that the job uses.
     pub(super) fn axes(&self, to: &Position) -> Axes {
-        let rotary = self.survey.rotary & 0b11_1000;
-        Axes { values: *to, given: 0b111 | rotary }
+        Axes { values: *to, given: self.used() }
+    }
+
+    /// The axes that the job uses, as bits.
+    pub(super) fn used(&self) -> u8 {
+        0b111 | self.survey.rotary & ROTARY
     }
 
     /// Adds the events before a move: the beginning of an operation, and the changed switches of the machine.
@@ -295,17 +302,18 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         self.end_cycle()?;
-        let machine = machine & 0b111;
+        let used = self.used();
+        let machine = machine & used;
         // for a move to a machine position, no event is added: forms print it before a tool change and at the end
         self.at = *to;
         if machine & 0b100 != 0 {
-            self.known = 0b111 & !machine;
+            self.known = used & !machine;
             self.home.get_or_insert(self.place.line);
             return Ok(());
         }
-        self.known = 0b111 & !machine;
+        self.known = used & !machine;
         if machine != 0 {
-            return Ok(()); // the height is known now, but X or Y is still unknown
+            return Ok(()); // the height is known now, but another axis is still unknown
         }
         let axes = self.axes(to);
         let new_tool = self.operation && self.tool_is_new();
@@ -352,7 +360,9 @@ impl<'a> Reader<'a> {
     /// Checks before a cut that the position of the tool is known.
     fn cut_begins(&mut self) -> Done {
         self.end_cycle()?;
-        if self.home.is_some() || self.known & 0b111 != 0b111 {
+        let unknown = self.used() & !self.known;
+        self.is_turned(unknown)?;
+        if self.home.is_some() || unknown != 0 {
             if let Some(start) = self.options.start {
                 return self.cut_from(start);
             }
@@ -363,6 +373,15 @@ impl<'a> Reader<'a> {
         self.move_begins(First::Cut)?;
         self.step();
         Ok(())
+    }
+
+    /// Checks before a cut or a hole that none of the unknown axes is a rotary axis of the job.
+    fn is_turned(&self, unknown: u8) -> Done {
+        if unknown & self.used() & ROTARY == 0 {
+            return Ok(());
+        }
+        let help = "write the angle after the work offset or the move home, before the cut";
+        unsaid(self.place.line, "a cut begins at an unknown angle of a rotary axis", help)
     }
 
     /// Handles a cut that begins at an unknown machine position. Axes without a position in the program are assumed to
@@ -376,7 +395,7 @@ impl<'a> Reader<'a> {
         for axis in (0..3).filter(|axis| unknown & 1 << axis == 0) {
             self.at[axis] = start[axis];
         }
-        self.known = 0b111;
+        self.known = self.used();
         let axes = self.axes(&self.at);
         self.move_begins(First::Rapid(axes))?;
         self.step();

@@ -64,7 +64,7 @@ impl Tally {
                 self.moves[1] += 1;
                 let length = distance(&self.at, to);
                 let radius = (self.at[0] + to[0]).abs() / 2.0;
-                self.cut(length, *feed, *lead, radius);
+                self.cut([length, turned(&self.at, to)], *feed, *lead, radius);
                 self.reach(&self.at.clone());
                 self.at = *to;
                 self.reach(to);
@@ -72,7 +72,7 @@ impl Tally {
             Action::Arc(turn) => {
                 self.moves[2] += 1;
                 let radius = (self.at[0] + turn.to[0]).abs() / 2.0;
-                self.cut(arc_length(&self.at, turn), turn.feed, None, radius);
+                self.cut([arc_length(&self.at, turn), 0.0], turn.feed, None, radius);
                 self.reach(&self.at.clone());
                 self.round(turn);
                 self.at = turn.to;
@@ -99,18 +99,17 @@ impl Tally {
         self.cutting + self.dwelling + self.distances[0] / rapid_rate(self.units)
     }
 
-    /// Adds a feed move. `radius` is the radius of a lathe cut.
-    fn cut(&mut self, length: f64, feed: f64, lead: Option<f64>, radius: f64) {
+    /// Adds a feed move: its length along X, Y and Z, and the angle by which the part turns. If only the part turns, the
+    /// feed is in degrees per minute. `radius` is the radius of a lathe cut.
+    fn cut(&mut self, [length, turned]: [f64; 2], feed: f64, lead: Option<f64>, radius: f64) {
         self.distances[1] += length;
+        let units = self.units.in_mm();
+        let (path, scale) = if length > 0.0 { (length * units, units) } else { (turned, 1.0) };
         let minutes = match lead {
-            // in inverse time, this is also the time of rotary moves, whose length is 0
             None if self.pace.is_inverse() => 1.0 / feed,
-            _ => {
-                let (scale, length) = (self.units.in_mm(), length * self.units.in_mm());
-                length / self.pace.per_minute(feed, lead, length, scale, radius * scale)
-            }
+            _ => path / self.pace.per_minute(feed, lead, path, scale, radius * units),
         };
-        if minutes.is_finite() { self.cutting += minutes } else { self.timeless += u64::from(length > 0.0) }
+        if minutes.is_finite() { self.cutting += minutes } else { self.timeless += u64::from(path > 0.0) }
     }
 
     fn reach(&mut self, at: &Position) {
@@ -158,6 +157,11 @@ pub fn clock(minutes: f64) -> String {
 
 fn distance(from: &Position, to: &Position) -> f64 {
     (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The angle by which rotary axes turn in a straight move, in degrees.
+fn turned(from: &Position, to: &Position) -> f64 {
+    (3..6).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// The angle of an arc in radians. An arc that ends where it begins is a full turn.

@@ -286,3 +286,55 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
         assert!(said.contains(verdict), "{blocks}: {said}");
     }
 }
+
+/// If only rotary axes move, the feed is in degrees per minute: it is the same number in inches and in millimetres.
+#[test]
+fn the_feed_of_a_turn_is_the_same_in_other_units() {
+    let folder = Folder::new("rotary-feeds");
+    let path = r#"{"line":[0,0,-0.1,90],"feed":100},{"line":[1,0,-0.1]},{"rapid":[1,0,5]}"#;
+    job_and_program(&folder, path, "A90. F100.\nX1.\nG0 Z5.");
+    let form = crate::support::root().join("postforms/haas-4axis.pf").to_string_lossy().into_owned();
+    let run = folder.run(&["render", "job.json", "--form", &form, "--units", "mm", "--require-proof", "-o", "mm.nc"]);
+    assert!(run.status.success(), "{}", err(&run));
+    let text = folder.read("mm.nc");
+    // the next cut has the same feed of the job, but along X
+    assert!(text.contains("A90. F100.\n") && text.contains("X25.4 F2540.\n"), "{text}");
+    let mm = |feeds: [&str; 2]| {
+        let [turn, across] = feeds;
+        let blocks = format!("G1 Z-2.54 F254.\nA90. F{turn}\nX25.4 F{across}\nG0 Z127.");
+        nc("").replace("G20", "G21").replace("Z5.", "Z127.").replace("G1 Z-.1 F10.\n", &blocks)
+    };
+    for (feeds, same) in [(["100.", "2540."], true), (["2540.", "2540."], false), (["100.", "100."], false)] {
+        folder.write("b.nc", &mm(feeds));
+        let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
+        assert_eq!(run.status.success(), same, "{feeds:?}: {}{}", out(&run), err(&run));
+        let run = folder.run(&["verify", "job.json", "--nc", "b.nc", "--control", "haas"]);
+        assert_eq!(run.status.success(), same, "{feeds:?}: {}{}", out(&run), err(&run));
+    }
+    // 5.1 inch at F10, 90 degrees and 1 inch at F100
+    let run = folder.run(&["simulate", "--dry", "a.nc", "--control", "haas"]);
+    assert!(out(&run).contains("cutting 1:25"), "{}", out(&run));
+}
+
+/// The feed of a rotary axis is compared with its fastest feed, also if X, Y or Z moves too.
+#[test]
+fn a_rotary_axis_has_a_fastest_feed() {
+    let folder = Folder::new("rotary-fastest");
+    folder.write("m.toml", "name = \"M\"\ncontrol = \"haas\"\nunits = \"inch\"\n[axes.A]\nfeed = 1000\n");
+    for (cut, feed) in [
+        ("A90. F1000.", None),
+        ("A90. F1001.", Some("1001")),
+        ("X1. A100. F5000.", Some("4999.75")),
+        ("X100. A1. F5000.", None),
+        ("G2 I.5 A90. F2000.", Some("1998.782")),
+        ("G93 X1. A90. F20.", Some("1800")),
+        ("G93 X1. A90. F10.", None),
+    ] {
+        folder.write("a.nc", &nc(&format!("{cut}\nG0 Z5.")));
+        let run = folder.run(&["fit", "a.nc", "--machine", "m.toml", "--control", "haas"]);
+        let said = out(&run) + &err(&run);
+        let message = feed.map(|feed| format!("A would feed at {feed} degrees/min, but its maximum is 1000"));
+        assert_eq!(said.contains("would feed"), feed.is_some(), "{cut}: {said}");
+        assert!(message.is_none_or(|message| said.contains(&message)), "{cut}: {said}");
+    }
+}

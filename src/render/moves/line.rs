@@ -8,7 +8,8 @@ use crate::render::body::{Mode, run};
 use crate::render::cx::Cx;
 use crate::render::fault::Done;
 use crate::render::prelude::{check_prints, feed_block};
-use crate::render::said::LastMove;
+use crate::render::said::{LastMove, Said};
+use crate::render::shape::{ROTARY_BITS, Shape};
 use crate::render::upon::upons;
 use crate::render::words::move_block;
 use crate::toolpath::Axes;
@@ -19,8 +20,26 @@ pub fn line(to: &Axes, feed: Option<f64>, cx: &mut Cx<'_>) -> Done {
         return plain_line(to, feed, factors, cx);
     }
     let target = begin_cut(to, Some(feed), cx)?;
+    let feed = cx.want.feed();
+    let in_degrees = cx.shape.scale != 1.0 && !cx.want.inverse_time() && only_turns(&target, cx.shape, cx.said);
+    if in_degrees {
+        cx.want.keep_feed(feed.map(|feed| feed / cx.shape.scale), cx.shape);
+    }
     cut_goes_to(&target, false, cx)?;
-    line_to(&target, cx)
+    line_to(&target, cx)?;
+    if in_degrees {
+        cx.want.keep_feed(feed, cx.shape);
+    }
+    Ok(())
+}
+
+/// Whether a cut moves only rotary axes. Its feed is in degrees per minute, so it is the same in other units.
+fn only_turns(target: &Axes, shape: &Shape, said: &Said) -> bool {
+    let stays = |axis: usize| {
+        let known = target.get(axis).is_none_or(|to| said.stand.position.get(axis) == Some(to));
+        known || !said.differs_from(target, 1 << axis, shape)
+    };
+    target.given & ROTARY_BITS != 0 && said.turns(target, shape) && (0..3).all(stays)
 }
 
 /// A feed move to a target in program units.

@@ -40,6 +40,13 @@ impl Program<'_> {
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 
+    /// The factor of the feed of a cut. If only rotary axes move, the feed is in degrees, and the same in all units.
+    fn feed_factor(&self, what: &What) -> f64 {
+        let is_linear = |axis: &usize| !(3..6).contains(axis);
+        let turns = matches!(what, What::Line { to } if (0..8).filter(is_linear).all(|axis| to[axis] == self.at[axis]));
+        if turns || self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() }
+    }
+
     pub(super) fn cuts_now(&mut self, what: What, home: u8, feed: f64, lead: Option<f64>, item: &Item) {
         self.check_frame(0, item.line);
         if self.length_is_due() {
@@ -64,7 +71,7 @@ impl Program<'_> {
         if lead.is_some() && state.rigid == Some(false) {
             state.rigid = Some(true);
         }
-        let factor = if self.mode == FeedMode::InverseTime { 1.0 } else { self.scale.factor() };
+        let factor = self.feed_factor(&what);
         self.cut = Some(Cut {
             from: self.at,
             unknown: if self.scale.flat { self.unknown & !0b100 } else { self.unknown },

@@ -1,8 +1,10 @@
 //! Jobs: the work to be machined, in any format. A job turns bytes into events.
 
 mod format;
+mod held;
 mod join;
 mod kept;
+mod left_out_text;
 mod read;
 mod select;
 
@@ -257,14 +259,22 @@ impl<'a> Job<'a> {
     /// # Errors
     /// The input fails, the job is wrong, or the sink can't do what the job requests. The report has the warnings up to that point.
     pub fn read(&mut self, sink: &mut dyn Sink) -> Result<(), Error> {
+        self.read_by(Control::of_no_name(), sink)
+    }
+
+    /// Like [`Job::read`], with the control that defines the codes in text items. These codes matter only if the selection
+    /// leaves out operations.
+    pub(crate) fn read_by(&mut self, control: &'static Control, sink: &mut dyn Sink) -> Result<(), Error> {
         if matches!(self.input, Input::Stream(None)) {
             return Err(Error::usage("a job that comes as a stream can be read only once"));
         }
         self.report = Report::default();
         self.read.set(0);
         let selection = self.reading.select.clone();
-        let read =
-            if selection.is_all() { self.read_on(sink) } else { self.read_on(&mut Selecting::new(sink, &selection)) };
+        let read = match selection.is_all() {
+            true => self.read_on(sink),
+            false => self.read_on(&mut Selecting::new(sink, &selection, control)),
+        };
         // a reader that detects changes to its file reports them here
         if let Input::File(input) = &mut self.input {
             input.rewind()?;

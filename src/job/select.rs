@@ -1,13 +1,18 @@
 //! Selects operations of a job by their tools. The selection begins with a given tool, ends with a given tool, contains
 //! only given tools, or excludes given tools.
 //!
-//! Some values of a left-out operation stay in force: work offset and set values, and spindle and coolant if the tool stays the
-//! same. These values are added to the next operation that is selected. That operation starts at the position that the tool would have
-//! reached.
+//! Some values of a left-out operation stay in force: work offset, tool axis and set values, and spindle and coolant if the
+//! tool stays the same. These values are added to the next operation that is selected. That operation starts at the
+//! position that the tool would have reached. If a state of a left-out operation can't be added, the operation after it is
+//! refused.
 
+use std::collections::HashSet;
+
+use super::held::{Held, UPRIGHT, turned};
+use super::left_out_text::{Left, Other};
+use crate::control::Control;
 use crate::diag::{Code, Diag};
-use crate::lang::Coolant;
-use crate::toolpath::{Axes, Event, First, Flow, Given, Hole, Place, Sink, Spindle, Start, ToolChange};
+use crate::toolpath::{Axes, Event, First, Flow, Hole, Place, Sink, Start, Stop, ToolChange, key};
 
 /// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,6 +74,8 @@ impl Progress {
 pub(super) struct Selecting<'s> {
     sink: &'s mut dyn Sink,
     selection: &'s Selection,
+    /// The control that defines the codes in text items.
+    control: &'static Control,
     progress: Progress,
     /// Whether the current operation is selected. Items before the first operation are always selected.
     takes: bool,
@@ -76,36 +83,33 @@ pub(super) struct Selecting<'s> {
     left_out: bool,
     /// Whether the next move is the first after a left-out operation, so that its missing axes are filled in.
     fills: bool,
-    /// Whether a subprogram is open. A subprogram is always kept, because any operation may call it.
-    in_subprogram: bool,
+    /// The open subprogram. A subprogram is always kept, because any operation may call it.
+    subprogram: Option<u64>,
+    /// The subprograms that contain text with an unknown effect.
+    with_text: HashSet<u64>,
     held: Held,
+    /// The tool axis of the events that were passed on.
+    passed_tilt: [f64; 3],
     /// The position, with only the axes that are known.
     at: Axes,
     tools: Vec<f64>,
     taken: u64,
 }
 
-/// Values that stay in force from operation to operation.
-#[derive(Default)]
-struct Held {
-    tool: Option<f64>,
-    spindle: Option<Spindle>,
-    coolant: Option<Coolant>,
-    work: Option<f64>,
-    set: Vec<(String, Given)>,
-}
-
 impl<'s> Selecting<'s> {
-    pub fn new(sink: &'s mut dyn Sink, selection: &'s Selection) -> Selecting<'s> {
+    pub fn new(sink: &'s mut dyn Sink, selection: &'s Selection, control: &'static Control) -> Selecting<'s> {
         Selecting {
             sink,
             selection,
+            control,
             progress: Progress::default(),
             takes: true,
             left_out: false,
             fills: false,
-            in_subprogram: false,
+            subprogram: None,
+            with_text: HashSet::new(),
             held: Held::default(),
+            passed_tilt: UPRIGHT,
             at: Axes::default(),
             tools: Vec::new(),
             taken: 0,
@@ -118,7 +122,7 @@ impl<'s> Selecting<'s> {
         if let Some(tool) = tool.filter(|tool| !self.tools.contains(tool)) {
             self.tools.push(tool);
         }
-        self.hold(change);
+        self.held.operation(change);
         self.takes = self.progress.takes(self.selection, tool, self.held.work);
         if !self.takes {
             self.left_out = true;
@@ -127,6 +131,9 @@ impl<'s> Selecting<'s> {
         self.taken += 1;
         if !std::mem::take(&mut self.left_out) {
             return self.sink.event(Event::ToolChange(change), place);
+        }
+        if let Some(lost) = self.held.lost() {
+            return Flow::Break(not_alone(change, &format!("follows an operation that is left out: {lost}"), place));
         }
         let held = &self.held;
         let mut change = ToolChange {
@@ -140,35 +147,13 @@ impl<'s> Selecting<'s> {
             First::Rapid(to) => *to = self.filled(*to),
             First::Hole(_, hole) => hole.at = self.filled(hole.at),
             First::Cut => {
-                let name = change.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
-                let message = format!(
-                    "the operation{name} begins with a cut from the last position of an operation that is left out"
-                );
-                let help = "include the operation before it too";
-                return Flow::Break(Diag::new(Code::PR060, message).help(help).place(place).into());
+                let why = "begins with a cut from the last position of an operation that is left out";
+                return Flow::Break(not_alone(&change, why, place));
             }
             First::Nothing => {}
         }
         self.fills = true;
         self.sink.event(Event::ToolChange(&change), place)
-    }
-
-    /// Keeps the values that stay in force after the operation. Spindle and coolant end at the change to another tool.
-    fn hold(&mut self, change: &ToolChange) {
-        let held = &mut self.held;
-        let tool = change.tool.as_ref().map(|tool| tool.number);
-        if tool.is_some() && tool != held.tool {
-            *held = Held { tool, spindle: None, coolant: None, ..std::mem::take(held) };
-        }
-        held.spindle = change.spindle.map(|own| turned(own, held.spindle)).or(held.spindle);
-        held.coolant = change.coolant.or(held.coolant);
-        held.work = change.work.or(held.work);
-        change.set.iter().for_each(|(name, value)| self.set(name, value));
-    }
-
-    fn set(&mut self, name: &str, value: &Given) {
-        self.held.set.retain(|(known, _)| known != name);
-        self.held.set.push((name.to_owned(), value.clone()));
     }
 
     /// A position whose missing axes are filled in with the known position.
@@ -193,23 +178,70 @@ impl<'s> Selecting<'s> {
     /// Updates the values that stay in force after an event.
     fn follow(&mut self, event: &Event<'_>) {
         match event {
-            Event::Rapid(to) | Event::Line { to, .. } | Event::Outfeed { to, .. } => self.goes(to),
+            Event::Rapid(to) | Event::Line { to, .. } => self.goes(to),
             Event::Arc { arc, .. } => self.goes(&arc.to),
-            Event::Infeed { infeed, .. } => self.goes(&infeed.to),
+            Event::Infeed { infeed, .. } => {
+                self.held.is_compensated = true;
+                self.goes(&infeed.to);
+            }
+            Event::Outfeed { to, .. } => {
+                self.held.is_compensated = false;
+                self.goes(to);
+            }
             Event::Hole(Hole { at, .. }) => {
                 self.goes(at);
                 self.at.given &= !0b100; // the retract height depends on the cycle
             }
-            Event::SubCall(_) | Event::Home | Event::Thread(_) | Event::Edm(_) => self.at = Axes::default(),
+            Event::SubCall(call) => {
+                if self.with_text.contains(&key(call.sub)) && !self.takes {
+                    self.held.unknown = Some(format!("the text in subprogram {}", call.sub));
+                }
+                self.at = Axes::default();
+            }
+            Event::Home | Event::Thread(_) | Event::Edm(_) => self.at = Axes::default(),
+            Event::Tilt(axis) => self.held.tilt = *axis,
+            Event::Text(text) => self.held.text(text, self.control, self.takes),
             Event::Work(work) => {
                 self.held.work = Some(*work);
                 self.at = Axes::default();
             }
             Event::Spindle(spindle) => self.held.spindle = Some(turned(*spindle, self.held.spindle)),
             Event::Coolant(coolant) => self.held.coolant = Some(*coolant),
-            Event::Set(name, value) => self.set(name, value),
+            Event::Set(name, value) => self.held.set(name, value),
             _ => {}
         }
+    }
+
+    /// Keeps which subprograms contain text with an unknown effect, directly or in a subprogram that they call.
+    fn follow_subprogram(&mut self, number: u64, event: &Event<'_>) {
+        let has_text = match event {
+            Event::Text(text) => Left::by(text, self.control).other == Other::Unknown,
+            Event::SubCall(call) => self.with_text.contains(&key(call.sub)),
+            _ => false,
+        };
+        if has_text {
+            self.with_text.insert(number);
+        }
+    }
+
+    /// Passes an event on. A changed tool axis is passed on before the next move.
+    fn pass(&mut self, event: Event<'_>, place: Place) -> Flow {
+        let moves = matches!(
+            event,
+            Event::Rapid(_)
+                | Event::Line { .. }
+                | Event::Arc { .. }
+                | Event::Infeed { .. }
+                | Event::Outfeed { .. }
+                | Event::Hole(_)
+                | Event::SubCall(_)
+                | Event::Home
+        );
+        if moves && self.held.tilt != self.passed_tilt {
+            self.passed_tilt = self.held.tilt;
+            self.sink.event(Event::Tilt(self.held.tilt), place)?;
+        }
+        self.sink.event(event, place)
     }
 
     /// The head, without the tools that are left out.
@@ -229,7 +261,7 @@ impl Sink for Selecting<'_> {
         match event {
             Event::Start(start) => return self.start(start, place),
             Event::ToolChange(change) => return self.change(change, place),
-            Event::SubStart(_) => self.in_subprogram = true,
+            Event::SubStart(number) => self.subprogram = Some(key(number)),
             Event::Finish if self.taken == 0 && !self.tools.is_empty() => {
                 let tools: Vec<String> = self.tools.iter().map(|tool| format!("T{tool}")).collect();
                 let message = format!("no operation is selected: the job has {}", tools.join(", "));
@@ -237,34 +269,29 @@ impl Sink for Selecting<'_> {
             }
             _ => {}
         }
-        let passes = self.takes || self.in_subprogram || matches!(event, Event::Finish);
-        if !self.in_subprogram {
-            // missing axes of the move are filled in from the position before it
-            let filled = match &event {
-                Event::Rapid(to) if self.fills => Some(Event::Rapid(self.filled(*to))),
-                Event::Hole(hole) if self.fills => Some(Event::Hole(Hole { at: self.filled(hole.at), ..*hole })),
-                _ => None,
-            };
-            self.follow(&event);
-            if let Some(filled) = filled {
-                self.fills &= !passes;
-                return if passes { self.sink.event(filled, place) } else { Flow::Continue(()) };
-            }
+        if let Some(number) = self.subprogram {
+            self.follow_subprogram(number, &event);
+            self.subprogram = self.subprogram.filter(|_| !matches!(event, Event::SubEnd));
+            return self.sink.event(event, place);
         }
-        if matches!(event, Event::SubEnd) {
-            self.in_subprogram = false;
+        // missing axes of the move are filled in from the position before it
+        let event = match event {
+            Event::Rapid(to) if self.fills => Event::Rapid(self.filled(to)),
+            Event::Hole(hole) if self.fills => Event::Hole(Hole { at: self.filled(hole.at), ..hole }),
+            event => event,
+        };
+        self.follow(&event);
+        if !self.takes && !matches!(event, Event::Finish) || matches!(event, Event::Tilt(_)) {
+            return Flow::Continue(());
         }
-        if passes { self.sink.event(event, place) } else { Flow::Continue(()) }
+        self.fills &= !matches!(event, Event::Rapid(_) | Event::Hole(_));
+        self.pass(event, place)
     }
 }
 
-/// A spindle state; values that are missing are taken from the spindle state before.
-fn turned(own: Spindle, before: Option<Spindle>) -> Spindle {
-    let Some(before) = before else { return own };
-    Spindle {
-        speed: own.speed.or(before.speed),
-        turn: own.turn.or(before.turn),
-        css: own.css.or(before.css),
-        max: own.max.or(before.max),
-    }
+/// The error that an operation can't be printed without the operations that are left out.
+fn not_alone(change: &ToolChange, why: &str, place: Place) -> Stop {
+    let name = change.name.as_deref().map(|name| format!(" `{name}`")).unwrap_or_default();
+    let message = format!("the operation{name} {why}");
+    Diag::new(Code::PR060, message).help("include the operation before it too").place(place).into()
 }

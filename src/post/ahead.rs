@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Post;
 use super::options::Options;
-use super::reading::taken;
+use super::reading::read_for;
 use crate::compile::Asks;
 use crate::error::Error;
 use crate::job::Job;
@@ -80,7 +80,7 @@ impl Post {
     ) -> (Result<(), Error>, Survey) {
         let terms = survey_terms(&self.0.program, options.sink_as_printed, only_order, options.rates.clone());
         let mut surveyor = Surveyor::new(terms);
-        let read = taken(Some(&self.0.program.settings), &mut surveyor, |sink| job.again().read(sink));
+        let read = read_for(Some(&self.0.program.settings), &mut job.again(), &mut surveyor);
         (read, surveyor.finish())
     }
 }

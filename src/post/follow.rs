@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Post;
 use super::options::Options;
 use super::program::{Program, Rendered};
-use super::reading::taken;
+use super::reading::read_for;
 use crate::error::Error;
 use crate::job::Job;
 use crate::lang::{VARIABLES, VarId};
@@ -59,7 +59,7 @@ impl Post {
             seen: Vec::new(),
             known: HashMap::new(),
         };
-        let read = taken(Some(&self.0.program.settings), &mut follower, |sink| job.read(sink));
+        let read = read_for(Some(&self.0.program.settings), &mut job, &mut follower);
         follower.look();
         let mut notes = job.take_report().warnings;
         notes.extend_from_slice(follower.renderer.notes());

@@ -2,7 +2,7 @@
 
 use super::Post;
 use super::options::Options;
-use super::reading::taken;
+use super::reading::read_for;
 use crate::error::Error;
 use crate::job::Job;
 use crate::render::{Renderer, TraceLine};
@@ -23,7 +23,7 @@ impl Post {
         let found = vec![None; lines.len()];
         let mut finder = Finder { renderer, lines, missing: lines.len(), found };
         // an event that can't be printed ends the search, and the origins found so far are returned
-        let _ = taken(Some(&self.0.program.settings), &mut finder, |sink| job.read(sink));
+        let _ = read_for(Some(&self.0.program.settings), &mut job, &mut finder);
         finder.look();
         Ok(finder.found)
     }

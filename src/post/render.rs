@@ -6,7 +6,7 @@ use super::Post;
 use super::growth::Growth;
 use super::options::Options;
 use super::program::{Part, Program, Rendered};
-use super::reading::taken;
+use super::reading::read_for;
 use crate::diag::{Code, Diag};
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
@@ -128,7 +128,7 @@ impl Post {
             prove,
             failure: None,
         };
-        let mut read = taken(Some(&self.0.program.settings), &mut printer, |sink| job.read(sink));
+        let mut read = read_for(Some(&self.0.program.settings), &mut job, &mut printer);
         if read.is_ok() && !printer.renderer.is_over() {
             read = Err(Error::usage("the events stop before the end of the job: push `Event::Finish` last"));
         }

@@ -2,7 +2,7 @@
 
 use super::Post;
 use super::options::Options;
-use super::reading::taken;
+use super::reading::read_for;
 use crate::control::Control;
 use crate::error::Error;
 use crate::job::Job;
@@ -19,7 +19,7 @@ impl Post {
         let (read, survey) = self.surveyed(&mut job, options, false);
         read?;
         let mut stops = Stops::default();
-        taken(Some(&self.0.program.settings), &mut stops, |sink| job.read(sink))?;
+        read_for(Some(&self.0.program.settings), &mut job, &mut stops)?;
         // the number of the fixture, or the code
         let name = |work: f64| if work < 50.0 { format!("{work}") } else { format!("G{work}") };
         let mut sheet = of_job(&survey, stops, self.turns(), &name);

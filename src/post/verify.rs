@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::Post;
 use super::options::{Options, Proof};
-use super::reading::taken;
+use super::reading::read_for;
 use crate::compile;
 use crate::control::Control;
 use crate::diag::{Code, Diag, Findings};
@@ -173,7 +173,7 @@ struct Tools {
 
 fn tools_of(form: Option<&compile::Program>, mut job: Job<'_>) -> Result<Vec<JobTool>, Error> {
     let mut tools = Tools { scale: 1.0, tools: Vec::new(), numbers: HashSet::new() };
-    taken(form.map(|form| &form.settings), &mut tools, |sink| job.read(sink))?;
+    read_for(form.map(|form| &form.settings), &mut job, &mut tools)?;
     Ok(tools.tools)
 }
 
@@ -292,7 +292,7 @@ fn prove(
     expectation.lengths_due = form.is_some() || job.format() != Format::Nc;
     expectation.units_due &= form.is_some() || options.units.is_none();
     let mut comparer = Comparer::new(program, settings, expectation, proof.tolerance, in_units_of_job);
-    let read = taken(form.map(|form| &form.settings), &mut comparer, |sink| job.read(sink));
+    let read = read_for(form.map(|form| &form.settings), &mut job, &mut comparer);
     let (counts, warnings, decided) = (comparer.counts(), comparer.warnings(), comparer.is_decided());
     let verdict = comparer.verdict().map_err(|error| Error::of_io(ErrorKind::Program, error))?;
     let verdict = if assumed { verdict.assumed(settings.control.name()) } else { verdict };

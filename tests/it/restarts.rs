@@ -411,3 +411,98 @@ fn a_part_of_a_job_is_taken() {
     let cut = folder.run(&["render", "cut.json", "--form", &form, "--from-tool", "2"]);
     assert!(cut.status.code() == Some(1) && err(&cut).contains("PR060"), "{}", err(&cut));
 }
+
+/// A part of a job has the same state as in the whole job. Text of a left-out operation sets spindle and coolant as in
+/// the whole program; if its effect is unknown, the part is refused.
+#[test]
+fn a_part_of_a_job_keeps_the_state_of_left_out_operations() {
+    let folder = Folder::new("select-state");
+    let path = |z: i32| {
+        format!(r#"{{"rapid":[0,0,50]}},{{"rapid":[0,0,2]}},{{"line":[0,0,{z}],"feed":100}},{{"rapid":[0,0,50]}}"#)
+    };
+    let subprogram = r#""subprograms":[{"number":1,"path":[{"text":"G68 X0 Y0 R90."}]}],"#;
+    let second = |tool: u32, item: &str, more: &str| {
+        let (form, subprogram) = match item.contains("call") {
+            true => ("tests/data/forms/subprograms.pf", subprogram),
+            false => ("postforms/haas.pf", ""),
+        };
+        let job = format!(
+            r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1}},{{"number":2}}],
+{subprogram}"operations":[
+{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"path":[{}{item}]}},{{"tool":{tool}{more},"path":[{}]}}]}}"#,
+            path(-1),
+            path(-2)
+        );
+        folder.write("job.json", &job);
+        let form = root().join(form).to_string_lossy().into_owned();
+        folder.run(&[
+            "render",
+            "job.json",
+            "--form",
+            &form,
+            "--split",
+            "operation",
+            "--out-dir",
+            "nc",
+            "--name",
+            "{operation}",
+        ])
+    };
+    let own = r#","spindle":{"speed":900,"direction":"cw"}"#;
+    let cases: &[(&str, u32, &str, &str)] = &[
+        ("S500 M4", 1, "", "S500 M4"),
+        ("S500", 1, "", "S500 M3"),
+        ("M8", 1, "", "Z50. M8"),
+        ("M8", 2, own, "Z50. M9"),
+        ("M88", 2, own, "S900 M3"),
+        ("M19", 2, own, "S900 M3"),
+        ("M1 (look)", 1, "", "S1000 M3"),
+        ("G4 P500", 1, "", "S1000 M3"),
+    ];
+    for (text, tool, more, block) in cases {
+        let output = second(*tool, &format!(r#",{{"text":"{text}"}}"#), more);
+        assert!(output.status.success(), "{text}: {}", err(&output));
+        let program = folder.read("nc/OP02.nc");
+        assert!(program.contains(block), "{text}: {program}");
+    }
+    let text = |text: &str| format!(r#",{{"text":"{text}"}}"#);
+    let infeed = r#",{"infeed":[1,1,50],"side":"left"}"#;
+    let refused: &[(&str, u32, &str)] = &[
+        (&text("G55"), 1, "the effect of the text `G55` on this operation is unknown"),
+        (&text("G68 X0 Y0 R90."), 2, "the text `G68 X0 Y0 R90.`"),
+        (&text("G52 X100."), 2, "the text `G52 X100.`"),
+        (&text("X5."), 2, "the text `X5.`"),
+        (&text("G253"), 2, "the text `G253`"),
+        (&text("#100=5"), 2, "the text `#100=5`"),
+        (&text("M19"), 1, "the text `M19`"),
+        (r#",{"call":{"sub":1}}"#, 2, "the text in subprogram 1"),
+        (infeed, 1, "cutter compensation stays on"),
+    ];
+    for (item, tool, why) in refused {
+        let output = second(*tool, item, own);
+        assert!(!output.status.success() && err(&output).contains("PR060"), "{item}: {}", err(&output));
+        assert!(err(&output).replace("\n  │ ", " ").contains(why), "{item}: {}", err(&output));
+    }
+}
+
+/// The tool axis at the end of a left-out operation stays until the job tilts the tool again.
+#[test]
+fn a_part_of_a_job_keeps_the_tilt_of_the_tool() {
+    let folder = Folder::new("select-tilt");
+    let job = |second: &str| {
+        format!(
+            "PARTNO/X\nUNITS/MM\nMULTAX/ON\nLOADTL/1\nSPINDL/1000,CLW\nFEDRAT/100,MMPM\nRAPID\nGOTO/0,0,50,0,0,1\n\
+GOTO/0,0,0,0,0,1\nGOTO/0,0,0,0,1,0\nLOADTL/2\nSPINDL/1000,CLW\nRAPID\nGOTO/0,60,50,{second}\nGOTO/0,60,0,{second}\n\
+RAPID\nGOTO/0,60,50,{second}\nFINI\n"
+        )
+    };
+    let form = root().join("postforms/haas.pf").to_string_lossy().into_owned();
+    let run = |second: &str| {
+        folder.write("tilt.cl", job(second));
+        folder.run(&["render", "tilt.cl", "--form", &form, "--program", "5", "--only", "2", "--require-proof"])
+    };
+    let tilted = run("0,1,0");
+    assert!(!tilted.status.success() && err(&tilted).contains("PR008"), "{}", err(&tilted));
+    let upright = run("0,0,1");
+    assert!(upright.status.success(), "{}", err(&upright));
+}

@@ -1,0 +1,95 @@
+//! The state that stays active from operation to operation. A selection adds this state to the operation after operations
+//! that are left out.
+
+use super::left_out_text::{Left, Other};
+use crate::control::Control;
+use crate::lang::Coolant;
+use crate::toolpath::{Given, Spindle, ToolChange};
+
+/// The tool axis at the beginning of a job.
+pub(super) const UPRIGHT: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// Values that stay in force from operation to operation.
+pub(super) struct Held {
+    pub tilt: [f64; 3],
+    pub is_compensated: bool,
+    /// A left-out text or call with an unknown effect.
+    pub unknown: Option<String>,
+    /// A text with another effect on spindle or coolant, which ends with the tool.
+    until_tool: Option<String>,
+    pub tool: Option<f64>,
+    pub spindle: Option<Spindle>,
+    pub coolant: Option<Coolant>,
+    pub work: Option<f64>,
+    pub set: Vec<(String, Given)>,
+}
+
+impl Default for Held {
+    fn default() -> Held {
+        Held {
+            tilt: UPRIGHT,
+            is_compensated: false,
+            unknown: None,
+            until_tool: None,
+            tool: None,
+            spindle: None,
+            coolant: None,
+            work: None,
+            set: Vec::new(),
+        }
+    }
+}
+
+impl Held {
+    /// The state that can't be added to the next operation, if any.
+    pub fn lost(&self) -> Option<String> {
+        let text = self.unknown.as_ref().or(self.until_tool.as_ref());
+        let text = text.map(|text| format!("the effect of {text} on this operation is unknown"));
+        text.or_else(|| self.is_compensated.then(|| "cutter compensation stays on".to_owned()))
+    }
+
+    /// Keeps the values that stay in force after the operation. Spindle and coolant end at the change to another tool.
+    pub fn operation(&mut self, change: &ToolChange) {
+        let tool = change.tool.as_ref().map(|tool| tool.number);
+        if tool.is_some() && tool != self.tool {
+            self.tool = tool;
+            (self.spindle, self.coolant, self.until_tool) = (None, None, None);
+        }
+        self.spindle = change.spindle.map(|own| turned(own, self.spindle)).or(self.spindle);
+        self.coolant = change.coolant.or(self.coolant);
+        self.work = change.work.or(self.work);
+        change.set.iter().for_each(|(name, value)| self.set(name, value));
+    }
+
+    /// Keeps a value.
+    pub fn set(&mut self, name: &str, value: &Given) {
+        self.set.retain(|(known, _)| known != name);
+        self.set.push((name.to_owned(), value.clone()));
+    }
+
+    /// Keeps the state that a text item leaves active. `is_selected`: the program contains the text.
+    pub fn text(&mut self, text: &str, control: &Control, is_selected: bool) {
+        let Left { spindle, coolant, other } = Left::by(text, control);
+        if spindle != Spindle::default() {
+            self.spindle = Some(turned(spindle, self.spindle));
+        }
+        self.coolant = coolant.or(self.coolant);
+        match other {
+            Other::None => {}
+            Other::UntilTool => self.until_tool = Some(format!("the text `{text}`")),
+            Other::Unknown if is_selected => {}
+            Other::Unknown => self.unknown = Some(format!("the text `{text}`")),
+        }
+    }
+}
+
+/// A spindle state; values that are missing are taken from the spindle state before.
+pub(super) fn turned(own: Spindle, before: Option<Spindle>) -> Spindle {
+    let Some(before) = before else { return own };
+    Spindle {
+        speed: own.speed.or(before.speed),
+        turn: own.turn.or(before.turn),
+        css: own.css.or(before.css),
+        max: own.max.or(before.max),
+    }
+}

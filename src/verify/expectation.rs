@@ -4,11 +4,11 @@ use super::form_values::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
 use super::wire_codes::{self, Coded, Codes};
 use crate::compile::{Op, Program, WorkWords};
-use crate::control::{Control, Meaning};
+use crate::control::{Code, Control, Meaning};
 use crate::cycle::Defaults;
 use crate::lang::{Beam, Machine, SEQUENCES, TextId, UnitChoice, VarId, work_code};
-use crate::nc::Cooling;
-use crate::render::cycle_defaults;
+use crate::nc::{Cooling, cooling_of};
+use crate::render::{coolant_codes as codes, cycle_defaults};
 use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{Coolant, EdmAction, Units};
 
@@ -116,7 +116,7 @@ impl Expectation {
             tools: settings.machine != Machine::Edm && settings.beam.is_none() && loads_tools(settings.control()),
             units_due: settings.units == UnitChoice::Both,
             axes: rotary_axes(&settings.rename),
-            coolant: settings.coolant,
+            coolant: coolant_codes(settings),
             rigid_tap: settings.rigid_tap.then_some(true),
             by_diameter: settings.by_diameter,
             subs_first: settings.subs_first,
@@ -196,6 +196,13 @@ impl Expectation {
     }
 }
 
+/// The codes of the form for coolant: on, off, mist. Mist may be a kind of its own (`CoolantKind mist M50 M51`).
+fn coolant_codes(settings: &Settings) -> [f64; 3] {
+    let [on, off, mist] = settings.coolant;
+    let of = |kind, usual| codes(kind, settings).map_or(usual, |codes| codes.on);
+    [of(Coolant::FLOOD, on), off, of(Coolant::MIST, mist)]
+}
+
 /// The program's axis for each axis of the job. Only renamed rotary axes are considered, because renaming X, Y or Z would change holes
 /// and arcs.
 fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
@@ -211,18 +218,19 @@ fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
 
 impl Expectation {
     /// The coolant that the program must switch on for a coolant of the job. Two kinds of coolant may have the same
-    /// code, for example on a machine without mist. `None`: the simulator does not model this kind of coolant.
-    pub(super) fn cooling(&self, coolant: Coolant) -> Option<Cooling> {
-        let [on, off, mist] = self.coolant;
+    /// code, for example on a machine without mist. A code that turns coolant off is no kind of coolant. `None`: the
+    /// simulator does not model this kind of coolant.
+    pub(super) fn cooling(&self, coolant: Coolant, control: &Control) -> Option<Cooling> {
+        let [on, _, mist] = self.coolant;
         let (code, named) = match coolant {
             Coolant::FLOOD => (on, Cooling::Flood),
             Coolant::MIST => (mist, Cooling::Mist),
-            Coolant::OFF => (off, Cooling::Off),
+            Coolant::OFF => return Some(Cooling::Off),
             // a kind that only the form defines, or several kinds at once
             _ => return None,
         };
-        let usual = [(8.0, Cooling::Flood), (7.0, Cooling::Mist), (9.0, Cooling::Off)];
-        Some(usual.into_iter().find(|(usual, _)| *usual == code).map_or(named, |(_, cooling)| cooling))
+        let printed = Code::of(b'M', code).and_then(|code| control.meaning(code)).and_then(cooling_of);
+        Some(printed.filter(|cooling| *cooling != Cooling::Off).unwrap_or(named))
     }
 }
 
@@ -241,5 +249,5 @@ pub(super) fn taps_ahead(control: &Control) -> bool {
 
 /// Whether the control loads tools. A control that refuses M6, such as Grbl, does not load tools.
 fn loads_tools(control: &Control) -> bool {
-    !control.refuses(crate::control::Code::m(6))
+    !control.refuses(Code::m(6))
 }

@@ -151,7 +151,7 @@ impl Job {
                 Ok(())
             }
             Event::Coolant(coolant) => {
-                self.state.coolant = self.expectation.cooling(coolant);
+                self.state.coolant = self.expectation.cooling(coolant, self.control);
                 Ok(())
             }
             Event::Text(text) => self.text(text, to),
@@ -228,7 +228,7 @@ impl Job {
             self.spindle(spindle);
         }
         if let Some(coolant) = change.coolant {
-            self.state.coolant = self.expectation.cooling(coolant);
+            self.state.coolant = self.expectation.cooling(coolant, self.control);
         }
         if let Some(work) = change.work {
             self.work(work, to);

@@ -1,5 +1,6 @@
 //! Kinds of coolant: their codes, the codes that turn them off, and kinds that a form lacks.
 
+use crate::support::folder::{Folder, err, out};
 use crate::support::{check, mill, plain_post, program, render};
 
 const KINDS: &str = "CoolantKind through M88 M89\nCoolantKind air M12";
@@ -283,4 +284,28 @@ fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
     let at = |word: &str| printed.iter().position(|line| line.split(' ').any(|own| own == word)).unwrap();
     assert!(at("M88") < at("M3") && at("M3") < at("M89") && at("M89") < at("M8"), "{printed:#?}");
     assert_eq!(printed.iter().filter(|line| line.contains("M3")).count(), 3, "{printed:#?}"); // two tools, and M30
+}
+
+/// The proof compares mist by the code that the form prints for mist. A code that turns coolant off is no mist.
+#[test]
+fn mist_is_compared_by_the_forms_code() {
+    let folder = Folder::new("mist");
+    let fanuc = plain_post("fanuc.pf");
+    for (line, coolant, result) in [
+        ("Coolant 8 9 7", "mist", "M7"),
+        ("Coolant 8 9 8", "mist", "M8"),
+        ("CoolantKind mist M50 M51", "mist", "M50"),
+        ("Coolant 8 9\nCoolantKind mist M50 M51", "mist", "M50"),
+        ("Coolant 50 9 7", "flood", "M50"),
+        ("Coolant 8 9 9", "mist", "PV024"),
+        ("Coolant 9 8 7", "flood", "PV024"),
+        ("CoolantKind mist M9", "mist", "PV024"),
+    ] {
+        folder.write("form.pf", fanuc.replacen("Units both\n", &format!("Units both\n{line}\n"), 1));
+        folder.write("job.json", job(&[(1, coolant, LINE)]));
+        let output = folder.run(&["render", "job.json", "--form", "form.pf", "--program", "1"]);
+        let printed = out(&output) + &err(&output);
+        assert!(printed.contains(result), "{line}: {printed}");
+        assert_eq!(output.status.success(), result != "PV024", "{line}: {printed}");
+    }
 }

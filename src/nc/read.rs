@@ -172,6 +172,11 @@ impl Block {
                 let help = "program the chamfer or rounding as moves";
                 return Err(Fault::at(Code::PN016, start, "`,C` and `,R` are not simulated", help));
             }
+            Kind::Symbol(b'/') => {
+                let message = "a `/` inside a block is not run: controls may skip the whole block, or only its rest";
+                let help = "write the `/` first in the block, as `/N20 M8`; write a division in square brackets";
+                return Err(Fault::at(Code::PN016, start, message, help));
+            }
             _ => return unreadable(line, start, end),
         }
         Ok(())

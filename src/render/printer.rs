@@ -376,6 +376,19 @@ impl Printer {
         self.numbered = false;
     }
 
+    /// The position of the block number: the beginning of the block, or after the slash of block delete. A number without
+    /// a letter stays before the slash, because a slash and a number are a switch for block delete.
+    fn number_start(&self, bare: bool) -> usize {
+        match self.block() {
+            [b'/', rest @ ..] if !bare => {
+                let switch = usize::from(rest.first().is_some_and(u8::is_ascii_digit));
+                let blanks = rest[switch..].iter().take_while(|&&byte| byte == b' ').count();
+                self.start + 1 + switch + blanks
+            }
+            _ => self.start,
+        }
+    }
+
     /// Inserts the block number. The number is inserted last, because the block may print a number of its own.
     fn insert_number(&mut self) {
         let mut prefix = [b' '; 24];
@@ -391,11 +404,12 @@ impl Printer {
             at -= 1;
             prefix[at] = letter;
         }
-        let (length, shift) = (self.page.text.len(), prefix.len() - at);
-        self.kept.iter_mut().for_each(|kept| *kept = kept.start + shift..kept.end + shift);
+        let (start, length, shift) = (self.number_start(bare), self.page.text.len(), prefix.len() - at);
+        let moved = |at: usize| if at < start - self.start { at } else { at + shift };
+        self.kept.iter_mut().for_each(|kept| *kept = moved(kept.start)..kept.end + shift);
         self.page.text.extend_from_slice(&prefix[at..]); // reserves the space for the shift
-        self.page.text.copy_within(self.start..length, self.start + shift);
-        self.page.text[self.start..self.start + shift].copy_from_slice(&prefix[at..]);
+        self.page.text.copy_within(start..length, start + shift);
+        self.page.text[start..start + shift].copy_from_slice(&prefix[at..]);
     }
 
     #[cold]

@@ -233,6 +233,17 @@ fn a_subprogram_returns_its_value() {
     assert_eq!(run("linuxcnc", blocks).unwrap(), ["0 0 0", "7 1 0", "0 0 0", "8 1 0"]);
 }
 
+/// Controls may skip a whole block with a slash inside, or only the words after the slash.
+#[test]
+fn a_slash_inside_a_block_is_refused() {
+    let folder = Folder::new("slash-inside");
+    folder.write("a.nc", "O1\nG21 G90 G17 G40 G49 G80\nN20 /M8\nM30\n");
+    for control in ["fanuc", "haas", "mazak", "linuxcnc"] {
+        let said = err(&folder.run(&["simulate", "a.nc", "--control", control]));
+        assert!(said.contains("PN016") && said.contains("write the `/` first in the block"), "{control}: {said}");
+    }
+}
+
 /// The note on blocks with a slash: a verdict is for one position of the switch.
 #[test]
 fn blocks_with_a_slash_are_noted() {

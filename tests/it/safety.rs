@@ -802,6 +802,25 @@ fn block_delete_leaves_nothing_known() {
     assert_eq!(skipped("/S500"), ["/S500", "S1000 M3", "G0 X1."]);
 }
 
+/// The slash of block delete is the first character of the block, before the block number. A number without a letter
+/// stays before the slash, because the slash would take it for the number of a switch.
+#[test]
+fn block_delete_is_before_the_block_number() {
+    let row = r#"{"begin":"row"},{"rapid":[1,0,1]},{"end":"row"}"#;
+    for (numbers, words, block) in [
+        ("Sequence#s N 10 10", "/M5", "/N40 M5"),
+        ("Sequence#s N 10 10", "/2 M5", "/2 N40 M5"),
+        ("Sequence#s N 10 10", "`/M5`", "/N40 M5"),
+        ("Sequence#s - 10 10", "/M5", "40 /M5"),
+        ("Sequence#s N 10 10\nReplace M5 M105", "`/M5` /M5", "/N40 M5 /M105"),
+    ] {
+        let lines = path_lines(numbers, &format!("BeginRow\n{words}\nEnd"), row);
+        assert!(lines.iter().any(|line| line == block), "{words}: {lines:?}");
+    }
+    let text = path_lines("Sequence#s N 10 10", "", r#"{"text":"/M9"}"#);
+    assert!(text.iter().any(|line| line == "/N40 M9"), "{text:?}");
+}
+
 /// postform refuses events that a reader must not push. If postform ignored a hole, the hole would be missing in the
 /// part.
 #[test]

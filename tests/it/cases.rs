@@ -385,3 +385,17 @@ fn what_differs_alone_is_said() {
     assert_eq!(said.matches("haas.pf has errors").count(), 1, "{said}");
     assert!(said.contains("none of the 56 programs of this form is printed\n") && said.contains("Nonsense"), "{said}");
 }
+
+/// An expected program that is a pipe or a device may never end, so it is not read.
+#[cfg(unix)]
+#[test]
+fn an_expected_program_is_a_regular_file() {
+    let folder = kept("special", "haas.pf");
+    let expected = folder.0.join("tests/drill/expected.haas.nc");
+    fs::remove_file(&expected).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", &expected).unwrap();
+    let output = folder.run(&["test"]);
+    let shown = out(&output) + &err(&output);
+    assert!(shown.contains("expected.haas.nc: it is not a regular file"), "{shown}");
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+}

@@ -69,6 +69,18 @@ pub fn open_program(path: &Path) -> Result<File, String> {
     Ok(file)
 }
 
+/// The bytes of a regular file. A pipe or a device, which may never end, is refused.
+///
+/// # Errors
+/// A message: the file can't be read, or is no regular file.
+pub fn read_regular(path: &Path) -> Result<Vec<u8>, String> {
+    let fail = |error: io::Error| io_message("read", path, &error);
+    if !fs::metadata(path).map_err(fail)?.is_file() {
+        return Err(format!("error: can't read {}: it is not a regular file", name(path)));
+    }
+    fs::read(path).map_err(fail)
+}
+
 /// A file in which postform can seek: standard input, pipes and the text of compressed files are copied into one.
 ///
 /// # Errors

@@ -35,13 +35,16 @@ pub fn pack(
     write(&std::mem::take(encoder.get_mut()))
 }
 
+/// The decoder has the same error for a file that ends too early, and for a few bytes after the end of a complete file.
+const CUT_OFF: &str = "the compressed file is cut off, or other bytes follow its end";
+
 /// A reader with error messages about the compressed file.
 struct Named<R>(R);
 
 impl<R: Read> Read for Named<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         self.0.read(out).map_err(|error| match error.kind() {
-            io::ErrorKind::UnexpectedEof => io::Error::new(error.kind(), "the compressed file is cut off"),
+            io::ErrorKind::UnexpectedEof => io::Error::new(error.kind(), CUT_OFF),
             io::ErrorKind::InvalidInput | io::ErrorKind::InvalidData => {
                 io::Error::new(error.kind(), format!("the file is not a gzip file, or the file is damaged: {error}"))
             }
@@ -73,7 +76,9 @@ mod tests {
         unpacked(&file[..]).read_to_end(&mut read).unwrap();
         assert!(read == text);
         let error = unpacked(&file[..file.len() / 2]).read_to_end(&mut Vec::new()).unwrap_err();
-        assert_eq!(error.to_string(), "the compressed file is cut off");
+        assert_eq!(error.to_string(), CUT_OFF);
+        let error = unpacked(&[&file[..], b"\r\n"].concat()[..]).read_to_end(&mut Vec::new()).unwrap_err();
+        assert_eq!(error.to_string(), CUT_OFF);
         let error = unpacked(&b"G0 X1\nG1 X2 F100\n"[..]).read_to_end(&mut Vec::new()).unwrap_err();
         assert!(error.to_string().starts_with("the file is not a gzip file"), "{error}");
     }

@@ -237,7 +237,7 @@ impl Case {
             }
             Wanted::Program => {}
         }
-        let bytes = fs::read(&self.expected).map_err(|error| io_message("read", &self.expected, &error))?;
+        let bytes = files::read_regular(&self.expected)?;
         let old = side(&self.expected, bytes)?;
         let new = Side {
             name: format!(

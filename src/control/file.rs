@@ -7,7 +7,9 @@ use toml::Spanned;
 
 use super::arcs::Arcs;
 use super::code::Code;
-use super::file_text::{EndsLength, File, Height, InRapids, Longer, RowText, SecondTool, Semicolon, WithoutAxes};
+use super::file_text::{
+    EndsLength, File, Height, InRapids, Longer, RepeatsInP, RowText, SecondTool, Semicolon, WithoutAxes,
+};
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
 use super::meaning::Meaning;
@@ -134,7 +136,7 @@ impl Reader<'_> {
         take(&mut traits.feed_without_point, file.numbers.feed_without_point);
         take(&mut traits.macros, file.macros.language);
         take(&mut traits.semicolon_ends_block, file.text.semicolon.map(|sign| sign == Semicolon::EndOfBlock));
-        take(&mut traits.repeats_in_p, file.subprograms.repeats_in_p);
+        take(&mut traits.repeats_in_p, file.subprograms.repeats_in_p.as_ref().map(RepeatsInP::known));
         take(&mut traits.dwell, file.dwell.p);
         take(&mut traits.centres, file.arcs.centres);
         take(&mut traits.modes_at_start, file.start.modes);

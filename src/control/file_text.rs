@@ -88,7 +88,28 @@ pub(super) struct MacrosText {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Subprograms {
-    pub(super) repeats_in_p: Option<bool>,
+    pub(super) repeats_in_p: Option<RepeatsInP>,
+}
+
+/// Whether P of a call contains the number of calls: true, false or `"unknown"`.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "write true, false or \"unknown\"")]
+pub(super) enum RepeatsInP {
+    Known(bool),
+    Unknown(Unknown),
+}
+
+impl RepeatsInP {
+    pub(super) fn known(&self) -> Option<bool> {
+        if let RepeatsInP::Known(repeats) = self { Some(*repeats) } else { None }
+    }
+}
+
+/// The word for a property that is not public.
+#[derive(Deserialize)]
+pub(super) enum Unknown {
+    #[serde(rename = "unknown")]
+    Unknown,
 }
 
 /// `[blocks]`: limits of a block.

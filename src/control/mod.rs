@@ -255,6 +255,11 @@ impl Control {
         self.traits.letters == Words::NONE || self.traits.letters.has(letter)
     }
 
+    /// The letters of the words that the control reads, as bits. All bits, if the list of its letters is not public.
+    pub(crate) fn letters(&self) -> u32 {
+        if self.traits.letters == Words::NONE { u32::MAX } else { self.traits.letters.bits() }
+    }
+
     /// Whether the control has a code of this meaning.
     #[doc(hidden)]
     pub fn has(&self, meaning: Meaning) -> bool {

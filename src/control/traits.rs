@@ -192,8 +192,9 @@ pub struct Traits {
     pub macros: Macros,
     /// Whether a semicolon ends the block, and is not the begin of a comment.
     pub semicolon_ends_block: bool,
-    /// Whether the digits of P above the last four are the number of calls of a subprogram, as in M98 P31000.
-    pub repeats_in_p: bool,
+    /// Whether the digits of P above the last four are the number of calls of a subprogram, as in M98 P31000; `None`:
+    /// not public.
+    pub repeats_in_p: Option<bool>,
     /// The unit of P in the block of a dwell.
     pub dwell: DwellUnit,
     /// The point from which I, J and K of an arc are measured.

@@ -103,7 +103,11 @@ fn facts_of_fanuc(traits: &Traits) -> [(&'static str, &'static str); 4] {
         Macros::Linuxcnc => "those of LinuxCNC",
     };
     let semicolon = if traits.semicolon_ends_block { "ends the block" } else { "begins a comment" };
-    let calls = if traits.repeats_in_p { "calls O1000 three times" } else { "calls O31000" };
+    let calls = match traits.repeats_in_p {
+        Some(true) => "calls O1000 three times",
+        Some(false) => "calls O31000",
+        None => UNKNOWN,
+    };
     [
         ("unit of a feed without a point", feed),
         ("expressions", expressions),
@@ -264,7 +268,7 @@ like = \"{name}\"
 # [macros]
 # language = \"fanuc\"               # expressions as on a Fanuc, on a Haas or on LinuxCNC: fanuc, haas, linuxcnc
 # [subprograms]
-# repeats_in_p = true                # M98 P31000 calls O1000 three times, not O31000
+# repeats_in_p = true                # M98 P31000 calls O1000 three times, not O31000; or false, or \"unknown\"
 # [numbers]
 # length_without_point = \"units\"   # units: X10 is 10 mm; least-increment: X10 is 0.01 mm
 # feed_without_point = \"units\"     # units: F10 is 10 mm/min; whole-mm: not with inches; least-increment: as lengths

@@ -58,7 +58,7 @@ impl Block {
             let value = short.value();
             self.values[usize::from(letter - b'A')] = if negative { -value } else { value };
         }
-        if given & AXES == 0 {
+        if given & AXES == 0 || given & !control.letters() != 0 {
             return false;
         }
         if let Some(row) = code {

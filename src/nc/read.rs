@@ -169,8 +169,10 @@ impl Block {
             Kind::Delete => self.deleted = true,
             Kind::Percent => self.percent = true,
             Kind::Symbol(b',') => {
-                let help = "program the chamfer or rounding as moves";
-                return Err(Fault::at(Code::PN016, start, "`,C` and `,R` are not simulated", help));
+                let rest = line[start + 1..].trim_ascii_start().first().map_or(' ', |byte| char::from(*byte));
+                let message = format!("`,{}` is not simulated", rest.to_ascii_uppercase());
+                let help = "remove the word; program a chamfer (`,C`), a rounding (`,R`) or an angle (`,A`) as moves";
+                return Err(Fault::at(Code::PN016, start, message, help));
             }
             Kind::Symbol(b'/') => {
                 let message = "a `/` inside a block is not run: controls may skip the whole block, or only its rest";
@@ -224,9 +226,8 @@ impl Block {
                     Turns::Part => letters("UW"),
                     Turns::Nothing => letters("UV"),
                 };
-                if at & letters("UVW") & !own != 0 {
-                    let help = "axes are X Y Z A B C";
-                    return Err(Fault::at(Code::PN016, column, format!("the word {}", char::from(letter)), help));
+                if at & letters("UVW") & !own != 0 || !control.reads(letter) {
+                    return Err(lacks_word(letter, column, control));
                 }
                 self.given |= at;
                 self.values[usize::from(letter - b'A')] = value;
@@ -290,7 +291,10 @@ impl Block {
             let name = control::Code::m(code as u16);
             return match why_not_run(control, name) {
                 Some(why) => not_run(name, &why, column),
-                None => refuse(format!("{name} is unknown"), "remove the code: the control does not have it"),
+                None => refuse(
+                    format!("{name} is unknown"),
+                    "remove the code, or add it to the control's file: the file does not have it",
+                ),
             };
         };
         if !self.put_m(code as u16, row) {
@@ -358,6 +362,18 @@ impl Block {
 fn twice<T>(letter: u8, column: usize) -> Done<T> {
     let message = format!("{} is twice in the block", char::from(letter));
     Err(Fault::at(Code::PN002, column, message, "keep one of them"))
+}
+
+/// The fault for a word that the simulator does not read on this control.
+#[cold]
+fn lacks_word(letter: u8, column: usize, control: &'static Control) -> Box<Fault> {
+    let message = format!("the word {} is not simulated for {}", char::from(letter), control.name());
+    let help = match control.traits().turns {
+        Turns::Tool => "remove it: the axes are X Y Z A B C",
+        Turns::Part => "remove it: U and W are increments along X and Z",
+        Turns::Nothing => "remove it: X and Y move the lower guide, U and V the upper guide",
+    };
+    Fault::at(Code::PN016, column, message, help)
 }
 
 /// Statements of Fanuc macros, which the simulator does not run.

@@ -2,7 +2,7 @@
 
 use super::action::{Action, Cooling, Rotation};
 use super::block::Block;
-use super::codes::bit;
+use super::codes::{Group, bit};
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::state::State;
@@ -56,8 +56,21 @@ impl State {
         if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
             return refuse(Code::PN018, format!("L{times} is not a number of calls"), "write L1 to L9999");
         }
-        if p > 9999.0 && block.get(b'L').is_none() && self.control.traits().repeats_in_p {
-            return Ok(Next::Call(p % 10_000.0, (p / 10_000.0) as u32));
+        if block.has(bit(b'H')) && block.row(Group::Length).is_none() {
+            let message = format!("M{code} with H: on some controls, H is the block at which the subprogram begins");
+            return refuse(Code::PN016, message, "write a tool length offset in a block of its own");
+        }
+        if p > 9999.0 && block.get(b'L').is_none() {
+            match self.control.traits().repeats_in_p {
+                Some(true) => return Ok(Next::Call(p % 10_000.0, (p / 10_000.0) as u32)),
+                Some(false) => {}
+                None => {
+                    let name = self.control.name();
+                    let message = format!("P{p} may be a program, or a program and its number of calls, on {name}");
+                    let help = "write P below 10000, and the number of calls as L";
+                    return refuse(Code::PN016, message, help);
+                }
+            }
         }
         Ok(Next::Call(p, times as u32))
     }

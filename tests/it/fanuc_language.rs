@@ -142,12 +142,34 @@ fn calls_are_those_of_the_control() {
     assert_eq!(run("fanuc", &format!("M98 P50123\n{subs}")).unwrap().last().unwrap(), "5 0 0");
     assert_eq!(run("haas", &format!("M98 P50123\n{subs}")).unwrap().last().unwrap(), "0 1 0");
     assert_eq!(run("haas", &format!("M98 P123 L2\n{subs}")).unwrap().last().unwrap(), "2 0 0");
+    assert_eq!(run("mitsubishi", &format!("M98 P50123\n{subs}")).unwrap().last().unwrap(), "0 1 0");
+    assert_eq!(run("linuxcnc", "M98 P50123\nM2\nO50123\nG91 Y1.\nG90\nM99").unwrap().last().unwrap(), "0 1 0");
     for (name, blocks, why) in [
+        ("mazak", "M98 P50123", "P50123 may be a program, or a program and its number of calls"),
+        ("brother", "M98 P50123", "P50123 may be a program, or a program and its number of calls"),
+        ("mitsubishi", "M98 P123 H20", "M98 with H: on some controls, H is the block at which"),
         ("fanuc", "M98 P123 L3\nM30\nO123\nG91 X1.\nG90\nM99 L1", "M99 L"),
         ("fanuc", "M98 P123\nM30\nO123\nX1.\nM99\nO123\nX2.\nM99", "has the number of an earlier program"),
     ] {
         let said = run(name, blocks).unwrap_err();
         assert!(said.contains(why), "{blocks}: {said}");
+    }
+}
+
+/// Words and codes of a wire EDM machine that the comparison of X Y U V does not contain are refused.
+#[test]
+fn a_wire_has_two_guides_and_no_other_words() {
+    let run =
+        |block: &str| steps(RunSettings::new(control("fanuc-wire")), &format!("G21 G90\nG0 X0. Y0.\n{block}\nM2\n"));
+    assert_eq!(run("G1 X7. U6. F2.\nG50\nX8.").unwrap(), ["0 0 0", "7 0 6", "8 0 6"]);
+    for word in ["T2", "A3.", "Z5.", "C90.", "W1.", "H1"] {
+        let said = run(&format!("G1 X7. F2. {word}")).expect_err(word);
+        assert!(said.contains(&format!("the word {} is not simulated for fanuc-wire", &word[..1])), "{word}: {said}");
+    }
+    // a mill has other codes of these numbers: scaling and a local frame
+    for code in ["G51 T2", "G52 T2", "G52 X7."] {
+        let said = run(code).expect_err(code);
+        assert!(said.contains("tapers by G51 and G52 are not simulated"), "{code}: {said}");
     }
 }
 

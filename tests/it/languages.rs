@@ -209,7 +209,9 @@ fn a_heidenhain_repeats_calls_and_rounds() {
 #[test]
 fn an_okuma_jumps_and_calls() {
     let head = "G15 H1\nT1 M6\nS1000 M3\nG56 H1\nG0 G90 G17 X0 Y0 Z0\n";
-    let table: [(&str, &[&str]); 5] = [
+    let table: [(&str, &[&str]); 7] = [
+        ("VC1=FIX[2.7]+FUP[.2]\nG0 X=VC1 Y=ROUND[1.4]\nM2", &["3 1 0"]),
+        ("VC1=5\nIF [[VC1 EQ 5] EOR [VC1 EQ 2]] N5\nG0 X1\nN5 G0 Y1\nM2", &["0 1 0"]),
         ("CALL O100 PA=7 PB=3\nM2\nO100\nG0 X=PA Y=PB\nRTS", &["7 3 0"]),
         ("VC1=0\nN10 VC1=VC1+1\nG0 X=VC1*10\nIF [VC1 LT 3] N10\nM2", &["10 0 0", "20 0 0", "30 0 0"]),
         ("GOTO N20\nG0 X1\nN20 G0 Y1\nM2", &["0 1 0"]),
@@ -257,6 +259,20 @@ fn what_is_not_read_is_refused_by_name() {
         ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG82 Z-5 R2 P500 F100 M54\nM2", "P500"),
         ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100 M54\nG0 X5\nM2", "whether it ends the cycle"),
         ("okuma", "VZOFX[1]=5\nM2", "VZOFX"),
+        // `$` may continue the block before it; only before the first block, it begins the name of the file
+        ("okuma", "$A.MIN%\nG15 H1\nG0 X1\n$ Y9\nM2", "may continue the block before it"),
+        ("okuma", "$ Y9\nM2", "may continue the block before it"),
+        // whether AND and OR join bits or truth values matters only for other values than 0 and 1
+        ("okuma", "VC1=10 AND 12\nM2", "10 AND 12 joins the bits"),
+        ("okuma", "VC1=[1 EQ 1] OR [1 EQ 2] AND [1 EQ 1]\nM2", "AND and OR in one formula without brackets"),
+        ("okuma", "VC1=ATAN2[1,-1]\nM2", "`ATAN2` with a value in brackets is not simulated"),
+        ("okuma", "VC1=TRUNC[1.5]\nM2", "`TRUNC` with a value in brackets is not simulated"),
+        ("okuma", "VC1=1 XOR 0\nM2", "`XOR` can't be read"),
+        ("okuma", "SB=500\nM2", "`SB` is a word of machines with a driven tool"),
+        ("okuma", "G15 H1\nNOEX G0 X5\nM2", "NOEX without a cycle"),
+        ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100 M54 I3\nM2", "the block has I"),
+        ("okuma", "G15 H1\nG0 G90 X0 Y0 Z50\nG81 Z-5 R2 F100 M54 FA=30\nM2", "the block has FA"),
+        ("okuma", "G15 H1\nFA=30 G1 X5 F100\nM2", "the block has FA"),
         ("okuma", "LAP\nM2", "LAP"),
     ];
     for (name, program, word) in table {

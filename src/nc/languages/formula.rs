@@ -13,10 +13,24 @@ pub type Values<'v> = dyn Fn(&str) -> Option<f64> + 'v;
 /// How a language calculates formulas.
 #[derive(Clone, Copy)]
 pub struct Rules<'v> {
+    /// The operators and functions of the language.
+    pub words: &'static Vocabulary,
     /// The values of names.
     pub values: &'v Values<'v>,
     /// Two numbers are equal in a comparison if they differ by at most this part of their size.
     pub equal: f64,
+}
+
+/// The operators, functions and constants of a language.
+pub struct Vocabulary {
+    /// Binary operators by precedence. Operators of the same precedence are evaluated from left to right.
+    operators: &'static [&'static [(&'static str, Operator)]],
+    functions: &'static [Function],
+    constants: &'static [(&'static str, f64)],
+    /// Whether the language has `NOT` and `ATAN2(y,x)`.
+    not_and_atan2: bool,
+    /// Whether the logical operators join the bits of numbers. They are then run only between truth values.
+    joins_bits: bool,
 }
 
 /// Whether two numbers are equal in a comparison. `equal`: the greatest difference, as a part of their size.
@@ -24,34 +38,98 @@ pub fn is_equal(a: f64, b: f64, equal: f64) -> bool {
     (a - b).abs() <= equal * a.abs().max(b.abs())
 }
 
-/// Number of the levels of logical operators in [`OPERATORS`]. The next level has the comparisons.
-const LOGICAL: usize = 3;
-
-/// Binary operators by precedence. Operators of the same precedence are evaluated from left to right.
-const OPERATORS: [&[(&str, Operator)]; 7] = [
-    &[("OR", Operator::Or)],
-    &[("XOR", Operator::Xor)],
-    &[("AND", Operator::And)],
-    &[
-        ("==", Operator::Equal),
-        ("<>", Operator::Other),
-        (">=", Operator::GreaterOrEqual),
-        ("<=", Operator::LessOrEqual),
-        (">", Operator::Greater),
-        ("<", Operator::Less),
-        ("EQ", Operator::Equal),
-        ("NE", Operator::Other),
-        ("GE", Operator::GreaterOrEqual),
-        ("LE", Operator::LessOrEqual),
-        ("GT", Operator::Greater),
-        ("LT", Operator::Less),
-    ],
-    &[("+", Operator::Add), ("-", Operator::Subtract)],
-    &[("*", Operator::Multiply), ("/", Operator::Divide), ("DIV", Operator::WholeDivide), ("MOD", Operator::Modulo)],
-    &[("^", Operator::Power)],
+const COMPARISONS: &[(&str, Operator)] = &[
+    ("EQ", Operator::Equal),
+    ("NE", Operator::Other),
+    ("GE", Operator::GreaterOrEqual),
+    ("LE", Operator::LessOrEqual),
+    ("GT", Operator::Greater),
+    ("LT", Operator::Less),
 ];
 
-#[derive(Clone, Copy)]
+const SUMS: &[(&str, Operator)] = &[("+", Operator::Add), ("-", Operator::Subtract)];
+
+/// Formulas of Siemens and Heidenhain controls.
+pub const GENERAL: Vocabulary = Vocabulary {
+    operators: &[
+        &[("OR", Operator::Or)],
+        &[("XOR", Operator::Xor)],
+        &[("AND", Operator::And)],
+        &[
+            ("==", Operator::Equal),
+            ("<>", Operator::Other),
+            (">=", Operator::GreaterOrEqual),
+            ("<=", Operator::LessOrEqual),
+            (">", Operator::Greater),
+            ("<", Operator::Less),
+            ("EQ", Operator::Equal),
+            ("NE", Operator::Other),
+            ("GE", Operator::GreaterOrEqual),
+            ("LE", Operator::LessOrEqual),
+            ("GT", Operator::Greater),
+            ("LT", Operator::Less),
+        ],
+        SUMS,
+        &[
+            ("*", Operator::Multiply),
+            ("/", Operator::Divide),
+            ("DIV", Operator::WholeDivide),
+            ("MOD", Operator::Modulo),
+        ],
+        &[("^", Operator::Power)],
+    ],
+    functions: &[
+        ("SIN", |x| x.to_radians().sin()),
+        ("COS", |x| x.to_radians().cos()),
+        ("TAN", |x| x.to_radians().tan()),
+        ("ASIN", |x| x.asin().to_degrees()),
+        ("ACOS", |x| x.acos().to_degrees()),
+        ("ATAN", |x| x.atan().to_degrees()),
+        ("SQRT", f64::sqrt),
+        ("POT", |x| x * x),
+        ("SQ", |x| x * x),
+        ("ABS", f64::abs),
+        ("TRUNC", f64::trunc),
+        ("INT", f64::trunc),
+        ("FRAC", f64::fract),
+        ("ROUND", f64::round),
+        ("LN", f64::ln),
+        ("EXP", f64::exp),
+    ],
+    constants: &[("PI", std::f64::consts::PI), ("TRUE", 1.0), ("FALSE", 0.0)],
+    not_and_atan2: true,
+    joins_bits: false,
+};
+
+/// Formulas of Okuma OSP controls, from a public list of their operators and functions. The list does not define the
+/// results of ATAN2, MOD, DROUND, DFIX, DFUP and NOT, so these are not run. The rank of the logical operators is not
+/// public, so they share one level.
+pub const OSP: Vocabulary = Vocabulary {
+    operators: &[
+        &[("OR", Operator::Or), ("EOR", Operator::Xor), ("AND", Operator::And)],
+        COMPARISONS,
+        SUMS,
+        &[("*", Operator::Multiply), ("/", Operator::Divide)],
+    ],
+    functions: &[
+        ("SIN", |x| x.to_radians().sin()),
+        ("COS", |x| x.to_radians().cos()),
+        ("TAN", |x| x.to_radians().tan()),
+        ("ASIN", |x| x.asin().to_degrees()),
+        ("ACOS", |x| x.acos().to_degrees()),
+        ("ATAN", |x| x.atan().to_degrees()),
+        ("SQRT", f64::sqrt),
+        ("ABS", f64::abs),
+        ("ROUND", f64::round),
+        ("FIX", f64::trunc),
+        ("FUP", |x| x.abs().ceil().copysign(x)),
+    ],
+    constants: &[],
+    not_and_atan2: false,
+    joins_bits: true,
+};
+
+#[derive(Clone, Copy, PartialEq)]
 enum Operator {
     And,
     Or,
@@ -72,6 +150,15 @@ enum Operator {
 }
 
 impl Operator {
+    fn is_logical(self) -> bool {
+        matches!(self, Operator::And | Operator::Or | Operator::Xor)
+    }
+
+    fn compares(self) -> bool {
+        use Operator as O;
+        matches!(self, O::Equal | O::Other | O::GreaterOrEqual | O::LessOrEqual | O::Greater | O::Less)
+    }
+
     /// The result for two numbers. `equal`: whether the numbers are equal in a comparison.
     fn apply(self, a: f64, b: f64, equal: bool) -> f64 {
         let truth = |is: bool| f64::from(u8::from(is));
@@ -95,8 +182,17 @@ impl Operator {
         }
     }
 
-    /// Compares or calculates by the rules of a language.
-    fn of(self, a: f64, b: f64, rules: Rules<'_>) -> Done<f64> {
+    /// Compares or calculates by the rules of a language. `text` is the operator as written.
+    fn of(self, text: &str, a: f64, b: f64, rules: Rules<'_>) -> Done<f64> {
+        let is_truth = |value: f64| value == 0.0 || value == 1.0;
+        if rules.words.joins_bits && self.is_logical() && !(is_truth(a) && is_truth(b)) {
+            let help = "write a comparison in brackets on each side, or the result as a number";
+            return refuse(
+                Code::PN016,
+                format!("{a} {text} {b} joins the bits of the numbers: it is not simulated"),
+                help,
+            );
+        }
         let equal = is_equal(a, b, rules.equal);
         // whether > and < take the small difference for 0 depends on the machine data 10280 of a Siemens control
         if equal && a != b && matches!(self, Operator::Greater | Operator::Less) {
@@ -109,26 +205,6 @@ impl Operator {
 
 /// A function of one argument: its name, and the function itself.
 type Function = (&'static str, fn(f64) -> f64);
-
-/// The functions. Angles are in degrees.
-const FUNCTIONS: [Function; 16] = [
-    ("SIN", |x| x.to_radians().sin()),
-    ("COS", |x| x.to_radians().cos()),
-    ("TAN", |x| x.to_radians().tan()),
-    ("ASIN", |x| x.asin().to_degrees()),
-    ("ACOS", |x| x.acos().to_degrees()),
-    ("ATAN", |x| x.atan().to_degrees()),
-    ("SQRT", f64::sqrt),
-    ("POT", |x| x * x),
-    ("SQ", |x| x * x),
-    ("ABS", f64::abs),
-    ("TRUNC", f64::trunc),
-    ("INT", f64::trunc),
-    ("FRAC", f64::fract),
-    ("ROUND", f64::round),
-    ("LN", f64::ln),
-    ("EXP", f64::exp),
-];
 
 /// Reads a formula and calculates its value.
 ///
@@ -150,28 +226,40 @@ fn binary(cursor: &mut Cursor<'_>, rules: Rules<'_>, strength: usize, depth: u32
 
 /// The value of a part of a formula, and whether the part compares values without brackets around it. The precedence of
 /// comparisons and logical operators differs between the controls. A formula that joins comparisons with logical
-/// operators therefore needs brackets around each comparison.
+/// operators therefore needs brackets around each comparison. A formula with several logical operators of one level
+/// needs brackets, too.
 fn compared(cursor: &mut Cursor<'_>, rules: Rules<'_>, strength: usize, depth: u32) -> Done<(f64, bool)> {
-    let Some(operators) = OPERATORS.get(strength) else { return Ok((unary(cursor, rules, depth)?, false)) };
+    let Some(operators) = rules.words.operators.get(strength) else {
+        return Ok((unary(cursor, rules, depth)?, false));
+    };
     let (mut value, mut compares) = compared(cursor, rules, strength + 1, depth)?;
-    'more: loop {
-        for (text, operator) in *operators {
-            let is_word = text.as_bytes()[0].is_ascii_alphabetic();
-            let at = cursor.at();
-            if if is_word { cursor.takes_word(text) } else { cursor.takes(text.as_bytes()) } {
-                let (other, also) = compared(cursor, rules, strength + 1, depth)?;
-                if strength < LOGICAL && (compares || also) {
-                    let message = format!("{text} and a comparison in one formula without brackets");
-                    let help = "put each comparison into brackets: `(R1==5) AND (R2==7)`";
-                    return Err(Fault::at(Code::PN014, at, message, help));
-                }
-                compares |= strength == LOGICAL;
-                value = operator.of(value, other, rules)?;
-                continue 'more;
+    let mut before = None;
+    loop {
+        let at = cursor.at();
+        let Some(&(text, operator)) = operators.iter().find(|(text, _)| takes_operator(cursor, text)) else {
+            return Ok((value, compares));
+        };
+        let (other, also) = compared(cursor, rules, strength + 1, depth)?;
+        if operator.is_logical() {
+            let beside = match before.replace(text) {
+                Some(before) if before != text => Some(before),
+                _ => (compares || also).then_some("a comparison"),
+            };
+            if let Some(beside) = beside {
+                let message = format!("{text} and {beside} in one formula without brackets");
+                let help = "put each comparison into brackets: `(R1==5) AND (R2==7)`";
+                return Err(Fault::at(Code::PN014, at, message, help));
             }
         }
-        return Ok((value, compares));
+        compares |= operator.compares();
+        value = operator.of(text, value, other, rules)?;
     }
+}
+
+/// Takes an operator if it comes next. An operator of letters must be a whole word.
+fn takes_operator(cursor: &mut Cursor<'_>, text: &str) -> bool {
+    let is_word = text.as_bytes()[0].is_ascii_alphabetic();
+    if is_word { cursor.takes_word(text) } else { cursor.takes(text.as_bytes()) }
 }
 
 fn unary(cursor: &mut Cursor<'_>, rules: Rules<'_>, depth: u32) -> Done<f64> {
@@ -197,13 +285,15 @@ fn unary(cursor: &mut Cursor<'_>, rules: Rules<'_>, depth: u32) -> Done<f64> {
     }
     let begin = cursor.at();
     let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
-    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
-    match name.as_str() {
-        "NOT" => return Ok(f64::from(u8::from(unary(cursor, rules, depth + 1)? == 0.0))),
-        "PI" => return Ok(std::f64::consts::PI),
-        "TRUE" => return Ok(1.0),
-        "FALSE" => return Ok(0.0),
-        "ATAN2" => {
+    named(cursor, rules, &String::from_utf8_lossy(name).to_ascii_uppercase(), begin, depth)
+}
+
+/// The value of a name that is a constant, a function or a variable. The name begins at column `begin`.
+fn named(cursor: &mut Cursor<'_>, rules: Rules<'_>, name: &str, begin: usize, depth: u32) -> Done<f64> {
+    let words = rules.words;
+    match name {
+        "NOT" if words.not_and_atan2 => return Ok(f64::from(u8::from(unary(cursor, rules, depth + 1)? == 0.0))),
+        "ATAN2" if words.not_and_atan2 => {
             cursor.needs(b"(")?;
             let y = binary(cursor, rules, 0, depth + 1)?;
             cursor.needs(b",")?;
@@ -213,14 +303,26 @@ fn unary(cursor: &mut Cursor<'_>, rules: Rules<'_>, depth: u32) -> Done<f64> {
         }
         _ => {}
     }
-    if let Some((_, function)) = FUNCTIONS.iter().find(|(function, _)| *function == name) {
+    if let Some((_, value)) = words.constants.iter().find(|(constant, _)| *constant == name) {
+        return Ok(*value);
+    }
+    if let Some((_, function)) = words.functions.iter().find(|(function, _)| *function == name) {
         return Ok(function(unary(cursor, rules, depth + 1)?));
     }
-    if let Some(value) = (rules.values)(&name) {
+    if let Some(value) = (rules.values)(name) {
         return Ok(value);
     }
-    let help = "set the variable earlier in the program: its value in the machine is unknown";
-    Err(Fault::at(Code::PN016, begin, format!("the value of `{name}` is unknown"), help))
+    let (message, help) = match cursor.peek() {
+        Some(b'(' | b'[') => (
+            format!("`{name}` with a value in brackets is not simulated"),
+            "calculate the value before, and write the result as a number",
+        ),
+        _ => (
+            format!("the value of `{name}` is unknown"),
+            "set the variable earlier in the program: its value in the machine is unknown",
+        ),
+    };
+    Err(Fault::at(Code::PN016, begin, message, help))
 }
 
 #[cfg(test)]
@@ -230,7 +332,7 @@ mod tests {
     #[test]
     fn formulas_are_calculated() {
         let values = |name: &str| (name == "R1").then_some(4.0);
-        let rules = Rules { values: &values, equal: 0.0 };
+        let rules = Rules { words: &GENERAL, values: &values, equal: 0.0 };
         for (text, result) in [
             ("1+2*3", 7.0),
             ("(1+2)*3", 9.0),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::super::cursor::Cursor;
-use super::super::formula::{Rules, formula};
+use super::super::formula::{GENERAL, Rules, formula};
 use super::corner::Corner;
 use super::{Klartext, is_parameter};
 use crate::control::Meaning;
@@ -86,7 +86,7 @@ impl Words<'_> {
 
     /// Reads a formula with parameters, and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
-        formula(cursor, Rules { values: &|name| self.own.value(name), equal: 0.0 })
+        formula(cursor, Rules { words: &GENERAL, values: &|name| self.own.value(name), equal: 0.0 })
     }
 
     /// Reads an axis word such as `X+10` or `IY-5`. Returns the axis, its value, and whether it is an increment.

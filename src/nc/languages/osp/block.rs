@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::super::cursor::{Cursor, capitals};
-use super::super::formula::{Rules, formula};
+use super::super::formula::{OSP, Rules, formula};
 use super::Osp;
 use super::cycles::{Back, Cycle};
-use crate::control::{Code as Name, Meaning};
+use crate::control::{Code as Name, Meaning, Motions};
 use crate::diag::Code;
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, bit, group, letters, takes_axes};
@@ -55,7 +55,7 @@ impl Words<'_> {
 
     /// Reads a formula and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
-        formula(cursor, Rules { values: &|name| self.own.value(name), equal: 0.0 })
+        formula(cursor, Rules { words: &OSP, values: &|name| self.own.value(name), equal: 0.0 })
     }
 
     fn word(&mut self, cursor: &mut Cursor<'_>) -> Done {
@@ -208,27 +208,50 @@ impl Words<'_> {
         Ok(())
     }
 
+    /// Refuses words of cycles in a block whose cycle does not use them, or that runs no cycle.
+    fn check_cycle_words(&self) -> Done {
+        let control = self.state.settings.control;
+        let code = self.said.cycle.or(self.own.cycle.map(|cycle| cycle.code)).filter(|_| !self.said.ends);
+        let row = code.and_then(|code| control.row(code));
+        if self.said.feed_out.is_some() && row.is_none_or(|row| row.runs.motions != Some(Motions::FeedOut)) {
+            return refuse(
+                Code::PN005,
+                "the block has FA, but no cycle that uses FA",
+                "remove FA, or write G85 or G89",
+            );
+        }
+        match row {
+            Some(row) => self.block.check_words(Some(row), control.traits().everywhere.bits()),
+            None if self.said.no_move && self.block.has_axes() => {
+                refuse(Code::PN016, "NOEX without a cycle is not simulated", "remove NOEX, or the axis words")
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Ends the active cycle, because the block has G80. A motion while a cycle is active is refused.
+    fn end_cycle(&mut self) -> Done {
+        if self.said.cycle.is_some() {
+            let help = "write the code and the cycle in two blocks";
+            return refuse(Code::PN004, "a motion code and a cycle in one block", help);
+        }
+        let cancels = self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd);
+        if let Some(cycle) = self.own.cycle.filter(|_| !cancels) {
+            let message = format!("a motion code while {} is active: whether it ends the cycle is unknown", cycle.code);
+            return refuse(Code::PN016, message, "write G80 in a block before this block");
+        }
+        self.own.cycle = None;
+        if cancels {
+            self.own.back = None;
+        }
+        Ok(())
+    }
+
     /// Sets the active cycle, and the hole that the block makes.
     fn cycle(&mut self) -> Done {
         if self.said.ends {
-            if self.said.cycle.is_some() {
-                return refuse(
-                    Code::PN004,
-                    "a motion code and a cycle in one block",
-                    "write the code and the cycle in two blocks",
-                );
-            }
-            let cancels = self.block.g_meaning(Group::Cycle) == Some(Meaning::CycleEnd);
-            if let Some(cycle) = self.own.cycle.filter(|_| !cancels) {
-                let message =
-                    format!("a motion code while {} is active: whether it ends the cycle is unknown", cycle.code);
-                return refuse(Code::PN016, message, "write G80 in a block before this block");
-            }
-            self.own.cycle = None;
-            if cancels {
-                self.own.back = None;
-            }
-            return Ok(());
+            self.end_cycle()?;
+            return self.check_cycle_words();
         }
         let begins = self.said.cycle.is_some();
         if let Some(code) = self.said.cycle {
@@ -240,7 +263,7 @@ impl Words<'_> {
             self.own.cycle = Some(Cycle { code, motions, depth, r, step, parts: [None; 2], feed_out: None, back });
         }
         let Some(mut cycle) = self.own.cycle else {
-            return Ok(());
+            return self.check_cycle_words();
         };
         let block = &mut *self.block;
         if !self.state.modes.absolute || block.g_meaning(Group::Distance) == Some(Meaning::Increments) {
@@ -254,6 +277,8 @@ impl Words<'_> {
         if block.has(letters("EK")) {
             return refuse(Code::PN016, format!("E and K of {} are not supported", cycle.code), "leave them out");
         }
+        self.check_cycle_words()?;
+        let block = &mut *self.block;
         cycle.depth = block.get(b'Z').or(cycle.depth);
         cycle.r = block.get(b'R').or(cycle.r);
         cycle.step = block.get(b'Q').or(cycle.step);

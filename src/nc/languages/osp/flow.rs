@@ -11,6 +11,9 @@ use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
 
+/// Words with `=` that are no variables: speeds of a spindle for driven tools, and of the axis of the workpiece spindle.
+const OF_MACHINE: [&str; 3] = ["QA", "SA", "SB"];
+
 /// The columns of the first comment of a line. A comment without a closing bracket ends at the end of the line.
 fn comment(line: &[u8]) -> Option<(usize, usize)> {
     let open = memchr::memchr(b'(', line)?;
@@ -76,14 +79,31 @@ impl Simulator<'_> {
     pub(in crate::nc) fn read_osp(&mut self, items: &mut Vec<Item>) -> Done<Option<Jump>> {
         self.block.clear();
         self.osp.at_depth(self.frames.len());
-        if self.line.trim_ascii_start().starts_with(b"$") || self.line.trim_ascii() == b"%" {
-            return Ok(Some(Jump::On)); // this is the header of a file transfer
+        if self.is_transfer_line()? {
+            return Ok(Some(Jump::On));
         }
         self.block.comment = comment(&self.line);
         let line = std::mem::take(&mut self.line);
         let jump = self.osp_line(&plain(&line), items);
         self.line = line;
         jump
+    }
+
+    /// Whether the line belongs to the transfer of the file, and not to the program: `$NAME.MIN%` before the first block,
+    /// or `%`.
+    ///
+    /// # Errors
+    /// Another line begins with `$`. On some controls it continues the block before.
+    fn is_transfer_line(&self) -> Done<bool> {
+        let line = self.line.trim_ascii();
+        if !line.starts_with(b"$") {
+            return Ok(line == b"%");
+        }
+        if self.blocks == 0 && line.ends_with(b"%") {
+            return Ok(true);
+        }
+        let help = "write the words of this line in the line before it, and remove this line";
+        refuse(Code::PN016, "a line that begins with `$` may continue the block before it: it is not simulated", help)
     }
 
     /// Reads a line without its comments.
@@ -162,6 +182,15 @@ impl Simulator<'_> {
                 }
                 words.own.arguments = arguments;
                 Jump::Search(Search::Call(program, Vec::new(), times as u32))
+            }
+            name if OF_MACHINE.contains(&name) && cursor.peek() == Some(b'=') => {
+                let message = format!("`{name}` is a word of machines with a driven tool: it is not simulated");
+                return Err(Fault::at(
+                    Code::PN016,
+                    begin,
+                    message,
+                    "give the variable another name, or remove the word",
+                ));
             }
             // `VC1=..` and `LOOP=..` set variables; words of one letter are axes or other words
             name if name.len() > 1 && cursor.peek() == Some(b'=') && name != "FA" && !is_word(name) => {

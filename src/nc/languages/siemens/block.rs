@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::super::cursor::{Cursor, capitals};
-use super::super::formula::{Rules, formula};
+use super::super::formula::{GENERAL, Rules, formula};
 use super::cycles::{Cycle, check_arguments};
 use super::ways::Siemens;
 use crate::control::Meaning;
@@ -289,7 +289,7 @@ impl Words<'_> {
 
     /// Reads a formula and calculates its value.
     pub fn value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
-        formula(cursor, Rules { values: &|name| self.own.value(name), equal: EQUAL })
+        formula(cursor, Rules { words: &GENERAL, values: &|name| self.own.value(name), equal: EQUAL })
     }
 
     /// Reads the arguments of a call. An argument that is left out is `None`.

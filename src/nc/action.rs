@@ -75,8 +75,8 @@ pub enum Action {
     Work(f64),
     /// The tool length offset as its register; `None`: off.
     Length(Option<f64>),
-    /// Cutter compensation as its side and register; `None`: off.
-    Compensation(Option<(Side, Option<f64>)>),
+    /// Cutter compensation; `None`: off.
+    Compensation(Option<Compensation>),
     /// Constant surface speed; `None`: revolutions per minute.
     SurfaceSpeed(Option<f64>),
     /// The maximum spindle speed.
@@ -95,8 +95,43 @@ pub enum Action {
     Comment(usize, usize),
     /// A code that moves nothing and is not simulated, such as M10 or G8, with its meaning.
     LeftOut(Code, Meaning),
+    /// A word or statement in whole words that moves nothing and is not simulated, such as `CFC` or `CYCLE832(0.05,1)`,
+    /// as written, in upper case.
+    LeftOutWord(Box<str>),
     /// The block begins with a slash, and is run.
     BlockDelete,
+}
+
+/// Cutter compensation that is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compensation {
+    /// The side of the path on which the tool is.
+    pub side: Side,
+    /// The source of the tool's radius.
+    pub cutter: Cutter,
+}
+
+/// The source of the radius of a compensated tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cutter {
+    /// The tool in the spindle: the program names no register.
+    Tool,
+    /// A register of the control: D.
+    Register(f64),
+    /// The program: the diameter, in the program's units, and the orientation of a lathe tool, 0 without one.
+    Given {
+        /// D of G41.1 and G42.1.
+        diameter: f64,
+        /// L of G41.1 and G42.1.
+        orientation: f64,
+    },
+}
+
+impl Cutter {
+    /// The register with the radius.
+    pub fn register(self) -> Option<f64> {
+        if let Cutter::Register(register) = self { Some(register) } else { None }
+    }
 }
 
 /// Data of a thread on a lathe, besides its moves.

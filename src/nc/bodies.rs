@@ -7,7 +7,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{Motions, Rules};
 use crate::diag::Code;
-use crate::toolpath::{StopKind, Units};
+use crate::toolpath::{FeedMode, StopKind, Units};
 
 impl Drilling {
     /// The position at a height on the axis of the hole.
@@ -240,13 +240,12 @@ impl State {
             out.push(Action::Dwell(hole.dwell));
         } else {
             wait(hole, out);
-            self.turn(outwards, out);
         }
         if linuxcnc {
             self.feed_clear(hole, out);
             self.turn(Rotation::Stop, out);
         } else {
-            self.feed_over(hole, hole.r, out);
+            self.tap_out(hole, outwards, out);
         }
         self.turn(inwards, out);
         if !linuxcnc {
@@ -254,6 +253,15 @@ impl State {
             self.rapid_clear(hole, out);
         }
         Ok(None)
+    }
+
+    /// Moves a tap out of its hole, on a Fanuc. Some cycles have a speed for this move. The pitch stays the same.
+    fn tap_out(&mut self, hole: &Drilling, outwards: Rotation, out: &mut Out<'_>) {
+        let speed = self.holes.series.speed_out.unwrap_or(self.drive.speed);
+        let faster = if self.modes.feed_mode == FeedMode::PerRev { 1.0 } else { speed / self.drive.speed };
+        let feed = if faster.is_finite() { hole.feed * faster } else { hole.feed };
+        out.push(Action::Spindle(outwards, speed));
+        self.feed_over(&Drilling { feed, ..*hole }, hole.r, out);
     }
 
     /// Q of a tap on a Fanuc: after each peck the tap turns back a little to break the chip.

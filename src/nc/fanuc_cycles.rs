@@ -3,7 +3,7 @@
 use super::action::{Cycle, Drilling, Heights};
 use super::arcs::{CENTERS, axes_of};
 use super::block::Block;
-use super::codes::{AXES, letters};
+use super::codes::{AXES, Group, letters};
 use super::fault::{Done, refuse};
 use super::holes::{Series, Work};
 use super::out::Out;
@@ -43,6 +43,7 @@ impl State {
             return refuse(Code::PN007, format!("{} without its {what}", row.code), help);
         };
         let by_pitch = self.tap_by_pitch(row)?;
+        self.keep_speed_out(row, block)?;
         self.check_fanuc_cycle(cycle, r, bottom, by_pitch.is_some())?;
         let own = |letter: u8| block.get(letter).filter(|_| row.runs.speed_out != Some(letter));
         let times = match own(b'K').filter(|_| !self.k_shifts(motions, block)).or(own(b'L')) {
@@ -112,6 +113,19 @@ impl State {
             PitchUnit::Mm => (self.by_turns(value), peck),
             PitchUnit::PerInch => (self.by_turns(1.0 / value), peck),
         }))
+    }
+
+    /// Stores the spindle speed of a tap on its way out, on controls that have a word for it. The next cycle code ends
+    /// this speed.
+    fn keep_speed_out(&mut self, row: &Row, block: &Block) -> Done {
+        let said = row.runs.speed_out.and_then(|letter| block.get(letter));
+        let kept = self.holes.series.speed_out.filter(|_| block.row(Group::Cycle).is_none());
+        self.holes.series.speed_out = said.or(kept).filter(|speed| *speed > 0.0);
+        if self.holes.series.speed_out.is_some() && self.holes.series.peck.is_some_and(|peck| peck > 0.0) {
+            let message = format!("{} with pecks and a speed out of the hole is not simulated", row.code);
+            return refuse(Code::PN016, message, "leave out the pecks, or the speed");
+        }
+        Ok(())
     }
 
     /// The feed for a pitch, in the unit of the feed mode.

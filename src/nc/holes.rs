@@ -41,6 +41,8 @@ pub struct Series {
     pub dwell: Option<f64>,
     /// Depth of a peck.
     pub peck: Option<f64>,
+    /// The spindle speed of a tap on its way out.
+    pub speed_out: Option<f64>,
     /// I, J and K of boring cycles.
     pub shift: [Option<f64>; 3],
     /// The distance mode (`true`: G91), the plane and the units that were active when R and the depth were written.

@@ -54,6 +54,7 @@ mod unpointed;
 mod warnings;
 mod way;
 
+pub(crate) use action::Cutter;
 pub use action::{Action, Cooling, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
 pub(crate) use arcs::axes_of;
 pub(crate) use digits::Number;

@@ -37,6 +37,7 @@ impl State {
     pub(super) fn set_up(&mut self, block: &Block, motion: Motion, out: &mut Out<'_>) -> Done {
         self.compensated(block.means(Meaning::Output), "an output")?;
         self.compensated(block.changes_tool(), "a tool change")?;
+        self.compensated(block.means(Meaning::Override), "a change of the override switches")?;
         self.spindle_and_tool(block, out)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
             let times = b"PXU".iter().filter(|letter| block.has(bit(**letter))).count();

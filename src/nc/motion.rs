@@ -200,14 +200,19 @@ impl State {
     }
 
     /// Runs G33.1: the tap follows the spindle into the hole, the spindle reverses, and the tap follows the spindle
-    /// back to the start.
+    /// back to the start, at I times the speed.
     pub(super) fn rigid_tap(&mut self, block: &Block, out: &mut Out<'_>) -> Done {
         let (begin, turning, unknown) = (self.place.position, self.drive.spindle, self.place.at_machine);
         if turning == Rotation::Stop {
             return refuse(Code::PN012, "G33.1 with the spindle stopped", "write M3 or M4 before G33.1");
         }
+        let faster = block.get(b'I').unwrap_or(1.0);
+        if faster <= 0.0 {
+            let message = format!("I{faster} of G33.1 is not a multiplier of the speed");
+            return refuse(Code::PN018, message, "write an I greater than 0, or leave it out");
+        }
         self.synchronised(true, block, out)?;
-        out.push(Action::Spindle(turning.reversed(), self.drive.speed));
+        out.push(Action::Spindle(turning.reversed(), self.drive.speed * faster));
         self.place.at_machine = unknown;
         self.place.feed_to(begin, self.drive.feed, block.get(b'K'), out);
         out.push(Action::Spindle(turning, self.drive.speed));

@@ -46,6 +46,10 @@ impl State {
         if self.control.is_linuxcnc() && [1.0, 10.0, 11.0].contains(&l) {
             return refuse(Code::PN016, "G10 on the tool table is not simulated", "set the tool table at the machine");
         }
+        if self.control.is_linuxcnc() && block.has(letters("IJ")) {
+            let help = "remove I and J: they are words of G10 L1, L10 and L11";
+            return refuse(Code::PN005, format!("{code} L{l} with I or J"), help);
+        }
         let grbl = self.control.rules() == Rules::Grbl;
         let written = if grbl { Some(block.get(b'P').map_or(0.0, f64::trunc)) } else { block.get(b'P') };
         let Some(p) = written.filter(|p| p.fract() == 0.0 && *p >= 0.0) else {

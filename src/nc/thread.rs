@@ -53,8 +53,9 @@ impl State {
             return refuse(Code::PN018, *message, "G76 P(pitch) Z(end) I(crest) J(first cut) K(depth)");
         }
         let target = self.target(block)?;
-        // L selects the tapered ends; it has an effect only if E, the length of a taper, is not zero
-        let ends = block.get(b'L').filter(|_| block.get(b'E').is_some_and(|e| e != 0.0)).unwrap_or(0.0);
+        // L selects the tapered ends; it has an effect only if E, the length of a taper, is greater than zero
+        let taper = block.get(b'E').unwrap_or(0.0).max(0.0);
+        let ends = block.get(b'L').filter(|_| taper > 0.0).unwrap_or(0.0);
         let mut tan = block.get(b'Q').unwrap_or(0.0).to_radians().tan();
         if target[2] > self.place.position[2] {
             tan = -tan;
@@ -67,7 +68,7 @@ impl State {
             tan,
             entry: ends == 1.0 || ends == 3.0,
             exit: ends == 2.0 || ends == 3.0,
-            taper: block.get(b'E').unwrap_or(0.0).copysign(self.place.position[2] - target[2]),
+            taper: taper.copysign(self.place.position[2] - target[2]),
             side: i.signum(),
             start_x: self.place.position[0],
             start_z: self.place.position[2],

@@ -1,6 +1,6 @@
 //! The codes of a block for spindle and tool: speed, tool, coolant, compensation, tool length.
 
-use super::action::{Action, Cooling, Rotation};
+use super::action::{Action, Compensation, Cooling, Cutter, Rotation};
 use super::arcs::axes_of;
 use super::block::Block;
 use super::codes::{ARCS, Group, Motion, bit, is_one_of};
@@ -9,7 +9,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{Code, Meaning, Row, Rules, ToolLength, Turns};
 use crate::diag;
-use crate::toolpath::Side;
+use crate::toolpath::{Plane, Side};
 
 /// The rotation of the spindle after an M code of this meaning.
 pub(crate) fn rotation(meaning: Meaning) -> Option<Rotation> {
@@ -58,6 +58,9 @@ impl State {
             }
         }
         match block.g_meaning(Group::SpeedMode) {
+            Some(Meaning::SurfaceSpeed) if speed.is_none() && self.control.is_linuxcnc() => {
+                return refuse(diag::Code::PN007, "G96 without S", "write S with the surface speed in this block");
+            }
             Some(Meaning::SurfaceSpeed) => out.push(Action::SurfaceSpeed(Some(block.get(b'D').unwrap_or(0.0)))),
             Some(_) => out.push(Action::SurfaceSpeed(None)),
             None => {}
@@ -190,7 +193,8 @@ impl State {
         let Some(row) = block.row(Group::Compensation) else {
             // the register changes while compensation is on
             if let (Some(side), Some(_), false) = (self.tool.side, block.get(b'D'), self.control.is_linuxcnc()) {
-                out.push(Action::Compensation(Some((side, self.tool.diameter_register))));
+                let cutter = self.tool.diameter_register.map_or(Cutter::Tool, Cutter::Register);
+                out.push(Action::Compensation(Some(Compensation { side, cutter })));
             }
             return Ok(());
         };
@@ -214,23 +218,38 @@ impl State {
             );
         }
         let side = if row.meaning == Meaning::SideLeft { Side::Left } else { Side::Right };
-        // without D, LinuxCNC uses the diameter of the tool in the spindle
-        let register = match row.runs.by_diameter {
-            true => None,
-            _ if self.control.is_linuxcnc() => block.get(b'D').or(self.tool.loaded),
-            _ => self.tool.diameter_register,
+        let cutter = match row.runs.by_diameter {
+            true if row.words.has(b'D') => self.given_cutter(row, block)?,
+            true => Cutter::Tool,
+            false => self.cutter(block)?,
         };
-        if register.is_none()
-            && !row.runs.by_diameter
-            && !self.control.is_linuxcnc()
-            && self.control.traits().turns == Turns::Tool
-        {
+        self.tool.side = Some(side);
+        out.push(Action::Compensation(Some(Compensation { side, cutter })));
+        Ok(())
+    }
+
+    /// The source of the radius for G41 and G42. Without D, LinuxCNC uses the diameter of the tool in the spindle.
+    fn cutter(&self, block: &Block) -> Done<Cutter> {
+        let is_linuxcnc = self.control.is_linuxcnc();
+        let register = if is_linuxcnc { block.get(b'D').or(self.tool.loaded) } else { self.tool.diameter_register };
+        if register.is_none() && !is_linuxcnc && self.control.traits().turns == Turns::Tool {
             let help = "write D with the tool's register: G41 D1";
             return refuse(diag::Code::PN007, "cutter compensation without D", help);
         }
-        self.tool.side = Some(side);
-        out.push(Action::Compensation(Some((side, register))));
-        Ok(())
+        Ok(register.map_or(Cutter::Tool, Cutter::Register))
+    }
+
+    /// The radius that G41.1 and G42.1 give: D is the diameter, L the orientation of a lathe tool.
+    fn given_cutter(&self, row: &Row, block: &Block) -> Done<Cutter> {
+        let Some(diameter) = block.get(b'D') else {
+            let help = format!("write D with the diameter of the tool: {} D6", row.code);
+            return refuse(diag::Code::PN007, format!("{} without D", row.code), help);
+        };
+        if block.get(b'L').is_some() && self.modes.plane != Plane::Xz {
+            let help = "leave L out, or write G18 before: L is the orientation of a lathe tool";
+            return refuse(diag::Code::PN005, format!("{} with L outside G18", row.code), help);
+        }
+        Ok(Cutter::Given { diameter, orientation: block.get(b'L').unwrap_or(0.0) })
     }
 
     /// Ends the tool length offset after a move of these axes to a machine position. The code of the offset stays

@@ -185,7 +185,7 @@ impl<'a> Check<'a> {
                 Action::Orient(_) => self.is_oriented = true,
                 Action::Spindle(rotation, _) if *rotation != Rotation::Stop => self.is_oriented = false,
                 Action::Compensation(on) => {
-                    self.side = on.map(|(side, _)| side);
+                    self.side = on.map(|on| on.side);
                     self.checked.compensates |= on.is_some();
                 }
                 _ => {}

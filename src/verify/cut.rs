@@ -94,6 +94,8 @@ pub(super) struct State {
     /// is on.
     pub length: Option<f64>,
     pub diameter: Option<f64>,
+    /// The diameter and the orientation of the compensated tool, if the program gives them.
+    pub cutter: Option<[f64; 2]>,
     /// Whether the speed is a surface speed.
     pub css: bool,
     /// Highest speed of the spindle. Near the axis of a lathe, a surface speed is limited to this value.
@@ -317,7 +319,7 @@ pub(super) fn apart(a: &Place, b: &Place) -> f64 {
 pub(super) fn shown(place: &Place, axes: u8) -> String {
     // for a wire with a tilted guide, show X Y U V
     let axes = if place[6] == UNSAID && place[7] == UNSAID { axes } else { 0b1100_0011 };
-    let words = (0..8).filter(|&axis| axes & 1 << axis != 0);
+    let words = (0..8).filter(|&axis| axes & 1 << axis != 0 && place[axis] != UNSAID);
     let list: Vec<String> = words.map(|axis| format!("{}{}", char::from(NAMES[axis]), number(place[axis]))).collect();
     list.join(" ")
 }

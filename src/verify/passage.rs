@@ -64,6 +64,8 @@ pub(super) struct Passage {
     pub is_off: bool,
     /// Codes of the program that are not simulated, each followed by its words: the letter, and the number.
     pub codes: Vec<(u8, f64)>,
+    /// Words and statements of the program that are not simulated.
+    pub words: Vec<Box<str>>,
     /// The words with which the program sets tool data (G10 L10 to L13), in their order.
     pub tool_data: Vec<(u8, f64)>,
     /// Codes for threading and cutting a wire.
@@ -110,6 +112,7 @@ impl Passage {
             started: false,
             is_off: false,
             codes: Vec::new(),
+            words: Vec::new(),
             tool_data: Vec::new(),
             does: Vec::new(),
             new_tool: false,
@@ -139,6 +142,7 @@ impl Passage {
         self.turns.clear();
         (self.started, self.is_off) = (false, false);
         self.codes.clear();
+        self.words.clear();
         self.tool_data.clear();
         self.does.clear();
         self.astray.clear();
@@ -245,9 +249,8 @@ impl Passage {
     #[inline]
     pub fn is_too_long(&self) -> bool {
         let marks = self.stops.len() + self.waits.len() + self.turns.len() + self.does.len();
-        self.rapids.len() + self.codes.len() + self.astray.len() + self.tool_data.len() > MOST
-            || marks > MOST_MARKS
-            || self.legs.len() > MOST_LEGS
+        let codes = self.codes.len() + self.words.len() + self.tool_data.len();
+        self.rapids.len() + codes + self.astray.len() > MOST || marks > MOST_MARKS || self.legs.len() > MOST_LEGS
     }
 
     /// Whether the frame was changed.

@@ -153,7 +153,24 @@ pub(super) fn differs(
     if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
         return Some("only one program synchronizes a tap with the spindle (M29)".to_owned());
     }
-    state(&cut.state, &found.state, names, program)
+    cutters([&cut.state, &found.state], tolerance).or_else(|| state(&cut.state, &found.state, names, program))
+}
+
+/// Compares the compensated tools whose diameter and orientation the programs give.
+fn cutters([before, now]: [&State; 2], tolerance: f64) -> Option<String> {
+    let near = |(a, b): (f64, f64)| (a - b).abs() <= tolerance;
+    let same = match (before.cutter, now.cutter) {
+        (Some(a), Some(b)) => a.into_iter().zip(b).all(near),
+        (a, b) => a == b,
+    };
+    let text = |cutter: Option<[f64; 2]>| match cutter {
+        None => "no diameter from the program".to_owned(),
+        Some([diameter, 0.0]) => format!("a diameter of {}", number(diameter)),
+        Some([diameter, orientation]) => format!("a diameter of {} and orientation {orientation}", number(diameter)),
+    };
+    (!same).then(|| {
+        format!("the compensated tool has {}, but {} in the old program", text(now.cutter), text(before.cutter))
+    })
 }
 
 fn state(before: &State, now: &State, names: Names, program: &Program<'_>) -> Option<String> {

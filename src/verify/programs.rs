@@ -101,7 +101,8 @@ impl Pair<'_> {
                 way.set(Some(program.start()), &program.passage.rapids, self.tolerance);
                 way.join(self.tolerance);
             }
-            self.motions.codes += u64::from(self.a.passage.codes != self.b.passage.codes);
+            let [a, b] = programs.map(|program| (&program.passage.codes, &program.passage.words));
+            self.motions.codes += u64::from(a != b);
             let message = match (&x, &y) {
                 (Some(cut), Some(found)) => self.cut(cut, found)?,
                 (Some(cut), None) => Some(format!("the new program ends before a cut to {}", end(cut))),

@@ -1,7 +1,7 @@
 //! Converts the numbers of a program to the units and axes of its job, and converts surface speeds.
 
 use super::cut::{Place, UNSAID, place, position};
-use crate::nc::Position;
+use crate::nc::{Cutter, Position};
 use crate::toolpath::Units;
 
 /// The axes if the form renames none.
@@ -41,6 +41,12 @@ impl Scale {
             (Units::Mm, Units::Inch) => 1.0 / 0.3048,
             _ => 1.0,
         }
+    }
+
+    /// The diameter and the orientation of a compensated tool that the program gives.
+    pub fn cutter(self, cutter: Cutter) -> Option<[f64; 2]> {
+        let Cutter::Given { diameter, orientation } = cutter else { return None };
+        Some([diameter * self.factor(), orientation])
     }
 
     #[inline]

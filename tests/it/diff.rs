@@ -404,6 +404,61 @@ fn motions_of_taps_differ_in_what_makes_them_rigid() {
     );
 }
 
+/// Words of LinuxCNC that change the moves of the tool or the spindle, but not the numbers in the axis words. The taper
+/// of a thread has an effect only if it is greater than 0, as in the interpreter.
+#[test]
+fn motions_of_linuxcnc_differ_in_words_beside_the_axes() {
+    let mill = |blocks: &str| format!("G21 G90 G17 G94\nT1 M6\nS500 M3 F100\nG0 X0 Y0 Z5\n{blocks}\nG0 Z9\nM2\n");
+    let lathe = |blocks: &str| format!("G21 G90 G18 G95 G8\nT1 M6\nS500 M3 F.2\nG0 X22 Z5\n{blocks}\nG0 Z10\nM2\n");
+    let thread = |words: &str| lathe(&format!("G76 P1.5 Z-20 I-2 J.3 K1.2 {words}"));
+    let side = |code: &str| mill(&format!("{code}\nG1 X5\nG1 Y9\nG40 X30"));
+    let turned = |code: &str| lathe(&format!("{code}\nG1 X40\nG1 Z-5\nG40 X60"));
+    for (old, new, found) in [
+        (side("G41.1 D3"), side("G41.1 D4"), Some("the compensated tool has a diameter of 4, but a diameter of 3")),
+        (side("G41.1 D25.4"), side("G20 G41.1 D1\nG21"), None),
+        (turned("G42.1 D3 L5"), turned("G42.1 D3 L6"), Some("orientation 6, but a diameter of 3 and orientation 5")),
+        (thread("E1 L2"), thread("E-1 L2"), Some("a cut goes to X19.7 Y0 Z-20, but to X19.7 Y0 Z-19")),
+        (thread(""), thread("E-1 L3"), None),
+        (mill("G33.1 Z-2 K1 I2"), mill("G33.1 Z-2 K1 I3"), Some("the feed is 1500, but 1000")),
+        (mill("G33.1 Z-2 K1"), mill("G33.1 Z-2 K1 I1"), None),
+    ] {
+        let message = difference("linuxcnc", [old, new.clone()]);
+        assert_eq!(message.is_some(), found.is_some(), "{new}: {message:?}");
+        assert!(found.is_none_or(|found| message.as_ref().unwrap().contains(found)), "{new}: {message:?}");
+    }
+}
+
+/// Words and statements that are not simulated count before the next cut, as codes do.
+#[test]
+fn other_words_that_are_not_simulated_are_counted() {
+    let siemens = |words: &str| {
+        format!(
+            "G17 G90 G710 G94 G54\nT1 M6\nD1 S1000 M3\nG0 X0 Y0 Z50\nG1 Z-1 F100\n{words}\nG1 X20 Y5\nG0 Z50\nM30\n"
+        )
+    };
+    let klartext = |words: &str| {
+        format!(
+            "0 BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\nL Z-1 F100\nCYCL DEF 32.0 TOLERANCE\n\
+             CYCL DEF 32.1 {words}\nL X+20 Y+5\nL Z+50 FMAX\nM30\nEND PGM T MM\n"
+        )
+    };
+    let of = |name: &'static str, make: &dyn Fn(&str) -> String, words: [&str; 2]| (name, words.map(make));
+    for ((name, programs), count) in [
+        (of("siemens", &siemens, ["CFC", "CFTCP"]), 1),
+        (of("siemens", &siemens, ["KONT", "NORM"]), 1),
+        (of("siemens", &siemens, ["G1 X5 CFIN", "G1 X5"]), 1),
+        (of("siemens", &siemens, ["CYCLE832(5,1,1)", "CYCLE832(0.01,1,1)"]), 1),
+        (of("siemens", &siemens, ["cfc", "CFC"]), 0),
+        (of("heidenhain", &klartext, ["T5", "T0.01"]), 1),
+        (of("heidenhain", &klartext, ["T5", "T5"]), 0),
+    ] {
+        let settings = RunSettings::new(control(name));
+        let sides = programs.clone().map(|program| (Cursor::new(program), settings));
+        let found = compare_motions(sides, Units::Mm, 1e-6).unwrap();
+        assert_eq!((found.difference, found.codes), (None, count), "{programs:?}");
+    }
+}
+
 /// A detour at rapid is no difference, but it is counted and reported.
 #[test]
 fn other_ways_are_counted() {

@@ -45,6 +45,21 @@ fn refused(printed: Result<String, String>, arguments: &str) {
     }
 }
 
+/// A job has no words for path control. Each word is named once.
+#[test]
+fn words_that_a_job_leaves_out_are_named() {
+    let program = "G17 G710 G90 G94 G54 CFC SOFT\nT1\nM6\nD1 S1000 M3\nG0 X0 Y0\nZ50\nCYCLE832(0.05,1,1)\nG1 Z-1 F200 CFC\nG0 Z50\nM30\n";
+    let checked = check(&plain_post("fanuc.pf"));
+    let form = compile(&checked.form);
+    let mut renderer = Renderer::new(&form, Options { program: Some(1), ..Options::default() });
+    let options = job_options(RunSettings::new(control("siemens")));
+    let mut warnings = Vec::new();
+    read_program(Cursor::new(program), &options, &mut warnings, &mut renderer).unwrap();
+    let left_out =
+        warnings.iter().filter_map(|warning| warning.message.strip_suffix(" is left out: a job can't contain it"));
+    assert_eq!(left_out.collect::<Vec<_>>(), ["CFC, 2 times", "CYCLE832(0.05,1,1)", "SOFT"]);
+}
+
 /// The pitch of a tap was its feed at SST divided by the active speed.
 #[test]
 fn a_tap_keeps_its_pitch() {

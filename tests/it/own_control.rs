@@ -551,10 +551,12 @@ fn a_brother_taps_by_its_pitch() {
     let mm =
         "%\nG21 G90 G94\nT1 M6\nG0 G43 H1 Z50.\nG0 X0 Y0 S800 M3\nG98 G77 X1. Y1. Z-9. R2. I1.25 L3000\nG80\nM30\n%\n";
     let tap = simulated(&folder, "brother", mm).unwrap();
-    // 800 revolutions per minute with a pitch of 1.25 mm
+    // 800 revolutions per minute with a pitch of 1.25 mm, and 3000 on the way out
     let fanuc = mm.replace("G77", "G84").replace("I1.25 L3000", "F1000.");
     assert!(tap.contains("\"feed\":[1,1,-9,0,0,0],\"f\":1000}"), "{tap}");
-    assert_eq!(tap, simulated(&folder, "fanuc", &fanuc).unwrap());
+    assert!(tap.contains("\"ccw\",\"s\":3000}\n{\"line\":6,\"feed\":[1,1,2,0,0,0],\"f\":3750}"), "{tap}");
+    let even = simulated(&folder, "brother", &mm.replace(" L3000", "")).unwrap();
+    assert_eq!(even, simulated(&folder, "fanuc", &fanuc).unwrap());
     // 16 threads per inch at 400 revolutions per minute: 25 inches per minute
     let inch = mm.replace("G21", "G20").replace("S800", "S400").replace("I1.25", "J16.");
     let tap = simulated(&folder, "brother", &inch).unwrap();
@@ -564,6 +566,7 @@ fn a_brother_taps_by_its_pitch() {
         (inch.replace("J16.", "I1.25"), "G77 takes I only in programs in millimetres"),
         (mm.replace("I1.25 ", ""), "a canned cycle without a feed"),
         (mm.replace("L3000", "K2"), "the block has K, but no code that uses K"),
+        (mm.replace("L3000", "L3000 Q3."), "G77 with pecks and a speed out of the hole is not simulated"),
     ] {
         let refused = simulated(&folder, "brother", &wrong).unwrap_err();
         assert!(refused.contains(said), "{wrong}{refused}");

@@ -613,6 +613,39 @@ fn m_codes_do_what_the_file_of_the_control_says() {
     assert_eq!(refused(control("haas"), &format!("{START}G88 X1. Z-1. R1. F10.\nM30\n")), ("PN003".into(), 4));
 }
 
+/// Blocks that the interpreter of LinuxCNC refuses, and codes whose effect is outside of the program.
+#[test]
+fn what_linuxcnc_refuses_or_has_elsewhere_is_refused() {
+    let linuxcnc = |blocks: &str| {
+        let mut simulator = Simulator::new(
+            Cursor::new(format!("G21 G90 G17\nT1 M6\nF100 S900 M3\n{blocks}\nM2\n")),
+            RunSettings::new(control("linuxcnc")),
+        );
+        loop {
+            match simulator.step(&mut Vec::new()) {
+                Ok(true) => {}
+                Err(RunError::Refused(diag, _)) => return diag.message,
+                end => panic!("{blocks}: {end:?}"),
+            }
+        }
+    };
+    for (blocks, message) in [
+        ("G96", "G96 without S"),
+        ("G96 D500", "G96 without S"),
+        ("G10 L2 P2 X1 I1", "G10 L2 with I or J"),
+        ("G10 L20 P2 X1 J1", "G10 L20 with I or J"),
+        ("G41 D1\nM48", "a change of the override switches under cutter compensation"),
+        ("G41.1", "G41.1 without D"),
+        ("G41.1 D3 L5", "G41.1 with L outside G18"),
+        ("G33.1 Z-2 K1 I0", "I0 of G33.1"),
+        ("M66 P0 L0", "M66 is not supported: the state of an input"),
+        ("M61 Q2", "M61 is not supported: the tool of M61"),
+    ] {
+        let refused = linuxcnc(blocks);
+        assert!(refused.contains(message), "{blocks}: {refused}");
+    }
+}
+
 /// Codes in real Haas programs: high precision on and off, a G53 without axis words.
 #[test]
 fn codes_that_real_programs_hold_are_read() {

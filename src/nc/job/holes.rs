@@ -33,6 +33,7 @@ impl Reader<'_> {
                 | Action::CycleOff
                 | Action::Length(_)
                 | Action::LeftOut(..)
+                | Action::LeftOutWord(_)
                 | Action::BlockDelete
         );
         match &self.cycle {

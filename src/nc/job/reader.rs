@@ -208,14 +208,14 @@ impl<'a> Reader<'a> {
                 self.operation = true; // an operation of a job has only one feed mode
                 Ok(())
             }
-            Action::Compensation(Some((_, None))) if !self.tool_is_its_own() => {
+            Action::Compensation(Some(on)) if on.cutter.register().is_none() && !self.tool_is_its_own() => {
                 let message = "compensation with a diameter in the block (G41.1, G42.1)";
                 unsaid(item.line, message, "use a register, D with G41 or G42")
             }
             Action::Compensation(Some(_)) if self.plane != Plane::Xy => {
                 unsaid(item.line, "cutter compensation outside G17", "a job's compensation is in XY")
             }
-            Action::Compensation(side) => self.compensation(side.map(|(side, _)| side)),
+            Action::Compensation(side) => self.compensation(side.map(|on| on.side)),
             Action::Plane(plane) => {
                 self.plane = *plane;
                 Ok(())
@@ -236,6 +236,7 @@ impl<'a> Reader<'a> {
             | Action::Length(_)
             | Action::End
             | Action::LeftOut(..)
+            | Action::LeftOutWord(_)
             | Action::Threading(_)
             | Action::Passes(_) // threads of lathes, which a mill does not have
             | Action::BlockDelete

@@ -9,7 +9,7 @@ use super::options::JobOptions;
 use crate::control::{Code, Meaning};
 use crate::diag::{self, Diag, Location};
 use crate::lang::Machine;
-use crate::nc::action::{Action, Item, Position};
+use crate::nc::action::{Action, Compensation, Cutter, Item, Position};
 use crate::nc::simulator::Simulator;
 use crate::source::text_of;
 use crate::toolpath::{About, ReadError, Start, Units};
@@ -111,8 +111,9 @@ pub(super) fn survey(
 struct Run<'w> {
     survey: Survey,
     warnings: &'w mut Vec<Diag>,
-    /// The codes that a job can't contain, with the line of the first one and their number. `None`: a block delete.
-    left_out: BTreeMap<Option<Code>, (u64, u64)>,
+    /// The codes that a job can't contain, or a word or statement in their place, with the line of the first one and
+    /// their number.
+    left_out: BTreeMap<(Option<Code>, String), (u64, u64)>,
     /// The active length register.
     length: Option<f64>,
     /// Whether the length register was turned on for the tool before this one.
@@ -168,7 +169,7 @@ impl Run<'_> {
                 (self.length, self.inherited, self.at_home) = (Some(*register), false, false);
                 one(&mut self.survey.registers, |r| &mut r.length, *register, line, "length offsets, H")?;
             }
-            Action::Compensation(Some((_, Some(register)))) => {
+            Action::Compensation(Some(Compensation { cutter: Cutter::Register(register), .. })) => {
                 one(&mut self.survey.registers, |r| &mut r.diameter, *register, line, "diameter offsets, D")?;
             }
             Action::LeftOut(_, Meaning::RigidAhead) => {}
@@ -176,8 +177,9 @@ impl Run<'_> {
                 let help = "set the tool data at the machine, or before the first move of the program";
                 return unsaid(line, format!("{code} sets tool data between moves"), help);
             }
-            Action::LeftOut(code, _) => self.left_out.entry(Some(*code)).or_insert((line, 0)).1 += 1,
-            Action::BlockDelete => self.left_out.entry(None).or_insert((line, 0)).1 += 1,
+            Action::LeftOut(code, _) => self.counts_left_out(Some(*code), "", line),
+            Action::BlockDelete => self.counts_left_out(None, "block delete", line),
+            Action::LeftOutWord(word) => self.counts_left_out(None, word, line),
             _ => {}
         }
         Ok(())
@@ -237,6 +239,11 @@ impl Run<'_> {
         (self.inherited, self.with_length, self.at_home) = (true, false, false);
     }
 
+    /// Counts a code, or a word in its place, that a job can't contain.
+    fn counts_left_out(&mut self, code: Option<Code>, word: &str, line: u64) {
+        self.left_out.entry((code, word.to_owned())).or_insert((line, 0)).1 += 1;
+    }
+
     /// Reports what a job can't contain.
     ///
     /// # Errors
@@ -249,8 +256,8 @@ impl Run<'_> {
             let message = format!("the number of the tool \"{name}\" is unknown");
             return Err(Box::new(Diag::new(diag::Code::PL009, message).help(help).place(Location::at(*line, 1))).into());
         }
-        for (code, (line, count)) in self.left_out {
-            let name = code.map_or("block delete".to_owned(), |code| code.to_string());
+        for ((code, word), (line, count)) in self.left_out {
+            let name = code.map_or(word, |code| code.to_string());
             let times = if count > 1 { format!(", {count} times") } else { String::new() };
             let message = format!("{name}{times} is left out: a job can't contain it");
             self.warnings.push(warning(line, message, "if the machine needs it, let the form print it"));

@@ -158,7 +158,7 @@ impl<'a> Turner<'a> {
                 Ok(())
             }
             Action::Compensation(side) => {
-                self.side[0] = side.map(|(side, _)| side);
+                self.side[0] = side.map(|on| on.side);
                 Ok(())
             }
             Action::Plane(plane) if *plane != Plane::Xz => unsaid(line, "another plane than ZX", "write G18"),
@@ -174,6 +174,7 @@ impl<'a> Turner<'a> {
             | Action::CycleOff
             | Action::End
             | Action::LeftOut(..)
+            | Action::LeftOutWord(_)
             | Action::BlockDelete => Ok(()),
         }
     }

@@ -386,9 +386,10 @@ impl<'a> Program<'a> {
                 self.state.work = Some(*code);
                 self.changed();
             }
-            Action::Compensation(side) => {
-                let register = side.and_then(|(_, register)| register);
-                let side = Some(side.map(|(side, _)| side));
+            Action::Compensation(on) => {
+                let register = on.and_then(|on| on.cutter.register());
+                self.state.cutter = on.and_then(|on| self.scale.cutter(on.cutter));
+                let side = Some(on.map(|on| on.side));
                 if side == self.state.side && self.state.diameter.is_some_and(|before| Some(before) != register) {
                     let message = "the offset register changes while the compensation is on";
                     self.hazard(Code::PV018, item.line, message, "print one D for each contour");
@@ -432,6 +433,7 @@ impl<'a> Program<'a> {
                 }
                 self.left_out(*code, *meaning);
             }
+            Action::LeftOutWord(word) => self.passage.words.push(word.clone()),
             _ => {}
         }
         if let Some(is_on) = self.beam_is_on() {

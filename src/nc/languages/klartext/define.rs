@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::cursor::Cursor;
+use super::super::cursor::{Cursor, capitals};
 use super::block::{Path, Words};
 use super::cycles::Cycle;
 use crate::control::Meaning;
@@ -120,7 +120,11 @@ impl Words<'_> {
                     return unknown(": it turns or scales the frame");
                 }
             }
-            (32, _) => {}
+            // the tolerance of the path
+            (32, _) => {
+                let text = capitals(cursor.rest().trim_ascii()).into_owned();
+                self.own.left_out = Some(format!("CYCL DEF {number} {text}").into());
+            }
             _ => return unknown(""),
         }
         Ok(())

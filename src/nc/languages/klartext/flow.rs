@@ -7,7 +7,7 @@ use super::super::cursor::{Cursor, capitals};
 use super::block::{Path, Words};
 use super::is_parameter;
 use crate::diag::Code;
-use crate::nc::action::Item;
+use crate::nc::action::{Action, Item};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::{RunError, Simulator};
 use crate::nc::way::{Frame, Jump, Search, Spot};
@@ -141,6 +141,8 @@ impl Simulator<'_> {
         self.block.clear();
         let line = std::mem::take(&mut self.line);
         let jump = self.klartext_line(&line, items);
+        let statement = self.klartext.left_out.take().map(Action::LeftOutWord);
+        items.extend(statement.map(|action| Item { line: self.at.line, by_cycle: false, action }));
         self.line = line;
         jump
     }

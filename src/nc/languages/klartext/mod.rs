@@ -45,6 +45,8 @@ pub struct Klartext {
     labels: Option<HashMap<String, Spot>>,
     /// For each `CALL LBL 1 REP 3`: the line of the call, and the number of repeats that are left.
     repeats: Vec<(u64, u32)>,
+    /// The statement of the current block that is not simulated.
+    left_out: Option<Box<str>>,
 }
 
 impl Klartext {

@@ -17,7 +17,7 @@ use crate::nc::state::State;
 /// Numbers are equal in a comparison if they differ by at most this part of their size (Job Planning, section 1.7).
 pub const EQUAL: f64 = 1e-12;
 
-/// Words for path control and look-ahead. These words have no effect on anything that postform compares.
+/// Words for path control and look-ahead, which are not simulated.
 const HARMLESS: [&str; 27] = [
     // these turn off features that are refused when a program turns them on
     "TRAFOOF",
@@ -156,6 +156,7 @@ impl Words<'_> {
                 Ok(())
             }
             _ if is_harmless(&name) => {
+                self.own.left_out.push(name.into());
                 self.block.is_empty = false;
                 Ok(())
             }
@@ -408,7 +409,7 @@ impl Words<'_> {
     }
 }
 
-/// Whether a word has no effect on anything that postform compares.
+/// Whether a word moves nothing and is not simulated.
 pub fn is_harmless(name: &str) -> bool {
     HARMLESS.contains(&name)
 }

@@ -6,7 +6,7 @@ use super::block::{EQUAL, Words};
 use super::head::{Head, head, number, section, without_comment};
 use super::ways::{Kind, Repeat, Saved, Siemens, Variable};
 use crate::diag::Code;
-use crate::nc::action::Item;
+use crate::nc::action::{Action, Item};
 use crate::nc::fault::{Done, Fault, refuse};
 use crate::nc::simulator::Simulator;
 use crate::nc::state::{Modes, State};
@@ -26,6 +26,8 @@ impl Simulator<'_> {
         let mut line = std::mem::take(&mut self.line);
         let result = self.siemens_line(without_comment(&line).0, items);
         std::mem::swap(&mut self.line, &mut line);
+        let words = self.siemens.left_out.drain(..).map(Action::LeftOutWord);
+        items.extend(words.map(|action| Item { line: self.at.line, by_cycle: false, action }));
         let jump = result?;
         if jump.is_none() && self.block.is_empty && self.block.comment.is_none() {
             return Ok(Some(Jump::On));
@@ -168,7 +170,10 @@ impl Simulator<'_> {
                     return Ok(None);
                 }
                 // CYCLE832 only sets the smoothing of the path
-                None if name == "CYCLE832" => _ = words.arguments(&mut cursor)?,
+                None if name == "CYCLE832" => {
+                    words.arguments(&mut cursor)?;
+                    words.own.left_out.push(capitals(line[at..cursor.at()].trim_ascii()).into());
+                }
                 None => {
                     let message = format!("{name} is not supported");
                     return Err(Fault::at(

@@ -42,6 +42,8 @@ pub struct Siemens {
     pub(super) saved: Vec<(usize, Saved)>,
     /// The line of the `FOR` to which the last `ENDFOR` has jumped back.
     pub(super) next_round: Option<u64>,
+    /// The words of the current block that are not simulated.
+    pub(super) left_out: Vec<Box<str>>,
 }
 
 /// A variable of a program.

@@ -25,6 +25,7 @@ impl Simulator<'_> {
     /// this function before the first block.
     pub fn begin_turned(&mut self) {
         self.state.place.becomes_unknown(ROTARY);
+        self.state.place.turned = ROTARY;
     }
 
     /// Sets the number of programs before the main one in the input. The programs before the main one are subprograms

@@ -71,6 +71,7 @@ impl State {
                 self.place.moves_by(axis, by);
             }
         }
+        self.place.turns_to(&to);
         Ok(to)
     }
 

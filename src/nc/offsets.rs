@@ -184,8 +184,9 @@ impl State {
         for axis in (0..6).filter(|axis| axes & 1 << axis != 0) {
             to[axis] = home[axis];
         }
-        // without axis words, only axes that surely exist go home
-        self.place.goes_home(axes & (0b111 | self.place.turned | named));
+        // a rotary axis that was never turned may not exist, and its first reference point is taken for its 0
+        let known = if which == 0 { 0 } else { named };
+        self.place.goes_home(axes & (0b111 | self.place.turned | known));
         self.place.rapid_to(to, out);
         self.end_length(axes & ends_length, out);
         Ok(())

@@ -1,6 +1,6 @@
 //! The position of the tool, and the frames that position refers to.
 
-use super::action::{Action, Position, ROTARY};
+use super::action::{Action, Position};
 use super::frames::Frames;
 use super::out::Out;
 
@@ -20,7 +20,7 @@ pub struct Place {
     pub astray: u8,
     /// As bits, the `at_machine` axes whose machine position the program contains.
     pub placed: u8,
-    /// As bits, the rotary axes that the program has moved.
+    /// As bits, the rotary axes that the program has turned away from 0.
     pub turned: u8,
     /// The coordinate frames of the program.
     pub frames: Frames,
@@ -60,7 +60,6 @@ impl Place {
     /// Records that the program contains the positions of these axes. The positions are known from now on.
     #[inline]
     pub fn are_given(&mut self, axes: u8) {
-        self.turned |= axes & ROTARY;
         self.at_machine &= !axes;
         self.astray &= !axes;
         self.placed &= !axes;
@@ -69,7 +68,6 @@ impl Place {
     /// Moves an axis by an increment.
     #[inline]
     pub fn moves_by(&mut self, axis: usize, by: f64) {
-        self.turned |= 1 << axis & ROTARY;
         if by != 0.0 {
             self.astray |= self.at_machine & 1 << axis;
             self.placed &= !(1 << axis);
@@ -85,7 +83,6 @@ impl Place {
 
     /// Moves axes to a machine position that the program contains.
     pub fn goes_home(&mut self, axes: u8) {
-        self.turned |= axes & ROTARY;
         self.at_machine |= axes;
         self.astray &= !axes;
         self.placed |= axes;
@@ -98,8 +95,14 @@ impl Place {
         self.placed &= !axes;
     }
 
+    /// Records the axes that a move turns away from 0.
+    #[inline]
+    pub fn turns_to(&mut self, to: &Position) {
+        self.turned |= (3..6).filter(|axis| to[*axis] != 0.0).map(|axis| 1 << axis).sum::<u8>();
+    }
+
     /// Makes the positions of all axes unknown, such as in another work offset. A rotary axis that the program has never
-    /// moved may not exist.
+    /// turned away from 0 stays: it may not exist, and all work offsets are measured at this angle.
     pub fn loses_all(&mut self) {
         self.becomes_unknown(LINEAR | self.turned);
     }

@@ -7,6 +7,7 @@
 mod check;
 mod clock;
 mod extent;
+mod feeds;
 mod fit;
 mod fitted;
 mod place;

@@ -236,13 +236,21 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
         (there, "G91 G28 A0.\nG90 G43 H1 Z5.", false),
         (there, "G91 G30 A0.\nG90 G43 H1 Z5.", false),
         ("A0.", "G53 A0.", false),
-        // an axis that the program never moves may not exist
         ("G55 X0. Y0. A90.\nZ5.", "G91 G28 Z0.\nG90 G55 X0. Y0. A90.\nG43 H1 Z5.", true),
     ];
     for (old, new, same) in cases {
         let (is_same, said) = compared(old, new);
         assert!(is_same == same, "{old} / {new}: {said}");
         assert!(same || said.contains("an unknown machine position of A"), "{old} / {new}: {said}");
+    }
+    // an axis that is never turned away from 0 is at 0 in each work offset and at its reference point
+    for (old, new) in [("G55 X0. Y0.\nZ5.", "G55 X0. Y0. A0.\nZ5."), ("G91 G28 A0.\nG90 G43 H1 Z5.", "A0.\nG43 H1 Z5.")]
+    {
+        for (file, blocks) in [("a.nc", old), ("b.nc", new)] {
+            folder.write(file, &nc(&format!("G0 Z5.\n{blocks}\nG1 Z-.1\nG0 Z5.")));
+        }
+        let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
+        assert!(run.status.success(), "{old} / {new}: {}{}", out(&run), err(&run));
     }
     // as a job, a program must give the angle before each cut
     let form = crate::support::root().join("postforms/haas-4axis.pf").to_string_lossy().into_owned();
@@ -326,7 +334,7 @@ fn a_rotary_axis_has_a_fastest_feed() {
         ("A90. F1001.", Some("1001")),
         ("X1. A100. F5000.", Some("4999.75")),
         ("X100. A1. F5000.", None),
-        ("G2 I.5 A90. F2000.", Some("1998.782")),
+        ("G2 I.5 A90. F2000.", Some("1998.783")),
         ("G93 X1. A90. F20.", Some("1800")),
         ("G93 X1. A90. F10.", None),
     ] {

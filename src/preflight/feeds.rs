@@ -44,8 +44,8 @@ impl Check<'_> {
         }
         let path = if self.control.is_linuxcnc() && length > 0.0 { length } else { length.hypot(turned) };
         let feed = self.pace.per_minute(feed, None, path, 1.0, 0.0);
-        for axis in 3..6 {
-            self.feeds(axis, feed * way[axis].abs() / path, line);
+        for (axis, part) in way.iter().enumerate().skip(3) {
+            self.feeds(axis, feed * part.abs() / path, line);
         }
     }
 

@@ -126,10 +126,10 @@ fn another_work_offset_turns_the_part_before_the_tool_goes_down() {
 
 /// A job in inches with a path, and a program with these blocks.
 fn job_and_program(folder: &Folder, path: &str, blocks: &str) {
-    folder.write("job.json", &format!(
+    folder.write("job.json", format!(
         r#"{{"postform":1,"program":1,"units":"inch","tools":[{{"number":1}}],"operations":[{{"tool":1,"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"feed":10,"path":[{{"rapid":[0,0,5,0]}},{{"line":[0,0,-0.1]}},{path}]}}]}}"#
     ));
-    folder.write("a.nc", &nc(blocks));
+    folder.write("a.nc", nc(blocks));
 }
 
 fn nc(blocks: &str) -> String {
@@ -173,7 +173,7 @@ fn the_way_of_a_turn_is_compared_not_only_its_end() {
         job_and_program(&folder, path, right);
         let proven = text(&folder.run(&verify));
         assert!(proven.contains("identical"), "{right}: {proven}");
-        folder.write("b.nc", &nc(wrong));
+        folder.write("b.nc", nc(wrong));
         let diff = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
         assert!(text(&diff).contains(in_diff), "{wrong}: {}", text(&diff));
         job_and_program(&folder, path, wrong);
@@ -218,8 +218,8 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
     let program = |blocks: &str| nc(&format!("G0 Z5.\nA90.\nZ.1\nG1 Z-.1\nG0 Z5.\n{blocks}\nG1 Z-.1\nG0 Z5."));
     let folder = Folder::new("rotary-offsets");
     let compared = |old: &str, new: &str| {
-        folder.write("a.nc", &program(old));
-        folder.write("b.nc", &program(new));
+        folder.write("a.nc", program(old));
+        folder.write("b.nc", program(new));
         let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
         (run.status.success(), out(&run) + &err(&run))
     };
@@ -247,7 +247,7 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
     for (old, new) in [("G55 X0. Y0.\nZ5.", "G55 X0. Y0. A0.\nZ5."), ("G91 G28 A0.\nG90 G43 H1 Z5.", "A0.\nG43 H1 Z5.")]
     {
         for (file, blocks) in [("a.nc", old), ("b.nc", new)] {
-            folder.write(file, &nc(&format!("G0 Z5.\n{blocks}\nG1 Z-.1\nG0 Z5.")));
+            folder.write(file, nc(&format!("G0 Z5.\n{blocks}\nG1 Z-.1\nG0 Z5.")));
         }
         let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
         assert!(run.status.success(), "{old} / {new}: {}{}", out(&run), err(&run));
@@ -255,7 +255,7 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
     // as a job, a program must give the angle before each cut
     let form = crate::support::root().join("postforms/haas-4axis.pf").to_string_lossy().into_owned();
     for (blocks, proven) in [(given, true), (home, true), ("G55 X0. Y0.\nZ5.", false), ("G53 A0.\nX0.", false)] {
-        folder.write("a.nc", &program(blocks));
+        folder.write("a.nc", program(blocks));
         let run = folder.run(&["render", "a.nc", "--form", &form, "--job-control", "haas", "-o", "b.nc"]);
         let said = err(&run) + &out(&run);
         assert_eq!(run.status.success(), proven, "{blocks}: {said}");
@@ -272,7 +272,7 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
     };
     folder.write(
         "job.json",
-        &format!(
+        format!(
             r#"{{"postform":1,"program":1,"units":"inch","tools":[{{"number":1}}],"operations":[{},{}]}}"#,
             operation(54),
             operation(55)
@@ -288,7 +288,7 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
         ("G55 X0. Y0.\nZ5.\nZ.1", "A is not printed since a change of the work offset"),
         ("G55 X0. Y0.\nZ.1\nA90.", "PV009"),
     ] {
-        folder.write("a.nc", &cuts(blocks));
+        folder.write("a.nc", cuts(blocks));
         let run = folder.run(&["verify", "job.json", "--nc", "a.nc", "--control", "haas"]);
         let said = out(&run) + &err(&run);
         assert!(said.contains(verdict), "{blocks}: {said}");
@@ -313,7 +313,7 @@ fn the_feed_of_a_turn_is_the_same_in_other_units() {
         nc("").replace("G20", "G21").replace("Z5.", "Z127.").replace("G1 Z-.1 F10.\n", &blocks)
     };
     for (feeds, same) in [(["100.", "2540."], true), (["2540.", "2540."], false), (["100.", "100."], false)] {
-        folder.write("b.nc", &mm(feeds));
+        folder.write("b.nc", mm(feeds));
         let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
         assert_eq!(run.status.success(), same, "{feeds:?}: {}{}", out(&run), err(&run));
         let run = folder.run(&["verify", "job.json", "--nc", "b.nc", "--control", "haas"]);
@@ -338,7 +338,7 @@ fn a_rotary_axis_has_a_fastest_feed() {
         ("G93 X1. A90. F20.", Some("1800")),
         ("G93 X1. A90. F10.", None),
     ] {
-        folder.write("a.nc", &nc(&format!("{cut}\nG0 Z5.")));
+        folder.write("a.nc", nc(&format!("{cut}\nG0 Z5.")));
         let run = folder.run(&["fit", "a.nc", "--machine", "m.toml", "--control", "haas"]);
         let said = out(&run) + &err(&run);
         let message = feed.map(|feed| format!("A would feed at {feed} degrees/min, but its maximum is 1000"));

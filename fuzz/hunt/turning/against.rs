@@ -76,10 +76,10 @@ pub fn moves(text: &str, settings: RunSettings) -> Result<Vec<Move>, (usize, Str
                 }
                 Action::Work(work) => now.work = *work,
                 Action::Compensation(side) => {
-                    now.side = match side {
+                    now.side = match side.map(|compensation| compensation.side) {
                         None => 40.0,
-                        Some((Side::Left, _)) => 41.0,
-                        Some((Side::Right, _)) => 42.0,
+                        Some(Side::Left) => 41.0,
+                        Some(Side::Right) => 42.0,
                     };
                 }
                 _ => {}

@@ -6,7 +6,7 @@ mod arcs;
 mod holes;
 mod planned;
 
-use super::{Act, Place, Want, Wanted, What, near, same};
+use super::{Act, INCH, Place, Want, Wanted, What, near, same};
 use crate::planner::Kind;
 
 /// The first difference, in words; `None`: the program matches its job. `within`: tolerance in millimetres.
@@ -218,8 +218,12 @@ impl Judge<'_> {
             _ => 1.0,
         };
         let (is, should) = (act.state.feed.0, wanted.feed.0 * by);
+        // the feed of a cut that only turns the part is in degrees, but the reader of the job scales all feeds
+        let turns = (0..3).all(|axis| near(act.from[axis], act.to[axis], self.within));
+        let factors: &[f64] = if turns { &[1.0, INCH, 1.0 / INCH] } else { &[1.0] };
         // rounding by the form's last digit is allowed
-        let off = (is - should).abs() > 0.011 * should + 0.006;
+        let is_near = |factor: &f64| (is - should * factor).abs() <= 0.011 * should * factor + 0.006;
+        let off = !factors.iter().any(is_near);
         off.then(|| format!("line {}: feed {is:.4} for {should:.4}", act.line))
     }
 

@@ -102,7 +102,7 @@ impl State {
             // the meaning of lengths without a decimal point depends on a setting
             && (block.whole & AXES == 0 || control.rules().is_nist())
             && (block.whole & bit(b'F') == 0 || !self.scales_feed(block));
-        let feed = block.get(b'F').unwrap_or(self.drive.feed);
+        let feed = if block.given & bit(b'F') != 0 { block.peek(b'F') } else { self.drive.feed };
         if !is_usual || feed.is_nan() || feed <= 0.0 {
             return false;
         }

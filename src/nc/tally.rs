@@ -64,7 +64,8 @@ impl Tally {
                 self.moves[1] += 1;
                 let length = distance(&self.at, to);
                 let radius = (self.at[0] + to[0]).abs() / 2.0;
-                self.cut([length, turned(&self.at, to)], *feed, *lead, radius);
+                let turned = if length > 0.0 { 0.0 } else { turned(&self.at, to) };
+                self.cut([length, turned], *feed, *lead, radius);
                 self.reach(&self.at.clone());
                 self.at = *to;
                 self.reach(to);
@@ -99,8 +100,8 @@ impl Tally {
         self.cutting + self.dwelling + self.distances[0] / rapid_rate(self.units)
     }
 
-    /// Adds a feed move: its length along X, Y and Z, and the angle by which the part turns. If only the part turns, the
-    /// feed is in degrees per minute. `radius` is the radius of a lathe cut.
+    /// Adds a feed move: its length along X, Y and Z, and the angle by which the part turns if the length is 0. The
+    /// feed of such a turn is in degrees per minute. `radius` is the radius of a lathe cut.
     fn cut(&mut self, [length, turned]: [f64; 2], feed: f64, lead: Option<f64>, radius: f64) {
         self.distances[1] += length;
         let units = self.units.in_mm();

@@ -80,6 +80,15 @@ impl Simulator<'_> {
         Some(if is_other { 2 } else { usize::from(row.runs.point == Some(2)) })
     }
 
+    /// The number of the reference point to which the last block moves: 1 by G28, P by G30. A block that gives machine
+    /// positions as numbers counts as 1, because the first reference point is at the machine's zero.
+    pub fn home_number(&self) -> u8 {
+        let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference);
+        let Some(row) = row else { return 1 };
+        let said = self.block.get(b'P').filter(|_| row.words.has(b'P'));
+        said.map_or(row.runs.point.unwrap_or(1), |point| point as u8)
+    }
+
     /// Whether the machine positions of the last block are measured from a point that only the machine has.
     pub fn goes_hidden(&self) -> bool {
         self.block.hidden

@@ -275,6 +275,13 @@ fn motions_differ_in_machine_positions() {
         "before this cut, the machine positions are Z-100, but Z0 in the old program"
     );
     assert_eq!(differs(["G53 G0 Z0.", "G53 G0 Z0.\nG53 X-20."]), None);
+    let home = ["G91 G28 Z0.\nG90", "G91 G30 Z0.\nG90", "G91 G30 P2 Z0.\nG90", "G91 G30 P3 Z0.\nG90"];
+    assert_eq!(differs([home[1], home[2]]), None);
+    assert_eq!(
+        differs([home[0], home[1]]).unwrap(),
+        "before this cut, the machine positions are Z of reference point 2, but Z0 in the old program"
+    );
+    assert!(differs([home[2], home[3]]).is_some());
 }
 
 /// Codes that are not simulated are compared with their words.

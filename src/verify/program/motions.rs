@@ -36,7 +36,7 @@ impl Program<'_> {
             }
         }
         (self.at, self.unknown, self.placed) = (to, unknown, placed);
-        self.passage.reaches_machine(placed, &to);
+        self.passage.reaches_machine(placed, self.simulator.home_number(), &to);
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 

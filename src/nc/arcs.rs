@@ -89,7 +89,7 @@ impl State {
         // more full turn
         let machine = self.place.at_machine;
         let turn = Turn { to, center, plane: self.modes.plane, direction, turns: turns as u32 - 1, feed, machine };
-        self.place.position = to;
+        self.place.reaches(to);
         out.push(Action::Arc(turn));
         Ok(())
     }

@@ -71,7 +71,6 @@ impl State {
                 self.place.moves_by(axis, by);
             }
         }
-        self.place.turns_to(&to);
         Ok(to)
     }
 

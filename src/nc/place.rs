@@ -95,10 +95,11 @@ impl Place {
         self.placed &= !axes;
     }
 
-    /// Records the axes that a move turns away from 0.
+    /// Ends a move at a position in program coordinates.
     #[inline]
-    pub fn turns_to(&mut self, to: &Position) {
-        self.turned |= (3..6).filter(|axis| to[*axis] != 0.0).map(|axis| 1 << axis).sum::<u8>();
+    pub fn reaches(&mut self, to: Position) {
+        self.position = to;
+        self.turned |= (3..6).map(|axis| u8::from(to[axis] != 0.0) << axis).sum::<u8>();
     }
 
     /// Makes the positions of all axes unknown, such as in another work offset. A rotary axis that the program has never
@@ -118,7 +119,7 @@ impl Place {
     /// Makes a rapid to a position in program coordinates.
     #[inline]
     pub fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
-        self.position = to;
+        self.reaches(to);
         let machine = self.at_machine;
         out.push(Action::Rapid { to, machine, astray: self.astray & machine, placed: self.placed & machine });
     }
@@ -126,13 +127,13 @@ impl Place {
     /// Makes a straight feed move. `lead`: feed per revolution, if the move follows the spindle.
     #[inline]
     pub fn feed_to(&mut self, to: Position, feed: f64, lead: Option<f64>, out: &mut Out<'_>) {
-        self.position = to;
+        self.reaches(to);
         out.push(Action::Feed { to, feed, lead, machine: self.at_machine, home: 0 });
     }
 
     /// Makes a feed move that takes these axes to a machine position.
     pub fn feed_home(&mut self, to: Position, axes: u8, feed: f64, out: &mut Out<'_>) {
-        self.position = to;
+        self.reaches(to);
         out.push(Action::Feed { to, feed, lead: None, machine: self.at_machine, home: axes });
     }
 

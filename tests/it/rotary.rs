@@ -243,6 +243,16 @@ fn an_angle_is_unknown_in_another_work_offset_and_at_home() {
         assert!(is_same == same, "{old} / {new}: {said}");
         assert!(same || said.contains("an unknown machine position of A"), "{old} / {new}: {said}");
     }
+    // an axis may be turned by any kind of block
+    for turn in
+        ["G1 A90. F100.", "G1 X1. F100.\nA90.", "G91 G1 A90. F100.\nG90", "G0 G53 A90.", "G2 X0. I1. A90. F100."]
+    {
+        for (file, angle) in [("a.nc", ""), ("b.nc", " A90.")] {
+            folder.write(file, nc(&format!("G0 Z5.\n{turn}\nG55 G0 X0. Y0.{angle}\nZ5.\nG1 Z-.1\nG0 Z5.")));
+        }
+        let run = folder.run(&["diff", "--motion", "a.nc", "b.nc", "--control", "haas"]);
+        assert!(!run.status.success(), "{turn}: {}{}", out(&run), err(&run));
+    }
     // an axis that is never turned away from 0 is at 0 in each work offset and at its reference point
     for (old, new) in [("G55 X0. Y0.\nZ5.", "G55 X0. Y0. A0.\nZ5."), ("G91 G28 A0.\nG90 G43 H1 Z5.", "A0.\nG43 H1 Z5.")]
     {

@@ -41,7 +41,7 @@ impl State {
                 return refuse(33);
             }
         }
-        self.place.position = to;
+        self.place.reaches(to);
         let (plane, machine) = (self.modes.plane, self.place.at_machine);
         out.push(Action::Arc(Turn { to, center, plane, direction, turns: 0, feed, machine }));
         Ok(())

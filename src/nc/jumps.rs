@@ -15,11 +15,6 @@ const MOST_JUMPS: u64 = 1_000_000;
 /// Maximum nesting of subprograms and loops.
 const DEEPEST: usize = 64;
 
-fn another_program(label: &str, line: u64) -> Box<Fault> {
-    let message = format!("O{label} of line {line} is another program, because it has no M99; it is not run");
-    Fault::new(Code::PN015, message, "write each main program into a file of its own")
-}
-
 fn no_end() -> Box<Fault> {
     Fault::new(Code::PN015, "the subprogram has no end", "end the subprogram with M99 before the next O number")
 }
@@ -344,17 +339,25 @@ impl Simulator<'_> {
         let mut last = None; // the beginning of the last program, until its M99 is found
         while self.read_line()? && !self.line.starts_with(b"%") {
             if let Some((label, Step::Program)) = Flow::head(&self.line)
-                && let Some((label, line)) = last.replace((label, self.at.line))
+                && let Some(before) = last.replace((label, self.at))
             {
-                return Err(self.refused(another_program(&label, line)));
+                return Err(self.another_program(before));
             }
             last = last.filter(|_| !self.has_return());
         }
-        if let Some((label, line)) = last {
-            return Err(self.refused(another_program(&label, line)));
+        if let Some(last) = last {
+            return Err(self.another_program(last));
         }
         (self.at, self.line) = (end, text);
         Ok(())
+    }
+
+    /// Refuses a program that begins at this position after the end of the main program.
+    fn another_program(&mut self, (label, at): (String, Spot)) -> RunError {
+        self.at = at;
+        self.line.clear();
+        let message = format!("O{label} is another program, because it has no M99; it is not run");
+        self.refused(Fault::new(Code::PN015, message, "write each main program into a file of its own"))
     }
 
     /// Whether the line has a code that ends a subprogram.

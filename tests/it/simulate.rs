@@ -317,7 +317,7 @@ fn a_file_has_one_main_program() {
         let inside = format!("O7\n{START}O5\n{cut}\nM30\n");
         assert_eq!(refused(control(name), &inside), ("PN015".into(), 5), "{name}");
         let another = format!("O7\n{START}{cut}\nM30\n{sub}O8\n{cut}\nM30\n");
-        assert_eq!(refused(control(name), &another).0, "PN015", "{name}");
+        assert_eq!(refused(control(name), &another), ("PN015".into(), 10), "{name}");
     }
 }
 

@@ -231,18 +231,7 @@ impl<'s> Joining<'s> {
 
     /// Updates the state that stays active after an event.
     fn follow(&mut self, event: &Event<'_>) {
-        let moves = matches!(
-            event,
-            Event::Rapid(_)
-                | Event::Line { .. }
-                | Event::Arc { .. }
-                | Event::Infeed { .. }
-                | Event::Outfeed { .. }
-                | Event::Hole(_)
-                | Event::Thread(_)
-                | Event::SubCall(_)
-        );
-        self.held.is_home &= !moves;
+        self.held.is_home &= !event.moves();
         match event {
             Event::Home => self.held.is_home = true,
             Event::Text(_) => self.held.has_text = true,

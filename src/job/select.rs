@@ -226,17 +226,7 @@ impl<'s> Selecting<'s> {
 
     /// Passes an event on. A changed tool axis is passed on before the next move.
     fn pass(&mut self, event: Event<'_>, place: Place) -> Flow {
-        let moves = matches!(
-            event,
-            Event::Rapid(_)
-                | Event::Line { .. }
-                | Event::Arc { .. }
-                | Event::Infeed { .. }
-                | Event::Outfeed { .. }
-                | Event::Hole(_)
-                | Event::SubCall(_)
-                | Event::Home
-        );
+        let moves = event.moves() || matches!(event, Event::Home);
         if moves && self.held.tilt != self.passed_tilt {
             self.passed_tilt = self.held.tilt;
             self.sink.event(Event::Tilt(self.held.tilt), place)?;

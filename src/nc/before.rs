@@ -72,21 +72,12 @@ impl Simulator<'_> {
         self.block.row(Group::Once).is_some_and(|row| row.runs.ends_length != 0)
     }
 
-    /// The reference point to which the last block moves: 0 is the point of G28, 1 is the point of G30 or of G30 P2, 2 is
-    /// another point of G30.
+    /// The reference point to which the last block moves: 0 is the point of G28, 1 is the point of G30 or of G30 P2, 2 and 3
+    /// are the points of G30 P3 and G30 P4.
     pub fn reference_point(&self) -> Option<usize> {
         let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference)?;
-        let is_other = row.words.has(b'P') && self.block.get(b'P').is_some_and(|point| point != 2.0);
-        Some(if is_other { 2 } else { usize::from(row.runs.point == Some(2)) })
-    }
-
-    /// The number of the reference point to which the last block moves: 1 by G28, P by G30. A block that gives machine
-    /// positions as numbers counts as 1, because the first reference point is at the machine's zero.
-    pub fn home_number(&self) -> u8 {
-        let row = self.block.row(Group::Once).filter(|row| row.meaning == Meaning::Reference);
-        let Some(row) = row else { return 1 };
         let said = self.block.get(b'P').filter(|_| row.words.has(b'P'));
-        said.map_or(row.runs.point.unwrap_or(1), |point| point as u8)
+        Some(said.map_or(usize::from(row.runs.point == Some(2)), |point| (point as usize).saturating_sub(1)))
     }
 
     /// Whether the machine positions of the last block are measured from a point that only the machine has.

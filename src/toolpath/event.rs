@@ -128,3 +128,20 @@ pub enum Event<'a> {
     /// The job ends. `Finish` is always the last event.
     Finish,
 }
+
+impl Event<'_> {
+    /// Whether the tool moves to a position, or a subprogram that may move the tool is called.
+    pub(crate) fn moves(&self) -> bool {
+        matches!(
+            self,
+            Event::Rapid(_)
+                | Event::Line { .. }
+                | Event::Arc { .. }
+                | Event::Infeed { .. }
+                | Event::Outfeed { .. }
+                | Event::Hole(_)
+                | Event::Thread(_)
+                | Event::SubCall(_)
+        )
+    }
+}

@@ -8,7 +8,7 @@ use crate::control::{Code, Control, Meaning};
 use crate::cycle::Defaults;
 use crate::lang::{Beam, Machine, SEQUENCES, TextId, UnitChoice, VarId, work_code};
 use crate::nc::{Cooling, cooling_of};
-use crate::render::{coolant_codes as codes, cycle_defaults};
+use crate::render::{coolant_codes, cycle_defaults};
 use crate::sema::{PropertyValue, Settings};
 use crate::toolpath::{Coolant, EdmAction, Units};
 
@@ -116,7 +116,7 @@ impl Expectation {
             tools: settings.machine != Machine::Edm && settings.beam.is_none() && loads_tools(settings.control()),
             units_due: settings.units == UnitChoice::Both,
             axes: rotary_axes(&settings.rename),
-            coolant: coolant_codes(settings),
+            coolant: usual_coolant(settings),
             rigid_tap: settings.rigid_tap.then_some(true),
             by_diameter: settings.by_diameter,
             subs_first: settings.subs_first,
@@ -197,9 +197,9 @@ impl Expectation {
 }
 
 /// The codes of the form for coolant: on, off, mist. Mist may be a kind of its own (`CoolantKind mist M50 M51`).
-fn coolant_codes(settings: &Settings) -> [f64; 3] {
+fn usual_coolant(settings: &Settings) -> [f64; 3] {
     let [on, off, mist] = settings.coolant;
-    let of = |kind, usual| codes(kind, settings).map_or(usual, |codes| codes.on);
+    let of = |kind, usual| coolant_codes(kind, settings).map_or(usual, |codes| codes.on);
     [of(Coolant::FLOOD, on), off, of(Coolant::MIST, mist)]
 }
 

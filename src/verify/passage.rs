@@ -76,9 +76,10 @@ pub(super) struct Passage {
     pub turrets: Vec<u8>,
     /// Axes that went to a machine position that the program gives as a number.
     pub homes: u8,
-    /// For X, Y and Z: these positions in their order, each with the number of its reference point
-    /// ([`Simulator::home_number`](crate::nc::Simulator::home_number)). Positions are measured from the zero of the program.
-    pub machine: [Vec<(u8, f64)>; 3],
+    /// For X, Y and Z: these positions in their order, each with its reference point
+    /// ([`Simulator::reference_point`](crate::nc::Simulator::reference_point)). Positions are measured from the zero of the
+    /// program.
+    pub machine: [Vec<(usize, f64)>; 3],
     /// Whether the job's path moves away from the axis of its hole.
     pub aside: bool,
     /// Whether the job's path moved away from the axis of its hole before the last change of the frame.
@@ -152,13 +153,13 @@ impl Passage {
         (self.new_tool, self.aside, self.left_aside) = (false, false, false);
     }
 
-    /// Records a rapid of these axes to a machine position, or to the reference point with this number.
-    pub fn reaches_machine(&mut self, axes: u8, point: u8, to: &Place) {
+    /// Records a rapid of these axes to a machine position, measured from this reference point.
+    pub fn reaches_machine(&mut self, axes: u8, point: usize, to: &Place) {
         self.homes |= axes;
         for (axis, places) in self.machine.iter_mut().enumerate().filter(|(axis, _)| axes & 1 << axis != 0) {
             // an axis stays at its machine position while other axes move
             let stays = places.last().is_some_and(|(_, last)| *last == to[axis]);
-            if point != 1 || !stays {
+            if point != 0 || !stays {
                 places.push((point, to[axis]));
             }
         }

@@ -25,7 +25,7 @@ pub struct Rules<'v> {
 pub struct Vocabulary {
     /// Binary operators by precedence. Operators of the same precedence are evaluated from left to right.
     operators: &'static [&'static [(&'static str, Operator)]],
-    functions: &'static [Function],
+    functions: [&'static [Function]; 2],
     constants: &'static [(&'static str, f64)],
     /// Whether the language has `NOT` and `ATAN2(y,x)`.
     not_and_atan2: bool,
@@ -48,6 +48,19 @@ const COMPARISONS: &[(&str, Operator)] = &[
 ];
 
 const SUMS: &[(&str, Operator)] = &[("+", Operator::Add), ("-", Operator::Subtract)];
+
+/// The functions that all languages have. Angles are in degrees.
+const COMMON: &[Function] = &[
+    ("SIN", |x| x.to_radians().sin()),
+    ("COS", |x| x.to_radians().cos()),
+    ("TAN", |x| x.to_radians().tan()),
+    ("ASIN", |x| x.asin().to_degrees()),
+    ("ACOS", |x| x.acos().to_degrees()),
+    ("ATAN", |x| x.atan().to_degrees()),
+    ("SQRT", f64::sqrt),
+    ("ABS", f64::abs),
+    ("ROUND", f64::round),
+];
 
 /// Formulas of Siemens and Heidenhain controls.
 pub const GENERAL: Vocabulary = Vocabulary {
@@ -78,23 +91,17 @@ pub const GENERAL: Vocabulary = Vocabulary {
         ],
         &[("^", Operator::Power)],
     ],
-    functions: &[
-        ("SIN", |x| x.to_radians().sin()),
-        ("COS", |x| x.to_radians().cos()),
-        ("TAN", |x| x.to_radians().tan()),
-        ("ASIN", |x| x.asin().to_degrees()),
-        ("ACOS", |x| x.acos().to_degrees()),
-        ("ATAN", |x| x.atan().to_degrees()),
-        ("SQRT", f64::sqrt),
-        ("POT", |x| x * x),
-        ("SQ", |x| x * x),
-        ("ABS", f64::abs),
-        ("TRUNC", f64::trunc),
-        ("INT", f64::trunc),
-        ("FRAC", f64::fract),
-        ("ROUND", f64::round),
-        ("LN", f64::ln),
-        ("EXP", f64::exp),
+    functions: [
+        COMMON,
+        &[
+            ("POT", |x| x * x),
+            ("SQ", |x| x * x),
+            ("TRUNC", f64::trunc),
+            ("INT", f64::trunc),
+            ("FRAC", f64::fract),
+            ("LN", f64::ln),
+            ("EXP", f64::exp),
+        ],
     ],
     constants: &[("PI", std::f64::consts::PI), ("TRUE", 1.0), ("FALSE", 0.0)],
     not_and_atan2: true,
@@ -111,19 +118,7 @@ pub const OSP: Vocabulary = Vocabulary {
         SUMS,
         &[("*", Operator::Multiply), ("/", Operator::Divide)],
     ],
-    functions: &[
-        ("SIN", |x| x.to_radians().sin()),
-        ("COS", |x| x.to_radians().cos()),
-        ("TAN", |x| x.to_radians().tan()),
-        ("ASIN", |x| x.asin().to_degrees()),
-        ("ACOS", |x| x.acos().to_degrees()),
-        ("ATAN", |x| x.atan().to_degrees()),
-        ("SQRT", f64::sqrt),
-        ("ABS", f64::abs),
-        ("ROUND", f64::round),
-        ("FIX", f64::trunc),
-        ("FUP", |x| x.abs().ceil().copysign(x)),
-    ],
+    functions: [COMMON, &[("FIX", f64::trunc), ("FUP", |x| x.abs().ceil().copysign(x))]],
     constants: &[],
     not_and_atan2: false,
     joins_bits: true,
@@ -306,7 +301,7 @@ fn named(cursor: &mut Cursor<'_>, rules: Rules<'_>, name: &str, begin: usize, de
     if let Some((_, value)) = words.constants.iter().find(|(constant, _)| *constant == name) {
         return Ok(*value);
     }
-    if let Some((_, function)) = words.functions.iter().find(|(function, _)| *function == name) {
+    if let Some((_, function)) = words.functions.into_iter().flatten().find(|(function, _)| *function == name) {
         return Ok(function(unary(cursor, rules, depth + 1)?));
     }
     if let Some(value) = (rules.values)(name) {

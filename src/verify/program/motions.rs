@@ -36,7 +36,11 @@ impl Program<'_> {
             }
         }
         (self.at, self.unknown, self.placed) = (to, unknown, placed);
-        self.passage.reaches_machine(placed, self.simulator.home_number(), &to);
+        if placed != 0 {
+            // the machine's zero is at the point of G28
+            let point = self.simulator.reference_point().unwrap_or(0);
+            self.passage.reaches_machine(placed, point, &to);
+        }
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
     }
 

@@ -80,7 +80,8 @@ impl<'m> Check<'m> {
             // the machine's file does not contain this reference point, so its position is unknown
             let hidden = match reference {
                 Some(point) if is_last => {
-                    self.no_reference[point] = true;
+                    // G30 P3 and G30 P4 are reported together
+                    self.no_reference[point.min(2)] = true;
                     0x3f
                 }
                 _ if is_last => self.hidden(run),

@@ -130,12 +130,28 @@ export function ready(page) {
   return page.waitForFunction(() => window.page && !window.page.running && window.page.backplot.frames.count > 1, null, { timeout: 120_000 });
 }
 
-export function equal(is, expected, what = "") {
-  if (JSON.stringify(is) !== JSON.stringify(expected)) {
-    throw new Error(`${what}\n  is        ${JSON.stringify(is)}\n  expected  ${JSON.stringify(expected)}`);
-  }
+/**
+ * Fails unless `is` equals `expected`. If `is` is a function, it is called until it returns `expected`: what a page shows comes from the server, and
+ * reaches two pages at different times.
+ */
+export async function equal(is, expected, what = "") {
+  const wanted = JSON.stringify(expected);
+  const [last, holds] = await retry(is, (value) => JSON.stringify(value) === wanted);
+  if (!holds) throw new Error(`${what}\n  is        ${JSON.stringify(last)}\n  expected  ${wanted}`);
 }
 
-export function ok(holds, what) {
-  if (!holds) throw new Error(what);
+/** Fails unless `holds` is true; a function is called until it returns true. `what` may be a function, too: it is called after a failure. */
+export async function ok(holds, what) {
+  const [, held] = await retry(holds, Boolean);
+  if (!held) throw new Error(typeof what === "function" ? await what() : what);
+}
+
+/** The last value and whether it is right; a function is called again for ten seconds until its value is right. */
+async function retry(value, right) {
+  const end = Date.now() + 10_000;
+  for (;;) {
+    const is = typeof value === "function" ? await value() : value;
+    if (right(is) || typeof value !== "function" || Date.now() > end) return [is, right(is)];
+    await new Promise((again) => setTimeout(again, 50));
+  }
 }

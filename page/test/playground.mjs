@@ -30,8 +30,8 @@ await page.goto(address);
 await page.waitForFunction(() => window.page, null, { timeout: 60_000 });
 await ready(page);
 const expected = readFileSync(join(root, "samples/bracket/expected.fanuc.nc"), "utf8");
-equal(await page.evaluate(() => window.page.program.all()), expected, "byte for byte");
-ok((await page.locator(".verdict").innerText()).startsWith("proven"), "proven in the browser");
+await equal(() => page.evaluate(() => window.page.program.all()), expected, "byte for byte");
+await ok(async () => (await page.locator(".verdict").innerText()).startsWith("proven"), "proven in the browser");
 
 /** Drops files on the page. */
 async function drop(...paths) {
@@ -47,11 +47,11 @@ async function drop(...paths) {
 
 await drop("postforms/haas.pf");
 const haas = readFileSync(join(root, "samples/bracket/expected.haas.nc"), "utf8");
-equal(await page.evaluate(() => window.page.program.all()), haas, "the dropped form prints");
+await equal(() => page.evaluate(() => window.page.program.all()), haas, "the dropped form prints");
 await drop("samples/bracket/expected.fanuc.nc");
-ok((await page.locator(".beside").innerText()).startsWith("against expected.fanuc.nc"), "compared");
+await ok(async () => (await page.locator(".beside").innerText()).startsWith("against expected.fanuc.nc"), "compared");
 await drop("samples/cl-drill/job.cl");
-ok(await page.locator(".tab").count() === 2, "the dropped job is a tab");
+await ok(async () => (await page.locator(".tab").count()) === 2, "the dropped job is a tab");
 
 // typed: from a key to the new verdict
 const times = [];
@@ -81,15 +81,15 @@ await page.waitForTimeout(600);
 await page.reload();
 await page.waitForFunction(() => window.page, null, { timeout: 60_000 });
 await ready(page);
-ok((await page.evaluate(() => window.page.editor.text)).includes("Name xxxxxxxxx"), "typed text is kept");
-equal(await page.locator(".tab").count(), 2, "and so are the jobs");
+await ok(async () => (await page.evaluate(() => window.page.editor.text)).includes("Name xxxxxxxxx"), "typed text is kept");
+await equal(() => page.locator(".tab").count(), 2, "and so are the jobs");
 
 // saved: a file of the form, and nothing is left to save
 const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "save", exact: true }).first().click()]);
-equal(saved.suggestedFilename(), "haas.pf");
-ok(readFileSync(await saved.path(), "utf8").includes("Name xxxxxxxxx"), "the file is what was typed");
+await equal(saved.suggestedFilename(), "haas.pf");
+await ok(readFileSync(await saved.path(), "utf8").includes("Name xxxxxxxxx"), "the file is what was typed");
 const [program] = await Promise.all([page.waitForEvent("download"), page.locator(".tools").getByRole("button", { name: "save" }).click()]);
-equal(readFileSync(await program.path(), "utf8"), await page.evaluate(() => window.page.program.all()), "the program as a file");
+await equal(readFileSync(await program.path(), "utf8"), await page.evaluate(() => window.page.program.all()), "the program as a file");
 
 // shared: the link has the form and the job in it
 await page.evaluate(() => (navigator.clipboard.writeText = async (text) => void (window.copied = text)));
@@ -100,13 +100,13 @@ const other = await (await found.newContext()).newPage();
 await other.goto(link);
 await other.waitForFunction(() => window.page, null, { timeout: 60_000 });
 await ready(other);
-equal(await other.evaluate(() => window.page.program.all()), await page.evaluate(() => window.page.program.all()), "the link opens the same");
-equal(new URL(other.url()).hash, "", "the link is taken out of the address");
+await equal(() => other.evaluate(() => window.page.program.all()), await page.evaluate(() => window.page.program.all()), "the link opens the same");
+await equal(new URL(other.url()).hash, "", "the link is taken out of the address");
 for (const broken of ["#files=", "#files=AAAA", "#files=%00", `#files=${"A".repeat(5000)}`]) {
   await other.goto("about:blank");
   await other.goto(address + broken);
   await other.waitForFunction(() => window.page, null, { timeout: 60_000 });
-  ok(/can't be read/.test(await other.locator(".front [role=status]").innerText()), `${broken.slice(0, 20)}: said`);
+  await ok(async () => /can't be read/.test(await other.locator(".front [role=status]").innerText()), `${broken.slice(0, 20)}: said`);
 }
 
 // the examples
@@ -115,8 +115,8 @@ for (const name of await page.locator("[aria-label=Example] option").allInnerTex
   await page.locator("[aria-label=Example]").selectOption(name);
   await page.waitForTimeout(400);
   await ready(page);
-  ok((await page.evaluate(() => window.page.program?.path?.moves ?? 0)) > 3, `${name}: drawn`);
-  ok(/proven/.test(await page.locator(".verdict").innerText()), `${name}: ${await page.locator(".verdict").innerText()}`);
+  await ok(async () => (await page.evaluate(() => window.page.program?.path?.moves ?? 0)) > 3, `${name}: drawn`);
+  await ok(async () => /proven/.test(await page.locator(".verdict").innerText()), async () => `${name}: ${await page.locator(".verdict").innerText()}`);
 }
 
 // jobs are opened by the button and closed again
@@ -131,7 +131,7 @@ await page.evaluate(() => {
   view.dispatch({ changes: { from: 0, insert: "Nonsense here\n" } });
 });
 await page.waitForFunction(() => document.querySelector(".cm-lintRange-error"));
-equal(wrong, [], "no errors, and no other server");
+await equal(wrong, [], "no errors, and no other server");
 const size = statSync(join(folder, "postform.wasm")).size;
 const packed = gzipSync(readFileSync(join(folder, "postform.wasm"))).length;
 console.log(`ok      the playground; postform.wasm ${(size / 1e6).toFixed(2)} MB, ${(packed / 1e6).toFixed(2)} MB packed; ` +
@@ -140,6 +140,6 @@ console.log(`ok      the playground; postform.wasm ${(size / 1e6).toFixed(2)} MB
 const bare = await (await found.newContext()).newPage();
 await bare.addInitScript(() => delete window.WebAssembly);
 await bare.goto(address);
-ok(/has no WebAssembly/.test(await bare.locator(".sorry").innerText()), "said");
+await ok(async () => /has no WebAssembly/.test(await bare.locator(".sorry").innerText()), "said");
 await found.close();
 server.close();

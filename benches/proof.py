@@ -5,7 +5,7 @@
 --no-verify, and the time with the proof as a multiple of that time. The multiples are those of the elapsed time on all
 cores, of the elapsed time on one core, and of the processor time (CPU). Each command runs several times in turn, and the
 best time is used, because the times vary. `two at once` is the time of two renders without the proof that run at the same
-time, as a multiple of the time of one render: 1.00 if the machine has two free cores. Goals: 1.25 on two cores, 2.2 on one
+time, as a multiple of the time of one render: 1.00 if the machine has two free cores. Goals: 1.25 on two cores, 2.0 on one
 core, and 32 MB of memory for a program of any length.
 """
 

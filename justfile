@@ -112,6 +112,14 @@ dist:
     packages/build
     packages/try
 
+# licences, sources and known vulnerabilities of the crates
+dependencies:
+    packages/dependencies
+
+# how often postform takes each of its branches, for `just dist`: target/postform.profdata
+profile:
+    packages/profile
+
 # 10,000 jobs in one command beside a loop of a shell: a ratio
 many-jobs count="10000":
     cargo build --profile dist --locked --bin postform

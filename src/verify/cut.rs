@@ -330,6 +330,11 @@ pub(super) fn over(place: &Place) -> String {
     shown(place, 0b11 | turned)
 }
 
+/// Whether a length register of the job is active in the program. Register 0 is no length.
+pub(super) fn is_length(job: Option<f64>, program: Option<f64>) -> bool {
+    job == program || job == Some(0.0) && program.is_none()
+}
+
 /// A number rounded for messages.
 pub(super) fn number(value: f64) -> f64 {
     let rounded = (value * 1e5).round() / 1e5;

@@ -204,7 +204,8 @@ impl Job {
             let lengths = self.control.traits().tool_length;
             let register = match lengths {
                 ToolLength::None => None,
-                ToolLength::Tool => Some(tool.number),
+                // register 0 is no length, also where the length belongs to the tool
+                ToolLength::Tool => tool.length_offset.filter(|own| *own == 0.0).or(Some(tool.number)),
                 _ => tool.length_offset.or(length),
             };
             self.state.length = register.filter(|_| self.expectation.tools);

@@ -1,6 +1,6 @@
 //! Compares the modal state at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
-use super::cut::{Cut, State, number};
+use super::cut::{Cut, State, is_length, number};
 use super::sides::{Sides, Unnamed};
 use super::tables::{PITCH, ROUNDED};
 use crate::diag::Code;
@@ -66,10 +66,13 @@ fn length([wanted, is]: [Option<f64>; 2], s: &mut Sides<'_>) -> Option<Differs> 
         s.unnamed = Unnamed::Off;
     }
     // the register of a tool without a number is part of the finding about the tool
-    if wanted == is || is.is_some_and(|is| s.program.is_name(is)) {
+    if is_length(wanted, is) || is.is_some_and(|is| s.program.is_name(is)) {
         return None;
     }
+    const WITHOUT: &str = "remove G43, or check the job: its tool cuts without its length";
+    let is_off = |is: f64| format!("the length offset is H{}, but off in the job", number(is));
     let (help, message) = match (wanted, is) {
+        (Some(0.0), Some(b)) => (WITHOUT, is_off(b)),
         (Some(a), Some(b)) => (
             "print G43 H[lcomp] in the tool change",
             format!("the length offset is H{}, but the job's tool has H{}", number(b), number(a)),
@@ -79,10 +82,7 @@ fn length([wanted, is]: [Option<f64>; 2], s: &mut Sides<'_>) -> Option<Differs> 
             "write G43 H before the cut, also after a move to the machine zero that ends the offset",
             format!("the length offset is off, but the job's tool cuts with H{}", number(a)),
         ),
-        (None, _) => (
-            "remove G43, or check the job: its tool cuts without its length",
-            format!("the length offset is H{}, but off in the job", number(is.unwrap_or_default())),
-        ),
+        (None, _) => (WITHOUT, is_off(is.unwrap_or_default())),
     };
     Some((Code::PV014, help, message))
 }

@@ -1,7 +1,7 @@
 //! Compares the paths between cuts. The program's path may be higher than the job's path, but not lower, and may not go
 //! to other positions.
 
-use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, number, same, shown};
+use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
 use super::passage::{Frame, Leg};
 use super::rapid_path::{turn_alike, turned_low};
@@ -157,7 +157,7 @@ pub(super) fn moved_with(s: &mut Sides<'_>, line: u64) {
             break;
         }
         let allowed = |length: &Option<f64>| {
-            (was && *length == before.1) || known.iter().any(|known| known.is_none() || known == length)
+            (was && *length == before.1) || known.iter().any(|known| known.is_none() || is_length(*known, *length))
         };
         if let Some(length) = leg.lengths.iter().find(|length| !allowed(length)).filter(|_| tools) {
             wrong = Some((Code::PV014, leg.frame, Some(*length)));

@@ -8,6 +8,7 @@ use postform::internals::compile::compile;
 use postform::internals::nc::{JobOptions, RunSettings, read_program};
 use postform::internals::render::{Options, Renderer};
 use postform::toolpath::ReadError;
+use postform::{Job, NoFiles, Options as PostOptions, Post, Source, Verdict};
 
 const HEAD: &str = "G20 G17 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z1. M8\n";
 
@@ -59,6 +60,43 @@ fn a_tool_keeps_the_length_offset_that_it_cuts_with() {
 fn a_tool_has_its_length_or_none() {
     assert_eq!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG49\nG1 Z-.2\nM30\n")).unwrap_err(), "PN036");
     assert!(printed(&format!("{HEAD}G1 Z-.1 F5.\nG0 Z1.\nG49\nM30\n")).is_ok());
+    let late = HEAD.replace("G43 H1 Z1.", "Z1.");
+    assert_eq!(printed(&format!("{late}G1 Z-.1 F5.\nG43 H1 G1 Z-.2\nM30\n")).unwrap_err(), "PN036");
+}
+
+/// A tool whose length is turned off (G43 H0, or G49 after its tool change) has register 0 in the job. A program that
+/// turns a length on is another program, and on a machine with tool lengths a tool without its length is a hazard. A
+/// program without any code for lengths may be for a machine without tool lengths, so the form may print them.
+#[test]
+fn a_length_that_is_off_stays_off() {
+    const IS_ON: &str = "the tool moves with tool length offset H1";
+    const IS_OFF: &str = "without its length offset";
+    let cases = [
+        ("G43 H0 Z1.", "haas.pf", IS_OFF),
+        ("G49 Z1.", "haas.pf", IS_OFF),
+        ("G43 H1\nG49 Z1.", "haas.pf", "PN036"),
+        ("G43 H0 Z1.", "okuma.pf", IS_OFF),
+        // H0 is the tool in the spindle
+        ("G43 H0 Z1.", "linuxcnc.pf", IS_ON),
+        // the length belongs to the tool, and the form turns it on
+        ("G43 H0 Z1.", "siemens.pf", IS_ON),
+        ("G43 H0 Z1.", "heidenhain.pf", IS_ON),
+        // the control has no tool lengths
+        ("G43 H0 Z1.", "grbl.pf", ""),
+        ("G43 H1 Z1.", "haas.pf", ""),
+        ("Z1.", "haas.pf", ""),
+    ];
+    for (codes, form, expected) in cases {
+        let job = format!("%\nO1\n{}G1 Z-.1 F5.\nX1.\nG0 Z1.\nM30\n%\n", HEAD.replace("G43 H1 Z1. M8", codes));
+        let post = Post::compile(Source::from_text(form, &plain_post(form)), &NoFiles).unwrap();
+        let found = match post.render(Job::nc(&job), &PostOptions::default()).map(|program| program.verdict().clone()) {
+            Ok(Verdict::Different(found)) => found.into_iter().map(|one| one.message + "\n").collect(),
+            Ok(_) => String::new(),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(found.is_empty(), expected.is_empty(), "{codes} {form}: {found}");
+        assert!(found.contains(expected), "{codes} {form}: {found}");
+    }
 }
 
 /// G53 moves straight at rapid. No control has an arc to a machine position.
@@ -116,6 +154,7 @@ fn what_no_job_can_say_is_refused() {
         ("G44 H1 Z2.\nG1 Z-.1 F5.", "an offset that is taken off"),
         ("G41 D1 G1 X1. F5.\nX2.\nD3 X3.\nG40 X4.", "two diameter registers of one tool"),
         ("G43 H2 Z2.\nG1 Z-.1 F5.", "two length registers of one tool"),
+        ("G49\nG0 Z2.\nG1 X1. F5.", "a length register and no length of one tool"),
         ("G98 G87 X1. Z-.3 R-.8 Q.1 F5.\nG80", "a back bore"),
         ("G99 G76 X1. Z-.3 R.1 Q.02 F5.\nG80", "a fine bore, whose side only the control knows"),
         ("G54.1 P44\nG1 Z-.1 F5.", "a work offset above 49"),
@@ -141,7 +180,6 @@ fn what_is_left_out_is_warned_of() {
         ("M88\nG1 X1. F5.", "M88"),
         ("G08 P1\nG1 X1. F5.", "G8"),
         ("M7\nG1 X1. F5.", "flood and mist"),
-        ("G49\nG0 Z2.\nG1 X1. F5.", "without a length offset"),
         ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G0 X3. Y3. Z1.\nG1 Z-.1", "reference point"),
         ("G1 Z-.1 F5.\nG91 G28 Z0\nG90 G0 X3. Y3. Z1.\nG1 Z-.1", "after G28, G30 or G53 without another G43"),
     ];

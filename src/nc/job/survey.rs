@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::fault::{refused, unsaid, warning};
 use super::options::JobOptions;
-use crate::control::{Code, Meaning};
+use crate::control::{Code, Meaning, ToolLength};
 use crate::diag::{self, Diag, Location};
 use crate::lang::Machine;
 use crate::nc::action::{Action, Compensation, Cutter, Item, Position};
@@ -78,6 +78,7 @@ pub(super) fn survey(
         length: None,
         inherited: false,
         with_length: false,
+        without_length: false,
         told: false,
         at_home: false,
         told_of_home: false,
@@ -114,12 +115,14 @@ struct Run<'w> {
     /// The codes that a job can't contain, or a word or statement in their place, with the line of the first one and
     /// their number.
     left_out: BTreeMap<(Option<Code>, String), (u64, u64)>,
-    /// The active length register.
+    /// The active length register. 0: a code has turned the length off. `None`: no code has turned a length on or off.
     length: Option<f64>,
     /// Whether the length register was turned on for the tool before this one.
     inherited: bool,
     /// Whether this tool has cut while its length offset was on.
     with_length: bool,
+    /// Whether this tool has cut before any code for its length.
+    without_length: bool,
     /// Whether a cut without a length offset was reported.
     told: bool,
     /// Whether the tool went home by a code that ends the length offset.
@@ -159,7 +162,11 @@ impl Run<'_> {
                 self.survey.units = Some(*now);
             }
             Action::Length(None) if simulator.ends_length() => self.at_home = true,
-            Action::Length(None) => self.length = None,
+            Action::Length(None) => self.length = self.off(simulator),
+            Action::Length(Some(0.0)) => {
+                let help = "write G43 with H, and the length in the register of the machine";
+                return unsaid(line, "a length offset in the block (G43.1)", help);
+            }
             Action::Length(Some(register)) if *register < 0.0 => {
                 let help = "write G43, and change the sign of the length in the register";
                 return unsaid(line, "G44, a subtracted length offset", help);
@@ -185,6 +192,14 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// The length register after a code that turns the length off. The head of a program may contain G49 also on a
+    /// machine without tool lengths, so G49 counts only after a tool change or after a length.
+    fn off(&self, simulator: &Simulator<'_>) -> Option<f64> {
+        let control = simulator.state().control;
+        let has_lengths = !control.is_lathe() && control.traits().tool_length != ToolLength::None;
+        (has_lengths && (self.survey.registers.len() > 1 || self.length.is_some())).then_some(0.0)
+    }
+
     /// Checks the length offset at a cut.
     fn cut(&mut self, line: u64) -> Result<(), ReadError> {
         if std::mem::take(&mut self.at_home) && !std::mem::replace(&mut self.told_of_home, true) {
@@ -194,9 +209,21 @@ impl Run<'_> {
             self.warnings.push(warning(line, message, help));
         }
         match self.length {
-            None if self.with_length => {
+            None | Some(0.0) if self.with_length => {
                 let help = "turn the length offset off after the tool's last cut: in a job a tool has one length";
                 return unsaid(line, "a tool cuts with its length offset, and after G49 also without it", help);
+            }
+            Some(1.0..) if self.without_length => {
+                let help = "turn the length offset on before the tool's first cut: in a job a tool has one length";
+                return unsaid(line, "a tool cuts without its length offset, and after G43 also with it", help);
+            }
+            Some(0.0) => {
+                one(&mut self.survey.registers, |r| &mut r.length, 0.0, line, "length offsets, H")?;
+                let message = "a tool cuts without a length offset, which G49 or register 0 has turned off: the job's \
+                               tool has register 0";
+                let help = "if the machine has tool lengths, turn the tool's own offset on in this program (G43 H1); if \
+                            it has none, remove G49 or H0, and the form prints the tool's own offset";
+                self.warnings.push(warning(line, message, help));
             }
             None if !std::mem::replace(&mut self.told, true) => {
                 let message = "a tool cuts without a length offset, but the form turns the offset of the tool on";
@@ -211,7 +238,8 @@ impl Run<'_> {
             }
             _ => {}
         }
-        self.with_length |= self.length.is_some();
+        self.with_length |= self.length.is_some_and(|register| register != 0.0);
+        self.without_length |= self.length.is_none();
         Ok(())
     }
 
@@ -236,7 +264,8 @@ impl Run<'_> {
             None => self.greatest = self.greatest.max(number),
         }
         self.survey.registers.push(Registers::default());
-        (self.inherited, self.with_length, self.at_home) = (true, false, false);
+        (self.inherited, self.at_home) = (true, false);
+        (self.with_length, self.without_length) = (false, false);
     }
 
     /// Counts a code, or a word in its place, that a job can't contain.

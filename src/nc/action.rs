@@ -9,6 +9,11 @@ pub type Position = [f64; 6];
 /// The rotary axes A, B and C of a position, as bits.
 pub const ROTARY: u8 = 0b11_1000;
 
+/// Whether a move only turns the part: X, Y and Z stay where they are.
+pub(super) fn only_turns(from: &Position, to: &Position) -> bool {
+    from[..3] == to[..3] && from[3..] != to[3..]
+}
+
 /// One action, with the line of its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {

@@ -138,11 +138,11 @@ impl State {
             self.modes.units = units;
             self.place.scale(factor);
             if self.modes.feed_mode != FeedMode::InverseTime {
-                self.drive.feed *= factor;
+                self.drive.rescale_feed(factor);
             }
             // LinuxCNC reads F before the units of its block take effect, a Fanuc reads F after that
             if let Some(feed) = feed {
-                self.drive.feed = feed;
+                self.drive.set_feed(feed);
             }
         }
         out.push(Action::Units(units));

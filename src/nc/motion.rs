@@ -1,6 +1,6 @@
 //! Straight moves: the targets of axis words, G0, G1, G53 and G33.
 
-use super::action::{Action, Position, Rotation};
+use super::action::{Action, Position, Rotation, only_turns};
 use super::block::Block;
 use super::codes::{Group, bit, letters};
 use super::fault::{Done, refuse};
@@ -8,7 +8,7 @@ use super::out::Out;
 use super::state::State;
 use crate::control::{Meaning, Rules};
 use crate::diag::Code;
-use crate::toolpath::Plane;
+use crate::toolpath::{FeedMode, Plane};
 
 impl State {
     /// The value of an axis word as a length. If X is a diameter, its value is halved.
@@ -134,9 +134,27 @@ impl State {
         if self.control.is_lathe() {
             return self.cut_with_corners(block, feed, out);
         }
+        let from = self.place.position;
         let to = self.target(block)?;
+        let feed = if only_turns(&from, &to) { self.feed_of_turn(feed)? } else { feed };
         self.place.feed_to(to, feed, None, out);
         Ok(())
+    }
+
+    /// The feed of a cut that only turns the part, in degrees. LinuxCNC keeps the number of F if the units change.
+    ///
+    /// # Errors
+    /// The units have changed since the program gave F, and no public source defines the feed on this control.
+    fn feed_of_turn(&self, feed: f64) -> Done<f64> {
+        let given = self.drive.given_feed;
+        if self.modes.feed_mode == FeedMode::InverseTime || given == self.drive.feed {
+            return Ok(feed);
+        }
+        if !self.control.is_linuxcnc() {
+            let message = "the part turns with a feed that was given before the units changed";
+            return refuse(Code::PN016, message, "write F again after the code for the units");
+        }
+        Ok(given)
     }
 
     /// Runs G38: a move towards a position until the probe touches. The contact position is known only at the machine.

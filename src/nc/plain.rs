@@ -102,11 +102,12 @@ impl State {
             // the meaning of lengths without a decimal point depends on a setting
             && (block.whole & AXES == 0 || control.rules().is_nist())
             && (block.whole & bit(b'F') == 0 || !self.scales_feed(block));
-        let feed = if block.given & bit(b'F') != 0 { block.peek(b'F') } else { self.drive.feed };
+        let kept = if self.drive.feed == self.drive.given_feed { self.drive.feed } else { f64::NAN };
+        let feed = if block.given & bit(b'F') != 0 { block.peek(b'F') } else { kept };
         if !is_usual || feed.is_nan() || feed <= 0.0 {
             return false;
         }
-        self.drive.feed = feed;
+        self.drive.set_feed(feed);
         let mut to = self.place.position;
         let mut given = 0;
         for (axis, letter) in control.axes().iter().enumerate() {

@@ -65,7 +65,7 @@ impl State {
         if let Some(feed) = block.get(b'F')
             && (self.modes.feed_mode != FeedMode::InverseTime || !self.control.is_linuxcnc())
         {
-            self.drive.feed = feed;
+            self.drive.set_feed(feed);
         }
         let set_up = block.has(letters("ESTHD")) || block.has_m() || block.work.is_some();
         if set_up || block.has_modes() {

@@ -62,6 +62,8 @@ pub(super) struct Modes {
 pub(super) struct Drive {
     /// The feed in the unit of the feed mode; 0 if it is unknown.
     pub feed: f64,
+    /// The number of the last F. The number differs from the feed if the units have changed since that F.
+    pub given_feed: f64,
     pub spindle: Rotation,
     pub speed: f64,
 }
@@ -82,6 +84,20 @@ pub(super) struct Tool {
 }
 
 impl Drive {
+    /// Sets the feed that a block gives.
+    #[inline]
+    pub fn set_feed(&mut self, feed: f64) {
+        (self.feed, self.given_feed) = (feed, feed);
+    }
+
+    /// Converts the feed to other units.
+    pub fn rescale_feed(&mut self, factor: f64) {
+        let feed = self.feed * factor;
+        // the units may change back
+        let is_given = (feed - self.given_feed).abs() <= self.given_feed * 1e-9;
+        self.feed = if is_given { self.given_feed } else { feed };
+    }
+
     /// The feed of a block with a cut.
     #[inline]
     pub fn feed_of(&self, block: &Block, mode: FeedMode) -> Done<f64> {
@@ -126,7 +142,7 @@ impl State {
                 },
                 control.first_work(),
             ),
-            drive: Drive { feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
+            drive: Drive { feed: 0.0, given_feed: 0.0, spindle: Rotation::Stop, speed: 0.0 },
             threads: Threads::default(),
             turning: FirstBlocks::default(),
             tool: Tool::default(),

@@ -334,6 +334,33 @@ fn the_feed_of_a_turn_is_the_same_in_other_units() {
     assert!(out(&run).contains("cutting 1:25"), "{}", out(&run));
 }
 
+/// LinuxCNC keeps the number of F for a turn if the units change after F. On other controls the feed is unknown.
+#[test]
+fn the_feed_of_a_turn_is_given_after_the_units() {
+    let folder = Folder::new("rotary-units");
+    let program =
+        |blocks: &str| format!("%\nO1\nG20 G90 G94 S1000 M3\nT1 M6\nG43 H1 F100.\n{blocks}\nX9. A180.\nM30\n%\n");
+    let feeds = |control: &str, blocks: &str| {
+        folder.write("a.nc", program(blocks));
+        let run = folder.run(&["simulate", "a.nc", "--control", control]);
+        let said = out(&run) + &err(&run);
+        let feed = |line: &str| line.split_once(" F").map(|(_, feed)| feed.trim().to_owned());
+        if said.contains("given before the units changed") { vec![] } else { said.lines().filter_map(feed).collect() }
+    };
+    for (control, blocks, expected) in [
+        ("linuxcnc", "G21\nG1 A90.", vec!["100", "2540"]),
+        ("linuxcnc", "G21 G1 A90.", vec!["100", "2540"]),
+        ("linuxcnc", "G21\nG20\nG1 A90.", vec!["100", "100"]),
+        ("haas", "G21\nG1 A90.", vec![]),
+        ("fanuc", "G1\nG21\nA90.", vec![]),
+        ("haas", "G21\nG20\nG1 A90.", vec!["100", "100"]),
+        ("haas", "G21\nG1 A90. F300.", vec!["300", "300"]),
+        ("haas", "G21 G1 A90. F300.", vec!["300", "300"]),
+    ] {
+        assert_eq!(feeds(control, blocks), expected, "{control}: {blocks}");
+    }
+}
+
 /// The feed of a rotary axis is compared with its fastest feed, also if X, Y or Z moves too.
 #[test]
 fn a_rotary_axis_has_a_fastest_feed() {

@@ -61,11 +61,13 @@ impl State {
             self.feed_mode(block, out);
         }
         let feed = block.get(b'F').filter(|_| self.modes.feed_mode != FeedMode::InverseTime);
-        self.drive.feed = feed.unwrap_or(self.drive.feed);
+        if let Some(feed) = feed {
+            self.drive.set_feed(feed);
+        }
         self.set_up(block, motion, out)?;
         if let Some(feed) = feed {
             let is_mm = before == FeedMode::InverseTime && self.modes.units == Units::Inch;
-            self.drive.feed = if is_mm { feed / 25.4 } else { feed };
+            self.drive.set_feed(if is_mm { feed / 25.4 } else { feed });
         }
         Ok(())
     }

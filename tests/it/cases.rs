@@ -1,7 +1,7 @@
 //! `postform test`: cases in folders, kept next to a form as users do.
 
 use std::fs;
-use std::process::Output;
+use std::process::{Command, Output};
 
 use crate::support::folder::{Folder, err, out};
 use crate::support::root;
@@ -240,6 +240,26 @@ fn reports_for_programs() {
     let marks = out(&folder.run(&["test", "--format", "github"]));
     assert!(marks.starts_with("::error file=tests/drill/expected.haas.nc,line=12::"), "{marks}");
     assert_eq!(marks.lines().count(), 1);
+}
+
+/// A form is read more than once, so it can't come from a pipe.
+#[cfg(unix)]
+#[test]
+fn a_form_from_a_pipe_is_refused() {
+    let folder = Folder::new("cases-pipe");
+    let pipe = folder.0.join("pipe.pf");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    folder.write("postform.toml", "[test]\nforms = [\"pipe.pf\"]\n");
+    folder.write("a/job.json", "{}");
+    for arguments in [&["test", "--form", "pipe.pf", "a"][..], &["test", "--new", "pipe.pf"], &["test", "a"]] {
+        // ends the wait of a reader, so that the test can't wait forever
+        let mut writer = Command::new("sh").args(["-c", "echo > \"$0\""]).arg(&pipe).spawn().unwrap();
+        let output = folder.run(arguments);
+        writer.kill().unwrap();
+        writer.wait().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(err(&output).contains("can't read pipe.pf: it is not a regular file"), "{}", err(&output));
+    }
 }
 
 #[test]

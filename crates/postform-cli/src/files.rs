@@ -74,11 +74,20 @@ pub fn open_program(path: &Path) -> Result<File, String> {
 /// # Errors
 /// A message: the file can't be read, or is no regular file.
 pub fn read_regular(path: &Path) -> Result<Vec<u8>, String> {
-    let fail = |error: io::Error| io_message("read", path, &error);
-    if !fs::metadata(path).map_err(fail)?.is_file() {
-        return Err(format!("error: can't read {}: it is not a regular file", name(path)));
+    check_regular(path)?;
+    fs::read(path).map_err(|error| io_message("read", path, &error))
+}
+
+/// Checks that a path is a regular file, which can be read more than once.
+///
+/// # Errors
+/// A message: there is no file, or it is a pipe or a device.
+pub fn check_regular(path: &Path) -> Result<(), String> {
+    match fs::metadata(path) {
+        Ok(meta) if meta.is_file() => Ok(()),
+        Ok(_) => Err(format!("error: can't read {}: it is not a regular file", name(path))),
+        Err(error) => Err(io_message("read", path, &error)),
     }
-    fs::read(path).map_err(fail)
 }
 
 /// A file in which postform can seek: standard input, pipes and the text of compressed files are copied into one.

@@ -112,6 +112,7 @@ impl Posts {
         {
             return Ok(at);
         }
+        files::check_regular(path)?;
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let of_post = post.map(str::to_owned);
         self.entries.push(Entry { path: path.to_path_buf(), name, ready: Ready::of(path, post), of_post });

@@ -16,6 +16,7 @@ use super::posts::Ready;
 
 /// Writes the cases into a folder. Each case is a job with the program that the form prints. Existing files stay.
 pub fn write(form: &Path, folder: &Path) -> Result<Ending, String> {
+    files::check_regular(form)?;
     let ready = Ready::of(form, None)?;
     let name = form.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let settings = &ready.checked.form.settings;

@@ -176,6 +176,7 @@ codes! {
     PF714 Warning "a pattern that is compared as plain text"
     PF715 Warning "a CommentLine that does not print the comment"
     PF716 Warning "a variable in backquotes"
+    PF717 Warning "a number beside a length, in a form for both units"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -21,6 +21,7 @@ pages! {
     PF605 PF606 PF607 PF608 PF609 PF701 PF702 PF703 PF704 PF705 PF706 PF707 PF708 PF709 PF710 PF711 PF712 PF713 PF714
     PF715
     PF716
+    PF717
 }
 
 /// Pages with a section for each code. The heading of a section begins with the code.

@@ -181,6 +181,31 @@ fn a_property_that_nothing_asks_is_a_warning() {
     assert_eq!(found(&form(THROUGH, "([through])")), 0);
 }
 
+/// In a form for both units, a number beside a length is in another unit than the default of the length.
+#[test]
+fn a_number_beside_a_length_is_a_warning() {
+    let both = "Units both\nProperty lift length 2 Height\nProperty count number 2 Count";
+    let cases = [
+        ("@set lift = 2", true),
+        ("@set lift = -2", true),
+        ("@set lift = 0", false),
+        ("@set lift = [lift]*2", false),
+        ("@set count = 3", false),
+        ("@if [lift] > 2\nM1\n@end", true),
+        ("@if [tool] = 1 or 2 < [lift]\nM1\n@end", true),
+        ("@if [tool] > 1\n@set lift = 3\n@end", true),
+        ("@if [unitmode] = mm\n@set lift = 50\n@else\n@set lift = 2\n@end", false),
+    ];
+    let found = |head: &str, lines: &str| {
+        let checked = check(&form(head, &format!("{lines}\nQ[lift] P[count]")));
+        lint(&checked, &Default::default()).diags.iter().any(|diag| diag.code.name() == "PF717")
+    };
+    for (lines, expected) in cases {
+        assert_eq!(found(both, lines), expected, "{lines}");
+        assert!(!found(&both.replace("both", "mm"), lines), "{lines}");
+    }
+}
+
 #[test]
 fn a_form_keeps_texts_in_properties() {
     let head =

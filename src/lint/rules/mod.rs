@@ -43,6 +43,7 @@ mod increments_left_on;
 mod increments_mixed;
 mod index_without_retract;
 mod length_code_without_h;
+mod length_in_one_unit;
 mod length_lost;
 mod length_register;
 mod letter_for_digit;
@@ -246,4 +247,5 @@ rules! {
     PF714 pattern_compared
     PF715 comment_line_without_text
     PF716 variable_in_quotes
+    PF717 length_in_one_unit
 }

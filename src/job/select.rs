@@ -12,7 +12,7 @@ use super::held::{Held, UPRIGHT, turned};
 use super::left_out_text::{Left, Other};
 use crate::control::Control;
 use crate::diag::{Code, Diag};
-use crate::toolpath::{Axes, Event, First, Flow, Hole, Place, Sink, Start, Stop, ToolChange, key};
+use crate::toolpath::{Axes, Event, First, Flow, Hold, Hole, Place, Sink, Start, Stop, ToolChange, flow, key};
 
 /// The selected operations, by their tools, their numbers or their work offsets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,7 +72,8 @@ impl Progress {
 
 /// Passes only the selected operations on.
 pub(super) struct Selecting<'s> {
-    sink: &'s mut dyn Sink,
+    /// Holds a tool change back until its first move is filled in.
+    sink: Hold<'s>,
     selection: &'s Selection,
     /// The control that defines the codes in text items.
     control: &'static Control,
@@ -99,7 +100,7 @@ pub(super) struct Selecting<'s> {
 impl<'s> Selecting<'s> {
     pub fn new(sink: &'s mut dyn Sink, selection: &'s Selection, control: &'static Control) -> Selecting<'s> {
         Selecting {
-            sink,
+            sink: Hold::new(sink),
             selection,
             control,
             progress: Progress::default(),
@@ -136,24 +137,19 @@ impl<'s> Selecting<'s> {
             return Flow::Break(not_alone(change, &format!("follows an operation that is left out: {lost}"), place));
         }
         let held = &self.held;
-        let mut change = ToolChange {
+        let change = ToolChange {
             spindle: held.spindle,
             coolant: held.coolant,
             work: held.work,
             set: held.set.clone(),
             ..change.clone()
         };
-        match &mut change.first {
-            First::Rapid(to) => *to = self.filled(*to),
-            First::Hole(_, hole) => hole.at = self.filled(hole.at),
-            First::Cut => {
-                let why = "begins with a cut from the last position of an operation that is left out";
-                return Flow::Break(not_alone(&change, why, place));
-            }
-            First::Nothing => {}
+        if matches!(change.first, First::Cut) {
+            let why = "begins with a cut from the last position of an operation that is left out";
+            return Flow::Break(not_alone(&change, why, place));
         }
         self.fills = true;
-        self.sink.event(Event::ToolChange(&change), place)
+        flow(self.sink.tool_change(change, place))
     }
 
     /// A position whose missing axes are filled in with the known position.

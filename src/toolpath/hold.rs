@@ -286,12 +286,17 @@ impl Sink for Hold<'_> {
         if self.change.is_some() {
             return flow(self.held(event, place));
         }
-        if let Event::Start(start) = event {
-            (self.axes, self.depth) = match start.machine {
-                Machine::Mill => (0b111, 0b100),
-                Machine::Lathe => (0b011, 0b001),
-                Machine::Edm => (0b011, 0), // no axis goes down
-            };
+        match &event {
+            Event::Start(start) => {
+                (self.axes, self.depth) = match start.machine {
+                    Machine::Mill => (0b111, 0b100),
+                    Machine::Lathe => (0b011, 0b001),
+                    Machine::Edm => (0b011, 0), // no axis goes down
+                };
+            }
+            // the first move of this tool change is known already
+            Event::ToolChange(change) => self.tool = change.tool.as_ref().map(|tool| tool.number).or(self.tool),
+            _ => {}
         }
         self.sink.event(event, place)
     }

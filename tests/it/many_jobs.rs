@@ -213,6 +213,36 @@ fn a_part_begins_without_the_spindle_and_coolant_of_another_tool() {
     assert!(part.contains("S2000 M4") && part.contains("M8"), "{part}");
 }
 
+/// The program of a part begins with the first rapid of its operation, at the height where the tool is in the whole
+/// program. A later, lower rapid is not the first one.
+#[test]
+fn a_part_begins_with_its_first_rapid() {
+    const PARTS: [&str; 6] = ["--split", "operation", "--out-dir", "nc", "--name", "{operation}"];
+    let folder = shop("first-rapids");
+    let operation = |path: &str| {
+        format!(
+            r#"{{"tool":1,"work":54,"spindle":{{"speed":900,"direction":"cw"}},"feed":100,"path":[{path},{{"line":[9,9,-1]}},{{"rapid":[9,9,50]}}]}}"#
+        )
+    };
+    for (rapids, first) in [
+        (r#"{"rapid":[30,30]},{"rapid":[30,40,2]}"#, ["X30. Y30.", "Z50.", "Y40. Z2."]),
+        (r#"{"rapid":[null,null,60]},{"rapid":[30,40,2]}"#, ["X9. Y9.", "Z60.", "X30. Y40. Z2."]),
+        (r#"{"rapid":[30,30,60]},{"rapid":[30,30,2]}"#, ["X30. Y30.", "Z60.", "Z2."]),
+        (r#"{"comment":"A"},{"rapid":[30,30]},{"dwell":1},{"rapid":[30,30,2]}"#, ["X30. Y30.", "Z50.", "Z2."]),
+    ] {
+        let operations = [operation(r#"{"rapid":[0,0,50]}"#), operation(rapids)].join(",");
+        let head = r#""postform":1,"program":1,"units":"mm","tools":[{"number":1}]"#;
+        folder.write("job.json", format!("{{{head},\"operations\":[{operations}]}}"));
+        let output = folder.run(&[&["render", "job.json", "--form", "haas.pf"][..], &PARTS].concat());
+        assert_eq!(output.status.code(), Some(0), "{rapids}: {}", err(&output));
+        let part = folder.read("nc/OP02.nc");
+        let body = part.split_once("G90 G54 ").unwrap().1;
+        let at = first.map(|words| body.find(words).unwrap_or_else(|| panic!("{rapids}: no {words} in {body}")));
+        assert!(at[0] == 0 && at.is_sorted() && body.find('Z') == Some(at[1]), "{rapids}: {body}");
+        fs::remove_dir_all(folder.0.join("nc")).unwrap();
+    }
+}
+
 #[test]
 fn an_operation_in_two_work_offsets_is_no_part() {
     let folder = shop("offsets");

@@ -76,10 +76,10 @@ pub(super) struct Passage {
     pub turrets: Vec<u8>,
     /// Axes that went to a machine position that the program gives as a number.
     pub homes: u8,
-    /// For X, Y and Z: these positions in their order, each with its reference point
+    /// For X, Y, Z, A, B and C: these positions in their order, each with its reference point
     /// ([`Simulator::reference_point`](crate::nc::Simulator::reference_point)). Positions are measured from the zero of the
     /// program.
-    pub machine: [Vec<(usize, f64)>; 3],
+    pub machine: [Vec<(usize, f64)>; 6],
     /// Whether the job's path moves away from the axis of its hole.
     pub aside: bool,
     /// Whether the job's path moved away from the axis of its hole before the last change of the frame.

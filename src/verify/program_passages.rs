@@ -162,12 +162,12 @@ fn machine_positions(old: &Program<'_>, new: &Program<'_>, names: Names, toleran
     let near = |a: &(usize, f64), b: &(usize, f64)| a.0 == b.0 && (a.1 - b.1).abs() <= tolerance;
     let alike = |a: &[(usize, f64)], b: &[(usize, f64)]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a, b));
     let [before, now] = [old, new].map(|program| &program.passage.machine);
-    let axis = (0..3).find(|&axis| {
+    let axis = (0..6).find(|&axis| {
         let (a, b) = (&before[axis], &now[axis]);
         !a.is_empty() && !b.is_empty() && !alike(a, b)
     })?;
-    let text = |places: &[Vec<(usize, f64)>; 3]| {
-        let name = ["X", "Y", "Z"][axis];
+    let text = |places: &[Vec<(usize, f64)>; 6]| {
+        let name = ["X", "Y", "Z", "A", "B", "C"][axis];
         let words = places[axis].iter().map(|(point, value)| match point {
             0 => format!("{name}{}", number(*value)),
             point => format!("{name} of reference point {}", point + 1),

@@ -282,6 +282,15 @@ fn motions_differ_in_machine_positions() {
         "before this cut, the machine positions are Z of reference point 2, but Z0 in the old program"
     );
     assert!(differs([home[2], home[3]]).is_some());
+    // the same for a rotary axis, also if the cut itself turns the part from there
+    for cut in ["G0 A0.", "G43 H1 Z10.\nG1 A20. F100."] {
+        let turned = |point: &str| format!("G0 A9.\nG91 {point} A0.\nG90 {cut}");
+        assert_eq!(differs(["G28", "G28"].map(&turned).each_ref().map(String::as_str)), None);
+        assert_eq!(
+            differs(["G28", "G30"].map(&turned).each_ref().map(String::as_str)).unwrap(),
+            "before this cut, the machine positions are A of reference point 2, but A0 in the old program"
+        );
+    }
 }
 
 /// Codes that are not simulated are compared with their words.

@@ -1,7 +1,7 @@
 //! The rapids and cuts of the program, and the checks before each rapid or cut.
 
 use super::{Doubt, Program};
-use crate::nc::{Action, Item, Position};
+use crate::nc::{Action, Item, Position, ROTARY};
 use crate::toolpath::FeedMode;
 use crate::verify::cut::{Cut, Rapid, What};
 
@@ -39,6 +39,7 @@ impl Program<'_> {
         if placed != 0 {
             // the machine's zero is at the point of G28
             let point = self.simulator.reference_point().unwrap_or(0);
+            let placed = placed & !ROTARY | self.scale.axes(placed) & ROTARY;
             self.passage.reaches_machine(placed, point, &to);
         }
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });

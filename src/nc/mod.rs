@@ -54,8 +54,8 @@ mod unpointed;
 mod warnings;
 mod way;
 
-pub(crate) use action::Cutter;
 pub use action::{Action, Cooling, Drilling, Item, Position, ROTARY, Rotation, Threading, Turn};
+pub(crate) use action::{Compensation, Cutter};
 pub(crate) use arcs::axes_of;
 pub(crate) use digits::Number;
 pub use foreign::{control_of_name, settings_for};

@@ -186,23 +186,7 @@ impl<'a> Reader<'a> {
                 self.coolant(*cooling);
                 Ok(())
             }
-            // G54.1 P1 has the number 7 in a job
-            Action::Work(code) if additional_work(0.0) + 43.0 >= *code && *code > additional_work(0.0) => {
-                self.wanted.work = Some(*code - additional_work(0.0) + 6.0);
-                Ok(())
-            }
-            Action::Work(code) if *code > additional_work(0.0) => {
-                let message = format!("the work offset G54.1 P{}", code - additional_work(0.0));
-                unsaid(item.line, message, "the work offsets of a job are 1 to 49: G54.1 P1 is 7")
-            }
-            Action::Work(number) if *number >= 50.0 && self.counts_offsets() => {
-                let message = format!("the work offset {number}");
-                unsaid(item.line, message, "the work offsets of a job are 1 to 49")
-            }
-            Action::Work(code) => {
-                self.wanted.work = Some(*code);
-                Ok(())
-            }
+            Action::Work(code) => self.work(*code, item.line),
             Action::FeedMode(mode) => {
                 self.mode = *mode;
                 self.operation = true; // an operation of a job has only one feed mode
@@ -242,6 +226,20 @@ impl<'a> Reader<'a> {
             | Action::BlockDelete
             | Action::SpeedLimit(_) => Ok(()),
         }
+    }
+
+    /// Selects a work offset. In a job, G54.1 P1 has the number 7.
+    fn work(&mut self, code: f64, line: u64) -> Done {
+        let additional = code - additional_work(0.0);
+        if additional > 43.0 {
+            let message = format!("the work offset G54.1 P{additional}");
+            return unsaid(line, message, "the work offsets of a job are 1 to 49: G54.1 P1 is 7");
+        }
+        if additional <= 0.0 && code >= 50.0 && self.counts_offsets() {
+            return unsaid(line, format!("the work offset {code}"), "the work offsets of a job are 1 to 49");
+        }
+        self.wanted.work = Some(if additional > 0.0 { additional + 6.0 } else { code });
+        Ok(())
     }
 
     fn feed(&mut self, to: &Position, feed: f64, unknown: u8) -> Done {

@@ -2,9 +2,9 @@
 //! without the job.
 
 use super::Program;
-use crate::control::Rules;
+use crate::control::{Rules, ToolLength};
 use crate::diag::Code;
-use crate::nc::{Action, Item, Rotation};
+use crate::nc::{Action, Compensation, Item, Rotation};
 use crate::verify::finding::Finding;
 
 impl Program<'_> {
@@ -37,6 +37,29 @@ impl Program<'_> {
         if self.due.reports_length() {
             self.hazard(Code::PV014, line, message, self.due.length_help());
         }
+    }
+
+    /// Changes the register of the tool length.
+    pub(super) fn length(&mut self, register: Option<f64>, line: u64) {
+        let has_lengths = self.control.is_lathe() || self.control.traits().tool_length != ToolLength::None;
+        if register.is_some() && !has_lengths {
+            let message = "the program turns a tool length offset on, but this control has none";
+            self.hazard(Code::PV014, line, message, "remove G43, or name a control with tool lengths");
+        }
+        self.due.length_changes(self.state.length, register, self.simulator.ends_length());
+        self.state.length = register;
+    }
+
+    /// Switches the cutter compensation.
+    pub(super) fn compensation(&mut self, on: Option<Compensation>, line: u64) {
+        let register = on.and_then(|on| on.cutter.register());
+        self.state.cutter = on.and_then(|on| self.scale.cutter(on.cutter));
+        let side = Some(on.map(|on| on.side));
+        if side == self.state.side && self.state.diameter.is_some_and(|before| Some(before) != register) {
+            let message = "the offset register changes while the compensation is on";
+            self.hazard(Code::PV018, line, message, "print one D for each contour");
+        }
+        (self.state.side, self.state.diameter) = (side, register);
     }
 
     /// Checks the end of the program.

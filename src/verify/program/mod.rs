@@ -15,7 +15,7 @@ use std::io::{Read, Seek};
 use beam::Switched;
 pub(super) use doubt::Doubt;
 
-use super::cut::{Cut, Place, Rapid, Shared, Spin, State, What, place};
+use super::cut::{Cut, Place, Rapid, Shared, Spin, State, place};
 use super::expectation::{Expectation, taps_ahead};
 use super::finding::Finding;
 use super::passage::{Frame, Passage};
@@ -23,7 +23,7 @@ use super::recent_lines::Recent;
 use super::scale::Scale;
 use super::unset::Due;
 use super::wire_codes::Codes;
-use crate::control::{self, Control, Meaning, Motions, ToolLength};
+use crate::control::{self, Control, Meaning};
 use crate::diag::{Code, Diag};
 use crate::nc::{Action, Cooling, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
@@ -308,32 +308,8 @@ impl<'a> Program<'a> {
         match &item.action {
             Action::Rapid { to, machine, astray, placed } => self.rapid(to, [*machine, *astray, *placed], item.line),
             Action::Threading(words) => self.state.thread = *words,
-            Action::Feed { to, feed, lead, home, .. } => {
-                // the control synchronises the feed with the spindle
-                let feed = match (lead, self.mode, self.state.speed) {
-                    (Some(lead), FeedMode::PerMinute, Some(speed)) if !self.state.css => lead * speed,
-                    (Some(lead), FeedMode::PerRev, _) => *lead,
-                    _ => *feed,
-                };
-                let own = to;
-                let to = self.scale.place(to);
-                let home = self.scale.axes(*home);
-                if to == self.at && (self.unknown == 0 || self.scale.flat && self.unknown == 0b100) && home == 0 {
-                    return; // a move of no length cuts nothing
-                }
-                if home == 0 {
-                    self.beam_cuts(own, item.line);
-                }
-                self.cuts_now(What::Line { to }, home, feed, *lead, item);
-            }
-            Action::Arc(turn) => {
-                let mut turn = *turn;
-                self.beam_cuts(&turn.to, item.line);
-                turn.to = self.scale.end_of_arc(&turn.to);
-                let factor = self.scale.factor();
-                turn.center.iter_mut().for_each(|value| *value *= factor);
-                self.cuts_now(What::Arc(turn), 0, turn.feed, None, item);
-            }
+            Action::Feed { to, feed, lead, home, .. } => self.feed(to, (*feed, *lead), *home, item),
+            Action::Arc(turn) => self.arc(*turn, item),
             Action::Dwell(seconds) if *seconds > 0.0 => {
                 let mark = self.passage.mark(*seconds, item.line, toolpath::Place::default());
                 self.passage.waits.push(mark);
@@ -358,17 +334,7 @@ impl<'a> Program<'a> {
                 self.spin = if item.by_cycle { Spin::Oriented } else { Spin::At(*angle) };
             }
             Action::Tool(number) => self.tool(*number, item.line),
-            Action::Length(register) => {
-                if register.is_some()
-                    && self.control.traits().tool_length == ToolLength::None
-                    && !self.control.is_lathe()
-                {
-                    let message = "the program turns a tool length offset on, but this control has none";
-                    self.hazard(Code::PV014, item.line, message, "remove G43, or name a control with tool lengths");
-                }
-                self.due.length_changes(self.state.length, *register, self.simulator.ends_length());
-                self.state.length = *register;
-            }
+            Action::Length(register) => self.length(*register, item.line),
             Action::Units(units) => {
                 self.scale.units = *units;
                 self.sets_units = true;
@@ -386,37 +352,9 @@ impl<'a> Program<'a> {
                 self.state.work = Some(*code);
                 self.changed();
             }
-            Action::Compensation(on) => {
-                let register = on.and_then(|on| on.cutter.register());
-                self.state.cutter = on.and_then(|on| self.scale.cutter(on.cutter));
-                let side = Some(on.map(|on| on.side));
-                if side == self.state.side && self.state.diameter.is_some_and(|before| Some(before) != register) {
-                    let message = "the offset register changes while the compensation is on";
-                    self.hazard(Code::PV018, item.line, message, "print one D for each contour");
-                }
-                (self.state.side, self.state.diameter) = (side, register);
-            }
-            Action::Hole(hole) => {
-                self.cycle = true;
-                let motions = hole.cycle.motions;
-                if motions.taps() {
-                    self.before_tap.get_or_insert(self.state.rotation);
-                    self.state.taps(if motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw });
-                } else if self.state.into_tap.is_some() {
-                    self.state.into_tap = None;
-                }
-            }
-            Action::CycleOff => {
-                self.cycle = false;
-                // no code of the program turns the spindle now
-                if let Some(before) = self.before_tap.take()
-                    && before != self.state.rotation
-                {
-                    self.state.rotation = Some(Rotation::Stop);
-                    self.spin = Spin::Turns(Rotation::Stop);
-                }
-                self.state.cycle_ends();
-            }
+            Action::Compensation(on) => self.compensation(*on, item.line),
+            Action::Hole(hole) => self.hole(hole.cycle.motions),
+            Action::CycleOff => self.cycle_ends(),
             Action::End => {
                 self.ended = true;
                 if self.cycle {

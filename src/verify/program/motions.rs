@@ -1,9 +1,10 @@
 //! The rapids and cuts of the program, and the checks before each rapid or cut.
 
 use super::{Doubt, Program};
-use crate::nc::{Action, Item, Position, ROTARY};
+use crate::control::Motions;
+use crate::nc::{Action, Item, Position, ROTARY, Rotation, Turn};
 use crate::toolpath::FeedMode;
-use crate::verify::cut::{Cut, Rapid, What};
+use crate::verify::cut::{Cut, Rapid, Spin, What};
 
 impl Program<'_> {
     pub(super) fn rapid(&mut self, to: &Position, [machine, astray, placed]: [u8; 3], line: u64) {
@@ -43,6 +44,56 @@ impl Program<'_> {
             self.passage.reaches_machine(placed, point, &to);
         }
         self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
+    }
+
+    /// Handles a straight cut. `lead`: feed per revolution, if the control synchronises the feed with the spindle.
+    pub(super) fn feed(&mut self, to: &Position, (feed, lead): (f64, Option<f64>), home: u8, item: &Item) {
+        let feed = match (lead, self.mode, self.state.speed) {
+            (Some(lead), FeedMode::PerMinute, Some(speed)) if !self.state.css => lead * speed,
+            (Some(lead), FeedMode::PerRev, _) => lead,
+            _ => feed,
+        };
+        let own = to;
+        let to = self.scale.place(to);
+        let home = self.scale.axes(home);
+        if to == self.at && (self.unknown == 0 || self.scale.flat && self.unknown == 0b100) && home == 0 {
+            return; // a move of no length cuts nothing
+        }
+        if home == 0 {
+            self.beam_cuts(own, item.line);
+        }
+        self.cuts_now(What::Line { to }, home, feed, lead, item);
+    }
+
+    pub(super) fn arc(&mut self, mut turn: Turn, item: &Item) {
+        self.beam_cuts(&turn.to, item.line);
+        turn.to = self.scale.end_of_arc(&turn.to);
+        let factor = self.scale.factor();
+        turn.center.iter_mut().for_each(|value| *value *= factor);
+        self.cuts_now(What::Arc(turn), 0, turn.feed, None, item);
+    }
+
+    /// Begins a hole of a canned cycle.
+    pub(super) fn hole(&mut self, motions: Motions) {
+        self.cycle = true;
+        if motions.taps() {
+            self.before_tap.get_or_insert(self.state.rotation);
+            self.state.taps(if motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw });
+        } else if self.state.into_tap.is_some() {
+            self.state.into_tap = None;
+        }
+    }
+
+    pub(super) fn cycle_ends(&mut self) {
+        self.cycle = false;
+        // no code of the program turns the spindle now
+        if let Some(before) = self.before_tap.take()
+            && before != self.state.rotation
+        {
+            self.state.rotation = Some(Rotation::Stop);
+            self.spin = Spin::Turns(Rotation::Stop);
+        }
+        self.state.cycle_ends();
     }
 
     /// The factor of the feed of a cut. If only rotary axes move, the feed is in degrees, and the same in all units.

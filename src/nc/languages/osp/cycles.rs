@@ -46,24 +46,14 @@ impl Cycle {
     /// The cycle lacks a word, or the documentation does not define the result.
     fn hole(&self, stand: &Stand) -> Done<Canned> {
         let name = self.code;
-        let lacks = |what: &str, help: &'static str| refuse(Code::PN007, format!("{name} without {what}"), help);
-        let Some(r) = self.r else { return lacks("R", "write R and Z in the cycle's first block") };
-        let Some(bottom) = self.depth else { return lacks("its depth", "write R and Z in the cycle's first block") };
+        let Some(r) = self.r else { return self.lacks("R", "write R and Z in the cycle's first block") };
+        let Some(bottom) = self.depth else {
+            return self.lacks("its depth", "write R and Z in the cycle's first block");
+        };
         if bottom > r {
             return refuse(Code::PN011, format!("R {r} is below the bottom {bottom}"), "check R and Z");
         }
-        let back = match self.back {
-            None => {
-                let help = "write M53 with G71 Z, or M54: without them the return level is unknown";
-                return lacks("M52, M53 or M54", help);
-            }
-            Some(Back::Level(level)) if level < r => {
-                let message = format!("the level {level} of G71 is below R {r}");
-                return refuse(Code::PN011, message, "write a higher G71 Z");
-            }
-            Some(Back::Level(level)) => level,
-            Some(Back::R | Back::Top) => r,
-        };
+        let back = self.return_level(r)?;
         let top = self.back == Some(Back::Top);
         let leaves = if top { Step::Top } else { Step::Rapid(back) };
         let (feed, turning, speed) = (stand.feed, stand.turning, stand.speed);
@@ -73,50 +63,12 @@ impl Cycle {
             }
             turning => Ok(turning),
         };
-        let back_off = stand.back_off;
         let mut steps = vec![Step::Rapid(r)];
         let (mut peck, mut shift) = (0.0, [0.0; 2]);
         match self.motions {
             Motions::Drill => steps.push(Step::Feed(bottom, feed)),
-            Motions::Chipbreak | Motions::Peck => {
-                let breaks = self.motions == Motions::Chipbreak;
-                let (each, full) = match (self.step, self.parts) {
-                    (Some(each), [None, None]) => (each, if breaks { f64::INFINITY } else { 0.0 }),
-                    (None, [Some(each), Some(full)]) if !breaks => (each, full),
-                    _ => return lacks("Q", "write Q, or I and J with G83"),
-                };
-                peck = each;
-                let all = depths(r, bottom, each, |stroke, _| stroke)?;
-                let last = all.len() - 1;
-                let mut since = r;
-                for (at, depth) in all.into_iter().enumerate() {
-                    steps.push(Step::Feed(depth, feed));
-                    if at == last {
-                        break;
-                    }
-                    if since - depth + 1e-9 >= full {
-                        steps.push(Step::Rapid(r));
-                        since = depth;
-                    }
-                    steps.push(Step::Rapid((depth + back_off).min(r)));
-                }
-            }
-            Motions::Tap | Motions::LeftTap => {
-                let inwards = if self.motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
-                if self.step.is_some() {
-                    return refuse(
-                        Code::PN016,
-                        format!("{name} with Q is not supported"),
-                        "leave Q out: the pecks of a tap are unknown",
-                    );
-                }
-                if turning != inwards {
-                    steps.push(Step::Turn(inwards, speed));
-                }
-                let out = [Step::Turn(inwards.reversed(), speed), Step::Feed(r, feed), Step::Turn(inwards, speed)];
-                steps.push(Step::Feed(bottom, feed));
-                steps.extend(out);
-            }
+            Motions::Chipbreak | Motions::Peck => peck = self.pecks([r, bottom], stand, &mut steps)?,
+            Motions::Tap | Motions::LeftTap => self.tap([r, bottom], stand, &mut steps)?,
             Motions::FeedOut => {
                 steps.extend([Step::Feed(bottom, feed), Step::Feed(r, self.feed_out.unwrap_or(feed))]);
             }
@@ -134,7 +86,7 @@ impl Cycle {
                 shift = match (self.step, self.parts) {
                     (_, [i, j]) if i.is_some() || j.is_some() => [i.unwrap_or(0.0), j.unwrap_or(0.0)],
                     (Some(by), _) => [by * stand.bore_shift, 0.0],
-                    _ => return lacks("its shift", "write Q, or I and J"),
+                    _ => return self.lacks("its shift", "write Q, or I and J"),
                 };
                 let up = if top { r } else { back };
                 steps.extend([
@@ -174,6 +126,71 @@ impl Cycle {
             heights: if top { Heights::ButClear } else { Heights::Given },
         };
         Ok(Canned { hole, steps })
+    }
+
+    /// The error for a word that the cycle needs.
+    fn lacks<T>(&self, what: &str, help: &'static str) -> Done<T> {
+        refuse(Code::PN007, format!("{} without {what}", self.code), help)
+    }
+
+    /// The height to which the tool returns after the hole.
+    fn return_level(&self, r: f64) -> Done<f64> {
+        match self.back {
+            None => {
+                let help = "write M53 with G71 Z, or M54: without them the return level is unknown";
+                self.lacks("M52, M53 or M54", help)
+            }
+            Some(Back::Level(level)) if level < r => {
+                let message = format!("the level {level} of G71 is below R {r}");
+                refuse(Code::PN011, message, "write a higher G71 Z")
+            }
+            Some(Back::Level(level)) => Ok(level),
+            Some(Back::R | Back::Top) => Ok(r),
+        }
+    }
+
+    /// Adds the strokes of a peck cycle. Returns the depth of a stroke.
+    fn pecks(&self, [r, bottom]: [f64; 2], stand: &Stand, steps: &mut Vec<Step>) -> Done<f64> {
+        let breaks = self.motions == Motions::Chipbreak;
+        let (each, full) = match (self.step, self.parts) {
+            (Some(each), [None, None]) => (each, if breaks { f64::INFINITY } else { 0.0 }),
+            (None, [Some(each), Some(full)]) if !breaks => (each, full),
+            _ => return self.lacks("Q", "write Q, or I and J with G83"),
+        };
+        let all = depths(r, bottom, each, |stroke, _| stroke)?;
+        let last = all.len() - 1;
+        let mut since = r;
+        for (at, depth) in all.into_iter().enumerate() {
+            steps.push(Step::Feed(depth, stand.feed));
+            if at == last {
+                break;
+            }
+            if since - depth + 1e-9 >= full {
+                steps.push(Step::Rapid(r));
+                since = depth;
+            }
+            steps.push(Step::Rapid((depth + stand.back_off).min(r)));
+        }
+        Ok(each)
+    }
+
+    /// Adds the steps of a tap.
+    fn tap(&self, [r, bottom]: [f64; 2], stand: &Stand, steps: &mut Vec<Step>) -> Done {
+        let inwards = if self.motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
+        if self.step.is_some() {
+            let message = format!("{} with Q is not supported", self.code);
+            return refuse(Code::PN016, message, "leave Q out: the pecks of a tap are unknown");
+        }
+        if stand.turning != inwards {
+            steps.push(Step::Turn(inwards, stand.speed));
+        }
+        steps.extend([
+            Step::Feed(bottom, stand.feed),
+            Step::Turn(inwards.reversed(), stand.speed),
+            Step::Feed(r, stand.feed),
+            Step::Turn(inwards, stand.speed),
+        ]);
+        Ok(())
     }
 }
 

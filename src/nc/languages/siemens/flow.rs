@@ -236,46 +236,9 @@ impl Simulator<'_> {
             "LOOP" => self.opens(true),
             "REPEAT" if cursor.is_over() => self.opens(true),
             "REPEAT" => return self.repeats(cursor).map(Some),
-            "FOR" => {
-                let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
-                let name = String::from_utf8_lossy(name).to_ascii_uppercase();
-                cursor.needs(b"=")?;
-                let first = words.value(cursor)?;
-                if !cursor.takes_word("TO") {
-                    return Err(cursor.unreadable());
-                }
-                let last = words.value(cursor)?;
-                let goes_on = words.own.next_round.take() == Some(self.at.line);
-                let value = if goes_on { words.own.value(&name).unwrap_or(first) + 1.0 } else { first };
-                if !words.own.set(&name, value) {
-                    return refuse(
-                        Code::PN014,
-                        format!("`{name}` is not defined"),
-                        "write DEF INT for the variable before the loop",
-                    );
-                }
-                self.opens(value <= last || is_equal(value, last, EQUAL))
-            }
+            "FOR" => self.counts(cursor)?,
             "RET" => return self.return_from("RET").map(Some),
-            "DEF" => {
-                let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
-                let Some(kind) = Kind::named(name) else {
-                    let message = format!("variables of type {} are not supported", String::from_utf8_lossy(name));
-                    return Err(Fault::at(Code::PN016, begin, message, "use REAL, INT or BOOL"));
-                };
-                loop {
-                    let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
-                    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
-                    let value = if cursor.takes(b"=") { words.value(cursor)? } else { 0.0 };
-                    if let Some(own) = words.own.variables.last_mut() {
-                        own.insert(name, Variable { kind, value: kind.holds(value) });
-                    }
-                    if !cursor.takes(b",") {
-                        break;
-                    }
-                }
-                Jump::On
-            }
+            "DEF" => words.defines(begin, cursor)?,
             "MSG" => {
                 cursor.needs(b"(")?;
                 let start = cursor.at() + 1;
@@ -291,37 +254,9 @@ impl Simulator<'_> {
                 && !cursor.rest().starts_with(b"==")
                 && is_variable(name, words.own) =>
             {
-                cursor.takes(b"=");
-                let value = words.value(cursor)?;
-                words.own.set(name, value);
-                // one block may set several variables
-                while let Some(name) = cursor.name() {
-                    let name = String::from_utf8_lossy(name).to_ascii_uppercase();
-                    cursor.needs(b"=")?;
-                    let value = words.value(cursor)?;
-                    if !words.own.set(&name, value) {
-                        return refuse(
-                            Code::PN016,
-                            format!("`{name}` is unknown in a block that sets a variable"),
-                            "write the word in a separate block",
-                        );
-                    }
-                }
-                Jump::On
+                words.sets(name, cursor)?
             }
-            name if is_call(name, cursor, line_name(name)) => {
-                let name = name.to_owned();
-                let arguments = words.arguments(cursor)?;
-                let times =
-                    if cursor.takes_word("P") && cursor.takes(b"=") { words.value(cursor)? } else { calls(cursor) };
-                if !cursor.is_over() {
-                    return Err(cursor.unreadable());
-                }
-                if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
-                    return refuse(Code::PN018, format!("P={times} is not a number of calls"), "write P1 to P9999");
-                }
-                Jump::Search(Search::Call(name, arguments, times as u32))
-            }
+            name if is_call(name, cursor, line_name(name)) => words.calls(name, cursor)?,
             _ => {
                 *cursor = cursor.from(begin);
                 return Ok(None);
@@ -335,6 +270,26 @@ impl Simulator<'_> {
             };
         }
         Ok(Some(jump))
+    }
+
+    /// Runs FOR: sets the variable and decides whether another round begins.
+    fn counts(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let words = Words { own: &mut self.siemens, state: &self.state, block: &mut self.block };
+        let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+        let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+        cursor.needs(b"=")?;
+        let first = words.value(cursor)?;
+        if !cursor.takes_word("TO") {
+            return Err(cursor.unreadable());
+        }
+        let last = words.value(cursor)?;
+        let goes_on = words.own.next_round.take() == Some(self.at.line);
+        let value = if goes_on { words.own.value(&name).unwrap_or(first) + 1.0 } else { first };
+        if !words.own.set(&name, value) {
+            let help = "write DEF INT for the variable before the loop";
+            return refuse(Code::PN014, format!("`{name}` is not defined"), help);
+        }
+        Ok(self.opens(value <= last || is_equal(value, last, EQUAL)))
     }
 
     /// Handles a line that opens a part of the program: the part is run or skipped.
@@ -433,4 +388,56 @@ fn is_call(name: &str, cursor: &Cursor<'_>, is_name: bool) -> bool {
 /// Reads the number of calls of a subprogram, such as `P3` after the call.
 fn calls(cursor: &mut Cursor<'_>) -> f64 {
     if cursor.takes(b"P") || cursor.takes(b"p") { cursor.unsigned().unwrap_or(-1.0) } else { 1.0 }
+}
+
+impl Words<'_> {
+    /// Runs DEF: defines variables of one type. `begin`: the column of DEF.
+    fn defines(self, begin: usize, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+        let Some(kind) = Kind::named(name) else {
+            let message = format!("variables of type {} are not supported", String::from_utf8_lossy(name));
+            return Err(Fault::at(Code::PN016, begin, message, "use REAL, INT or BOOL"));
+        };
+        loop {
+            let Some(name) = cursor.name() else { return Err(cursor.unreadable()) };
+            let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+            let value = if cursor.takes(b"=") { self.value(cursor)? } else { 0.0 };
+            if let Some(own) = self.own.variables.last_mut() {
+                own.insert(name, Variable { kind, value: kind.holds(value) });
+            }
+            if !cursor.takes(b",") {
+                return Ok(Jump::On);
+            }
+        }
+    }
+
+    /// Sets variables: one block may set several.
+    fn sets(self, name: &str, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        cursor.takes(b"=");
+        let value = self.value(cursor)?;
+        self.own.set(name, value);
+        while let Some(name) = cursor.name() {
+            let name = String::from_utf8_lossy(name).to_ascii_uppercase();
+            cursor.needs(b"=")?;
+            let value = self.value(cursor)?;
+            if !self.own.set(&name, value) {
+                let message = format!("`{name}` is unknown in a block that sets a variable");
+                return refuse(Code::PN016, message, "write the word in a separate block");
+            }
+        }
+        Ok(Jump::On)
+    }
+
+    /// Calls a subprogram by its name.
+    fn calls(self, name: &str, cursor: &mut Cursor<'_>) -> Done<Jump> {
+        let arguments = self.arguments(cursor)?;
+        let times = if cursor.takes_word("P") && cursor.takes(b"=") { self.value(cursor)? } else { calls(cursor) };
+        if !cursor.is_over() {
+            return Err(cursor.unreadable());
+        }
+        if times.fract() != 0.0 || !(0.0..=9999.0).contains(&times) {
+            return refuse(Code::PN018, format!("P={times} is not a number of calls"), "write P1 to P9999");
+        }
+        Ok(Jump::Search(Search::Call(name.to_owned(), arguments, times as u32)))
+    }
 }

@@ -26,23 +26,30 @@ impl Check<'_> {
             return self.pace.per_minute(feed, lead, size(&way), 1.0, from[0].abs());
         }
         let radius = (from[0] + to[0]).abs() / 2.0 * scale;
-        let feed = self.pace.per_minute(feed, lead, length * scale, scale, radius);
         if lead.is_none() {
+            let path = self.path_of_feed(length, size(&way[3..]));
+            let along = self.pace.per_minute(feed, lead, path * scale, scale, radius);
             for (axis, part) in way[..3].iter().enumerate() {
-                self.feeds(axis, feed * part.abs() / length, line);
+                self.feeds(axis, along * part.abs() / path, line);
             }
         }
-        feed
+        self.pace.per_minute(feed, lead, length * scale, scale, radius)
     }
 
-    /// Checks the feeds of the rotary axes in a cut of this length in the program's units. If X, Y or Z moves too, F is
-    /// the feed along X, Y and Z on LinuxCNC. Other controls may count degrees as lengths, which is slower.
+    /// The length of the path to which F applies, in a cut that turns the part by an angle in degrees. On LinuxCNC, F
+    /// is the feed along X, Y and Z. A Fanuc counts a degree as a millimetre or an inch. Other controls may do so, too,
+    /// and then all axes are slower.
+    fn path_of_feed(&self, length: f64, turned: f64) -> f64 {
+        if self.control.is_linuxcnc() && length > 0.0 { length } else { length.hypot(turned) }
+    }
+
+    /// Checks the feeds of the rotary axes in a cut of this length in the program's units.
     fn turn_feeds(&mut self, way: &Position, length: f64, (feed, lead): (f64, Option<f64>), line: (u64, &[u8])) {
         let turned = way[3..].iter().map(|part| part * part).sum::<f64>().sqrt();
         if turned == 0.0 || lead.is_some() {
             return;
         }
-        let path = if self.control.is_linuxcnc() && length > 0.0 { length } else { length.hypot(turned) };
+        let path = self.path_of_feed(length, turned);
         let feed = self.pace.per_minute(feed, None, path, 1.0, 0.0);
         for (axis, part) in way.iter().enumerate().skip(3) {
             self.feeds(axis, feed * part.abs() / path, line);

@@ -365,7 +365,15 @@ fn the_feed_of_a_turn_is_given_after_the_units() {
 #[test]
 fn a_rotary_axis_has_a_fastest_feed() {
     let folder = Folder::new("rotary-fastest");
-    folder.write("m.toml", "name = \"M\"\ncontrol = \"haas\"\nunits = \"inch\"\n[axes.A]\nfeed = 1000\n");
+    let machine = "name = \"M\"\ncontrol = \"haas\"\nunits = \"inch\"\n[axes.A]\nfeed = 1000\n";
+    folder.write("m.toml", machine);
+    folder.write("x.toml", machine.replace("axes.A", "axes.X"));
+    // X moves 3 inches while A turns by 4 degrees: at F100, X feeds at 60 inches per minute
+    for (cut, is_fast) in [("X3. A4. F1600.", false), ("X3. A4. F1700.", true), ("X3. F1001.", true)] {
+        folder.write("a.nc", nc(&format!("{cut}\nG0 Z5.")));
+        let run = folder.run(&["fit", "a.nc", "--machine", "x.toml", "--control", "haas"]);
+        assert_eq!((out(&run) + &err(&run)).contains("X would feed at"), is_fast, "{cut}");
+    }
     for (cut, feed) in [
         ("A90. F1000.", None),
         ("A90. F1001.", Some("1001")),

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::arcs::Arcs;
 use super::code::Code;
 use super::file_text::{
-    EndsLength, File, Height, InRapids, Longer, RepeatsInP, RowText, SecondTool, Semicolon, WithoutAxes,
+    EndsLength, File, Height, InRapids, Longer, RepeatsInP, RowText, SecondTool, Semicolon, WithoutAxes, ZeroRegister,
 };
 use super::hole::Hole;
 use super::key::{ABSENT, Key};
@@ -146,6 +146,7 @@ impl Reader<'_> {
         take(&mut traits.beam_off_in_rapids, file.laser.rapids.map(|InRapids::Off| true));
         take(&mut traits.all_go_home, file.reference.without_axes.map(|WithoutAxes::All| true));
         take(&mut traits.next_beside_change, file.tool.second.map(|SecondTool::Next| true));
+        take(&mut traits.zero_is_tool, file.tool.zero.map(|zero| zero == ZeroRegister::Tool));
         take(&mut traits.height_is_machine, file.tool.without_length.map(|height| height == Height::Machine));
         if let Some(words) = &file.words.everywhere {
             traits.everywhere = self.words(words)?;

@@ -230,6 +230,7 @@ pub(super) struct CornersText {
 pub(super) struct Tool {
     pub(super) length: Option<ToolLength>,
     pub(super) without_length: Option<Height>,
+    pub(super) zero: Option<ZeroRegister>,
     /// The meaning of a second T word in the block of a tool change.
     pub(super) second: Option<SecondTool>,
 }
@@ -240,6 +241,14 @@ pub(super) struct Tool {
 pub(super) enum SecondTool {
     /// The second T word names the tool after the tool that this block loads.
     Next,
+}
+
+/// The length that register 0 turns on.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum ZeroRegister {
+    None,
+    Tool,
 }
 
 /// The meaning of a Z position while no tool length offset is active.

@@ -207,6 +207,8 @@ pub struct Traits {
     pub spindle_at_stop: Kept,
     /// How a tool length offset is turned on.
     pub tool_length: ToolLength,
+    /// Whether length register 0 is the tool in the spindle. If not, register 0 is no length.
+    pub zero_is_tool: bool,
     /// Whether a Z position is a machine position while no tool length offset is active.
     pub height_is_machine: bool,
     /// The letters of the words that need no code in their block.

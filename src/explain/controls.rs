@@ -51,7 +51,10 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
     };
     let length = match traits.tool_length {
         ToolLength::CodeAndRegister => "by G43 with H",
-        ToolLength::Code => "by G43; G43 without H turns on the length of the tool in the spindle",
+        ToolLength::Code if traits.zero_is_tool => {
+            "by G43; G43 without H, or with H0, turns on the length of the tool in the spindle"
+        }
+        ToolLength::Code => "by G43; G43 without H turns on the length of the tool in the spindle, and H0 no length",
         ToolLength::Register => "by H alone",
         ToolLength::Tool => "by calling the tool or one of its edges",
         ToolLength::None => "never: the control has no tool lengths",

@@ -294,8 +294,8 @@ impl State {
             _ => {
                 // without H, some controls use the length of the tool in the spindle, even if a T word has named another tool since
                 let by_tool = self.control.traits().tool_length == ToolLength::Code;
-                // on these controls H0 is the tool in the spindle, too
-                let register = block.get(b'H').filter(|h| *h != 0.0 || !by_tool).or(self.tool.loaded);
+                let zero_is_tool = self.control.traits().zero_is_tool;
+                let register = block.get(b'H').filter(|h| *h != 0.0 || !zero_is_tool).or(self.tool.loaded);
                 if block.get(b'H').is_none() && !by_tool {
                     let help = "write H with the tool's register: G43 H1";
                     return refuse(diag::Code::PN007, "a tool length offset without H", help);

@@ -78,6 +78,8 @@ fn a_length_that_is_off_stays_off() {
         ("G43 H0 Z1.", "okuma.pf", IS_OFF),
         // H0 is the tool in the spindle
         ("G43 H0 Z1.", "linuxcnc.pf", IS_ON),
+        // .. but on Mach3 it is no length
+        ("G43 H0 Z1.", "mach3.pf", IS_OFF),
         // the length belongs to the tool, and the form turns it on
         ("G43 H0 Z1.", "siemens.pf", IS_ON),
         ("G43 H0 Z1.", "heidenhain.pf", IS_ON),
@@ -88,7 +90,7 @@ fn a_length_that_is_off_stays_off() {
     ];
     for (codes, form, expected) in cases {
         let job = format!("%\nO1\n{}G1 Z-.1 F5.\nX1.\nG0 Z1.\nM30\n%\n", HEAD.replace("G43 H1 Z1. M8", codes));
-        let post = Post::compile(Source::from_text(form, &plain_post(form)), &NoFiles).unwrap();
+        let post = Post::compile(Source::from_text(form, plain_post(form)), &NoFiles).unwrap();
         let found = match post.render(Job::nc(&job), &PostOptions::default()).map(|program| program.verdict().clone()) {
             Ok(Verdict::Different(found)) => found.into_iter().map(|one| one.message + "\n").collect(),
             Ok(_) => String::new(),

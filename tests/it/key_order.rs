@@ -98,3 +98,29 @@ fn a_stream_says_which_key_comes_too_late() {
     );
     assert!(said.contains("list the tools under \"tools\", before the operations"), "{said}");
 }
+
+/// Only 4,096 points of a cycle are kept until its other keys are read, also for a file.
+#[test]
+fn a_key_after_many_points_is_named() {
+    let render = |points: usize, before: &str, after: &str| {
+        let list = vec!["[1, 1, 0]"; points].join(", ");
+        let cycle = format!(r#"{{{before}"depth": 5, "clear": 2, "feed": 200, "points": [{list}]{after}}}"#);
+        let job = format!(
+            r#"{{"postform": 1, "units": "mm", "tools": [{{"number": 1}}], "operations": [{{"tool": 1, "work": 54,
+            "spindle": {{"speed": 900, "direction": "cw"}}, "path": [{{"rapid": [0, 0, 5]}}, {{"cycle": {cycle}}}]}}]}}"#
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("job.json");
+        fs::write(&file, job).unwrap();
+        text(&postform(&["check", file.to_str().unwrap()]).stderr)
+    };
+    assert_eq!(render(4000, "", r#", "kind": "drill""#), "");
+    assert_eq!(render(5000, r#""kind": "drill", "#, ""), "");
+    for (before, after, key) in
+        [("", r#", "kind": "drill""#, "kind"), (r#""kind": "drill", "#, r#", "return": 9"#, "return")]
+    {
+        let said = render(5000, before, after);
+        assert!(said.contains(&format!("`{key}` does not come before the `points`")), "{said}");
+        assert!(said.contains("make `points` the last key of the cycle"), "{said}");
+    }
+}

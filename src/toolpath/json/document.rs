@@ -358,7 +358,7 @@ fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> 
         let name = CycleObject::KEYS.get(key).copied().unwrap_or(POINTS[0]);
         once(&mut seen, key, name, job.context)?;
         if begun {
-            return Err(job.misplaced(POINTS[0], CycleObject::NAME, name));
+            return Err(late_key(job, name));
         }
         job.context.enter(Step::Key(name));
         if key == CycleObject::KEYS.len() {
@@ -373,6 +373,12 @@ fn cycle<'de, A: MapAccess<'de>>(job: &Job, mut map: A) -> Result<(), A::Error> 
         pass_on(job, &mut waiting)?;
     }
     job.build(|b| b.cycle_end())
+}
+
+/// The error for a key that comes after more points than are kept.
+fn late_key<E: serde::de::Error>(job: &Job, key: &str) -> E {
+    let message = format!("`{key}` does not come before the `points` of a cycle with more than {MOST_WAITING} points");
+    job.context.fail(Diag::new(Code::PJ005, message).help("make `points` the last key of the cycle"))
 }
 
 fn pass_on<E: serde::de::Error>(job: &Job, waiting: &mut Vec<(Point, (u64, u32))>) -> Result<(), E> {
@@ -414,6 +420,9 @@ impl<'de> Visitor<'de> for Points<'_, '_, '_, '_> {
             self.waiting.push((point, job.context.point_at.get()));
             if begun || self.waiting.len() == MOST_WAITING {
                 if !begun {
+                    if self.object.kind.is_none() {
+                        return Err(late_key(job, "kind"));
+                    }
                     job.build(|b| b.cycle_begin(self.object))?;
                 }
                 begun = true;

@@ -60,7 +60,7 @@ use shape::Shape;
 use want::Want;
 
 pub use ahead::survey_terms;
-pub(crate) use coolant::codes as coolant_codes;
+pub(crate) use coolant::{Codes as CoolantCodes, codes as coolant_codes};
 pub use defaults::cycle_defaults;
 pub use file_name::file_name_of;
 pub use options::{Clock, Cycles, Options};

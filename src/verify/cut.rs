@@ -4,7 +4,8 @@ use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 
 use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
-use crate::nc::{Cooling, Position, Rotation, Threading, Turn, axes_of, sweep};
+use crate::lang::Coolant;
+use crate::nc::{Position, Rotation, Threading, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
 
 /// A position: X Y Z in the job's units, A B C in degrees, and U V of the upper wire guide in the job's units.
@@ -87,7 +88,7 @@ pub(super) struct State {
     pub rotation: Option<Rotation>,
     pub speed: Option<f64>,
     /// Coolant.
-    pub coolant: Option<Cooling>,
+    pub coolant: Option<Coolant>,
     /// Cutter compensation. `Some(None)`: off.
     pub side: Option<Option<Side>>,
     /// Register of the tool length. The field after `length` is the register of the diameter while cutter compensation

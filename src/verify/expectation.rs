@@ -1,5 +1,6 @@
 //! The values that a form supplies for values missing in the job, and the values that the form itself defines.
 
+use super::cooled;
 use super::form_values::{Own, by, printed_by};
 use super::tables::{CHORDS, INCREMENTS};
 use super::wire_codes::{self, Coded, Codes};
@@ -7,10 +8,9 @@ use crate::compile::{Op, Program, WorkWords};
 use crate::control::{Code, Control, Meaning};
 use crate::cycle::Defaults;
 use crate::lang::{Beam, Machine, SEQUENCES, TextId, UnitChoice, VarId, work_code};
-use crate::nc::{Cooling, cooling_of};
-use crate::render::{coolant_codes, cycle_defaults};
+use crate::render::cycle_defaults;
 use crate::sema::{PropertyValue, Settings};
-use crate::toolpath::{Coolant, EdmAction, Units};
+use crate::toolpath::{EdmAction, Units};
 
 /// The values of the form that are needed to compare job and program.
 #[derive(Clone, Debug)]
@@ -40,8 +40,8 @@ pub struct Expectation {
     pub units_due: bool,
     /// For each of the job's axes X Y Z A B C, the axis in the program (the form's `Rename`).
     pub axes: [u8; 6],
-    /// Codes of the coolant: on, off, mist.
-    pub coolant: [f64; 3],
+    /// Codes of each kind of coolant.
+    pub(super) coolant: cooled::Codes,
     /// Whether taps are rigid if the job does not define whether they are; `None`: the form does not define it either.
     pub rigid_tap: Option<bool>,
     /// Whether the form prints the code (M29) that makes the following taps rigid. Without this code the taps are not
@@ -81,7 +81,7 @@ impl Default for Expectation {
             lengths_due: true,
             units_due: true,
             axes: [0, 1, 2, 3, 4, 5],
-            coolant: [8.0, 9.0, 7.0],
+            coolant: cooled::Codes::usual(),
             rigid_tap: None,
             announces_taps: false,
             by_diameter: true,
@@ -116,7 +116,7 @@ impl Expectation {
             tools: settings.machine != Machine::Edm && settings.beam.is_none() && loads_tools(settings.control()),
             units_due: settings.units == UnitChoice::Both,
             axes: rotary_axes(&settings.rename),
-            coolant: usual_coolant(settings),
+            coolant: cooled::Codes::of_form(settings),
             rigid_tap: settings.rigid_tap.then_some(true),
             by_diameter: settings.by_diameter,
             subs_first: settings.subs_first,
@@ -196,13 +196,6 @@ impl Expectation {
     }
 }
 
-/// The codes of the form for coolant: on, off, mist. Mist may be a kind of its own (`CoolantKind mist M50 M51`).
-fn usual_coolant(settings: &Settings) -> [f64; 3] {
-    let [on, off, mist] = settings.coolant;
-    let of = |kind, usual| coolant_codes(kind, settings).map_or(usual, |codes| codes.on);
-    [of(Coolant::FLOOD, on), off, of(Coolant::MIST, mist)]
-}
-
 /// The program's axis for each axis of the job. Only renamed rotary axes are considered, because renaming X, Y or Z would change holes
 /// and arcs.
 fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
@@ -214,24 +207,6 @@ fn rotary_axes(rename: &[(u8, u8)]) -> [u8; 6] {
         }
     }
     axes
-}
-
-impl Expectation {
-    /// The coolant that the program must switch on for a coolant of the job. Two kinds of coolant may have the same
-    /// code, for example on a machine without mist. A code that turns coolant off is no kind of coolant. `None`: the
-    /// simulator does not model this kind of coolant.
-    pub(super) fn cooling(&self, coolant: Coolant, control: &Control) -> Option<Cooling> {
-        let [on, _, mist] = self.coolant;
-        let (code, named) = match coolant {
-            Coolant::FLOOD => (on, Cooling::Flood),
-            Coolant::MIST => (mist, Cooling::Mist),
-            Coolant::OFF => return Some(Cooling::Off),
-            // a kind that only the form defines, or several kinds at once
-            _ => return None,
-        };
-        let printed = Code::of(b'M', code).and_then(|code| control.meaning(code)).and_then(cooling_of);
-        Some(printed.filter(|cooling| *cooling != Cooling::Off).unwrap_or(named))
-    }
 }
 
 impl Expectation {

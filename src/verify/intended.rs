@@ -1,5 +1,6 @@
 //! The job's side of the comparison: converts the events of the job to the cuts and paths that the program must make.
 
+use super::cooled;
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, UNSAID, What, place};
 use super::expectation::Expectation;
 use super::form_values::by;
@@ -10,8 +11,8 @@ use super::tables::Unmodelled;
 use crate::control::{Control, Group, Meaning, ToolLength};
 use crate::cycle::{Steps, check};
 use crate::diag::Diag;
-use crate::lang::{Beam, Machine};
-use crate::nc::{Cooling, Kind, Rotation, Turn, cooling_of, rotation_of, tokens};
+use crate::lang::{Beam, Coolant, Machine};
+use crate::nc::{Kind, Rotation, Turn, rotation_of, tokens};
 use crate::toolpath::{
     Arc, Axes, CycleSpec, Direction, EdmAction, Event, FeedMode, Order, Plane, Side, Spindle, SpindleTurn, Start,
     StopKind, Tool, ToolChange, Units,
@@ -151,7 +152,7 @@ impl Job {
                 Ok(())
             }
             Event::Coolant(coolant) => {
-                self.state.coolant = self.expectation.cooling(coolant, self.control);
+                self.state.coolant = self.expectation.coolant.of_job(coolant, self.control);
                 Ok(())
             }
             Event::Text(text) => self.text(text, to),
@@ -217,7 +218,7 @@ impl Job {
             }
             (self.state.speed, self.state.rotation) = (None, None);
             self.counts_speed(false);
-            self.state.coolant = Some(Cooling::Off);
+            self.state.coolant = Some(Coolant::OFF);
             self.at = Axes { given: self.at.given & !0b111, ..self.at };
             self.changed(true, to);
         }
@@ -229,7 +230,7 @@ impl Job {
             self.spindle(spindle);
         }
         if let Some(coolant) = change.coolant {
-            self.state.coolant = self.expectation.cooling(coolant, self.control);
+            self.state.coolant = self.expectation.coolant.of_job(coolant, self.control);
         }
         if let Some(work) = change.work {
             self.work(work, to);
@@ -276,7 +277,10 @@ impl Job {
                 (Meaning::Dwell, _) => to.wait(f64::NAN),
                 (meaning, _) if meaning.turns_spindle() || meaning.cools() => {
                     self.state.rotation = rotation_of(meaning).or(self.state.rotation);
-                    self.state.coolant = cooling_of(meaning).or(self.state.coolant);
+                    self.state.coolant = match cooled::kind_of(meaning) {
+                        Some(kind) => cooled::with(self.state.coolant, kind),
+                        None => self.state.coolant,
+                    };
                 }
                 (_, Some(Group::Motion | Group::Distance | Group::Work | Group::Length | Group::Compensation)) => {
                     axes = true;

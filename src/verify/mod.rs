@@ -9,6 +9,7 @@ mod arcs;
 mod begin;
 mod calls;
 mod comparer;
+mod cooled;
 mod cut;
 mod expectation;
 mod fast_path;

@@ -1,10 +1,11 @@
 //! Compares the modal state at a cut: tool, registers, work offset, spindle, coolant, compensation, feed.
 
+use super::cooled;
 use super::cut::{Cut, State, is_length, number};
 use super::sides::{Sides, Unnamed};
 use super::tables::{PITCH, ROUNDED};
 use crate::diag::Code;
-use crate::nc::{Cooling, Rotation};
+use crate::nc::Rotation;
 use crate::toolpath::{self, FeedMode, Plane};
 
 /// A difference between two states: the code, the correction, and the message.
@@ -139,13 +140,8 @@ fn speed(s: &mut Sides<'_>, cut: &Cut, found: &Cut, tap: bool) -> bool {
     false
 }
 
-fn coolant([wanted, is]: [&State; 2]) -> Option<Differs> {
-    let (a, b) = (wanted.coolant?, is.coolant?);
-    // coolant that the job does not request is allowed, because it does no harm
-    if a == b || a == Cooling::Off {
-        return None;
-    }
-    let message = format!("the coolant is {}, but {} in the job", b.name(), a.name());
+fn coolant(states: [&State; 2]) -> Option<Differs> {
+    let message = cooled::differs(states)?;
     Some((Code::PV024, "print M[cool] in the tool change, and after a stop", message))
 }
 

@@ -1,12 +1,13 @@
 //! Compares a cut of one program with a cut of another program.
 
 use super::begin::unsaid;
+use super::cooled;
 use super::cut::{ALL, Cut, Place, State, What, number, place, same, shown, turned_otherwise};
 use super::program::Program;
 use super::ways::Compared;
 use crate::control::{Control, ToolLength};
-use crate::lang::additional_work;
-use crate::nc::{Cooling, Threading, axes_of};
+use crate::lang::{Coolant, additional_work};
+use crate::nc::{Threading, axes_of};
 
 /// How the numbers of registers and work offsets in two programs are compared. Two programs for the same control use
 /// the same numbers.
@@ -211,8 +212,8 @@ fn state(before: &State, now: &State, names: Names, program: &Program<'_>) -> Op
     if before.rotation != now.rotation {
         return Some("the spindle direction is different".to_owned());
     }
-    if before.coolant != now.coolant {
-        let text = |coolant: Option<Cooling>| coolant.map_or("unknown", Cooling::name);
+    if !cooled::is_same(before.coolant, now.coolant) {
+        let text = |coolant: Option<Coolant>| coolant.map_or_else(|| "unknown".to_owned(), cooled::name);
         return Some(format!("the coolant is {}, but {} in the old program", text(now.coolant), text(before.coolant)));
     }
     (before.side != now.side).then(|| "cutter compensation is different".to_owned())

@@ -286,6 +286,46 @@ fn the_form_of_a_haas_says_coolant_through_the_spindle_before_the_spindle() {
     assert_eq!(printed.iter().filter(|line| line.contains("M3")).count(), 3, "{printed:#?}"); // two tools, and M30
 }
 
+/// A dry cut is found for each kind of coolant. Coolant through the spindle counts as flood.
+#[test]
+fn a_dry_cut_is_found_for_each_kind() {
+    let folder = Folder::new("dry");
+    let fanuc = plain_post("fanuc.pf");
+    folder.write("form.pf", fanuc.replacen("Units both\n", &format!("Units both\n{KINDS}\n"), 1));
+    folder.write("through.toml", "name = \"through\"\nlike = \"fanuc\"\n\n[codes]\n\"M88\" = { is = \"through\" }\n");
+    let own = ["--form", "form.pf"];
+    let control = ["--control", "through.toml"];
+    for (coolant, printed, replaced, rules, finding) in [
+        ("\"through\"", "M88", "M88", own, ""),
+        ("\"through\"", "M88", "", own, "the coolant is off, but through in the job"),
+        ("\"through\"", "M88", "M8", own, ""),
+        ("\"through\"", "M88", "M7", own, "the coolant is mist, but through in the job"),
+        ("\"through\"", "M88", "M12", own, "the coolant is air, but through in the job"),
+        ("\"through\"", "M88", "M88\nM89", own, "the coolant is off, but through in the job"),
+        ("\"through\"", "M88", "M88\nM8\nM89", own, ""),
+        ("\"through\"", "M88", "", control, "the coolant is off, but through in the job"),
+        ("\"flood\"", "M8", "M88", own, ""),
+        ("\"flood\"", "M8", "M12", own, "the coolant is air, but flood in the job"),
+        ("\"mist\"", "M7", "M88", own, "the coolant is through, but mist in the job"),
+        ("\"air\"", "M12", "M12", own, ""),
+        ("\"air\"", "M12", "", own, "the coolant is off, but air in the job"),
+        ("[\"through\",\"air\"]", "M12", "M12", own, ""),
+        ("[\"through\",\"air\"]", "M88\nN50 M12", "", own, "the coolant is off, but through and air in the job"),
+        ("[\"through\",\"air\"]", "M88\nN50 M12", "\nN50 M12", own, ""),
+        // without a form, the code of air is unknown
+        ("\"air\"", "M12", "", control, ""),
+    ] {
+        folder.write("job.json", job(&[(1, "KIND", LINE)]).replace("\"KIND\"", coolant));
+        let program = out(&folder.run(&["render", "job.json", "--form", "form.pf", "--program", "1"]));
+        assert_eq!(program.matches(printed).count(), 1, "{coolant}: {program}");
+        folder.write("program.nc", program.replacen(printed, replaced, 1));
+        let output = folder.run(&[&["verify", "job.json", "--nc", "program.nc"], &rules[..]].concat());
+        let told = err(&output);
+        assert_eq!(output.status.success(), finding.is_empty(), "{coolant}, {replaced}: {told}");
+        assert!(told.contains(finding), "{coolant}, {replaced}: {told}");
+    }
+}
+
 /// The proof compares mist by the code that the form prints for mist. A code that turns coolant off is no mist.
 #[test]
 fn mist_is_compared_by_the_forms_code() {

@@ -15,6 +15,7 @@ use std::io::{Read, Seek};
 use beam::Switched;
 pub(super) use doubt::Doubt;
 
+use super::cooled;
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, place};
 use super::expectation::{Expectation, taps_ahead};
 use super::finding::Finding;
@@ -25,7 +26,8 @@ use super::unset::Due;
 use super::wire_codes::Codes;
 use crate::control::{self, Control, Meaning};
 use crate::diag::{Code, Diag};
-use crate::nc::{Action, Cooling, Item, Rotation, RunError, RunSettings, Simulator};
+use crate::lang::Coolant;
+use crate::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
 use crate::toolpath::{self, FeedMode, Plane, StopKind, Units};
 
 /// A program that is simulated only as far as the comparison needs.
@@ -55,8 +57,8 @@ pub(super) struct Program<'a> {
     beam: Option<Switched>,
     /// The form's codes for threading and cutting a wire.
     pub wire: Codes,
-    /// Coolant codes of the form: on, off, mist.
-    coolant: [f64; 3],
+    /// Coolant codes of the form.
+    coolant: cooled::Codes,
     /// Everything between the last cut and the next cut.
     pub passage: Passage,
     /// Whether the program has moved its zero or has set tool data.
@@ -84,7 +86,7 @@ impl<'a> Program<'a> {
             side: Some(None),
             rotation: Some(Rotation::Stop),
             speed: Some(0.0),
-            coolant: Some(Cooling::Off),
+            coolant: Some(Coolant::OFF),
             work: settings.control.first_work(),
             rigid: taps_ahead(settings.control).then_some(false),
             ..State::default()
@@ -118,7 +120,7 @@ impl<'a> Program<'a> {
             },
             beam: expectation.beam.map(|beam| Switched::new(beam, settings.control)),
             wire: expectation.wire.clone().unwrap_or_default(),
-            coolant: expectation.coolant,
+            coolant: expectation.coolant.clone(),
             passage: Passage::new(Some(start), Frame { tool: None, work: state.work }),
             moves_zero: false,
             sets_units: false,
@@ -362,7 +364,9 @@ impl<'a> Program<'a> {
                     self.hazard(Code::PV013, item.line, message, "end it with G80");
                 }
             }
-            Action::Coolant(cooling) => self.state.coolant = Some(*cooling),
+            Action::Coolant(cooling) => {
+                self.state.coolant = cooled::after_run(self.state.coolant, *cooling, self.simulator.cools_through());
+            }
             Action::LeftOut(code, meaning) => {
                 let coded = (code.letter, code.tenths);
                 if self.wire.iter().any(|(_, codes)| codes.contains(&coded)) {
@@ -389,7 +393,7 @@ impl<'a> Program<'a> {
         // a Haas stops the spindle at M0; on other controls a form must not rely on a running spindle
         if kind == StopKind::Program && !item.by_cycle && !self.control.is_linuxcnc() {
             self.state.rotation = Some(Rotation::Stop);
-            self.state.coolant = Some(Cooling::Off);
+            self.state.coolant = Some(Coolant::OFF);
             self.spin = Spin::Turns(Rotation::Stop);
         }
     }
@@ -426,13 +430,6 @@ impl<'a> Program<'a> {
             self.state.rigid = Some(true);
             self.is_rigid_ahead = true;
         }
-        if code.letter != b'M' {
-            return;
-        }
-        let [on, off, mist] = self.coolant.map(|own| own == code.value());
-        let cooling = [(on, Cooling::Flood), (off, Cooling::Off), (mist, Cooling::Mist)];
-        if let Some((_, cooling)) = cooling.into_iter().find(|(is, _)| *is) {
-            self.state.coolant = Some(cooling);
-        }
+        self.state.coolant = self.coolant.after(code, self.state.coolant);
     }
 }

@@ -1,0 +1,110 @@
+//! The coolant at a cut, in the job and in the program. Both are sets of kinds: one kind may begin while another is on,
+//! and may have its own code that turns it off.
+
+use super::cut::State;
+use crate::control::{Code, Control, Meaning};
+use crate::lang::Coolant;
+use crate::nc::{Cooling, cooling_of};
+use crate::render::{CoolantCodes, coolant_codes};
+use crate::sema::Settings;
+
+/// The codes for each kind of coolant. `OFF` has the code that turns off all kinds.
+#[derive(Clone, Debug)]
+pub struct Codes(Vec<(Coolant, CoolantCodes)>);
+
+impl Codes {
+    /// The codes that most forms use: M8, M7 and M9.
+    pub fn usual() -> Codes {
+        let row = |kind, on| (kind, CoolantCodes { on, own_off: None });
+        Codes(vec![row(Coolant::FLOOD, 8.0), row(Coolant::MIST, 7.0), row(Coolant::OFF, 9.0)])
+    }
+
+    /// The codes of a form. Mist may be a kind of its own (`CoolantKind mist M50 M51`).
+    pub fn of_form(settings: &Settings) -> Codes {
+        let off = (Coolant::OFF, CoolantCodes { on: settings.coolant[1], own_off: None });
+        let kinds = Coolant::NAMES.iter().skip(1).map(|(_, kind)| *kind).filter(|kind| *kind != Coolant::OFF);
+        Codes(kinds.filter_map(|kind| Some((kind, coolant_codes(kind, settings)?))).chain([off]).collect())
+    }
+
+    /// The coolant that the program must switch on for a coolant of the job. `None`: not compared, because neither the
+    /// form nor the control defines a code for it.
+    pub fn of_job(&self, coolant: Coolant, control: &Control) -> Option<Coolant> {
+        let mut each = coolant.each().map(|kind| self.of_kind(kind, control));
+        each.try_fold(Coolant::OFF, |all, kind| Some(all.and(kind?)))
+    }
+
+    /// Two kinds of coolant may have the same code, for example on a machine without mist: the meaning of the code
+    /// decides. A code that turns coolant off is no kind of coolant.
+    fn of_kind(&self, kind: Coolant, control: &Control) -> Option<Coolant> {
+        let Some((_, codes)) = self.0.iter().find(|(own, _)| *own == kind) else {
+            return (kind == Coolant::THROUGH && control.has(Meaning::Through)).then_some(kind);
+        };
+        let printed = Code::of(b'M', codes.on).and_then(|code| control.meaning(code)).and_then(kind_of);
+        Some(printed.filter(|printed| *printed != Coolant::OFF).unwrap_or(kind))
+    }
+
+    /// The coolant after a code that the simulator does not run. The code may be a coolant code of the form.
+    pub fn after(&self, code: Code, coolant: Option<Coolant>) -> Option<Coolant> {
+        let is = |own: f64| code.letter == b'M' && own == code.value();
+        self.0.iter().fold(coolant, |coolant, (kind, own)| match own.own_off {
+            _ if is(own.on) => with(coolant, *kind),
+            Some(off) if is(off) => coolant.map(|coolant| coolant.without(*kind)),
+            _ => coolant,
+        })
+    }
+}
+
+/// The kind of coolant that a code of this meaning turns on; `OFF` if it turns off all kinds.
+pub fn kind_of(meaning: Meaning) -> Option<Coolant> {
+    cooling_of(meaning).map(|cooling| kind_run(cooling, meaning == Meaning::Through))
+}
+
+/// The kind of coolant that the simulator has turned on. The simulator counts coolant through the spindle as flood.
+fn kind_run(cooling: Cooling, is_through: bool) -> Coolant {
+    match cooling {
+        Cooling::Flood if is_through => Coolant::THROUGH,
+        Cooling::Flood => Coolant::FLOOD,
+        Cooling::Mist => Coolant::MIST,
+        Cooling::Off => Coolant::OFF,
+    }
+}
+
+/// The coolant after a code that turns on this kind. Flood and mist replace each other.
+pub fn with(coolant: Option<Coolant>, kind: Coolant) -> Option<Coolant> {
+    let coolant = coolant.unwrap_or(Coolant::OFF);
+    Some(match kind {
+        Coolant::OFF => Coolant::OFF,
+        Coolant::FLOOD | Coolant::MIST => coolant.without(Coolant::FLOOD.and(Coolant::MIST)).and(kind),
+        _ => coolant.and(kind),
+    })
+}
+
+/// The coolant after an action of the simulator.
+pub fn after_run(coolant: Option<Coolant>, cooling: Cooling, is_through: bool) -> Option<Coolant> {
+    with(coolant, kind_run(cooling, is_through))
+}
+
+/// Compares the coolant of job and program. Coolant that the job does not request is allowed, because it does no harm.
+/// Coolant through the spindle counts as flood. Of other kinds and of several kinds at once, only a dry cut is found.
+pub fn differs([wanted, is]: [&State; 2]) -> Option<String> {
+    let (wanted, is) = (wanted.coolant?, is.coolant?);
+    let group = [Coolant::FLOOD.and(Coolant::THROUGH), Coolant::MIST].into_iter().find(|group| group.holds(wanted));
+    let agrees = match group {
+        _ if wanted == Coolant::OFF => true,
+        Some(group) => group.each().any(|kind| is.holds(kind)),
+        None => is != Coolant::OFF,
+    };
+    (!agrees).then(|| format!("the coolant is {}, but {} in the job", name(is), name(wanted)))
+}
+
+/// Whether the same kinds are on.
+pub fn is_same(a: Option<Coolant>, b: Option<Coolant>) -> bool {
+    let kinds = |coolant: Coolant| coolant.each().map(Coolant::name);
+    a.is_some() == b.is_some() && a.into_iter().flat_map(kinds).eq(b.into_iter().flat_map(kinds))
+}
+
+/// The kinds by their names, for messages.
+pub fn name(coolant: Coolant) -> String {
+    let names: Vec<_> = coolant.each().map(|kind| if kind == Coolant::FLOOD { "flood" } else { kind.name() }).collect();
+    if names.is_empty() { "off".to_owned() } else { names.join(" and ") }
+}

@@ -141,6 +141,7 @@ codes! {
     PF442 Warning "a thread whose passes do not return"
     PF443 Warning "the program ends too early"
     PF444 Warning "a sequence that ends the tool length"
+    PF445 Warning "a tool change without a retract"
     // PF5: modality
     PF501 Warning "a letter that is not modal, named as modal"
     PF502 Warning "a one-shot code, named as modal"

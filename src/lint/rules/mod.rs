@@ -5,6 +5,7 @@ mod arc_other_way;
 mod arc_without_centre;
 mod cancel_emulated;
 mod cancel_without_code;
+mod change_without_retract;
 mod change_without_tool;
 mod coarse_centre;
 mod code_format;
@@ -225,6 +226,7 @@ rules! {
     PF442 thread_without_return (codes)
     PF443 ends_too_early (codes)
     PF444 length_lost (codes)
+    PF445 change_without_retract (codes)
     // modality
     PF501 modal_letters (codes)
     PF502 modal_codes (codes)

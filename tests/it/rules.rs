@@ -363,6 +363,14 @@ fn right_forms_are_left_alone() {
         ("", "Spindle M3 M4 M5\nRapid G00\n\nBeginRow\nM8\nEnd".into()),
         ("grbl", "ToolChange\nM9\nM5\nG0 G53 Z0\nT[tool]\nM0\nG[work]\nS[speed] M[direct]\nM[cool]\nG0 X[h] Y[v]\nZ[d]\nEnd".into()),
         ("", "Drill\nG0 X[h] Y[v]\nZ[vclear]\nG1 Z[d] F[frate]\nG0 Z[rplane]\nEnd".into()),
+        // the form prints the code of its units
+        ("", "Units inch\n\nStartCode\n%0\nO[program#]\nG20 G17 G40 G49 G80 G90\nEnd".into()),
+        ("", "Units mm\n\nStartCode\n%0\nO[program#]\nG[unitmode] G17 G40 G49 G80 G90\nEnd".into()),
+        // the old tool retracts in a macro, by a code of the machine's builder, or at the end of its operation
+        ("", "ToolChange\nM9\nG65 P9001\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "ToolChange\nM9\nM425\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "ToolChange\nM9\nG91 G28 Z0 T[tool] M6\nG90\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
+        ("", "ToolChange\nM9\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd\nEndOperation\nG0 G53 Z0\nEnd".into()),
         // each branch starts the spindle after its own tool change
         ("", "1stToolChange\n@if [tool] > 100\nG65 P[tool]\nS[speed] M[direct]\n@else\nT[tool] M6\nS[speed] M[direct]\n@end\nG[work] G0 X[h] Y[v]\nG43 H[lcomp] Z[d] M[cool]\nEnd".into()),
     ];
@@ -470,6 +478,12 @@ fn mistakes_are_found_in_other_words_too() {
         (
             "PF429",
             "Comment ;\n\n1stToolChange\nT[tool] ; M6 by hand\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d]\nEnd",
+        ),
+        ("PF316", "Units inch\n\nStartCode\n%0\nO[program#]\nG17 G40 G49 G80 G90\nEnd"),
+        ("PF316", "Units mm\n\nStartCode\n%0\nO[program#]\nG17 G40 G49 G80 G90\nEnd"),
+        (
+            "PF445",
+            "ToolChange\nM9\nM5\nM1\nT[tool] M6\nG[work] G0 X[h] Y[v] S[speed] M[direct]\nG43 H[lcomp] Z[d] M[cool]\nEnd",
         ),
         ("PF101", "  Limits X 0 20"),
         ("PF101", "\tMachineFile m.toml"),

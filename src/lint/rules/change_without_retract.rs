@@ -33,7 +33,8 @@ pub fn check(view: &View, diags: &mut Vec<Diag>) {
 /// or by text that lint does not read.
 fn may_retract(view: &View, block: &Block) -> bool {
     let unread = |word: &Word| {
-        let is_builders = word.code().is_some() && view.meaning(word).is_none_or(|meaning| meaning == Meaning::Unsaid);
+        let is_builders = word.code().is_some_and(|code| code.letter == b'M')
+            && matches!(view.meaning(word), None | Some(Meaning::Unsaid | Meaning::Harmless));
         let is_text = matches!(word.kind, WordKind::Quote(_) | WordKind::PropertyText(_) | WordKind::TextVar(_));
         is_builders || is_text || calls(view.settings.codes(), word)
     };

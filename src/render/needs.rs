@@ -2,6 +2,7 @@
 
 use super::fault::{Done, fault};
 use super::shape::Shape;
+use crate::compile::Op;
 use crate::control::Meaning;
 use crate::diag::Code;
 
@@ -36,17 +37,46 @@ impl Shape<'_> {
         }
     }
 
-    /// Checks the axis of this letter that the job moves.
+    /// Checks the rotary axis of this letter that the job moves.
     ///
     /// # Errors
-    /// The control has no such axis.
+    /// The control or the form has no such axis.
     pub fn needs_axis(&self, letter: u8) -> Done {
         let control = self.program.settings.control();
-        if control.reads(letter) {
-            return Ok(());
+        let name = char::from(letter);
+        if !control.reads(letter) {
+            let message = format!("{} has no axis {name}", control.title());
+            return fault(
+                Code::PR008,
+                message,
+                "use a form for a control with this axis, or leave the axis out of the job",
+            );
         }
-        let message = format!("{} has no axis {}", control.title(), char::from(letter));
-        fault(Code::PR008, message, "use a form for a control with this axis, or leave the axis out of the job")
+        if self.lacks_axis(letter) {
+            let help = format!(
+                "if the machine has this axis, give it a format at the top of the form: `{name}->4.>4`; otherwise use a \
+                 form for a machine with this axis, or leave the axis out of the job"
+            );
+            return fault(Code::PR008, format!("the form has no axis {name}"), help);
+        }
+        Ok(())
+    }
+
+    /// Whether the form defines its axes by their formats, but does not mention this one. A form without formats for
+    /// its axes uses the built-in formats for all of them.
+    fn lacks_axis(&self, letter: u8) -> bool {
+        let settings = &self.program.settings;
+        let has_formats = self.axes[..self.linear].iter().any(|&axis| self.letters[axis].has_format);
+        let is_printed = |op: &Op| match *op {
+            Op::Var { letter: own, .. } | Op::Formula { letter: own, .. } => own == letter,
+            Op::Literal { index, .. } => self.program.literals[index as usize].letter == letter,
+            _ => false,
+        };
+        has_formats
+            && !self.letters[letter].has_format
+            && !settings.limits.iter().any(|limit| limit.letter == letter)
+            && !settings.rename.iter().any(|&(from, _)| from == letter)
+            && !self.program.ops.iter().any(is_printed)
     }
 }
 

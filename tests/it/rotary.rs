@@ -37,6 +37,27 @@ fn a_rapid_beyond_the_travel_goes_to_the_same_view_within_it() {
     assert_eq!(lines[5..], ["G0 Z1.", "G1 A50. F10."]);
 }
 
+/// A form that gives its linear axes formats, but does not mention A, is for a machine without A.
+#[test]
+fn a_form_without_the_axis_refuses_the_job() {
+    let path = "{\"line\":[1,0,0]},{\"rapid\":[0,0,1,90]}";
+    let linear = "X->4.>4\nY->4.>4\nZ->4.>4";
+    let refused = ["PR008 the form has no axis A"];
+    let turned = ["G1 X1. Z0 F10.", "G0 X0 Z1. A90."];
+    for (head, sequences, lines) in [
+        (linear, "", &refused[..]),
+        // the form mentions A by a format, a travel, another name or a word
+        (&format!("{linear}\nA->4.>4"), "", &turned),
+        (&format!("{linear}\nLimits A -360 360"), "", &turned),
+        (&format!("{linear}\nRename A B"), "", &["G1 X1. Z0 F10.", "G0 X0 Z1. B90."]),
+        (linear, INDEX, &["G1 X1. Z0 F10.", "G0 Z9.", "A90.", "X0 Y0", "Z1."]),
+        // a form without formats of its own uses the built-in formats for all axes
+        ("", "", &turned),
+    ] {
+        assert_eq!(path_lines(head, sequences, path), lines, "{head}\n{sequences}");
+    }
+}
+
 /// If the tool change of a form moves down, the form must turn the part before this move.
 #[test]
 fn a_tool_change_turns_the_part_before_it_goes_down() {

@@ -178,6 +178,7 @@ codes! {
     PF715 Warning "a CommentLine that does not print the comment"
     PF716 Warning "a variable in backquotes"
     PF717 Warning "a number beside a length, in a form for both units"
+    PF718 Note "a list that leaves out items without a text"
     // PJ: the job
     PJ001 Error "the job is not well-formed"
     PJ002 Error "an unknown key"

@@ -25,7 +25,7 @@ fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
                     diags.push(
                         Diag::new(Code::PF711, format!("the lines of @for {each} print the same for each {each}"))
                             .at(*span, "no line of the list changes")
-                            .help("print a variable of the item, as `(T[tool] [toolname])`, or remove the list"),
+                            .help("print a variable of the item, as `(T[tool] D[toold])`, or remove the list"),
                     );
                 }
                 lists(inner, body, diags);

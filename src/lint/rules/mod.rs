@@ -43,6 +43,7 @@ mod increment_as_position;
 mod increments_left_on;
 mod increments_mixed;
 mod index_without_retract;
+mod item_without_text;
 mod length_code_without_h;
 mod length_in_one_unit;
 mod length_lost;
@@ -250,4 +251,5 @@ rules! {
     PF715 comment_line_without_text
     PF716 variable_in_quotes
     PF717 length_in_one_unit
+    PF718 item_without_text
 }

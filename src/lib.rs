@@ -102,7 +102,7 @@ pub mod internals {
         pub use crate::compile::{Program, compile};
     }
     pub mod control {
-        pub use crate::control::{Code, Control, Meaning, WithoutPoint, is_file, names};
+        pub use crate::control::{Code, Control, Kept, Meaning, WithoutPoint, is_file, names};
     }
     pub mod cycle {
         pub use crate::cycle::{stepped_pecks, thread_passes};

@@ -1,6 +1,6 @@
 //! Generates the reference pages of docs/ from the tables. A test compares the files with this output.
 
-use super::words::{origin, standing, takes, unit};
+use super::words::{origin, source, takes, unit};
 use crate::diag::CODES;
 use crate::lang::{COMMANDS, Machines, SEQUENCES, TEXTS, VARIABLES};
 use crate::lint::RULES;
@@ -19,7 +19,8 @@ fn cell(text: &str) -> String {
 pub fn commands() -> String {
     let mut text = head(
         "Commands of forms",
-        "Commands come before the first sequence. `postform explain NAME` shows a command with an example.",
+        "Commands come before the first sequence. `postform explain NAME` shows a command with an example. The last column \
+         gives the source of the command: the manual, an example of the manual, or ours (no public source defines it).",
     );
     text += "| command | takes | default | does | source |\n| --- | --- | --- | --- | --- |\n";
     for row in COMMANDS {
@@ -30,7 +31,7 @@ pub fn commands() -> String {
             row.name,
             cell(&takes(row.args)),
             cell(row.meaning),
-            standing(row.standing)
+            source(row.standing)
         );
     }
     text

@@ -50,6 +50,15 @@ pub fn standing(standing: Standing) -> &'static str {
     }
 }
 
+/// The source of a meaning in one word, for tables.
+pub fn source(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Doc => "manual",
+        Standing::Ex => "example",
+        Standing::Ours => "ours",
+    }
+}
+
 /// The arguments of a command, in words.
 pub fn takes(args: Args) -> String {
     let range = |least: u8, most: u8, one: &str, many: &str| match (least, most) {

@@ -152,7 +152,7 @@ variables! {
     Direct        "direct"         "Tools"              Code    Computed  "ML"   "code of the spindle direction (Spindle)"
     Side          "side"           "Tools"              Code    Computed  "MLE"  "code of the cutter compensation (CDC)"
     Program       "program#"       "Program"            Count   Asked     "MLE"  "program number"
-    Block         "block"          "Program"            Count   Job       "MLE"  "number of this block"
+    Block         "block"          "Program"            Count   Job       "MLE"  "number of this block, as Sequence#s counts; a value that is set replaces it"
     Sub           "sub"            "Program"            Count   Computed  "M"    "subprogram number"
     Subline       "subline"        "Program"            Count   Computed  "M"    "block number at which the subprogram starts"
     Times         "times"          "Program"            Count   Computed  "M"    "repeats of a subprogram"

@@ -155,7 +155,8 @@ impl Sides<'_> {
             Err(RunError::Refused(diag, line)) => {
                 let control = self.program.control().name();
                 let message = format!("{control} refuses the program: {} ({})", diag.message, diag.code.name());
-                let help = "`postform simulate PROGRAM --control NAME` shows the block and the correction";
+                let help = "`postform simulate PROGRAM --control NAME` shows the block and the correction; \
+                            `postform render --no-verify -o PROGRAM` writes the program";
                 self.differs(Code::PV015, line, message, help)
             }
             Err(RunError::Io(error)) if error.kind() == std::io::ErrorKind::Unsupported => {

@@ -133,16 +133,35 @@ fn slips_on_the_command_line() {
     fs::write(folder.join("haas.pf"), plain_post("haas.pf")).unwrap();
     fs::write(folder.join("job.json"), job("{\"line\":[1,0,0]}")).unwrap();
     fs::write(folder.join("part.nc"), "%\nO1\nM30\n%\n").unwrap();
-    let table: [(&[&str], &str); 6] = [
+    let table: [(&[&str], &str); 7] = [
         (&["lint", "job.json"], "job.json is a job, not a form"),
         (&["lint", "part.nc"], "part.nc is an NC program, not a form"),
         (&["render", "job.json", "--form", "part.nc"], "`postform simulate part.nc` runs programs"),
         (&["check", "haas.pf"], "`postform lint haas.pf` checks a form"),
         (&["render", "job.json", "--form", "has.pf"], "forms in that folder: haas.pf"),
         (&["render", "haas.pf", "--form", "job.json"], "the job comes first"),
+        (&["render", "job.json", "haas.pf"], "`postform render JOB --form haas.pf`"),
     ];
     for (arguments, wanted) in table {
         let (status, said) = said(&folder, arguments);
         assert!(status == Some(2) && said.contains(wanted), "{arguments:?}: {said}");
+    }
+}
+
+/// If neither the program, the command line nor the control gives the units, `simulate --dry` names the assumed units.
+#[test]
+fn a_summary_names_units_that_it_assumes() {
+    let folder = folder("slips-units");
+    let note = "note: part.nc has no unit code";
+    for (code, options, is_noted) in [
+        ("", &["--control", "fanuc"][..], true),
+        ("G20 ", &["--control", "fanuc"], false),
+        ("", &["--control", "fanuc", "--units", "inch"], false),
+        // each program of a Grbl begins in millimetres
+        ("", &["--control", "grbl"], false),
+    ] {
+        fs::write(folder.join("part.nc"), format!("{code}G90 G0 X1.\nG1 X2. F10.\nM30\n")).unwrap();
+        let (_, said) = said(&folder, &[&["simulate", "part.nc", "--dry"], options].concat());
+        assert_eq!(said.contains(note), is_noted, "{code}{options:?}: {said}");
     }
 }

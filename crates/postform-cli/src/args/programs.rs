@@ -85,9 +85,9 @@ pub struct SimulateArgs {
     /// Options for simulating the program
     #[command(flatten)]
     pub control: ControlArgs,
-    /// Units before the first G20 or G21
-    #[arg(long, value_name = "UNITS", default_value = "mm")]
-    pub units: UnitsArg,
+    /// Units before the first G20 or G21 [default: mm]
+    #[arg(long, value_name = "UNITS")]
+    pub units: Option<UnitsArg>,
     /// Output format of the motions
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     pub format: MotionFormat,

@@ -42,6 +42,12 @@ pub fn run(args: &RenderArgs, colour: bool) -> Result<Ending, String> {
     let jobs = if args.join { joined(args)? } else { args.jobs.clone() };
     let jobs: Vec<&Path> = jobs.iter().map(PathBuf::as_path).collect();
     if jobs.len() > 1 && !args.join {
+        if let Some(form) = jobs.iter().find(|job| files::is_form(job)) {
+            let name = files::name(form);
+            return Err(format!(
+                "error: {name} is a form, not a job\n  help: print a job with it: `postform render JOB --form {name}`"
+            ));
+        }
         let help = "give --out-dir FOLDER, or --join to make one program of them";
         return Err(format!("error: several jobs need a folder for their programs\n  help: {help}"));
     }

@@ -7,10 +7,12 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use postform::diag::Diag;
-use postform::internals::nc::{RunError, RunSettings, Simulator, Tally, json_line, settings_for};
+use postform::internals::control::Kept;
+use postform::internals::nc::{Action, RunError, RunSettings, Simulator, Tally, json_line, settings_for};
+use postform::toolpath::Units;
 
 use super::Ending;
-use super::args::{ControlArgs, MotionFormat, SimulateArgs, StartArg};
+use super::args::{ControlArgs, MotionFormat, SimulateArgs, StartArg, UnitsArg};
 use super::files::{self, io_message};
 use super::machine::{self, Fitting};
 use super::report::{Reporter, place_in};
@@ -31,7 +33,10 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let named = args.control.control.or(of_machine).or(config.control);
     let control = ControlArgs { control: named, ..args.control.clone() };
     let unknown = args.start == StartArg::Unknown;
-    let settings = RunSettings { places_unknown: unknown, ..control.settings(None, args.units.units()) };
+    let settings = RunSettings {
+        places_unknown: unknown,
+        ..control.settings(None, args.units.map_or(Units::Mm, UnitsArg::units))
+    };
     let mut program = files::open_program(&args.program)?;
     let settings = settings_for(&mut program, &args.program, settings)
         .map_err(|error| io_message("read", &args.program, &error))?;
@@ -39,6 +44,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     let mut simulator = Simulator::new(program, settings);
     let shown = text::Shown::of(&settings);
     let mut tally = Tally::new(settings.units);
+    let mut units_known = args.units.is_some() || settings.control.traits().modes_at_start != Kept::Yes;
     let mut warnings = Vec::new();
     let mut left_out = 0;
     let mut items = Vec::new();
@@ -49,6 +55,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
         items.clear();
         let step = simulator.step(&mut items);
         for item in &items {
+            units_known |= matches!(item.action, Action::Units(_));
             if args.dry {
                 tally.add(item);
             } else if args.format == MotionFormat::Json {
@@ -99,6 +106,12 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
     write(&mut out, &mut text)?;
     out.flush().or_else(ignore_closed)?;
     drop(out);
+    if args.dry && !units_known && refused.is_empty() {
+        message(&format!(
+            "note: {name} has no unit code: its lengths are taken as millimetres\n  help: give `--units inch` if they are \
+             inches"
+        ));
+    }
     let reporter = Reporter::new(colour);
     warnings.iter_mut().for_each(|diag| place_in(&name, diag));
     say(&reporter.text(&warnings, &[]));

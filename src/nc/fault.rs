@@ -1,5 +1,7 @@
 //! The error for a block that is refused.
 
+use std::fmt::Display;
+
 use crate::diag::{Code, Diag, Location};
 use crate::source::text_of;
 
@@ -52,4 +54,14 @@ pub(super) fn quoted(line: &[u8], start: usize, end: usize) -> String {
 /// Refuses a block: returns a fault without a column.
 pub fn refuse<T>(code: Code, message: impl Into<String>, help: impl Into<String>) -> Done<T> {
     Err(Fault::new(code, message, help))
+}
+
+/// Refuses a word that is in the block twice. `column`: the column of the second word.
+pub fn twice<T>(word: impl Display, column: usize) -> Done<T> {
+    Err(Fault::at(Code::PN002, column, format!("{word} is twice in the block"), "keep one of them"))
+}
+
+/// Stores the value of a word that a block may contain only once. `column`: the column of the word.
+pub fn once<T>(word: &mut Option<T>, value: T, name: &str, column: usize) -> Done {
+    if word.replace(value).is_some() { twice(name, column) } else { Ok(()) }
 }

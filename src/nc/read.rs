@@ -3,7 +3,7 @@
 use super::block::Block;
 use super::codes::{Group, bit, g_code, group, letters, m_code, m_group, takes_axes, why_not_run};
 use super::expression::Reader;
-use super::fault::{Done, Fault, quoted, refuse};
+use super::fault::{Done, Fault, quoted, refuse, twice};
 use super::flow::Flow;
 use super::parameters::Parameters;
 use super::scan::{Kind, tokens, tokens_from};
@@ -201,7 +201,7 @@ impl Block {
                 let slot = usize::from(letter == b'^');
                 match self.polar[slot].replace(value) {
                     None => Ok(()),
-                    Some(_) => twice(letter, column),
+                    Some(_) => twice(char::from(letter), column),
                 }
             }
             b'$' if control.is_linuxcnc() => {
@@ -219,7 +219,7 @@ impl Block {
                         self.next_tool = Some(value);
                         return Ok(());
                     }
-                    return twice(letter, column);
+                    return twice(char::from(letter), column);
                 }
                 let own = match control.traits().turns {
                     Turns::Tool => 0,
@@ -357,11 +357,6 @@ impl Block {
         }
         Ok(())
     }
-}
-
-fn twice<T>(letter: u8, column: usize) -> Done<T> {
-    let message = format!("{} is twice in the block", char::from(letter));
-    Err(Fault::at(Code::PN002, column, message, "keep one of them"))
 }
 
 /// The fault for a word that the simulator does not read on this control.

@@ -1,48 +1,26 @@
-//! Blocks that move or switch: `L X+10 R0 F500 M3`, `CC`, `C`, `CR`, `CP`, `LP`, `RND`, `CHF`, `CYCL CALL`.
+//! The parts of blocks that move: numbers, axis words, feeds, polar positions, arcs, `CC`, `RND`, `CHF`, `CYCL CALL`.
 
 use std::sync::Arc;
 
 use super::super::cursor::Cursor;
 use super::super::formula::{GENERAL, Rules, formula};
 use super::corner::Corner;
-use super::{Klartext, is_parameter};
+use super::cycles::{Cycle, per_minute};
+use super::{Klartext, Path, is_parameter};
 use crate::control::Meaning;
 use crate::diag::Code;
 use crate::nc::block::Block;
-use crate::nc::codes::{group, takes_axes};
-use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::codes::{Group, bit, group, takes_axes};
+use crate::nc::fault::{Done, Fault, once, refuse};
 use crate::nc::state::State;
-use crate::toolpath::Side;
 
 const FEED_WANTED: &str = "write F or FMAX in the block; the feed after a cycle is unknown";
-
-/// The words of a polar position: the name, whether the word is the angle, and whether the word is an increment.
-const POLAR: [(&[u8], bool, bool); 4] =
-    [(b"PR", false, false), (b"PA", true, false), (b"IPR", false, true), (b"IPA", true, true)];
-
-/// The words for the side of compensation.
-const SIDES: [(&[u8], Side, Meaning); 2] =
-    [(b"RL", Side::Left, Meaning::SideLeft), (b"RR", Side::Right, Meaning::SideRight)];
 
 /// Reads the words of a block.
 pub struct Words<'s> {
     pub own: &'s mut Klartext,
     pub state: &'s State,
     pub block: &'s mut Block,
-}
-
-/// The kind of a path block.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Path {
-    Line,
-    /// `LP`: a line to a polar position.
-    Polar,
-    /// `C`: an arc about the centre.
-    Arc,
-    /// `CR`: an arc by its radius.
-    Radius,
-    /// `CP`: an arc about the centre, to a polar position.
-    PolarArc,
 }
 
 impl Words<'_> {
@@ -100,112 +78,7 @@ impl Words<'_> {
         Ok(Some((axis, self.number(cursor)?, by)))
     }
 
-    /// Reads the words of a path block.
-    pub fn path(&mut self, path: Path, cursor: &mut Cursor<'_>) -> Done {
-        let at = self.state.place.position;
-        let letters = *self.state.control.axes();
-        let mut rapid = false;
-        let (mut turns_left, mut radius, mut polar) = (None, None, [None; 2]);
-        let (mut moves, mut calls) = (false, false);
-        while !cursor.is_over() {
-            let begin = cursor.at();
-            let is_polar = matches!(path, Path::Polar | Path::PolarArc);
-            if let Some((axis, value, by)) = self.axis(cursor)? {
-                moves = true;
-                let control = self.state.settings.control;
-                self.block.word(letters[axis], value, false, begin, control)?;
-                let marked = if by { &mut self.block.incremental } else { &mut self.block.absolute };
-                *marked |= 1 << axis;
-            } else if cursor.is_next(b"DR") {
-                *cursor = cursor.from(begin + 2);
-                turns_left = Some(match cursor.peek() {
-                    Some(b'+') => true,
-                    Some(b'-') => false,
-                    _ => return Err(cursor.unreadable()),
-                });
-                *cursor = cursor.from(cursor.at() + 1);
-            } else if let Some((name, is_angle, by)) = POLAR.iter().find(|word| is_polar && cursor.is_next(word.0)) {
-                *cursor = cursor.from(begin + name.len());
-                polar[usize::from(*is_angle)] = Some((self.number(cursor)?, *by));
-            } else if cursor.is_next(b"RND") {
-                return Err(cursor.unreadable());
-            } else if cursor.is_next(b"R0") {
-                *cursor = cursor.from(begin + 2);
-                if self.state.tool.side.is_some() {
-                    self.code(Meaning::SideOff)?;
-                }
-            } else if let Some((name, side, meaning)) = SIDES.iter().find(|word| cursor.is_next(word.0)) {
-                *cursor = cursor.from(begin + name.len());
-                if self.state.tool.side != Some(*side) {
-                    self.code(*meaning)?;
-                }
-            } else if path == Path::Radius && cursor.is_next(b"R") {
-                *cursor = cursor.from(begin + 1);
-                radius = Some(self.number(cursor)?);
-            } else if cursor.is_next(b"F") {
-                *cursor = cursor.from(begin + 1);
-                rapid |= self.feed(cursor)?;
-            } else if cursor.is_next(b"M140") {
-                *cursor = cursor.from(begin + 4);
-                self.back_along_tool(cursor)?;
-                (rapid, moves) = (true, true);
-            } else if cursor.is_next(b"M") {
-                calls |= self.switch(cursor)?;
-            } else {
-                return Err(cursor.unreadable());
-            }
-        }
-        if is_astray(path, polar) {
-            return refuse(
-                Code::PN007,
-                "the words of a polar position are missing",
-                "write PR and PA, or PA for an arc",
-            );
-        }
-        let goes = moves || matches!(path, Path::Polar | Path::PolarArc | Path::Arc);
-        if goes {
-            match path {
-                Path::Line => self.code(if rapid { Meaning::Rapid } else { Meaning::Line })?,
-                Path::Polar => {
-                    let to = self.polar(at, polar, true)?;
-                    self.code(if rapid { Meaning::Rapid } else { Meaning::Line })?;
-                    self.goes_to(to);
-                }
-                Path::Arc | Path::PolarArc | Path::Radius => {
-                    if rapid {
-                        return refuse(Code::PN006, "an arc at FMAX", "write its feed");
-                    }
-                    let Some(left) = turns_left else {
-                        return refuse(Code::PN007, "an arc without DR", "write DR+ or DR-");
-                    };
-                    self.code(if left { Meaning::ArcCcw } else { Meaning::ArcCw })?;
-                    self.arc(path, at, radius, polar, left)?;
-                }
-            }
-            if !rapid {
-                let Some(feed) = self.own.feed else {
-                    return refuse(Code::PN008, "a feed move without a feed", FEED_WANTED);
-                };
-                self.block.put(b'F', feed);
-            }
-            if path == Path::Line {
-                self.corner_ahead(at)?;
-            } else if self.own.ahead.is_some() {
-                return refuse(
-                    Code::PN016,
-                    "a rounding or chamfer next to an arc is not supported",
-                    "program the corner as moves",
-                );
-            }
-        }
-        // M99 calls the cycle once more, and ends the calls after each block
-        if calls || goes && self.own.calls_always {
-            self.call()?;
-        }
-        Ok(())
-    }
-
-    fn goes_to(&mut self, to: [f64; 2]) {
+    pub(super) fn goes_to(&mut self, to: [f64; 2]) {
         self.block.put(b'X', to[0]);
         self.block.put(b'Y', to[1]);
         self.block.absolute |= 0b11;
@@ -220,7 +93,7 @@ impl Words<'_> {
     }
 
     /// The position that the polar words and the centre define. The angle is measured from +X.
-    fn polar(&mut self, at: [f64; 6], words: [Option<(f64, bool)>; 2], keeps: bool) -> Done<[f64; 2]> {
+    pub(super) fn polar(&mut self, at: [f64; 6], words: [Option<(f64, bool)>; 2], keeps: bool) -> Done<[f64; 2]> {
         let center = self.center()?;
         let now = [at[0] - center[0], at[1] - center[1]];
         let (held, heading) = (now[0].hypot(now[1]), now[1].atan2(now[0]).to_degrees());
@@ -243,7 +116,7 @@ impl Words<'_> {
     }
 
     /// Sets the words of an arc that begins at the position of the tool.
-    fn arc(
+    pub(super) fn arc(
         &mut self,
         path: Path,
         at: [f64; 6],
@@ -299,16 +172,32 @@ impl Words<'_> {
             let message = "feeds per tooth or per turn are not supported";
             return Err(Fault::at(Code::PN016, cursor.at(), message, "write the feed per minute"));
         }
-        let value = self.number(cursor)?;
-        // in inch programs, feeds are written in tenths of an inch
-        self.own.feed = Some(if self.own.inch { value / 10.0 } else { value });
+        self.own.feed = Some(self.number(cursor)?);
         Ok(false)
     }
 
-    fn call(&mut self) -> Done {
-        let Some(cycle) = self.own.current_cycle() else {
-            return refuse(Code::PN006, "no cycle is defined for this call", "write CYCL DEF before the call");
-        };
+    /// The feed of a move, in the program's units per minute. `written`: the feed as the program contains it.
+    pub(super) fn feed_of_move(&self, written: Option<f64>) -> Done<f64> {
+        match written {
+            Some(written) => Ok(per_minute(written, self.own.inch)),
+            None => refuse(Code::PN008, "a feed move without a feed", FEED_WANTED),
+        }
+    }
+
+    fn defined_cycle(&self) -> Done<Cycle> {
+        match self.own.current_cycle() {
+            Some(cycle) => Ok(cycle),
+            None => refuse(Code::PN006, "no cycle is defined for this call", "write CYCL DEF before the call"),
+        }
+    }
+
+    /// Calls the defined cycle at the end of the block.
+    pub(super) fn call(&mut self) -> Done {
+        let cycle = self.defined_cycle()?;
+        self.call_cycle(cycle)
+    }
+
+    fn call_cycle(&mut self, cycle: Cycle) -> Done {
         cycle.check()?;
         self.block.call = Some(Arc::new(cycle));
         self.block.is_empty = false;
@@ -320,8 +209,9 @@ impl Words<'_> {
     /// Reads `CYCL CALL` and the M codes after it.
     pub fn cycle_call(&mut self, cursor: &mut Cursor<'_>) -> Done {
         if cursor.takes_word("POS") {
+            self.own.calls_always = false;
             self.path(Path::Line, cursor)?;
-            return self.call();
+            return self.call_at_position();
         }
         if cursor.takes_word("PAT") {
             return refuse(
@@ -340,9 +230,38 @@ impl Words<'_> {
         self.call()
     }
 
+    /// Runs `CYCL CALL POS X+10 Y+10 Z+5 FMAX`: the tool moves to X and Y at its height, and the cycle is called. Z is
+    /// no target of the tool, but shifts all heights of the cycle.
+    fn call_at_position(&mut self) -> Done {
+        let height = self.block.get(b'Z').filter(|_| self.block.incremental & 0b100 == 0);
+        let (Some(height), Some(_), Some(_)) = (height, self.block.get(b'X'), self.block.get(b'Y')) else {
+            let help = "write X, Y and Z, and Z without I: Z shifts the heights of the cycle";
+            return refuse(Code::PN007, "CYCL CALL POS without X, Y and the height Z", help);
+        };
+        if self.block.call.is_some() || self.block.g_meaning(Group::Once).is_some() {
+            return refuse(
+                Code::PN016,
+                "CYCL CALL POS with M89, M91, M92 or M99",
+                "write the block without the M code",
+            );
+        }
+        let mut cycle = self.defined_cycle()?;
+        let surface = cycle.lifted(height);
+        if self.state.at_machine() & 0b100 == 0 && self.state.position()[2] < surface {
+            let message = format!("CYCL CALL POS while the tool is below the surface of the hole, Z{surface}");
+            return refuse(Code::PN016, message, "move the tool above the surface in a block with L before the call");
+        }
+        self.block.given &= !bit(b'Z');
+        self.call_cycle(cycle)
+    }
+
     /// If a rounding or chamfer follows, shortens the line, so that it ends at the start of the corner.
-    fn corner_ahead(&mut self, at: [f64; 6]) -> Done {
+    pub(super) fn corner_ahead(&mut self, at: [f64; 6]) -> Done {
         let Some([rounding, next]) = self.own.ahead.take() else { return Ok(()) };
+        if rounding.contains(&b'/') || next.contains(&b'/') || self.block.g_meaning(Group::Once).is_some() {
+            let message = "a rounding or chamfer next to a block with `/` or a machine position is not supported";
+            return refuse(Code::PN016, message, "program the corner as moves");
+        }
         let target = |words: &Self, from: [f64; 2]| -> Done<[f64; 2]> {
             let mut to = from;
             let mut cursor = Cursor::new(&next, 0);
@@ -390,6 +309,7 @@ impl Words<'_> {
         }
         cursor.takes(b"R");
         let size = self.number(&mut cursor)?;
+        self.own.nominal = Some(corner);
         let corner = Corner::new([at[0], at[1]], corner, to, size, rounds)?;
         self.goes_to(corner.start);
         self.own.corner = Some(corner);
@@ -407,18 +327,16 @@ impl Words<'_> {
         };
         cursor.takes(b"R");
         self.number(cursor)?;
-        let mut feed = self.own.feed;
-        if cursor.takes(b"F") {
-            // this feed is active only in the corner
-            let held = feed;
-            self.feed(cursor)?;
-            feed = self.own.feed;
-            self.own.feed = held;
+        let held = self.own.feed;
+        if cursor.takes(b"F") && self.feed(cursor)? {
+            return refuse(Code::PN006, "a rounding or chamfer at FMAX", "write its feed");
         }
+        // the feed of this block is active only in the corner
+        let feed = std::mem::replace(&mut self.own.feed, held);
         if !cursor.is_over() {
             return Err(cursor.unreadable());
         }
-        let Some(feed) = feed else { return refuse(Code::PN008, "a feed move without a feed", FEED_WANTED) };
+        let feed = self.feed_of_move(feed)?;
         let at = self.state.place.position;
         match corner.arc {
             Some((center, left)) => {
@@ -433,27 +351,41 @@ impl Words<'_> {
         Ok(())
     }
 
+    /// Changes increments after a rounding or chamfer into positions: they begin at the corner that the program
+    /// contains, and not at the end of the rounding.
+    pub(super) fn after_corner(&mut self, corner: [f64; 2]) -> Done {
+        if self.block.g_meaning(Group::Once).is_some() {
+            let message = "a machine position after a rounding or chamfer is not supported";
+            return refuse(Code::PN016, message, "program the corner as moves");
+        }
+        for (axis, letter) in [b'X', b'Y'].into_iter().enumerate() {
+            let by = self.block.get(letter).filter(|_| self.block.incremental & 1 << axis != 0);
+            if let Some(by) = by {
+                self.block.set(letter, corner[axis] + by);
+                self.block.incremental &= !(1 << axis);
+                self.block.absolute |= 1 << axis;
+            }
+        }
+        Ok(())
+    }
+
     /// Reads `CC X+10 Y+20`. `CC` without words sets the centre to the position of the tool.
     pub fn circle_center(&mut self, cursor: &mut Cursor<'_>) -> Done {
         let at = self.state.place.position;
         let mut center = if cursor.is_over() { [at[0], at[1]] } else { self.own.center.unwrap_or([at[0], at[1]]) };
+        let mut given = [None; 2];
         while !cursor.is_over() {
+            let begin = cursor.at();
             match self.axis(cursor)? {
-                Some((axis @ (0 | 1), value, by)) => center[axis] = if by { at[axis] + value } else { value },
+                Some((axis @ (0 | 1), value, by)) => {
+                    center[axis] = if by { at[axis] + value } else { value };
+                    once(&mut given[axis], (), ["X", "Y"][axis], begin)?;
+                }
                 _ => return Err(cursor.unreadable()),
             }
         }
         self.own.center = Some(center);
         self.own.radius = None;
         Ok(())
-    }
-}
-
-/// Whether a block with a polar path lacks required words.
-fn is_astray(path: Path, words: [Option<(f64, bool)>; 2]) -> bool {
-    match path {
-        Path::Polar => words == [None; 2],
-        Path::PolarArc => words[1].is_none(),
-        _ => false,
     }
 }

@@ -24,6 +24,11 @@ const CYCLES: [(u16, &[u16], &[u16]); 9] = [
     (240, &[200, 343, 201, 206, 203, 204], &[344, 211]),
 ];
 
+/// A feed in the program's units per minute. In inch programs, feeds are written in tenths of an inch.
+pub fn per_minute(written: f64, inch: bool) -> f64 {
+    if inch { written / 10.0 } else { written }
+}
+
 /// The definition of a drilling cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
@@ -65,6 +70,13 @@ impl Cycle {
             return refuse(Code::PN016, "a depth by the diameter depends on the angle of the tool", help);
         }
         Ok(())
+    }
+
+    /// Shifts all heights of the cycle by a distance. Returns the new height of the surface.
+    pub fn lifted(&mut self, by: f64) -> f64 {
+        let surface = self.words.entry(203).or_default();
+        *surface += by;
+        *surface
     }
 
     fn get(&self, word: u16) -> f64 {
@@ -131,11 +143,9 @@ struct Work<'c> {
 impl<'c> Work<'c> {
     fn of(cycle: &'c Cycle, stand: &'c Stand) -> Work<'c> {
         let inch = stand.units == Units::Inch;
-        // in inch programs, feeds are written in tenths of an inch
-        let of_feed = |word: u16| if inch { cycle.get(word) / 10.0 } else { cycle.get(word) };
-        let (surface, into) = (cycle.get(203), of_feed(206));
-        // out of the hole: an infinite feed means a rapid, and 0 means the feed into the hole
-        let out = if cycle.get(208) == 0.0 { into } else { of_feed(208) };
+        let (surface, into) = (cycle.get(203), per_minute(cycle.get(206), inch));
+        // out of the hole: MAX and 99999 mean a rapid, and 0 means the feed into the hole
+        let out = if cycle.get(208) == 0.0 { cycle.get(206) } else { cycle.get(208) };
         let r = surface + cycle.get(200);
         Work {
             cycle,
@@ -144,7 +154,7 @@ impl<'c> Work<'c> {
             bottom: surface + cycle.get(201),
             r,
             into,
-            out: Some(out).filter(|out| out.is_finite() && *out < 99_999.0),
+            out: Some(out).filter(|out| *out < 99_999.0).map(|out| per_minute(out, inch)),
             mm: if inch { 1.0 / 25.4 } else { 1.0 },
             steps: vec![Step::Rapid(r)],
             peck: 0.0,
@@ -333,7 +343,12 @@ impl<'c> Work<'c> {
         }
         let dwell = self.cycle.get(211);
         let hole = Drilling {
-            cycle: Drill { code: Name { letter: b'q', tenths: self.cycle.number * 10 }, motions, dwells: dwell > 0.0 },
+            cycle: Drill {
+                code: Name { letter: b'q', tenths: self.cycle.number * 10 },
+                motions,
+                dwells: dwell > 0.0,
+                rigid,
+            },
             at: self.stand.at,
             plane: self.stand.plane,
             r: self.r,

@@ -3,11 +3,19 @@
 use std::collections::BTreeMap;
 
 use super::super::cursor::{Cursor, capitals};
-use super::block::{Path, Words};
+use super::Path;
+use super::block::Words;
 use super::cycles::Cycle;
 use crate::control::Meaning;
 use crate::diag::Code;
-use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::codes::bit;
+use crate::nc::fault::{Done, Fault, once, refuse, twice};
+
+/// The parameters of cycles that are feeds, which may be `AUTO`.
+const FEEDS: [u16; 4] = [206, 207, 208, 253];
+
+/// The feeds of cycles that may be `MAX`, a rapid.
+const FAST_FEEDS: [u16; 2] = [208, 253];
 
 impl Words<'_> {
     /// Reads `TOOL CALL 5 Z S2000 F300 DL+0.1`. Without a tool, the block only sets the speed.
@@ -26,12 +34,16 @@ impl Words<'_> {
             self.block.put(b'H', tool);
             self.block.m_word(6.0, 0, self.state.settings.control)?;
         }
+        let (mut axis, mut feed) = (None, None);
         while !cursor.is_over() {
             let begin = cursor.at();
             let rest = cursor.rest().to_ascii_uppercase();
             let skip = |count: usize, cursor: &mut Cursor<'_>| *cursor = cursor.from(begin + count);
             match (rest.first(), rest.get(1)) {
-                (Some(b'Z'), None | Some(b' ')) => skip(1, cursor),
+                (Some(b'Z'), None | Some(b' ')) => {
+                    skip(1, cursor);
+                    once(&mut axis, (), "Z", begin)?;
+                }
                 (Some(b'X' | b'Y'), None | Some(b' ')) => {
                     let message = "a tool along X or Y is not supported";
                     return Err(Fault::at(Code::PN016, begin, message, "write TOOL CALL with Z"));
@@ -48,7 +60,7 @@ impl Words<'_> {
                 (Some(b'S'), _) => {
                     skip(1, cursor);
                     let speed = self.number(cursor)?;
-                    self.block.put(b'S', speed);
+                    self.block.word(b'S', speed, false, begin, self.state.settings.control)?;
                 }
                 (Some(b'F'), _) => {
                     skip(1, cursor);
@@ -56,6 +68,7 @@ impl Words<'_> {
                     if self.feed(cursor)? {
                         return Err(cursor.unreadable());
                     }
+                    once(&mut feed, (), "F", begin)?;
                     self.own.tool_feed = self.own.feed;
                 }
                 _ => return Err(cursor.unreadable()),
@@ -103,20 +116,13 @@ impl Words<'_> {
             (7, _) if cursor.peek() == Some(b'#') => return unknown(": a row of a datum table"),
             (7, _) => self.datum(cursor)?,
             (9, _) => {
-                let text = cursor.rest();
-                let last = text.split(|byte| !byte.is_ascii_digit() && *byte != b'.').rfind(|part| !part.is_empty());
-                let seconds =
-                    last.and_then(|part| std::str::from_utf8(part).ok()).and_then(|part| part.parse::<f64>().ok());
-                let Some(seconds) = seconds else { return Err(cursor.unreadable()) };
+                let seconds = self.named_value(cursor)?;
                 self.dwell(seconds)?;
             }
             // a rotation or scaling is accepted only with the value that changes nothing
             (10 | 11, _) => {
-                let text = cursor.rest();
                 let neutral = if cycle == 10 { 0.0 } else { 1.0 };
-                let at = text.iter().position(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-'));
-                let value = at.and_then(|at| cursor.from(cursor.at() + at).signed());
-                if value != Some(neutral) {
+                if self.named_value(cursor)? != neutral {
                     return unknown(": it turns or scales the frame");
                 }
             }
@@ -130,8 +136,45 @@ impl Words<'_> {
         Ok(())
     }
 
+    /// Reads the value after a name, at the end of a line: `SCL 0.5`, `ROT+30`, `V.ZEIT 2`, `DWELL Q5`.
+    fn named_value(&self, cursor: &mut Cursor<'_>) -> Done<f64> {
+        loop {
+            let begin = cursor.at();
+            match cursor.letters() {
+                // a parameter
+                Some([b'Q' | b'q', ..]) => {
+                    *cursor = cursor.from(begin);
+                    break;
+                }
+                Some(_) if cursor.rest().get(1).is_none_or(|next| !next.is_ascii_digit()) => {
+                    cursor.takes(b".");
+                }
+                Some(_) => {}
+                None => break,
+            }
+        }
+        let value = self.number(cursor)?;
+        if cursor.is_over() { Ok(value) } else { Err(cursor.unreadable()) }
+    }
+
+    /// Reads `TOOL DEF 5`, which brings the next tool to its position for the tool change.
+    pub fn next_tool(&mut self, cursor: &mut Cursor<'_>) -> Done {
+        if cursor.unsigned().is_none() && cursor.quoted().or_else(|| cursor.name()).is_none() {
+            return Err(cursor.unreadable());
+        }
+        if cursor.is_over() {
+            return Ok(());
+        }
+        let message = "L and R of TOOL DEF set the length and the radius of the tool, which is not simulated";
+        let help = "enter the values in the tool table, and write TOOL DEF without them";
+        Err(Fault::at(Code::PN016, cursor.at(), message, help))
+    }
+
     /// Sets the words of a dwell in seconds.
     pub fn dwell(&mut self, seconds: f64) -> Done {
+        if seconds < 0.0 {
+            return refuse(Code::PN018, format!("a dwell of {seconds} s"), "write the time without the minus");
+        }
         self.code(Meaning::Dwell)?;
         self.block.put(b'P', seconds);
         Ok(())
@@ -160,15 +203,20 @@ impl Words<'_> {
                 continue;
             };
             let value = if cursor.takes_word("MAX") {
+                if !FAST_FEEDS.contains(&number) {
+                    return refuse(Code::PN018, format!("MAX as the value of {name}"), "write a number");
+                }
                 f64::INFINITY
-            } else if cursor.takes_word("AUTO") {
+            } else if FEEDS.contains(&number) && cursor.takes_word("AUTO") {
                 self.own
                     .tool_feed
                     .map_or_else(|| refuse(Code::PN008, "AUTO, but TOOL CALL has no feed", "write the feed"), Ok)?
             } else {
                 self.number(cursor)?
             };
-            words.insert(number, value);
+            if words.insert(number, value).is_some() {
+                return twice(&name, begin);
+            }
             self.own.values.insert(name, value);
         }
         Ok(words)
@@ -179,8 +227,12 @@ impl Words<'_> {
         self.code(Meaning::Frame)?;
         let shift = *self.state.shift();
         while !cursor.is_over() {
+            let begin = cursor.at();
             let Some((axis, value, by)) = self.axis(cursor)? else { return Err(cursor.unreadable()) };
             let letter = self.state.control.axes()[axis];
+            if self.block.has(bit(letter)) {
+                return twice(char::from(letter), begin);
+            }
             self.block.put(letter, if by { shift[axis] + value } else { value });
         }
         if self.block.has_axes() { Ok(()) } else { Err(cursor.unreadable()) }

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::super::cursor::{Cursor, capitals};
-use super::block::{Path, Words};
-use super::is_parameter;
+use super::block::Words;
+use super::{Path, is_parameter};
 use crate::diag::Code;
 use crate::nc::action::{Action, Item};
 use crate::nc::fault::{Done, Fault, refuse};
@@ -217,7 +217,10 @@ impl Simulator<'_> {
                 words.switches(cursor)?;
             }
             "TOOL" if cursor.takes_word("CALL") => words.tool_call(cursor)?,
-            "TOOL" if cursor.takes_word("DEF") => return Ok(Some(Jump::On)),
+            "TOOL" if cursor.takes_word("DEF") => {
+                words.next_tool(cursor)?;
+                return Ok(Some(Jump::On));
+            }
             "CYCL" if cursor.takes_word("CALL") => words.cycle_call(cursor)?,
             "CYCL" if cursor.takes_word("DEF") => words.cycle_definition(cursor)?,
             "TRANS" if cursor.takes_word("DATUM") => {
@@ -236,10 +239,16 @@ impl Simulator<'_> {
             "FUNCTION" if cursor.takes_word("DWELL") => {
                 cursor.takes(b"TIME");
                 let seconds = words.value(cursor)?;
+                if !cursor.is_over() {
+                    return Err(cursor.unreadable());
+                }
                 words.dwell(seconds)?;
             }
             "LBL" => {
                 let label = name(cursor);
+                if label.is_none() || !cursor.is_over() {
+                    return Err(cursor.unreadable());
+                }
                 if label.as_deref() == Some("0") && matches!(self.frames.last(), Some(Frame::Call { .. })) {
                     return self.return_from("LBL 0").map(Some);
                 }
@@ -282,7 +291,14 @@ impl Simulator<'_> {
             return Ok(Jump::Search(Search::Call(label, Vec::new(), 1)));
         }
         let words = Words { own: &mut self.klartext, state: &self.state, block: &mut self.block };
-        let times = words.value(cursor)?;
+        let begin = cursor.at();
+        let times = words.operand(cursor)?;
+        // older controls write the number of repeats, and the number that is left: `REP 3/3`
+        let left = if cursor.takes(b"/") { cursor.unsigned() } else { Some(times) };
+        if left != Some(times) || !cursor.is_over() {
+            let help = "write one number: REP 3, or the same number twice: REP 3/3";
+            return Err(Fault::at(Code::PN001, begin, "the number of repeats can't be read", help));
+        }
         if times.fract() != 0.0 || !(0.0..=65_534.0).contains(&times) {
             return refuse(Code::PN018, format!("REP {times} is not a number of repeats"), "write 1 to 65534");
         }
@@ -302,7 +318,9 @@ impl Simulator<'_> {
     /// Runs a function: `FN 1: Q2 = +Q1 + +5` or `FN 9: IF +Q1 EQU +Q2 GOTO LBL 5`.
     fn function(&mut self, cursor: &mut Cursor<'_>) -> Done<Jump> {
         let begin = cursor.at();
-        let Some(number) = cursor.unsigned() else { return Err(cursor.unreadable()) };
+        let Some(number) = cursor.unsigned().filter(|number| number.fract() == 0.0) else {
+            return Err(cursor.from(begin).unreadable());
+        };
         cursor.needs(b":")?;
         let number = number as u16;
         if (9..=12).contains(&number) {
@@ -340,7 +358,8 @@ impl Simulator<'_> {
             6 => of(cursor, "SIN", |x| x.to_radians().sin())?,
             7 => of(cursor, "COS", |x| x.to_radians().cos())?,
             8 => both(cursor, "LEN").map(|(a, b)| a.hypot(b))?,
-            _ => both(cursor, "ANG").map(|(a, b)| a.atan2(b).to_degrees())?,
+            // the angle is from 0 to 360
+            _ => both(cursor, "ANG").map(|(a, b)| a.atan2(b).to_degrees().rem_euclid(360.0))?,
         };
         if !value.is_finite() {
             return refuse(Code::PN014, format!("the result is {value}, not a number"), "check for a division by zero");
@@ -384,7 +403,8 @@ impl Simulator<'_> {
             let mut labels = HashMap::new();
             while self.read_line()? {
                 if let Some(label) = label(&self.line).filter(|label| label != "0") {
-                    labels.entry(label).or_insert(self.at);
+                    let at = self.at;
+                    labels.entry(label).and_modify(|(_, twice)| *twice = true).or_insert((at, false));
                 }
             }
             self.klartext.labels = Some(labels);
@@ -396,9 +416,13 @@ impl Simulator<'_> {
             Search::Label(label, _) => (label, false),
             Search::Part(_) => return Ok(()),
         };
-        let Some(start) = self.klartext.labels.as_ref().and_then(|labels| labels.get(&label)).copied() else {
-            let fault = Fault::new(Code::PN015, format!("there is no LBL {label}"), "check the spelling");
-            return Err(self.refused(fault));
+        let found = self.klartext.labels.as_ref().and_then(|labels| labels.get(&label)).copied();
+        let Some((start, false)) = found else {
+            let (message, help) = match found {
+                Some(_) => (format!("LBL {label} is twice in the program"), "give one of them another number"),
+                None => (format!("there is no LBL {label}"), "check the spelling"),
+            };
+            return Err(self.refused(Fault::new(Code::PN015, message, help)));
         };
         if calls {
             let frame = Frame::Call { label, back: self.at, start, times: 1, arguments: false };

@@ -7,6 +7,7 @@ mod corner;
 mod cycles;
 mod define;
 mod flow;
+mod path;
 mod switches;
 
 use std::collections::HashMap;
@@ -28,9 +29,9 @@ pub struct Klartext {
     center: Option<[f64; 2]>,
     /// The radius of the last polar position.
     radius: Option<f64>,
-    /// The active feed, in the program's units per minute.
+    /// The active feed as written. [`per_minute`](cycles::per_minute) converts it.
     feed: Option<f64>,
-    /// The feed of `TOOL CALL`, which `F AUTO` uses.
+    /// The feed of `TOOL CALL` as written, which `F AUTO` uses.
     tool_feed: Option<f64>,
     inch: bool,
     /// Whether `BEGIN PGM` has been read.
@@ -41,8 +42,11 @@ pub struct Klartext {
     ahead: Option<[Vec<u8>; 2]>,
     /// The corner that the previous line has calculated.
     corner: Option<corner::Corner>,
-    /// Labels with their positions in the input; `None`: the input has not been searched yet.
-    labels: Option<HashMap<String, Spot>>,
+    /// The corner itself, at which increments after the rounding or chamfer begin.
+    nominal: Option<[f64; 2]>,
+    /// Labels with their positions in the input, and whether the label is in the input twice; `None`: the input has not
+    /// been searched yet.
+    labels: Option<HashMap<String, (Spot, bool)>>,
     /// For each `CALL LBL 1 REP 3`: the line of the call, and the number of repeats that are left.
     repeats: Vec<(u64, u32)>,
     /// The statement of the current block that is not simulated.
@@ -63,6 +67,20 @@ impl Klartext {
         }
         Some(cycle)
     }
+}
+
+/// The kind of a path block.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Path {
+    Line,
+    /// `LP`: a line to a polar position.
+    Polar,
+    /// `C`: an arc about the centre.
+    Arc,
+    /// `CR`: an arc by its radius.
+    Radius,
+    /// `CP`: an arc about the centre, to a polar position.
+    PolarArc,
 }
 
 /// Whether a name is the name of a parameter: `Q5`, `QL1`, `QR2`.

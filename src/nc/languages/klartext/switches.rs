@@ -11,7 +11,9 @@ impl Words<'_> {
     pub(super) fn switch(&mut self, cursor: &mut Cursor<'_>) -> Done<bool> {
         let begin = cursor.at();
         *cursor = cursor.from(begin + 1);
-        let Some(code) = cursor.unsigned() else { return Err(cursor.unreadable()) };
+        let Some(code) = cursor.unsigned().filter(|code| code.fract() == 0.0) else {
+            return Err(cursor.from(begin).unreadable());
+        };
         match code as u16 {
             99 => {
                 self.own.calls_always = false;

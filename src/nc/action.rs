@@ -60,8 +60,8 @@ pub enum Action {
     Dwell(f64),
     /// The spindle gets a new state: its direction, and its speed in revolutions per minute or in the unit of the surface speed.
     Spindle(Rotation, f64),
-    /// The spindle is stopped at an angle.
-    Orient(f64),
+    /// The spindle is stopped at an angle in degrees; `None`: at the control's own angle.
+    Orient(Option<f64>),
     /// A stop.
     Stop(StopKind),
     /// The program has ended.
@@ -264,12 +264,14 @@ pub struct Cycle {
     pub motions: Motions,
     /// Whether the tool dwells at the bottom.
     pub dwells: bool,
+    /// For a tap: whether the control synchronises feed and spindle. `None`: the code of the cycle does not define it.
+    pub rigid: Option<bool>,
 }
 
 impl Cycle {
     /// The cycle of a row of the code table; `None`: the code of the row is not a cycle.
     pub fn of(row: &Row) -> Option<Cycle> {
-        Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells() })
+        Some(Cycle { code: row.code, motions: row.runs.motions?, dwells: row.dwells(), rigid: None })
     }
 
     /// The name of the cycle, as a program writes it.

@@ -294,7 +294,7 @@ impl State {
     /// Orients the spindle, moves the tool sideways away from the wall, and retracts.
     fn leave_aside(&mut self, hole: &Drilling, turning: Rotation, out: &mut Out<'_>) {
         self.turn(Rotation::Stop, out);
-        out.push(Action::Orient(0.0));
+        out.push(Action::Orient(None));
         self.rapid_beside(hole, hole.bottom, out);
         self.clear_beside(hole, out);
         self.rapid_clear(hole, out);
@@ -307,7 +307,7 @@ impl State {
         if !self.control.is_linuxcnc() {
             // on a Fanuc, R is below the part and Z is above R: the tool is still at the initial level here
             self.turn(Rotation::Stop, out);
-            out.push(Action::Orient(0.0));
+            out.push(Action::Orient(None));
             self.clear_beside(hole, out);
             self.rapid_beside(hole, hole.r, out);
             self.rapid_over(hole, hole.r, out);
@@ -319,7 +319,7 @@ impl State {
         }
         self.rapid_beside(hole, hole.r, out);
         self.turn(Rotation::Stop, out);
-        out.push(Action::Orient(0.0));
+        out.push(Action::Orient(None));
         self.rapid_beside(hole, hole.bottom, out);
         self.rapid_over(hole, hole.bottom, out);
         self.turn(turning, out);

@@ -20,8 +20,8 @@ pub enum Step {
     Dwell(f64),
     /// The spindle starts, with this direction and this speed.
     Turn(Rotation, f64),
-    /// The spindle stops at an angle in degrees.
-    Orient(f64),
+    /// The spindle stops at an angle in degrees; `None`: at the control's own angle.
+    Orient(Option<f64>),
     /// A rapid by these distances: along the two axes of the plane, and along the axis perpendicular to it.
     Aside([f64; 3]),
     /// A rapid to the upper limit of the axis. The height of this limit is known only at the machine.

@@ -200,7 +200,7 @@ impl State {
     /// Takes P, Q and the shift from the block, or their values from earlier blocks. The first block of a cycle must
     /// contain these words.
     fn words(&mut self, cycle: Cycle, same: bool, block: &Block) -> Done<Drilling> {
-        let Cycle { code: name, motions, dwells } = cycle;
+        let Cycle { code: name, motions, dwells, .. } = cycle;
         let missing = |letter: char| {
             let help = format!("write {letter} in the cycle's first block");
             refuse(Code::PN007, format!("{name} without {letter}"), help)

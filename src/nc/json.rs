@@ -44,7 +44,7 @@ pub fn json_line(item: &Item, state: &State, unknown: bool, out: &mut Vec<u8>) {
             name(b",\"spindle\":\"", rotation.name(), out);
             number(b",\"s\":", *speed, out);
         }
-        Action::Orient(angle) => number(b",\"orient\":", *angle, out),
+        Action::Orient(angle) => number(b",\"orient\":", angle.unwrap_or(0.0), out),
         Action::Stop(kind) => name(b",\"stop\":\"", stop_name(*kind), out),
         Action::End => name(b",\"stop\":\"", "end", out),
         Action::Tool(tool) => match state.tool_name(*tool) {

@@ -105,7 +105,7 @@ impl State {
                         return refuse(diag::Code::PN018, message, "write an angle from 0 to 360");
                     }
                     self.drive.spindle = Rotation::Stop; // an orientation also stops the spindle
-                    out.push(Action::Orient(angle));
+                    out.push(Action::Orient(Some(angle)));
                 }
                 Meaning::ToolChange | Meaning::ToolNumber | Meaning::Call | Meaning::Return | Meaning::End => {}
                 meaning if meaning.is_stop() => {}

@@ -76,7 +76,7 @@ impl Switches {
             Action::SurfaceSpeed(limit) => self.surface = *limit,
             Action::SpeedLimit(limit) => self.limit = Some(*limit),
             Action::Work(_) => self.work = true,
-            Action::Orient(angle) => self.oriented = Some(*angle),
+            Action::Orient(angle) => self.oriented = Some(angle.unwrap_or(0.0)),
             Action::Spindle(..) | Action::Tool(_) => self.oriented = None,
             _ => {}
         }

@@ -209,7 +209,8 @@ impl Seen {
             Action::Tool(tool) => format!("it changes to T{tool}"),
             Action::Dwell(seconds) => format!("it waits {seconds} s"),
             Action::Stop(_) => "it stops".to_owned(),
-            Action::Orient(angle) => format!("the spindle stops at {angle} degrees"),
+            Action::Orient(Some(angle)) => format!("the spindle stops at {angle} degrees"),
+            Action::Orient(None) => "the spindle stops at the control's own angle".to_owned(),
             _ => "it ends".to_owned(),
         };
         let Standing { tool, speed, rotation, .. } = &self.standing;

@@ -4,6 +4,7 @@ use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 
 use super::tables::{ANGLE, MOMENT, ORIENTED, ROUNDED};
+use crate::control::Motions;
 use crate::lang::Coolant;
 use crate::nc::{Position, Rotation, Threading, Turn, axes_of, sweep};
 use crate::toolpath::{FeedMode, Plane, Side};
@@ -113,9 +114,11 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Begins a tapping cycle of the control with this rotation. A rigid tap starts the spindle itself. A floating tap
-    /// uses the rotation that is already on.
-    pub fn taps(&mut self, inwards: Rotation) {
+    /// Begins a tapping cycle of the control. A rigid tap starts the spindle itself. A floating tap uses the rotation
+    /// that is already on. `rigid`: whether the cycle is rigid; `None`: M29 before it decides.
+    pub fn taps(&mut self, motions: Motions, rigid: Option<bool>) {
+        let inwards = if motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw };
+        self.rigid = rigid.or(self.rigid);
         let floats = self.rigid == Some(false);
         self.into_tap = self.rotation.filter(|_| floats);
         if !floats {
@@ -123,9 +126,9 @@ impl State {
         }
     }
 
-    /// Ends a canned cycle.
-    pub fn cycle_ends(&mut self) {
-        (self.into_tap, self.rigid) = (None, self.rigid.map(|_| false));
+    /// Ends a canned cycle. `ahead`: whether a separate code (M29) makes the next tap rigid.
+    pub fn cycle_ends(&mut self, ahead: bool) {
+        (self.into_tap, self.rigid) = (None, ahead.then_some(false));
     }
 }
 

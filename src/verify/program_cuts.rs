@@ -151,8 +151,10 @@ pub(super) fn differs(
         return Some(format!("the feed is {}, but {} in the old program", number(b), number(a)));
     }
     let taps = cut.by_cycle && found.by_cycle && !names.by_order;
-    if taps && (cut.state.rigid, cut.state.into_tap) != (found.state.rigid, found.state.into_tap) {
-        return Some("only one program synchronizes a tap with the spindle (M29)".to_owned());
+    // without a code or a cycle for each kind of tap, the taps of a control are rigid
+    let kind = |state: &State| (state.rigid.unwrap_or(true), state.into_tap);
+    if taps && kind(&cut.state) != kind(&found.state) {
+        return Some("only one program synchronizes a tap with the spindle".to_owned());
     }
     cutters([&cut.state, &found.state], tolerance).or_else(|| state(&cut.state, &found.state, names, program))
 }

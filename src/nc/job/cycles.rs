@@ -30,8 +30,12 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
         Motions::ShiftOut => {
             let help = "write the bore by hand, with `orient`, `offset` and the side";
             let name = hole.cycle.name();
-            let message =
-                format!("{name}: a parameter of the control sets the side to which the tool moves off the wall");
+            let message = match hole.cycle.code.letter {
+                b'G' | b'g' => {
+                    format!("{name}: a parameter of the control sets the side to which the tool moves off the wall")
+                }
+                _ => format!("{name}, a bore that moves the tool off the wall, is not read as a cycle of a job"),
+            };
             return unsaid(line, message, help);
         }
         Motions::Back | Motions::ByHand => {
@@ -50,7 +54,8 @@ pub(super) fn spec_of(hole: &Drilling, rigid: bool, line: u64) -> Result<CycleSp
     }
     // a dwell of zero seconds is left out, unless this kind of cycle requires a dwell
     spec.dwell = Some(hole.dwell).filter(|&seconds| seconds > 0.0 || kind == CycleKind::Face);
-    spec.rigid = (kind.is_tap() && rigid).then_some(true);
+    let floats = hole.cycle.rigid == Some(false);
+    spec.rigid = (kind.is_tap() && (rigid || floats)).then_some(rigid);
     Ok(spec)
 }
 

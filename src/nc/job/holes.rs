@@ -86,7 +86,8 @@ impl Reader<'_> {
         // a new tool has already left the reference point at its tool change
         let new_tool = self.operation && self.tool_is_new();
         if let Some(line) = self.home.take().filter(|_| !new_tool) {
-            return unsaid(line, "a cycle begins at the reference point", "write a rapid with Z before the cycle");
+            let message = "a cycle begins at an unknown height: at a machine position, or in another work offset";
+            return unsaid(line, message, "write a rapid with Z before the cycle");
         }
         let spec = spec_of(hole, self.rigid, self.place.line)?;
         self.rigid = false;

@@ -333,7 +333,7 @@ impl<'a> Program<'a> {
             }
             Action::Orient(angle) => {
                 self.state.rotation = Some(Rotation::Stop);
-                self.spin = if item.by_cycle { Spin::Oriented } else { Spin::At(*angle) };
+                self.spin = angle.map_or(Spin::Oriented, Spin::At);
             }
             Action::Tool(number) => self.tool(*number, item.line),
             Action::Length(register) => self.length(*register, item.line),
@@ -355,7 +355,7 @@ impl<'a> Program<'a> {
                 self.changed();
             }
             Action::Compensation(on) => self.compensation(*on, item.line),
-            Action::Hole(hole) => self.hole(hole.cycle.motions),
+            Action::Hole(hole) => self.hole(hole.cycle.motions, hole.cycle.rigid),
             Action::CycleOff => self.cycle_ends(),
             Action::End => {
                 self.ended = true;

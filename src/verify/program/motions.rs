@@ -5,6 +5,7 @@ use crate::control::Motions;
 use crate::nc::{Action, Item, Position, ROTARY, Rotation, Turn};
 use crate::toolpath::FeedMode;
 use crate::verify::cut::{Cut, Rapid, Spin, What};
+use crate::verify::expectation::taps_ahead;
 
 impl Program<'_> {
     pub(super) fn rapid(&mut self, to: &Position, [machine, astray, placed]: [u8; 3], line: u64) {
@@ -74,11 +75,11 @@ impl Program<'_> {
     }
 
     /// Begins a hole of a canned cycle.
-    pub(super) fn hole(&mut self, motions: Motions) {
+    pub(super) fn hole(&mut self, motions: Motions, rigid: Option<bool>) {
         self.cycle = true;
         if motions.taps() {
             self.before_tap.get_or_insert(self.state.rotation);
-            self.state.taps(if motions == Motions::Tap { Rotation::Cw } else { Rotation::Ccw });
+            self.state.taps(motions, rigid);
         } else if self.state.into_tap.is_some() {
             self.state.into_tap = None;
         }
@@ -93,7 +94,7 @@ impl Program<'_> {
             self.state.rotation = Some(Rotation::Stop);
             self.spin = Spin::Turns(Rotation::Stop);
         }
-        self.state.cycle_ends();
+        self.state.cycle_ends(taps_ahead(self.control));
     }
 
     /// The factor of the feed of a cut. If only rotary axes move, the feed is in degrees, and the same in all units.

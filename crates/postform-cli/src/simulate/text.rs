@@ -199,7 +199,7 @@ pub fn line(item: &Item, run: &Simulator<'_>, Shown { unknown, across, axes }: S
             text.text(rotation.name().as_bytes());
             "spindle"
         }
-        Action::Orient(value) => number_line(&mut text, *value, "orient"),
+        Action::Orient(angle) => number_line(&mut text, angle.unwrap_or(0.0), "orient"),
         Action::Tool(tool) => match run.state().tool_name(*tool) {
             Some(name) => name_line(&mut text, &escaped(&name), "tool"),
             None => number_line(&mut text, *tool, "tool"),

@@ -208,7 +208,7 @@ impl<'c> Work<'c> {
             4 => [0.0, by, 0.0],
             other => return refuse(Code::PN018, format!("Q214={other} is not a direction"), "write 0 to 4"),
         };
-        self.steps.extend([Step::Orient(self.cycle.get(336)), Step::Aside(aside)]);
+        self.steps.extend([Step::Orient(Some(self.cycle.get(336))), Step::Aside(aside)]);
         match self.out {
             Some(feed) => self.steps.push(Step::Feed(self.r, feed)),
             None => self.steps.push(Step::Aside([0.0, 0.0, self.r - self.bottom])),
@@ -342,6 +342,8 @@ impl<'c> Work<'c> {
             self.steps.push(Step::Rapid(clear));
         }
         let dwell = self.cycle.get(211);
+        // cycle 206 needs a compensating chuck
+        let rigid = motions.taps().then_some(self.cycle.number != 206);
         let hole = Drilling {
             cycle: Drill {
                 code: Name { letter: b'q', tenths: self.cycle.number * 10 },

@@ -91,7 +91,7 @@ impl Cycle {
                 let up = if top { r } else { back };
                 steps.extend([
                     Step::Feed(bottom, feed),
-                    Step::Orient(0.0),
+                    Step::Orient(None),
                     Step::Aside([shift[0], shift[1], 0.0]),
                     Step::Aside([0.0, 0.0, up - bottom]),
                     Step::Rapid(up),
@@ -112,7 +112,7 @@ impl Cycle {
             steps.push(leaves);
         }
         let hole = Drilling {
-            cycle: Drill { code: name, motions: self.motions, dwells: false },
+            cycle: Drill { code: name, motions: self.motions, dwells: false, rigid: None },
             at: stand.at,
             plane: stand.plane,
             r,

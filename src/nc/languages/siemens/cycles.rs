@@ -232,7 +232,7 @@ impl Cycle {
                 steps.splice(0..0, starts(turns(6)));
                 steps.push(Step::Feed(bottom, feed));
                 steps.extend(dwell(bottom_dwell));
-                steps.extend([Step::Orient(self.get(10)), Step::Aside([self.get(7), self.get(8), self.get(9)])]);
+                steps.extend([Step::Orient(Some(self.get(10))), Step::Aside([self.get(7), self.get(8), self.get(9)])]);
                 let mut lifted = [0.0; 3];
                 lifted[2] = r - (bottom + self.get(9));
                 steps.extend([Step::Aside(lifted), Step::Rapid(r)]);
@@ -256,8 +256,15 @@ impl Cycle {
             steps.push(Step::Rapid(back));
         }
         steps.extend(self.after_tap(stand));
+        // CYCLE840 needs a compensating chuck
+        let rigid = matches!(self.number, 84 | 840).then_some(self.number == 84);
         let hole = Drilling {
-            cycle: Drill { code: Name { letter: b'c', tenths: self.number * 10 }, motions, dwells: bottom_dwell > 0.0 },
+            cycle: Drill {
+                code: Name { letter: b'c', tenths: self.number * 10 },
+                motions,
+                dwells: bottom_dwell > 0.0,
+                rigid,
+            },
             at: stand.at,
             plane: stand.plane,
             r,

@@ -206,7 +206,7 @@ impl State {
             false => self.place.goes_home(named),
         }
         // a Fanuc makes this move at rapid, even if another motion is active
-        if rapid || !self.control.is_linuxcnc() {
+        if rapid || self.control.rules() == Rules::Fanuc {
             self.place.rapid_to(to, out);
         } else {
             let feed = self.drive.feed_of(block, self.modes.feed_mode)?;

@@ -6,7 +6,7 @@ use super::codes::{ARCS, Group, Motion, STRAIGHT, bit, is_one_of, letters};
 use super::fault::{Done, refuse};
 use super::out::{Next, Out};
 use super::state::State;
-use super::stops::runs_last;
+use super::stops::{runs_last, stops};
 use super::unpointed::SCALED;
 use crate::control::{Meaning, Row, Rules};
 use crate::diag::Code;
@@ -104,6 +104,7 @@ impl State {
             }
         } else {
             self.move_by_fanuc(motion, block, &mut out)?;
+            self.check_stops_at_hole(motion, block)?;
             if let Some(call) = &block.call {
                 self.call_cycle(call, &mut out)?;
             }
@@ -113,6 +114,18 @@ impl State {
             }
         }
         self.finish(block, &mut out)
+    }
+
+    /// Refuses a code that stops the spindle, the coolant or the program in a block that makes a hole. Most blocks run
+    /// such a code last, but a Fanuc runs it before the tool goes down, and a Siemens before it calls the modal cycle.
+    fn check_stops_at_hole(&self, motion: Motion, block: &Block) -> Done {
+        let of_fanuc = self.holes.cycle.is_some() && (motion.is_some() || begins_cycle(block));
+        if !block.has_m() || !of_fanuc && block.call.is_none() && block.pattern.is_none() {
+            return Ok(());
+        }
+        let Some((code, _)) = block.m().find(|(_, row)| stops(row.meaning)) else { return Ok(()) };
+        let message = format!("M{code} in a block that makes a hole takes effect before the hole on some controls");
+        refuse(Code::PN016, message, format!("write M{code} in a block of its own, after the hole"))
     }
 
     /// Continues a block that stopped because its output was full. The block must be unchanged.

@@ -13,7 +13,12 @@ use crate::toolpath::StopKind;
 /// Whether a code of this meaning takes effect after everything else in its block.
 pub(super) fn runs_last(meaning: Meaning) -> bool {
     use Meaning as M;
-    meaning.is_stop() || matches!(meaning, M::SpindleOff | M::CoolantOff | M::End | M::Call | M::Return)
+    stops(meaning) || matches!(meaning, M::End | M::Call | M::Return)
+}
+
+/// Whether a code of this meaning stops the spindle, the coolant or the program.
+pub(super) fn stops(meaning: Meaning) -> bool {
+    meaning.is_stop() || matches!(meaning, Meaning::SpindleOff | Meaning::CoolantOff)
 }
 
 impl State {

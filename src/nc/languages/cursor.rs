@@ -153,6 +153,23 @@ impl<'a> Cursor<'a> {
         Some(&rest[..length])
     }
 
+    /// Skips the text up to the bracket that closes an open `(`, and the bracket itself.
+    ///
+    /// # Errors
+    /// The bracket is missing.
+    pub fn pass_brackets(&mut self) -> Done {
+        let mut depth = 1;
+        for (length, byte) in self.rest().iter().enumerate() {
+            depth += i32::from(*byte == b'(') - i32::from(*byte == b')');
+            if depth == 0 {
+                self.goes_to(self.at + length + 1);
+                return Ok(());
+            }
+        }
+        self.goes_to(self.text.len());
+        self.needs(b")")
+    }
+
     /// Takes these bytes, which must come next.
     ///
     /// # Errors

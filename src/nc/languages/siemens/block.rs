@@ -11,7 +11,7 @@ use crate::diag::Code;
 use crate::nc::block::Block;
 use crate::nc::call::{Call, Pattern};
 use crate::nc::codes::{Group, bit, group, takes_axes};
-use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::fault::{Done, Fault, refuse, twice};
 use crate::nc::state::State;
 
 /// Numbers are equal in a comparison if they differ by at most this part of their size (Job Planning, section 1.7).
@@ -48,6 +48,9 @@ const HARMLESS: [&str; 27] = [
     "RTLION",
     "RTLIOF",
 ];
+
+/// Words with a value for the smoothing of the path by G641 and G642, which is not simulated.
+const SMOOTHING: [&str; 5] = ["ADIS", "ADISPOS", "ATOL", "CTOL", "OTOL"];
 
 /// Words of features that the simulator does not run, each with the name of its feature for messages.
 const NOT_RUN: [(&str, &str); 22] = [
@@ -152,7 +155,15 @@ impl Words<'_> {
                 if turns.fract() != 0.0 || !(0.0..=999.0).contains(&turns) {
                     return refuse(Code::PN018, format!("TURN={turns} is not a number of turns"), "write 0 to 999");
                 }
-                self.block.turns = turns as u32;
+                if std::mem::replace(&mut self.block.turns, turns as u32) > 0 {
+                    return twice("TURN", column);
+                }
+                Ok(())
+            }
+            _ if SMOOTHING.contains(&name.as_ref()) && cursor.takes(b"=") => {
+                let value = self.value(cursor)?;
+                self.own.left_out.push(format!("{name}={value}").into());
+                self.block.is_empty = false;
                 Ok(())
             }
             _ if is_harmless(&name) => {
@@ -237,13 +248,8 @@ impl Words<'_> {
     /// Converts the words of a block to the words of the simulator.
     fn settle(&mut self) -> Done {
         let block = &mut *self.block;
-        if let Some(edge) = block.get(b'D') {
-            // a D word selects a cutting edge, with its length and radius, of the tool in the spindle
-            let own = block.get(b'T').filter(|_| block.means(Meaning::ToolChange)).or(self.state.tool.loaded);
-            let register = if edge == 0.0 { 0.0 } else { own.unwrap_or(0.0) + (edge - 1.0) / 100.0 };
-            block.put(b'D', register);
-            block.put(b'H', register);
-        }
+        self.own.select_edge(block, self.state);
+        self.own.check_edge(block, self.state)?;
         if block.g_meaning(Group::Once) == Some(Meaning::Dwell) {
             let seconds = match (block.get(b'F'), block.get(b'S')) {
                 (Some(seconds), None) => seconds,
@@ -321,6 +327,7 @@ impl Words<'_> {
         let Some(number) = number.filter(|number| Cycle::is_known(*number)) else { return Ok(None) };
         // of the drilling cycles, only CYCLE85 has feeds as arguments
         self.own.check_feed(number == 85, self.state)?;
+        self.own.needs_edge()?;
         let mut arguments = self.arguments(cursor)?;
         while arguments.last() == Some(&None) {
             arguments.pop();
@@ -379,6 +386,7 @@ impl Words<'_> {
         };
         self.block.put_g(row, Group::Once, true);
         let mut by = if adds { *self.state.shift() } else { [0.0; 6] };
+        let mut given = 0u8;
         while !cursor.is_over() {
             let begin = cursor.at();
             let axis = cursor.letters().filter(|letters| letters.len() == 1);
@@ -399,6 +407,10 @@ impl Words<'_> {
                 cursor.signed().ok_or_else(|| cursor.unreadable())?
             };
             by[axis] = if adds { by[axis] + value } else { value };
+            if given & 1 << axis != 0 {
+                return twice(char::from(self.state.control.axes()[axis]), begin);
+            }
+            given |= 1 << axis;
         }
         let shift = self.state.shift();
         for (axis, letter) in self.state.control.axes().iter().enumerate() {

@@ -5,7 +5,7 @@ use super::ways::Siemens;
 use crate::control::{Basic, Meaning, Row};
 use crate::diag::Code;
 use crate::nc::block::Block;
-use crate::nc::codes::Group;
+use crate::nc::codes::{Group, bit};
 use crate::nc::fault::{Done, refuse};
 use crate::nc::state::State;
 use crate::toolpath::Units;
@@ -42,6 +42,44 @@ impl Siemens {
             "a feed after G70 or G71 has the unit of the machine, which may differ from that of lengths",
             help,
         )
+    }
+
+    /// Sets the registers of the active cutting edge. D selects an edge, with its length and radius, of the tool in the
+    /// spindle. D in the block of T, before M6, also selects the edge of the tool that M6 loads.
+    pub(super) fn select_edge(&mut self, block: &mut Block, state: &State) {
+        let mut edge = block.get(b'D');
+        let mut tool = state.tool.loaded;
+        if block.means(Meaning::ToolChange) {
+            tool = block.get(b'T').or(state.tool.number);
+            edge = edge.or(self.next_edge.take().filter(|_| block.get(b'T').is_none()));
+            self.no_edge = edge.is_none();
+        } else if block.get(b'T').is_some() {
+            self.next_edge = edge;
+        }
+        let Some(edge) = edge else { return };
+        self.no_edge = false;
+        let register = if edge == 0.0 { 0.0 } else { tool.unwrap_or(0.0) + (edge - 1.0) / 100.0 };
+        block.put(b'D', register);
+        block.put(b'H', register);
+    }
+
+    /// Refuses a move along the tool while machine data decides which tool length is active.
+    pub(super) fn check_edge(&self, block: &Block, state: &State) -> Done {
+        let letter = state.control.axes()[state.length_axis()];
+        let in_machine = block.g_meaning(Group::Once) == Some(Meaning::Machine);
+        if in_machine || block.axes_are_taken() || !block.has(bit(letter)) {
+            return Ok(());
+        }
+        self.needs_edge()
+    }
+
+    /// Refuses a block that needs the tool length if no D word has selected an edge since M6.
+    pub(super) fn needs_edge(&self) -> Done {
+        if !self.no_edge {
+            return Ok(());
+        }
+        let help = "write D1 after M6: without D, machine data (MD20270) decides which length is active";
+        refuse(Code::PN016, "no D since the tool change: the active tool length is unknown", help)
     }
 
     /// Refuses an increment of an axis directly after a change of its frame or of the tool length, because a setting of

@@ -171,7 +171,10 @@ impl Simulator<'_> {
                 }
                 // CYCLE832 only sets the smoothing of the path
                 None if name == "CYCLE832" => {
-                    words.arguments(&mut cursor)?;
+                    // the kind of machining may be a name of the control: `CYCLE832(0.05,_ROUGH,1)`
+                    if cursor.takes(b"(") {
+                        cursor.pass_brackets()?;
+                    }
                     words.own.left_out.push(capitals(line[at..cursor.at()].trim_ascii()).into());
                 }
                 None => {

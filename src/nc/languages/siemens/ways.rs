@@ -24,6 +24,10 @@ pub struct Siemens {
     pub(super) lengths_only: bool,
     /// As bits, the axes that have not moved to a position since their frame or the tool length changed.
     pub(super) shifted: u8,
+    /// The value of D in the block of T, for the tool that the next M6 loads.
+    pub(super) next_edge: Option<f64>,
+    /// Whether no D word has selected an edge since the last M6.
+    pub(super) no_edge: bool,
     /// The register of the last D word.
     pub(super) edge: Option<f64>,
     /// The arguments of a call. The arguments are stored until the `PROC` line of the subprogram is read.

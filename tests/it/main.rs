@@ -32,6 +32,7 @@ mod kept_jobs;
 mod key_order;
 mod kit;
 mod language_jobs;
+mod language_pairs;
 mod languages;
 mod lint_command;
 mod linuxcnc;

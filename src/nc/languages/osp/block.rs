@@ -10,7 +10,7 @@ use crate::control::{Code as Name, Meaning, Motions};
 use crate::diag::Code;
 use crate::nc::block::Block;
 use crate::nc::codes::{Group, bit, group, letters, takes_axes};
-use crate::nc::fault::{Done, Fault, refuse};
+use crate::nc::fault::{Done, Fault, refuse, twice};
 use crate::nc::state::State;
 
 /// Reads the words of a block.
@@ -39,6 +39,8 @@ pub struct Said {
     pub offset: Option<Meaning>,
     /// Whether the block sets the level to which cycles return: G71.
     pub level: bool,
+    /// Whether the block sets the return level: M52, M53 or M54.
+    pub back: bool,
 }
 
 impl Words<'_> {
@@ -73,7 +75,10 @@ impl Words<'_> {
                 "HA" => self.block.word(b'H', self.state.tool.loaded.unwrap_or(0.0), false, column, control)?,
                 "FA" => {
                     cursor.takes(b"=");
-                    self.said.feed_out = Some(self.value(cursor)?);
+                    let feed = self.value(cursor)?;
+                    if self.said.feed_out.replace(feed).is_some() {
+                        return twice("FA", column);
+                    }
                 }
                 _ => {
                     let message = format!("`{name}` is unknown");
@@ -110,7 +115,9 @@ impl Words<'_> {
         match meaning {
             Some(Meaning::Work | Meaning::Machine) => {
                 self.block.is_empty = false;
-                self.said.offset = meaning;
+                if self.said.offset.replace(row.map_or(Meaning::Work, |row| row.meaning)).is_some() {
+                    return twice("G15 or G16", column);
+                }
                 Ok(())
             }
             Some(Meaning::ReturnLevel) => {
@@ -155,6 +162,9 @@ impl Words<'_> {
                 self.own.back = Some(Back::Level(level));
             }
             _ => return self.block.m_word(value, column, control),
+        }
+        if std::mem::replace(&mut self.said.back, true) {
+            return twice("M52, M53 or M54", column);
         }
         self.block.is_empty = false;
         Ok(())

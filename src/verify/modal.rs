@@ -153,18 +153,11 @@ fn into_tap([wanted, is]: [&State; 2]) -> Option<Differs> {
 }
 
 fn rigid([wanted, is]: [&State; 2], tap: bool) -> Option<Differs> {
-    let (message, help) = match (wanted.rigid, is.rigid) {
-        (Some(true), Some(false)) => (
-            "the job's tap is rigid, but the program has no M29 to synchronize feed and spindle",
-            "print M29 S[speed] before the tap",
-        ),
-        (Some(false), Some(true)) => (
-            "the job's tap is in a floating holder, but the program's tap is rigid",
-            "print the cycle for a compensating chuck, such as CYCLE840 or CYCL DEF 206, or no M29",
-        ),
-        _ => return None,
-    };
-    tap.then(|| (Code::PV011, help, message.to_owned()))
+    if !tap || wanted.rigid != Some(true) || is.rigid != Some(false) {
+        return None;
+    }
+    let message = "the job's tap is rigid, but the program has no M29 to synchronize feed and spindle".to_owned();
+    Some((Code::PV011, "print M29 S[speed] before the tap", message))
 }
 
 fn compensation([wanted, is]: [&State; 2]) -> Option<Differs> {

@@ -47,8 +47,7 @@ impl Job {
             .spec
             .rigid
             .or(self.expectation.rigid_tap)
-            .filter(|rigid| reverses && *rigid && self.expectation.announces_taps)
-            .or(open.spec.rigid.filter(|rigid| reverses && !rigid));
+            .filter(|rigid| reverses && *rigid && self.expectation.announces_taps);
         let mut target = self.target(&hole.at);
         target.set(DEPTH, return_plane);
         let plane = steps.list.iter().take_while(|step| matches!(step, Step::Rapid(_))).last();

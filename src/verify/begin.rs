@@ -113,6 +113,12 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
             let message = format!("the hole at {} is drilled twice", over(&found.from));
             return s.differs(Code::PV003, line, message, "remove a second position line from the cycle");
         }
+        if !found.by_cycle && same(&hole.at, &found.end(), ACROSS, tolerance) {
+            s.found(Code::PV008, line, FEEDS, || {
+                format!("a feed move goes to the hole at {at}, but the job has a rapid")
+            });
+            return Ok(Begins::Before);
+        }
         let message = format!("the hole at {at} is not drilled: the next cut begins at {is}");
         return s.differs(Code::PV002, line, message, "print [h] and [v] in the cycle's position line");
     }
@@ -131,13 +137,16 @@ fn begins(s: &mut Sides<'_>, cut: &Cut, found: &Cut, hole: Option<&Expected>) ->
     Ok(Begins::There)
 }
 
+/// The correction of a feed move instead of a rapid.
+const FEEDS: &str = "print the rapid code (G0) for this move";
+
 /// Whether the program has a feed move to a position that the job reaches at rapid. If `true`, the difference is
 /// reported.
 pub(super) fn is_the_jobs_rapid(s: &mut Sides<'_>, found: &Cut) -> bool {
     let (end, tolerance) = (found.end(), s.limits.tolerance);
     let is = s.job.rapids.iter().any(|rapid| same(&rapid.to, &end, ALL, tolerance));
     if is {
-        s.found(Code::PV008, found.line, "print the rapid code (G0) for this move", || {
+        s.found(Code::PV008, found.line, FEEDS, || {
             format!("a feed move goes to {}, but the job has a rapid to this position", shown(&end, 0b111))
         });
     }

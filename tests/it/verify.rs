@@ -260,6 +260,25 @@ fn broken_forms_are_caught_by_name() {
     }
 }
 
+/// If a tool change has no G0 and the last tool ended at feed, the new tool goes to its first hole at feed.
+#[test]
+fn a_hole_that_is_reached_at_feed_is_a_rapid_at_feed() {
+    let job = document(
+        r#"{"postform":1,"program":7,"units":"mm","tools":[{"number":3},{"number":4}],"operations":[
+{"tool":3,"work":54,"spindle":{"speed":1000,"direction":"cw"},"path":[{"rapid":[0,0,2]},{"line":[0,0,-1],"feed":100},{"line":[9,0,2]}]},
+{"tool":4,"work":54,"spindle":{"speed":800,"direction":"cw"},"path":[
+ {"cycle":{"kind":"drill","depth":10,"clear":2,"return":20,"feed":100,"points":[[0,20,0],[10,20,0]]}}]}]}"#,
+    );
+    let later = "\nToolChange\nM9\nG91 G28 Z0 M5\nG90\nT[tool] M6\nG[work] ";
+    let good = post("fanuc.pf");
+    let form = check(&good.replacen(&format!("{later}G0 "), later, 1));
+    let verdict = verified(&form, &rendered(&form, &job, Cycles::Form), &job);
+    let Verdict::Different(findings) = verdict else { panic!("{verdict:?}") };
+    let first = &findings[0];
+    assert_eq!((first.code.name(), first.help), ("PV008", "print the rapid code (G0) for this move"));
+    assert!(first.message.starts_with("a feed move goes to the hole at X0 Y20"), "{}", first.message);
+}
+
 /// Changes in programs, each of which would damage a part or a machine.
 #[test]
 fn changed_programs_are_caught_and_rewritten_ones_are_not() {

@@ -40,6 +40,8 @@ pub enum Action {
         astray: u8,
         /// As bits, the `machine` axes whose machine position the program contains, by G28 or G53.
         placed: u8,
+        /// As bits, the `machine` axes that have not moved since the work offset changed.
+        kept: u8,
     },
     /// A straight feed move.
     Feed {

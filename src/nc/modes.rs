@@ -212,7 +212,7 @@ impl State {
             // an active cycle still returns to the initial level of the former work offset
             self.holes.series.initial_elsewhere |= self.holes.series.running;
             if self.settings.places_unknown {
-                self.place.loses_all();
+                self.place.loses_frame();
             }
         }
         out.push(Action::Work(work));

@@ -20,6 +20,9 @@ pub struct Place {
     pub astray: u8,
     /// As bits, the `at_machine` axes whose machine position the program contains.
     pub placed: u8,
+    /// As bits, the `at_machine` axes that have not moved since the work offset changed. Their position is unknown only
+    /// because the distance between the offsets is unknown.
+    pub kept: u8,
     /// As bits, the rotary axes that the program has turned away from 0.
     pub turned: u8,
     /// The coordinate frames of the program.
@@ -38,6 +41,7 @@ impl Place {
             at_machine,
             astray: 0,
             placed: 0,
+            kept: 0,
             turned: 0,
             frames: Frames::default(),
             work,
@@ -63,6 +67,7 @@ impl Place {
         self.at_machine &= !axes;
         self.astray &= !axes;
         self.placed &= !axes;
+        self.kept &= !axes;
     }
 
     /// Moves an axis by an increment.
@@ -71,6 +76,7 @@ impl Place {
         if by != 0.0 {
             self.astray |= self.at_machine & 1 << axis;
             self.placed &= !(1 << axis);
+            self.kept &= !(1 << axis);
         }
     }
 
@@ -79,6 +85,7 @@ impl Place {
         self.at_machine |= axes;
         self.astray |= axes;
         self.placed &= !axes;
+        self.kept &= !axes;
     }
 
     /// Moves axes to a machine position that the program contains.
@@ -86,6 +93,7 @@ impl Place {
         self.at_machine |= axes;
         self.astray &= !axes;
         self.placed |= axes;
+        self.kept &= !axes;
     }
 
     /// Moves axes to a machine position that the program does not contain, such as the position of a tool change or of
@@ -102,16 +110,25 @@ impl Place {
         self.turned |= (3..6).map(|axis| u8::from(to[axis] != 0.0) << axis).sum::<u8>();
     }
 
-    /// Makes the positions of all axes unknown, such as in another work offset. A rotary axis that the program has never
-    /// turned away from 0 stays: it may not exist, and all work offsets are measured at this angle.
+    /// Makes the positions of all axes unknown. A rotary axis that the program has never turned away from 0 stays: it may
+    /// not exist, and all work offsets are measured at this angle.
     pub fn loses_all(&mut self) {
         self.becomes_unknown(LINEAR | self.turned);
     }
 
-    /// Makes the position of axes unknown, although the axes do not move. From now on, the position is known only at
-    /// the machine.
+    /// Changes to a frame at an unknown distance. The tool stays where it is, but its position in the new frame is
+    /// unknown.
+    pub fn loses_frame(&mut self) {
+        let known = (LINEAR | self.turned) & !self.at_machine;
+        let kept = self.kept & self.at_machine;
+        self.loses_all();
+        self.kept = kept | known;
+    }
+
+    /// Makes the position of axes unknown. From now on, the position is known only at the machine.
     pub fn becomes_unknown(&mut self, axes: u8) {
         self.placed &= !axes;
+        self.kept &= !axes;
         self.astray &= self.at_machine;
         self.at_machine |= axes;
     }
@@ -121,7 +138,8 @@ impl Place {
     pub fn rapid_to(&mut self, to: Position, out: &mut Out<'_>) {
         self.reaches(to);
         let machine = self.at_machine;
-        out.push(Action::Rapid { to, machine, astray: self.astray & machine, placed: self.placed & machine });
+        let [astray, placed, kept] = [self.astray, self.placed, self.kept].map(|axes| axes & machine);
+        out.push(Action::Rapid { to, machine, astray, placed, kept });
     }
 
     /// Makes a straight feed move. `lead`: feed per revolution, if the move follows the spindle.

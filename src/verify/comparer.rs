@@ -253,7 +253,7 @@ impl Intent for Sides<'_> {
             self.report.allowed.slow += 1;
             return self.cut(&Cut { feed: None, ..cut.clone() }, None);
         }
-        self.rapid(Rapid { to: end, unknown: 0, spin: None })
+        self.rapid(Rapid { to: end, unknown: 0, kept: 0, spin: None })
     }
 
     fn wait(&mut self, seconds: f64) {

@@ -33,8 +33,17 @@ pub(super) struct Rapid {
     pub to: Place,
     /// Axes whose position is known only at the machine, as bits.
     pub unknown: u8,
+    /// Of the axes in `unknown`, the axes that have not moved since the work offset changed, as bits.
+    pub kept: u8,
     /// The state of the spindle, required by the job or set by the program, if the state matters.
     pub spin: Option<Spin>,
+}
+
+impl Rapid {
+    /// Whether the rapid ends at a machine position along one of these axes.
+    pub fn is_at_machine(&self, axes: u8) -> bool {
+        self.unknown & !self.kept & axes != 0
+    }
 }
 
 /// State of the spindle during a rapid.

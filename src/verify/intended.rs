@@ -359,7 +359,7 @@ impl Job {
     }
 
     pub(super) fn rapid_to(&self, to: &Axes, spin: Option<Spin>) -> Rapid {
-        Rapid { to: self.whole(to), unknown: self.unknown(), spin }
+        Rapid { to: self.whole(to), unknown: self.unknown(), kept: 0, spin }
     }
 
     pub(super) fn cut(&self, what: What) -> Cut {

@@ -1,7 +1,7 @@
 //! A passage: everything between two cuts, such as rapids, changes of tool and work offset, stops and dwells. The job
 //! has a passage between its cuts, and the program has a passage between its cuts.
 
-use super::cut::{ALL, DEPTH, Place, Rapid, same};
+use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
@@ -23,6 +23,42 @@ pub(super) struct Leg {
     home: bool,
     /// Length registers that were active while the tool moved to known heights. For a job: the tool's length register.
     pub lengths: Vec<Option<f64>>,
+}
+
+/// A change of the work offset. The tool stays at its height, but the number of this height in the new offset is
+/// unknown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    /// The new work offset.
+    pub work: Option<f64>,
+    /// The height of the tool, if it is known in an earlier frame.
+    pub height: Option<Standing>,
+    /// The first rapid in the new offset.
+    pub first: Option<Rapid>,
+}
+
+impl Entry {
+    /// Whether the first rapid in the new offset stays at the height that the tool had before the change.
+    pub fn keeps_height(&self) -> bool {
+        self.first.is_some_and(|first| first.kept & 1 << DEPTH != 0)
+    }
+
+    /// Whether the tool moves across at the height that it had before the change, or from that height.
+    pub fn crosses(&self) -> bool {
+        let stays_over = |first: Rapid| first.kept & ACROSS == 0b11 && first.kept & 1 << DEPTH == 0;
+        self.first.is_some_and(|first| !stays_over(first))
+    }
+}
+
+/// The height of the tool in the last frame in which it is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Standing {
+    /// The work offset of this frame.
+    pub work: Option<f64>,
+    /// Infinite at a machine position.
+    pub height: f64,
+    /// Whether the tool is still at the end of the last cut.
+    pub in_cut: bool,
 }
 
 /// An action between two cuts, such as a stop or a dwell.
@@ -171,7 +207,7 @@ impl Passage {
             Some(start) if self.rapids.is_empty() && self.legs.len() == 1 => {
                 *start = Rapid { to, unknown: 0, ..*start }
             }
-            _ => self.rapids.push(Rapid { to, unknown: 0, spin: None }),
+            _ => self.rapids.push(Rapid { to, unknown: 0, kept: 0, spin: None }),
         }
     }
 
@@ -211,7 +247,7 @@ impl Passage {
     /// Begins a new leg after each machine position along one of these axes. The job's passage also begins a leg where
     /// the job sends the tool home. Returns whether the passage contains a machine position along one of these axes.
     pub fn splits_at_home(&mut self, axes: u8) -> bool {
-        let is_home = |rapid: &Rapid| rapid.unknown & axes != 0;
+        let is_home = |rapid: &Rapid| rapid.is_at_machine(axes);
         let ends: Vec<usize> = (1..=self.rapids.len())
             .filter(|&at| is_home(&self.rapids[at - 1]) && !self.rapids.get(at).is_some_and(is_home))
             .collect();
@@ -293,16 +329,52 @@ impl Passage {
         corner.filter(|corner| corner.unknown == 0 && moved)
     }
 
+    /// The height of the tool after this number of rapids, in this leg. A change of the work offset does not move the
+    /// tool; at the position to which the job sends it, the tool is at least as high. `None`: the tool was changed since.
+    fn height_after(&self, rapids: usize, leg: usize) -> Option<Standing> {
+        let moved = (1..=rapids).rev().find(|&at| self.rapids[at - 1].kept & 1 << DEPTH == 0).unwrap_or_default();
+        let corner = moved.checked_sub(1).map_or(self.start, |last| self.rapids.get(last).copied())?;
+        let made = self.legs.iter().rposition(|leg| leg.from < moved).unwrap_or_default();
+        let [own, since @ ..] = self.legs.get(made..=leg)? else { return None };
+        let stays = |leg: &Leg| leg.frame.tool == own.frame.tool;
+        let height = if corner.unknown & 1 << DEPTH != 0 { f64::INFINITY } else { corner.to[DEPTH] };
+        let in_cut = self.after_cut && moved == 0;
+        since.iter().all(stays).then_some(Standing { work: own.frame.work, height, in_cut })
+    }
+
+    /// The height of the tool at a mark.
+    pub fn height_at<T>(&self, mark: &Mark<T>) -> Option<Standing> {
+        self.height_after(mark.at, mark.leg)
+    }
+
+    /// The height of the tool at the end of the passage.
+    pub fn last_height(&self) -> Option<Standing> {
+        self.height_after(self.rapids.len(), self.legs.len() - 1)
+    }
+
+    /// The changes of the work offset.
+    pub fn entries(&self) -> impl Iterator<Item = Entry> {
+        self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.work != pair[1].frame.work).map(
+            |(at, pair)| {
+                let (from, end) = (pair[1].from, self.legs.get(at + 2).map_or(self.rapids.len(), |leg| leg.from));
+                let first = self.rapids[from..end].first().copied();
+                Entry { work: pair[1].frame.work, height: self.height_after(from, at + 1), first }
+            },
+        )
+    }
+
     /// Whether the tool is at a machine position along one of these axes, or at the position to which the job sent it home.
     pub fn at_home<T>(&self, mark: &Mark<T>, axes: u8) -> bool {
         let sent = self.legs.get(mark.leg).is_some_and(|leg| leg.home && leg.from == mark.at);
         let last = mark.at.checked_sub(1).and_then(|last| self.rapids.get(last));
-        sent || last.is_some_and(|rapid| rapid.unknown & axes != 0)
+        sent || last.is_some_and(|rapid| rapid.is_at_machine(axes))
     }
 
     /// Whether the tool is still at the end of the last cut at this mark (such as a dwell).
     pub fn in_cut<T>(&self, mark: &Mark<T>, tolerance: f64) -> bool {
-        let Some(start) = self.start.filter(|_| self.after_cut && mark.leg == 0 && !mark.is_off) else { return false };
+        let is_here = |leg: &Leg| leg.frame.tool == self.legs[0].frame.tool && !leg.home;
+        let in_frames = mark.leg == 0 || mark.at == 0 && self.legs.iter().take(mark.leg + 1).all(is_here);
+        let Some(start) = self.start.filter(|_| self.after_cut && in_frames && !mark.is_off) else { return false };
         let stays = |rapid: &Rapid| {
             rapid.unknown == start.unknown && same(&rapid.to, &start.to, ALL & !start.unknown, tolerance)
         };

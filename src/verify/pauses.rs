@@ -48,10 +48,11 @@ fn stops(s: &mut Sides<'_>) {
             });
         }
         s.report.allowed.pauses += u64::from(is_elsewhere(s, stop, &made));
-        if let (Some(a), Some(b)) = (s.job.standing(stop), s.program.passage.standing(&made))
-            && b.to[DEPTH] < a.to[DEPTH] - tolerance
+        if let (Some(a), Some(b)) = (s.job.height_at(stop), s.program.passage.height_at(&made))
+            && b.height < a.height - tolerance
+            && a.height.is_finite()
         {
-            let [a, b] = [a, b].map(|corner| number(corner.to[DEPTH]));
+            let [a, b] = [a, b].map(|standing| number(standing.height));
             told(s, stop, Code::PV019, made.line, "retract before the stop", || {
                 format!("the program stops with the tool at Z{b}, but the job at Z{a}")
             });

@@ -12,6 +12,7 @@ pub(super) fn between(old: &Program<'_>, new: &Program<'_>, names: Names, tolera
     astray(old, new, tolerance)
         .or_else(|| frames(old, new, tolerance))
         .or_else(|| tool_data(old, new))
+        .or_else(|| entries(old, new, tolerance))
         .or_else(|| pauses(old, new, tolerance))
         .or_else(|| turrets(old, new))
         .or_else(|| homes(old, new, names))
@@ -27,6 +28,21 @@ fn astray(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     let alike = a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(&a.1, &b.1, ALL, tolerance));
     let message = "before this cut, incremental moves from an unknown machine position go to another position";
     (!alike).then(|| message.to_owned())
+}
+
+/// Compares the heights at which the tool first moves across in another work offset. The new program must be at least
+/// as high. The number of the height is known only in the offset before.
+fn entries(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String> {
+    let pairs = old.passage.entries().zip(new.passage.entries()).filter(|(_, now)| now.crosses());
+    pairs.into_iter().find_map(|(before, now)| {
+        let (was, is) = (before.height?, now.height?);
+        let is_lower = was.work == is.work && is.height < was.height - tolerance;
+        let text = |height: f64| if height.is_finite() { format!("Z{}", number(height)) } else { "home".to_owned() };
+        is_lower.then(|| {
+            let [is, was] = [is, was].map(|standing| text(standing.height));
+            format!("the work offset changes with the tool at {is}, but at {was} in the old program")
+        })
+    })
 }
 
 /// Compares the coordinate frames (G52, G92, G10, TRANS, TRANS DATUM) from which both programs measure positions.

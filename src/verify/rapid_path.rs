@@ -167,7 +167,7 @@ mod tests {
     fn way(points: &[[f64; 3]]) -> RapidPath {
         let rapids: Vec<Rapid> = points
             .iter()
-            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
+            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, kept: 0, spin: None })
             .collect();
         let mut way = RapidPath::default();
         way.set(None, &rapids, 1e-4);

@@ -3,7 +3,7 @@
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, RADIUS, Rapid, is_length, number, same, shown};
 use super::idle;
-use super::passage::{Frame, Leg};
+use super::passage::{Entry, Frame, Leg, Passage};
 use super::rapid_path::{turn_alike, turned_low};
 use super::sides::Sides;
 use super::tails::leaves_low;
@@ -227,9 +227,11 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
     job.set(s.job.start, own, tolerance);
     program.set(s.program.passage.start, other, tolerance);
     let turned = turned_low(&job.corners, &program.corners, tolerance);
+    let low_entry = low_entry(&s.job, &s.program.passage, tolerance);
     match leaves_hole(job, program, tolerance) {
         Some(Compared::Turning) => turns_otherwise(s, line),
         Some(_) if aside => stays_at_wall(s, line),
+        _ if low_entry.is_some() => enters_low(s, low_entry, line),
         // the job's own path, and then only rapids to a machine height
         _ if as_job && turned.is_none() && other[own.len()..].iter().all(|rapid| rapid.unknown & 1 << DEPTH != 0) => {}
         _ => {
@@ -247,6 +249,34 @@ fn leave(s: &mut Sides<'_>, until: usize, line: u64) -> bool {
         }
     }
     as_job
+}
+
+/// The program's first move across in another work offset at a height that is too low: lower than the job when it
+/// changes the offset, or still at the end of the cut although the job goes up there. Heights are compared in the same
+/// work offset.
+fn low_entry(job: &Passage, program: &Passage, tolerance: f64) -> Option<(Entry, f64)> {
+    let end = Entry { work: None, height: job.last_height(), first: None };
+    let own = job.entries().chain((!job.changed()).then_some(end));
+    program.entries().zip(own).filter(|(made, _)| made.crosses()).find_map(|(made, own)| {
+        let (is, wanted) = (made.height?, own.height?);
+        let goes_up = |first: Rapid| first.unknown & 1 << DEPTH == 0 && first.to[DEPTH] > is.height + tolerance;
+        let rises = is.in_cut && made.keeps_height() && own.first.is_some_and(goes_up);
+        let is_lower = is.height < wanted.height - tolerance && wanted.height.is_finite();
+        let is_same = wanted.work.is_none() || is.work == wanted.work;
+        (is_same && (rises || is_lower)).then_some((made, wanted.height))
+    })
+}
+
+/// Reports a move across in another work offset that is too low.
+fn enters_low(s: &mut Sides<'_>, entry: Option<(Entry, f64)>, line: u64) {
+    let Some((Entry { work, height: Some(is), .. }, limit)) = entry else { return };
+    let work = work.map_or("another work offset".to_owned(), |work| format!("work offset {}", number(work)));
+    s.found(Code::PV009, line, "retract before the change of the work offset, as high as in the job", || {
+        let [is_at, limit] = [is.height, limit].map(number);
+        let than =
+            if is_at < limit { format!("below the job's Z{limit}") } else { "the depth of the last cut".to_owned() };
+        format!("the first rapid in {work} crosses at Z{is_at} of the offset before, which is {than}")
+    });
 }
 
 /// Whether the program goes to exactly the job's positions. Positions after the first one that is known only at the

@@ -177,7 +177,7 @@ impl Sides<'_> {
     /// Ends the job's cut. The job's next path begins at the end of the cut.
     pub fn leave(&mut self, cut: &Cut, hole: Option<&Expected>) {
         self.hole.inside = hole.filter(|hole| !hole.custom).map(|hole| hole.plane);
-        self.job.begin(Rapid { to: cut.end(), unknown: 0, spin: None });
+        self.job.begin(Rapid { to: cut.end(), unknown: 0, kept: 0, spin: None });
     }
 
     /// The frame of the program's last cut.

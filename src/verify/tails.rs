@@ -56,7 +56,8 @@ mod tests {
     use crate::verify::cut::place;
 
     fn path(points: &[[f64; 3]]) -> RapidPath {
-        let rapid = |&[x, y, z]: &[f64; 3]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None };
+        let rapid =
+            |&[x, y, z]: &[f64; 3]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, kept: 0, spin: None };
         let mut path = RapidPath::default();
         path.set(None, &points.iter().map(rapid).collect::<Vec<_>>(), 1e-4);
         path

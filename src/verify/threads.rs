@@ -56,7 +56,7 @@ pub(super) fn thread(s: &mut Sides<'_>, cut: &Cut, thread: &Threaded) -> Done {
         if is_cut && (is_other || !has_lead || is_parted(&s.program.passage)) {
             break;
         }
-        let from = Rapid { to: found.from, unknown: found.unknown, spin: None };
+        let from = Rapid { to: found.from, unknown: found.unknown, kept: 0, spin: None };
         if count == 0 {
             // the approach from a position outside of the thread
             s.job.rapids.push(from);
@@ -139,11 +139,12 @@ fn leave(s: &mut Sides<'_>, thread: &Threaded, whole: f64) {
     let end = Rapid {
         to: place(&[thread.crest + thread.inward * whole, 0.0, thread.end, 0.0, 0.0, 0.0]),
         unknown: 0,
+        kept: 0,
         spin: None,
     };
     s.job.begin(end);
-    s.job.rapids.push(Rapid { to: out, unknown: 0, spin: None });
-    s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, spin: None });
+    s.job.rapids.push(Rapid { to: out, unknown: 0, kept: 0, spin: None });
+    s.job.rapids.push(Rapid { to: thread.begin, unknown: 0, kept: 0, spin: None });
 }
 
 /// Whether two passes have a stop, a dwell or a change of frame between them.

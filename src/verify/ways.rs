@@ -335,7 +335,7 @@ mod tests {
     fn way_within(points: &[[f64; 3]], tolerance: f64) -> RapidPath {
         let rapids: Vec<Rapid> = points
             .iter()
-            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, spin: None })
+            .map(|&[x, y, z]| Rapid { to: place(&[x, y, z, 0.0, 0.0, 0.0]), unknown: 0, kept: 0, spin: None })
             .collect();
         let mut way = RapidPath::default();
         way.set(None, &rapids, tolerance);
@@ -419,7 +419,12 @@ mod tests {
     /// subtracts full turns.
     #[test]
     fn a_hole_is_left_whatever_its_turns_are() {
-        let p = |z: f64, a: f64, spin: Option<Spin>| Rapid { to: place(&[1.0, 2.0, z, a, 0.0, 0.0]), unknown: 0, spin };
+        let p = |z: f64, a: f64, spin: Option<Spin>| Rapid {
+            to: place(&[1.0, 2.0, z, a, 0.0, 0.0]),
+            unknown: 0,
+            kept: 0,
+            spin,
+        };
         let turns = Some(Spin::Turns(crate::nc::Rotation::Cw));
         let (mut job, mut program) = (RapidPath::default(), RapidPath::default());
         job.set(Some(p(-1.0, -390.0, None)), &[p(-0.2, -390.0, turns), p(1.4, -390.0, None)], 1e-4);
@@ -435,6 +440,7 @@ mod tests {
         let p = |x: f64, y: f64, z: f64, b: f64, unknown: u8| Rapid {
             to: place(&[x, y, z, 0.0, b, 0.0]),
             unknown,
+            kept: 0,
             spin: None,
         };
         let job = [

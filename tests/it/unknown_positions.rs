@@ -125,3 +125,29 @@ fn increments_count_from_an_assumed_start() {
     let printed = printed(program, Some([1.0, 2.0, 3.0])).unwrap();
     assert!(printed.contains("X11.") && printed.contains("Y12."), "{printed}");
 }
+
+/// The same numbers in another work offset, or with another tool length, are another position.
+#[test]
+fn the_same_numbers_in_another_frame_are_another_position() {
+    let program = |between: &str| {
+        format!(
+            "G21 G17 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z50.\nG1 Z-5. F100.\n{between}\nG0 Z50.\nG54 X0 Y0\n\
+             G1 Z-5.\nG0 Z50.\nM30\n"
+        )
+    };
+    let up = "G0 Z50.\nG55 X0 Y0\nZ50.\nG1 Z-5.";
+    let cases = [
+        ("", "", true),
+        ("", "G55 G1 X0 Y0 Z-5.\nG54 X0 Y0 Z-5.", false),
+        ("", "H9\nG1 Z-5.\nH1\nZ-5.", false),
+        (up, up, true),
+        // the height at which the work offset changes
+        (up, "G55 G0 X0 Y0\nZ50.\nG1 Z-5.", false),
+        (up, "G0 Z20.\nG55 X0 Y0\nZ50.\nG1 Z-5.", false),
+    ];
+    for (old, new, wanted) in cases {
+        assert_eq!(same_motion(&program(old), &program(new)), wanted, "{old}\n\n{new}");
+    }
+    // a plunge at an unknown X and Y is no job
+    assert_eq!(printed(&program("G0 Z50.\nG55\nG1 Z-5."), None).unwrap_err(), "PN036");
+}

@@ -109,3 +109,70 @@ fn a_rapid_to_a_machine_height_is_shown_from_where_it_begins() {
     let found: Vec<&str> = findings.iter().map(|finding| &finding.message[..]).collect();
     assert!(found.iter().any(|message| message.contains("goes from Z40 to ") && !message.contains("Z0")), "{found:?}");
 }
+
+/// Two fixtures: the tool is at Z50 when the work offset changes. `STOP` is a stop or a move home before the change.
+const FIXTURES: &str = r#"{"postform":1,"program":1,"units":"mm","tools":[{"number":1}],"operations":[
+{"tool":1,"work":54,"spindle":{"speed":1000,"direction":"cw"},"feed":100,"path":[
+{"rapid":[0,0,50]},{"rapid":[0,0,5]},{"line":[0,0,-3]},{"rapid":[0,0,5]},{"rapid":[0,0,50]}STOP,
+{"work":55},{"rapid":[0,0,50]},{"rapid":[0,0,5]},{"line":[0,0,-3]},{"rapid":[0,0,50]}]}]}"#;
+
+/// A program of [`FIXTURES`] in which these blocks are between the two cuts.
+fn fixtures(between: &str) -> String {
+    format!(
+        "%\nO1\nG21 G17 G40 G49 G80 G90\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z50.\nZ5.\nG1 Z-3. F100.\n{between}\n\
+         G1 Z-3.\nG0 Z50.\nG91 G28 Z0 M5\nG28 X0 Y0\nG90\nM30\n%\n"
+    )
+}
+
+/// The codes of the differences; empty if the program is proven.
+fn codes(job: &str, between: &str) -> Vec<&'static str> {
+    match haas().verify(Job::json(job), &fixtures(between)).unwrap() {
+        Verdict::Different(findings) => findings.iter().map(|finding| finding.code.name()).collect(),
+        Verdict::Identical | Verdict::Equivalent(_) => Vec::new(),
+        other => panic!("{other}\n{between}"),
+    }
+}
+
+/// After a change of the work offset the number of the height is unknown, but the tool is still at the height that it
+/// had before. X and Y are unknown, too.
+#[test]
+fn the_tool_stays_where_it_is_when_the_work_offset_changes() {
+    let stop = FIXTURES.replace("STOP", r#",{"stop":"program"}"#);
+    let home = FIXTURES.replace("STOP", r#",{"home":true}"#);
+    let home_and_stop = FIXTURES.replace("STOP", r#",{"home":true},{"stop":"program"}"#);
+    let plain = FIXTURES.replace("STOP", "");
+    let depth = plain.replace(r#"{"rapid":[0,0,5]},{"rapid":[0,0,50]},"#, "");
+    let feed = plain.replace(r#"{"rapid":[0,0,5]},{"rapid":[0,0,50]},"#, r#"{"line":[0,0,50]},"#);
+    let cases: [(&str, &str, &[&str]); 24] = [
+        (&plain, "G0 Z50.\nG55 X0 Y0\nZ50.\nZ5.", &[]),
+        (&plain, "G0 Z60.\nG55 X0 Y0 Z50.\nZ5.", &[]),
+        (&plain, "G0 G53 Z0\nG55 X0 Y0\nG43 H1 Z5.", &[]),
+        (&plain, "G55 G0 X0 Y0\nZ5.", &["PV009"]),
+        (&plain, "G55 G0 X0 Y0\nZ50.\nZ5.", &["PV009"]),
+        (&plain, "G55 G0 X0 Y0 Z5.", &["PV009"]),
+        (&plain, "G0 Z5.\nG55 X0 Y0\nZ50.\nZ5.", &["PV009"]),
+        (&plain, "G56\nG55\nG0 X0 Y0\nZ5.", &["PV009"]),
+        // a plunge at the X and Y of the offset before
+        (&plain, "G0 Z50.\nG55", &["PV001"]),
+        (&plain, "G0 Z50.\nG55 Z5.", &["PV001"]),
+        // the job changes the offset at the depth of the cut, and goes up to its next position
+        (&depth, "G0 Z50.\nG55 X0 Y0\nZ50.\nZ5.", &[]),
+        (&depth, "G55 G0 X0 Y0 Z50.\nZ5.", &[]),
+        (&depth, "G55 G0 X0 Y0\nZ50.\nZ5.", &["PV009"]),
+        // the last cut is the retract
+        (&feed, "G1 Z50.\nG55 G0 X0 Y0\nZ50.\nZ5.", &[]),
+        (&stop, "G0 Z50.\nM0\nS1000 M3\nG55 G0 X0 Y0\nZ50.\nZ5.", &[]),
+        (&stop, "G0 Z50.\nG55\nM0\nS1000 M3\nG0 X0 Y0\nZ50.\nZ5.", &[]),
+        (&stop, "G55\nM0\nS1000 M3\nG0 Z50.\nX0 Y0\nZ5.", &["PV019"]),
+        (&plain, "G55\nM0\nS1000 M3\nG0 Z50.\nX0 Y0\nZ5.", &["PV019"]),
+        (&home, "G0 Z50.\nG91 G28 Z0\nG90\nG55 G0 X0 Y0\nG43 H1 Z50.\nZ5.", &[]),
+        (&home, "G0 Z50.\nG55 X0 Y0\nZ5.", &["PV001"]),
+        (&home, "G55 G0 X0 Y0\nG91 G28 Z0\nG90\nG43 H1 Z5.", &["PV009"]),
+        (&home_and_stop, "G0 Z50.\nG91 G28 Z0\nG90\nM0\nS1000 M3\nG55 G0 X0 Y0\nG43 H1 Z50.\nZ5.", &[]),
+        (&home_and_stop, "G0 Z50.\nG55 X0 Y0\nM0\nS1000 M3\nG43 H1 Z50.\nZ5.", &["PV019", "PV001"]),
+        (&home_and_stop, "G0 Z50.\nG55 X0 Y0\nM0\nS1000 M3\nG91 G28 Z0\nG90\nG43 H1 Z5.", &["PV019"]),
+    ];
+    let wrong: Vec<_> = cases.iter().filter(|(job, between, wanted)| codes(job, between) != *wanted).collect();
+    let is: Vec<_> = wrong.iter().map(|(job, between, wanted)| (between, wanted, codes(job, between))).collect();
+    assert!(is.is_empty(), "{is:#?}");
+}

@@ -238,7 +238,10 @@ impl<'a> Reader<'a> {
         if additional <= 0.0 && code >= 50.0 && self.counts_offsets() {
             return unsaid(line, format!("the work offset {code}"), "the work offsets of a job are 1 to 49");
         }
-        self.wanted.work = Some(if additional > 0.0 { additional + 6.0 } else { code });
+        let work = if additional > 0.0 { additional + 6.0 } else { code };
+        if self.wanted.work.replace(work).is_some_and(|before| before != work) {
+            self.known &= ROTARY; // the position in the new offset is unknown until the next move
+        }
         Ok(())
     }
 

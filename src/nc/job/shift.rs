@@ -37,8 +37,8 @@ impl Reader<'_> {
         }
         let [.., z] = self.shift;
         match action {
-            &Action::Rapid { to, machine, astray, placed } => {
-                Some(Action::Rapid { to: self.place_of(&to), machine, astray, placed })
+            &Action::Rapid { to, machine, astray, placed, kept } => {
+                Some(Action::Rapid { to: self.place_of(&to), machine, astray, placed, kept })
             }
             &Action::Feed { to, feed, lead, machine, home } => {
                 Some(Action::Feed { to: self.place_of(&to), feed, lead, machine, home })

@@ -47,6 +47,7 @@ impl Program<'_> {
             self.hazard(Code::PV014, line, message, "remove G43, or name a control with tool lengths");
         }
         self.due.length_changes(self.state.length, register, self.simulator.ends_length());
+        self.is_relengthened |= self.state.length != register;
         self.state.length = register;
     }
 

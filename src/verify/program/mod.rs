@@ -43,6 +43,9 @@ pub(super) struct Program<'a> {
     unknown: u8,
     /// Of the axes in `unknown`, the axes whose machine position is given in the program.
     placed: u8,
+    /// Whether the tool length offset has changed since the last move. The same position is then another height of the
+    /// machine.
+    is_relengthened: bool,
     state: Shared,
     spin: Spin,
     /// Whether M29 was run, and no axis has moved since.
@@ -91,7 +94,7 @@ impl<'a> Program<'a> {
             rigid: taps_ahead(settings.control).then_some(false),
             ..State::default()
         };
-        let start = Rapid { to: place(&[0.0; 6]), unknown: 0b111, spin: None };
+        let start = Rapid { to: place(&[0.0; 6]), unknown: 0b111, kept: 0, spin: None };
         let wire = settings.control.is_wire().then_some(0b1100);
         Program {
             simulator: Simulator::new(input, settings),
@@ -103,6 +106,7 @@ impl<'a> Program<'a> {
             at: place(&[0.0; 6]),
             unknown: 0b111,
             placed: 0,
+            is_relengthened: false,
             state: state.into(),
             spin: Spin::Turns(Rotation::Stop),
             is_rigid_ahead: false,
@@ -165,7 +169,7 @@ impl<'a> Program<'a> {
     /// position is unknown.
     fn begins(&mut self, unknown: u8) {
         self.unknown = unknown;
-        let start = Rapid { to: place(&[0.0; 6]), unknown, spin: None };
+        let start = Rapid { to: place(&[0.0; 6]), unknown, kept: 0, spin: None };
         self.passage = Passage::new(Some(start), self.frame());
     }
 
@@ -258,7 +262,7 @@ impl<'a> Program<'a> {
 
     /// The beginning of the path, which is the end of the last cut.
     pub fn start(&self) -> Rapid {
-        self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, spin: None })
+        self.passage.start.unwrap_or(Rapid { to: self.at, unknown: 0b111, kept: 0, spin: None })
     }
 
     /// The state of the spindle now.
@@ -308,7 +312,9 @@ impl<'a> Program<'a> {
             self.moves_after_rigid(item);
         }
         match &item.action {
-            Action::Rapid { to, machine, astray, placed } => self.rapid(to, [*machine, *astray, *placed], item.line),
+            Action::Rapid { to, machine, astray, placed, kept } => {
+                self.rapid(to, [*machine, *astray, *placed, *kept], item.line);
+            }
             Action::Threading(words) => self.state.thread = *words,
             Action::Feed { to, feed, lead, home, .. } => self.feed(to, (*feed, *lead), *home, item),
             Action::Arc(turn) => self.arc(*turn, item),
@@ -352,6 +358,7 @@ impl<'a> Program<'a> {
             Action::FeedMode(mode) => self.mode = *mode,
             Action::Work(code) if self.state.work != Some(*code) => {
                 self.state.work = Some(*code);
+                self.unknown |= self.scale.unknown(0b111);
                 self.changed();
             }
             Action::Compensation(on) => self.compensation(*on, item.line),

@@ -8,13 +8,14 @@ use crate::verify::cut::{Cut, Rapid, Spin, What};
 use crate::verify::expectation::taps_ahead;
 
 impl Program<'_> {
-    pub(super) fn rapid(&mut self, to: &Position, [machine, astray, placed]: [u8; 3], line: u64) {
+    pub(super) fn rapid(&mut self, to: &Position, [machine, astray, placed, kept]: [u8; 4], line: u64) {
         let own = to;
         let to = self.scale.place(to);
         let unknown = self.scale.unknown(machine);
         self.beam_goes(own, to[..2] != self.at[..2], machine, line);
         let is_known = |unknown: u8| unknown == 0 || self.scale.flat && unknown == 0b100;
-        if is_known(unknown) && is_known(self.unknown) && to == self.at {
+        let is_relengthened = std::mem::take(&mut self.is_relengthened);
+        if is_known(unknown) && is_known(self.unknown) && to == self.at && !is_relengthened {
             return; // nothing moves
         }
         self.check_frame(unknown, line);
@@ -44,7 +45,8 @@ impl Program<'_> {
             let placed = placed & !ROTARY | self.scale.axes(placed) & ROTARY;
             self.passage.reaches_machine(placed, point, &to);
         }
-        self.passage.rapids.push(Rapid { to, unknown, spin: Some(self.spin) });
+        let kept = self.scale.axes(kept);
+        self.passage.rapids.push(Rapid { to, unknown, kept, spin: Some(self.spin) });
     }
 
     /// Handles a straight cut. `lead`: feed per revolution, if the control synchronises the feed with the spindle.
@@ -58,7 +60,10 @@ impl Program<'_> {
         let to = self.scale.place(to);
         let home = self.scale.axes(home);
         if to == self.at && (self.unknown == 0 || self.scale.flat && self.unknown == 0b100) && home == 0 {
-            return; // a move of no length cuts nothing
+            if !self.is_relengthened {
+                return; // a move of no length cuts nothing
+            }
+            self.unknown |= self.scale.unknown(0b100);
         }
         if home == 0 {
             self.beam_cuts(own, item.line);
@@ -106,6 +111,7 @@ impl Program<'_> {
 
     pub(super) fn cuts_now(&mut self, what: What, home: u8, feed: f64, lead: Option<f64>, item: &Item) {
         self.check_frame(0, item.line);
+        self.is_relengthened = false;
         if self.length_is_due() {
             self.without_length(item.line, "the tool cuts without its length offset");
         }

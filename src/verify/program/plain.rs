@@ -84,7 +84,7 @@ impl Program<'_> {
         self.at = at;
         // the end of the cut may give a height that was unknown before
         self.unknown = self.scale.unknown(self.simulator.state().at_machine());
-        self.passage.begin(Rapid { to: at, unknown: self.unknown, spin: Some(self.spin) });
+        self.passage.begin(Rapid { to: at, unknown: self.unknown, kept: 0, spin: Some(self.spin) });
         self.cuts = true;
     }
 }

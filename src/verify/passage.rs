@@ -352,15 +352,15 @@ impl Passage {
         self.height_after(self.rapids.len(), self.legs.len() - 1)
     }
 
-    /// The changes of the work offset.
+    /// The changes of the work offset. Changes before which the tool does not move count as one.
     pub fn entries(&self) -> impl Iterator<Item = Entry> {
-        self.legs.windows(2).enumerate().filter(|(_, pair)| pair[0].frame.work != pair[1].frame.work).map(
-            |(at, pair)| {
-                let (from, end) = (pair[1].from, self.legs.get(at + 2).map_or(self.rapids.len(), |leg| leg.from));
-                let first = self.rapids[from..end].first().copied();
-                Entry { work: pair[1].frame.work, height: self.height_after(from, at + 1), first }
-            },
-        )
+        let last = self.legs.len() - 1;
+        (1..=last).filter(|&at| self.legs[at].frame.work != self.legs[at - 1].frame.work).filter_map(move |at| {
+            let (from, end) = (self.legs[at].from, self.legs.get(at + 1).map_or(self.rapids.len(), |leg| leg.from));
+            let first = self.rapids[from..end].first().copied();
+            let entry = Entry { work: self.legs[at].frame.work, height: self.height_after(from, at), first };
+            (at == last || first.is_some()).then_some(entry)
+        })
     }
 
     /// Whether the tool is at a machine position along one of these axes, or at the position to which the job sent it home.

@@ -21,6 +21,7 @@ mod idle;
 mod intended;
 mod intent;
 mod lines;
+mod measured;
 mod modal;
 mod passage;
 mod pauses;

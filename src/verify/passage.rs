@@ -2,6 +2,7 @@
 //! has a passage between its cuts, and the program has a passage between its cuts.
 
 use super::cut::{ACROSS, ALL, DEPTH, Place, Rapid, same};
+use super::measured::Measured;
 use super::wire_codes::Coded;
 use crate::nc::Rotation;
 use crate::toolpath::{self, StopKind};
@@ -87,6 +88,8 @@ pub(super) struct Passage {
     /// Whether the passage begins at the end of a cut. `false`: it begins at the start of the program.
     after_cut: bool,
     pub rapids: Vec<Rapid>,
+    /// The frames of the program's rapids.
+    pub measured: Measured,
     /// The parts of the path (legs), one for each frame. The list has at least one leg.
     legs: Vec<Leg>,
     pub stops: Vec<Mark<StopKind>>,
@@ -142,6 +145,7 @@ impl Passage {
             start,
             after_cut: false,
             rapids: Vec::new(),
+            measured: Measured::default(),
             legs: vec![Leg { frame, ..Leg::default() }],
             stops: Vec::new(),
             waits: Vec::new(),
@@ -166,6 +170,7 @@ impl Passage {
     pub fn begin(&mut self, start: Rapid) {
         (self.start, self.after_cut) = (Some(start), true);
         self.rapids.clear();
+        self.measured.clear();
         if self.legs.len() > 1 {
             self.legs.swap_remove(0);
             self.legs.truncate(1);

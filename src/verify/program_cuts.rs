@@ -27,7 +27,7 @@ impl Names {
         Names { by_order, registers: !by_order && own(a) == own(b) || !own(a) && !own(b) }
     }
 
-    fn work(self, work: Option<f64>) -> Option<f64> {
+    pub fn work(self, work: Option<f64>) -> Option<f64> {
         let additional = additional_work(0.0);
         match work {
             work if !self.by_order => work,
@@ -40,7 +40,7 @@ impl Names {
         }
     }
 
-    fn register(self, register: Option<f64>) -> Option<f64> {
+    pub fn register(self, register: Option<f64>) -> Option<f64> {
         register.filter(|_| self.registers)
     }
 }

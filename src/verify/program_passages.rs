@@ -1,6 +1,7 @@
 //! Compares what two programs do between two cuts: stops, dwells, frames, changes of the spindle, machine positions.
 
-use super::cut::{ALL, Spin, number, same, same_dwell};
+use super::cut::{ALL, Rapid, Spin, number, same, same_dwell};
+use super::measured::{self, Across, Between, Frames, Level, Other};
 use super::passage::Mark;
 use super::program::Program;
 use super::program_cuts::{Names, both_shown};
@@ -60,7 +61,51 @@ fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     }
     (!same(&before.at, &now.at, ALL, tolerance)).then(|| {
         let [now, before] = both_shown(&now.at, &before.at);
-        format!("the zero of the program is shifted to {now}, but to {before} in the old program")
+        let by_length = [old, new].iter().any(|program| program.frames().level.length == Some(0.0));
+        let with = if by_length { ", with the length of G43.1," } else { "" };
+        format!("the zero of the program{with} is shifted to {now}, but to {before} in the old program")
+    })
+}
+
+/// Compares the frames of the rapids: the work offset, the zero, the tool length and the cutter compensation.
+/// `before`: the frames at the last cut of both programs. `next`: whether both programs have reached a next cut.
+pub(super) fn frames_of_rapids(
+    [old, new]: [&Program<'_>; 2],
+    before: [Option<Frames>; 2],
+    next: bool,
+    names: Names,
+    tolerance: f64,
+) -> Option<String> {
+    let (a, b) = (&old.passage.rapids, &new.passage.rapids);
+    let alike = |(a, b): (&Rapid, &Rapid)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
+    let same_rapids = a.len() == b.len() && a.iter().zip(b).all(alike);
+    let [left, right] = [(old, before[0]), (new, before[1])].map(|(program, before)| Between {
+        measured: &program.passage.measured,
+        before,
+        next: next.then(|| program.frames()),
+    });
+    let across =
+        |frame: &Across| Across { work: names.work(frame.work), diameter: names.register(frame.diameter), ..*frame };
+    let level = |frame: &Level| Level { work: names.work(frame.work), length: names.register(frame.length), ..*frame };
+    let other = measured::differs(
+        &left,
+        &right,
+        same_rapids,
+        |a, b| across(a).is(&across(b), tolerance),
+        |a, b| level(a).is(&level(b), tolerance),
+    )?;
+    let [before, now] = match other {
+        Other::Across(pair) => pair.map(|frame| frame.map(|frame| frame.text())),
+        Other::Level(pair) => pair.map(|frame| {
+            frame.map(|frame| frame.text(&frame.tool.map_or("none".to_owned(), |tool| new.tool_text(tool))))
+        }),
+    };
+    Some(match (before, now) {
+        (Some(before), Some(now)) => {
+            format!("the rapids here are made with {now}, but with {before} in the old program")
+        }
+        (_, Some(now)) => format!("only the new program makes rapids here with {now}"),
+        (before, None) => format!("only the old program makes rapids here with {}", before.unwrap_or_default()),
     })
 }
 

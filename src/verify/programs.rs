@@ -6,10 +6,11 @@ use std::io::{Read, Seek};
 use super::cut::{Cut, State, number, shown};
 use super::expectation::Expectation;
 use super::folded::{begin_alike, hole, rounded_alike};
+use super::measured::Frames;
 use super::passage::TOO_LONG;
 use super::program::{Doubt, Program};
 use super::program_cuts::{Names, differs};
-use super::program_passages::{between, endings, leaving, switching};
+use super::program_passages::{between, endings, frames_of_rapids, leaving, switching};
 use super::rapid_path::{RapidPath, turn_alike, turned_low};
 use super::tails::leaves_low;
 use super::ways::{Compared, compare};
@@ -70,7 +71,7 @@ pub fn compare_motions(
     b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
     let ways = [RapidPath::default(), RapidPath::default()];
-    let mut pair = Pair { a, b, names, tolerance, ways, motions: Motions::default() };
+    let mut pair = Pair { a, b, names, tolerance, ways, before: [None; 2], motions: Motions::default() };
     pair.compare()?;
     Ok(Motions { has_slash: pair.a.has_slash() || pair.b.has_slash(), ..pair.motions })
 }
@@ -85,6 +86,8 @@ struct Pair<'a> {
     tolerance: f64,
     /// The rapids of both programs since the last cut.
     ways: [RapidPath; 2],
+    /// The frames of both programs at the last cut.
+    before: [Option<Frames>; 2],
     motions: Motions,
 }
 
@@ -142,10 +145,12 @@ impl Pair<'_> {
         }
         let message = differs(cut, &alike, way, tolerance, names, &self.a)
             .or_else(|| between(&self.a, &self.b, names, tolerance))
-            .or_else(|| switching(&self.a, &self.b, names));
+            .or_else(|| switching(&self.a, &self.b, names))
+            .or_else(|| self.frames(true));
         if message.is_some() {
             return Ok(message);
         }
+        self.before = [&self.a, &self.b].map(|program| Some(program.frames()));
         if folds {
             return self.hole(cut, found);
         }
@@ -169,6 +174,11 @@ impl Pair<'_> {
         }
     }
 
+    /// Compares the frames of the rapids since the last cut. `next`: whether the programs have reached a next cut.
+    fn frames(&self, next: bool) -> Option<String> {
+        frames_of_rapids([&self.a, &self.b], self.before, next, self.names, self.tolerance)
+    }
+
     /// Compares what both programs do after the last cut. The end of a program stops spindle and coolant anyway, so
     /// their codes are compared only at the cut.
     fn tail(&mut self) -> Option<String> {
@@ -183,6 +193,7 @@ impl Pair<'_> {
         let elsewhere = || !alike && (low(0, 1) || low(1, 0));
         between(&self.a, &self.b, self.names, self.tolerance)
             .or_else(|| leaving(&self.a, &self.b, self.names))
+            .or_else(|| self.frames(false))
             .or_else(|| elsewhere().then(|| "the path after the last cut is different".to_owned()))
             .or_else(|| endings(&self.a, &self.b))
     }

@@ -242,6 +242,53 @@ fn motions_differ_in_the_zero_of_the_program() {
     assert_eq!(found, "a cut goes to X10 Y0 Z-1 A30, but to X10 Y0 Z-1 A0 in the old program");
 }
 
+/// The same numbers of a rapid are another position of the machine with another tool length, work offset or zero.
+#[test]
+fn motions_differ_in_the_frames_of_rapids() {
+    let part = |retract: &str| {
+        format!(
+            "G21 G90\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z50.\nZ5.\nG1 Z-5. F100.\n{retract}\nG0 X0. Z50.\nG43 H1 Z5.\n\
+             G1 Z-6.\nG0 Z50.\nM30\n"
+        )
+    };
+    let old = "G0 Z50.\nX1. Z50.";
+    let length = |now: &str| {
+        format!(
+            "the rapids here are made with tool 1, {now}, work offset 54, but with tool 1, tool length offset H1, work \
+             offset 54 in the old program"
+        )
+    };
+    let only = |frame: &str| format!("only the new program makes rapids here with {frame}");
+    let level = |frame: &str| only(&format!("tool 1, tool length offset H1, {frame}"));
+    let rows = [
+        ("G0 Z60.\nX1. Z50.", None),
+        ("G43 H1 G0 Z50.\nX1.", None),
+        ("G49 G0 Z50.\nX1.", Some(length("no tool length offset"))),
+        ("H99 G0 Z50.\nX1.", Some(length("tool length offset H99"))),
+        ("G44 H1 G0 Z50.\nX1.", Some(length("tool length offset G44 H1"))),
+        // the offset changes where no rapid has a known height
+        ("G0 Z50.\nG91 G28 Z0\nG90 G49\nG0 X1.\nG43 H1 Z50.", None),
+        ("G0 Z50.\nG52 Z-100.\nX1. Z50.\nG52 Z0", Some(level("work offset 54, zero shifted to Z-100"))),
+        ("G0 Z50.\nG55 X1. Y0. Z50.\nG54 G0 X0. Y0. Z50.", Some(level("work offset 55"))),
+        ("G0 Z50.\nG41 D1 X1.\nG40", Some(only("work offset 54, cutter compensation left D1"))),
+    ];
+    for (new, expected) in rows {
+        assert_eq!(difference("fanuc", [old, new].map(part)), expected, "{new}");
+    }
+    // G43.1 gives the length as a number
+    let grbl =
+        |length: &str| format!("G21 G90\nG54 G0 X0 Y0 S1000 M3\nG43.1 Z{length}\nG0 Z10\nG1 Z-5 F100\nG0 Z10\nM2\n");
+    for name in ["grbl", "fluidnc", "grblhal", "linuxcnc"] {
+        assert_eq!(difference(name, ["5", "5"].map(grbl)), None, "{name}");
+        let found = difference(name, ["5", "50"].map(grbl)).unwrap();
+        let zeros = "X0 Y0 Z50, but to X0 Y0 Z5";
+        assert_eq!(
+            found,
+            format!("the zero of the program, with the length of G43.1, is shifted to {zeros} in the old program")
+        );
+    }
+}
+
 /// Two programs differ if only one of them sets its units, or if they end in different ways.
 #[test]
 fn motions_differ_in_units_and_end() {

@@ -49,6 +49,8 @@ impl Program<'_> {
         self.due.length_changes(self.state.length, register, self.simulator.ends_length());
         self.is_relengthened |= self.state.length != register;
         self.state.length = register;
+        // the program gives the length as a number: G43.1
+        self.moves_zero |= register == Some(0.0);
     }
 
     /// Switches the cutter compensation.

@@ -38,6 +38,12 @@ impl Program<'_> {
                 leg.lengths.push(length);
             }
         }
+        let is_known = |axis: &usize| unknown & 1 << axis == 0;
+        let moves = |axis: usize| self.at[axis] != to[axis] || self.unknown & 1 << axis != 0;
+        if (0..8).filter(is_known).any(moves) {
+            let (at, frames) = (self.passage.rapids.len(), self.frames());
+            self.passage.measured.rapid(at, &frames, unknown & heights == 0);
+        }
         (self.at, self.unknown, self.placed) = (to, unknown, placed);
         if placed != 0 {
             // the machine's zero is at the point of G28

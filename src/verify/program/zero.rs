@@ -1,9 +1,10 @@
 //! The zero from which a program measures its positions: the work offset, with the shifts of G52 and G92.
 
-use super::Program;
+use super::{Program, State};
 use crate::diag::Code;
 use crate::nc::Action;
-use crate::verify::cut::Place;
+use crate::verify::cut::{DEPTH, Place};
+use crate::verify::measured::{Across, Frames, Level};
 
 /// The zero of a program. A work offset that the program does not set is at the machine's zero.
 pub(in crate::verify) struct Zero {
@@ -28,6 +29,17 @@ impl Program<'_> {
         if *action != Action::Frame || !stays && !is_reported_later {
             let message = "the program moves its coordinate frame, so the positions of the job are shifted";
             self.hazard(Code::PV021, line, message, "remove G10, G52 or G92");
+        }
+    }
+
+    /// The frames in which the program measures its positions now.
+    pub fn frames(&self) -> Frames {
+        let Zero { mut at, angle, .. } = self.zero();
+        let height = std::mem::take(&mut at[DEPTH]);
+        let State { tool, work, length, side, diameter, .. } = *self.state;
+        Frames {
+            across: Across { work, zero: at, angle, side: side.flatten(), diameter },
+            level: Level { tool, work, length, zero: height },
         }
     }
 

@@ -37,7 +37,12 @@ pub(super) fn circle(words: &[Word], sense: Option<Sense>, state: &mut State<'_>
         _ => return fault(Code::PL001, "a CIRCLE that can't be read", "write CIRCLE/x,y,z,i,j,k,r"),
     };
     let axis = motion.shift.turned(axis);
-    let along = (0..3).find(|&i| axis[i].abs() > 0.999_999);
+    let length = axis.iter().map(|part| part * part).sum::<f64>().sqrt();
+    if length == 0.0 {
+        let help = "write the axis of the circle after its centre, such as 0,0,1";
+        return fault(Code::PL001, "a circle with an axis of no direction, 0,0,0", help);
+    }
+    let along = (0..3).find(|&i| axis[i].abs() > 0.999_999 * length);
     let Some(along) = along else {
         return fault(Code::PL004, "an arc in a tilted plane", "let the CAM system write lines for the arc");
     };

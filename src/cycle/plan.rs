@@ -76,7 +76,9 @@ impl Plan {
         rpm: Option<f64>,
     ) -> Result<Plan, Problem> {
         let clear = spec.clear.unwrap_or(defaults.clear);
-        let depth = own_depth.or_else(|| spec.deepest()).or_else(|| sink_depth(spec, defaults));
+        let sink = sink_depth(spec, defaults);
+        one_depth(spec, own_depth, sink)?;
+        let depth = own_depth.or_else(|| spec.deepest()).or(sink);
         let depth = match (depth, spec.kind) {
             (Some(depth), _) => depth,
             (None, CycleKind::Manual) => -clear,
@@ -115,6 +117,26 @@ impl Plan {
         };
         let lead = rpm.filter(|&rpm| rpm > 0.0).map(|rpm| feed / rpm);
         Ok(Plan { clear, bottom: -depth, feed, dwell, lead })
+    }
+}
+
+/// Checks that the depth of a hole is the depth that its other options give: the last of the webs or pecks, or the
+/// depth of the countersink, which a job may give rounded.
+fn one_depth(spec: &CycleSpec, own_depth: Option<f64>, sink: Option<f64>) -> Result<(), Problem> {
+    const ROUNDED: f64 = 1e-3;
+    let rows = [
+        ("`webs`", spec.webs.last().copied(), 1e-6),
+        ("`pecks`", spec.pecks.last().map(|peck| peck.to), 1e-6),
+        ("`diameter` and `angle`", sink, ROUNDED),
+    ];
+    let Some(depth) = own_depth.or(spec.depth) else { return Ok(()) };
+    let other = rows.iter().find_map(|&(name, other, part)| Some((name, other?, part)));
+    match other.filter(|(_, other, part)| (depth - other).abs() > part * other.abs()) {
+        None => Ok(()),
+        Some((name, other, _)) => {
+            let message = format!("the hole has a depth of {depth}, but its {name} give {other}");
+            Err(Problem::new(Code::PC016, message, format!("remove `depth`, or {name}")))
+        }
     }
 }
 

@@ -111,7 +111,17 @@ fn arcs_turn_as_their_system_means_them() {
     assert_eq!(body("GOTO/1,0,10\nMOVARC/1,1,10,0,0,1,1\nGOTO/2,1,10")[1], "G17 G3 X2. Y1. I0 J1.");
     let tlon = "GOTO/1,0,10\nINDIRV/1,0,0\nTLON,GOFWD/ (CIRCLE/ 1, 1, 10,$\n 1),ON,(LINE/1,1,10,$\n 2,1,10)";
     assert_eq!(body(tlon)[1], "G17 G3 X2. Y1. I0 J1.");
-    assert!(error("GOTO/1,0,10\nCIRCLE/1,1,10,.6,0,.8,1\nGOTO/2,1,10").starts_with("PL004 an arc in a tilted plane"));
+    // the axis of a circle may have any length
+    let circle = |axis: &str| format!("GOTO/1,0,10\nCIRCLE/1,1,10,{axis},1\nGOTO/2,1,10");
+    for tilted in [".6,0,.8", ".5,0,1", ".5,0,-1", "0,5,5"] {
+        assert!(error(&circle(tilted)).starts_with("PL004 an arc in a tilted plane"), "{tilted}");
+    }
+    assert!(error(&circle("0,0,0")).starts_with("PL001 a circle with an axis of no direction"));
+    let movarc = |axis: &str| body(&circle(axis).replace("CIRCLE", "MOVARC"))[1].clone();
+    assert_eq!(
+        [movarc("0,0,1"), movarc("0,0,5"), movarc("0,0,.2")].map(|line| line == "G17 G3 X2. Y1. I0 J1."),
+        [true; 3]
+    );
 }
 
 #[test]

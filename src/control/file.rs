@@ -142,6 +142,7 @@ impl Reader<'_> {
         take(&mut traits.modes_at_start, file.start.modes);
         traits.basic = file.start.units.or(traits.basic);
         take(&mut traits.spindle_at_stop, file.stops.spindle);
+        take(&mut traits.coolant_at_change, file.tool.coolant);
         take(&mut traits.tool_length, file.tool.length);
         take(&mut traits.beam_off_in_rapids, file.laser.rapids.map(|InRapids::Off| true));
         take(&mut traits.all_go_home, file.reference.without_axes.map(|WithoutAxes::All| true));

@@ -143,7 +143,7 @@ pub(super) struct Dwell {
     pub(super) p: Option<DwellUnit>,
 }
 
-/// `[stops]`: whether the spindle keeps turning at M0 and M1.
+/// `[stops]`: whether the spindle keeps turning, and the coolant stays on, at M0 and M1.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Stops {
@@ -224,13 +224,15 @@ pub(super) struct CornersText {
     pub(super) junction_deviation: Option<bool>,
 }
 
-/// `[tool]`: the tool length offset, and a second T word in a block.
+/// `[tool]`: the tool length offset, the coolant at a tool change, and a second T word in a block.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Tool {
     pub(super) length: Option<ToolLength>,
     pub(super) without_length: Option<Height>,
     pub(super) zero: Option<ZeroRegister>,
+    /// Whether the coolant stays on at a tool change.
+    pub(super) coolant: Option<Kept>,
     /// The meaning of a second T word in the block of a tool change.
     pub(super) second: Option<SecondTool>,
 }

@@ -203,8 +203,10 @@ pub struct Traits {
     pub modes_at_start: Kept,
     /// The basic units of the machine, which the feeds of a Siemens control have after G70 and G71; `None`: unknown.
     pub basic: Option<Basic>,
-    /// Whether the spindle keeps turning at M0 and M1.
+    /// Whether the spindle keeps turning, and the coolant stays on, at M0 and M1.
     pub spindle_at_stop: Kept,
+    /// Whether the coolant stays on at a tool change (M6).
+    pub coolant_at_change: Kept,
     /// How a tool length offset is turned on.
     pub tool_length: ToolLength,
     /// Whether length register 0 is the tool in the spindle. If not, register 0 is no length.

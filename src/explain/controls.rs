@@ -83,7 +83,8 @@ fn facts(control: &Control) -> Vec<(&'static str, String)> {
         ("I, J and K are measured", centres.to_owned()),
         ("the tool length offset is turned on", length.to_owned()),
         ("G91 that the previous program left on", kept(traits.modes_at_start).to_owned()),
-        ("the spindle at M0 and M1", kept(traits.spindle_at_stop).to_owned()),
+        ("the spindle and the coolant at M0 and M1", kept(traits.spindle_at_stop).to_owned()),
+        ("the coolant at a tool change", kept(traits.coolant_at_change).to_owned()),
         ("codes that are not listed", others.to_owned()),
     ];
     if traits.rules == Rules::Fanuc {

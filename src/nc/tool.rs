@@ -7,7 +7,7 @@ use super::codes::{ARCS, Group, Motion, bit, is_one_of};
 use super::fault::{Done, refuse};
 use super::out::Out;
 use super::state::State;
-use crate::control::{Code, Meaning, Row, Rules, ToolLength, Turns};
+use crate::control::{Code, Kept, Meaning, Row, Rules, ToolLength, Turns};
 use crate::diag;
 use crate::toolpath::{Plane, Side};
 
@@ -169,7 +169,7 @@ impl State {
         refuse(diag::Code::PN018, format!("T{word} is not a tool number"), help)
     }
 
-    /// Runs M6. The spindle is stopped after M6.
+    /// Runs M6. The spindle is stopped after M6. On some controls, the coolant is stopped, too.
     pub(super) fn change_tool(&mut self, out: &mut Out<'_>) -> Done {
         let Some(tool) = self.tool.number else {
             return refuse(diag::Code::PN007, "M6 without a tool", "write T and the tool's number before M6");
@@ -181,6 +181,9 @@ impl State {
         let tool = self.tool_names.number(tool);
         self.tool.loaded = Some(tool);
         out.push(Action::Tool(tool));
+        if self.control.traits().coolant_at_change == Kept::No {
+            out.push(Action::Coolant(Cooling::Off));
+        }
         Ok(())
     }
 

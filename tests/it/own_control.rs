@@ -65,6 +65,70 @@ fn every_command_goes_by_the_file() {
     }
 }
 
+/// M0, M1 and M6 stop the spindle and the coolant by the file of the control. An unknown effect of M0 counts as a stop.
+#[test]
+fn the_file_decides_what_a_stop_and_a_tool_change_end() {
+    let folder = folder("own_control_stops");
+    let operation = |tool: u8, stop: &str| {
+        format!(
+            r#"{{"tool":{tool},"work":54,"spindle":{{"speed":1000,"direction":"cw"}},"coolant":"flood","feed":100,"path":[
+            {{"rapid":[0,0,50]}},{{"line":[0,0,-3]}},{{"rapid":[0,0,50]}}{stop},{{"rapid":[5,0,50]}},{{"line":[5,0,-3]}},
+            {{"rapid":[5,0,50]}}]}}"#
+        )
+    };
+    let job = |operations: &str| {
+        format!(
+            r#"{{"postform":1,"program":1,"units":"mm","tools":[{{"number":1}},{{"number":2}}],"operations":[{operations}]}}"#
+        )
+    };
+    let stop = |kind: &str| job(&operation(1, &format!(r#",{{"stop":"{kind}"}}"#)));
+    folder.write("M0.json", stop("program"));
+    folder.write("M1.json", stop("optional"));
+    folder.write("M6.json", job(&format!("{},{}", operation(1, ""), operation(2, ""))));
+    // each row: the control, its file, the code, and whether the program is right without M3 or M8 after this code
+    let rows = [
+        ("haas", "", "M0", false),
+        ("haas", "", "M1", false),
+        ("haas", "", "M6", false),
+        ("haas", "[stops]\nspindle = \"unknown\"", "M0", false),
+        ("haas", "[stops]\nspindle = \"unknown\"", "M1", true),
+        ("haas", "[stops]\nspindle = \"kept\"", "M0", true),
+        ("haas", "[tool]\ncoolant = \"unknown\"", "M6", true),
+        ("fanuc", "", "M0", false),
+        ("fanuc", "", "M1", true),
+        ("fanuc", "", "M6", true),
+        ("fanuc", "[stops]\nspindle = \"kept\"", "M0", true),
+        ("fanuc", "[tool]\ncoolant = \"lost\"", "M6", false),
+        ("mach3", "", "M0", false),
+        ("mach3", "[stops]\nspindle = \"lost\"", "M1", false),
+        ("mach3", "[stops]\nspindle = \"kept\"", "M0", true),
+        ("linuxcnc", "", "M0", true),
+        ("linuxcnc", "[stops]\nspindle = \"lost\"", "M0", false),
+    ];
+    for (control, own, code, is_right) in rows {
+        let row = format!("{control} {own} {code}");
+        folder.write("own.toml", format!("name = \"own\"\nlike = \"{control}\"\n{own}\n"));
+        let form = fs::read_to_string(root().join(format!("postforms/{control}.pf"))).unwrap();
+        let form = form.replacen(&format!("Control {control}"), "Control own.toml", 1);
+        folder.write("form.pf", form);
+        let job = format!("{code}.json");
+        let render = folder.run(&["render", &job, "--form", "form.pf", "-o", "whole.nc"]);
+        assert_eq!(render.status.code(), Some(0), "{row}: {}", err(&render));
+        let whole = folder.read("whole.nc");
+        // the M3 and M8 after the last M0, M1 or M6 are removed
+        let at = whole.rfind(&format!("{code}\n")).unwrap_or_else(|| panic!("{row}: {whole}"));
+        let (head, tail) = whole.split_at(at);
+        // the form turns the coolant off before a tool change
+        let head = if code == "M6" { head.replace(" M9\n", "\n") } else { head.to_owned() };
+        let tail = if code == "M6" { tail.to_owned() } else { tail.replacen(" M3", "", 1).replacen("M3\n", "\n", 1) };
+        folder.write("less.nc", format!("{head}{}", tail.replacen(" M8", "", 1).replacen("M8\n", "\n", 1)));
+        let verify = |program: &str| folder.run(&["verify", &job, "--nc", program, "--form", "form.pf"]);
+        assert_eq!(verify("whole.nc").status.code(), Some(0), "{row}");
+        let less = verify("less.nc");
+        assert_eq!(less.status.code(), Some(i32::from(!is_right)), "{row}: {tail}{}{}", out(&less), err(&less));
+    }
+}
+
 /// The file that `new` writes is valid. The rows in its comments are valid, too.
 #[test]
 fn a_new_file_is_right_as_it_is_and_with_its_rows() {

@@ -24,7 +24,7 @@ use super::recent_lines::Recent;
 use super::scale::Scale;
 use super::unset::Due;
 use super::wire_codes::Codes;
-use crate::control::{self, Control, Meaning};
+use crate::control::{self, Control, Kept, Meaning};
 use crate::diag::{Code, Diag};
 use crate::lang::Coolant;
 use crate::nc::{Action, Item, Rotation, RunError, RunSettings, Simulator};
@@ -397,8 +397,13 @@ impl<'a> Program<'a> {
     fn stop(&mut self, kind: StopKind, item: &Item) {
         let mark = self.passage.mark(kind, item.line, toolpath::Place::default());
         self.passage.stops.push(mark);
-        // a Haas stops the spindle at M0; on other controls a form must not rely on a running spindle
-        if kind == StopKind::Program && !item.by_cycle && !self.control.is_linuxcnc() {
+        // unless the control keeps the spindle turning, a program must not rely on a running spindle
+        let stops = match self.control.traits().spindle_at_stop {
+            Kept::Yes => false,
+            Kept::Unknown => kind == StopKind::Program,
+            Kept::No => true,
+        };
+        if stops && !item.by_cycle {
             self.state.rotation = Some(Rotation::Stop);
             self.state.coolant = Some(Coolant::OFF);
             self.spin = Spin::Turns(Rotation::Stop);

@@ -120,15 +120,11 @@ impl Plan {
     }
 }
 
-/// Checks that the depth of a hole is the depth that its other options give: the last of the webs or pecks, or the
-/// depth of the countersink, which a job may give rounded.
+/// Checks that the depth of a hole is the depth that its other options give: the last of the webs, or the depth of the
+/// countersink, which a job may give rounded. After the given pecks, a hole may be deeper.
 fn one_depth(spec: &CycleSpec, own_depth: Option<f64>, sink: Option<f64>) -> Result<(), Problem> {
     const ROUNDED: f64 = 1e-3;
-    let rows = [
-        ("`webs`", spec.webs.last().copied(), 1e-6),
-        ("`pecks`", spec.pecks.last().map(|peck| peck.to), 1e-6),
-        ("`diameter` and `angle`", sink, ROUNDED),
-    ];
+    let rows = [("`webs`", spec.webs.last().copied(), 1e-6), ("`diameter` and `angle`", sink, ROUNDED)];
     let Some(depth) = own_depth.or(spec.depth) else { return Ok(()) };
     let other = rows.iter().find_map(|&(name, other, part)| Some((name, other?, part)));
     match other.filter(|(_, other, part)| (depth - other).abs() > part * other.abs()) {

@@ -182,13 +182,11 @@ mod tests {
         assert!(steps(|s| sink(s, 0.3), CycleKind::Csink).is_ok());
         assert_eq!(steps(|s| sink(s, 0.4), CycleKind::Csink), Err(Code::PC013));
         assert_eq!(steps(|_| (), CycleKind::Custom1), Err(Code::PC001));
-        // the depth is 1: webs, pecks and the countersink must have the same depth
-        let peck = |to| vec![crate::toolpath::Peck { to: 0.5, feed: None }, crate::toolpath::Peck { to, feed: None }];
+        // the depth is 1: webs and the countersink must have the same depth
         let sink_to = |s: &mut CycleSpec, diameter| (s.diameter, s.angle) = (Some(diameter), Some(90.0));
         for (end, other) in [(1.0, false), (0.9, true), (1.1, true)] {
             let result = other.then_some(Code::PC016);
             assert_eq!(steps(|s| s.webs = vec![0.3, 0.6, end], CycleKind::Thru).err(), result, "webs to {end}");
-            assert_eq!(steps(|s| s.pecks = peck(end), CycleKind::Deep).err(), result, "pecks to {end}");
             assert_eq!(steps(|s| sink_to(s, 2.0 * end), CycleKind::Csink).err(), result, "countersink to {end}");
         }
         assert!(steps(|s| sink_to(s, 2.001), CycleKind::Csink).is_ok(), "a rounded depth");

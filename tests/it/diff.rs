@@ -404,7 +404,12 @@ fn motions_of_lathes_differ_in_spindle_and_turret() {
         ("S2500", "S500", "the speed limit of the spindle is 500, but 2500 in the old program"),
         ("G50 S2500\n", "", "the speed limit of the spindle is none, but 2500 in the old program"),
         ("G1 Z-20. F2.", "G32 Z-20. F2.", "only one program synchronizes a cut with the spindle, as for a thread"),
-        ("G28 U0 W0", "G58 U0 W0", "only one program cuts to an unknown machine position"),
+        (
+            "G28 U0 W0",
+            "G58 U0 W0",
+            "a cut begins at an unknown machine position of X and Y and Z, but at an unknown machine position of Y in the \
+             old program",
+        ),
         ("G28 U0 W0", "G28 W0", "the turret turns at home only along Z, but at home in the old program"),
         ("G28 U0 W0", "G28 U0", "the turret turns at home only along X, but at home in the old program"),
     ] {

@@ -530,7 +530,8 @@ fn what_is_otherwise_is_counted() {
     };
     let none = Equivalences::default;
     counted("X1. Y1.\n", "Z3.\nX1. Y1.\nZ2.\n", Equivalences { ways: 1, ..none() });
-    counted("X1. Y1.\n", "M1\nX1. Y1.\n", Equivalences { stops: 1, ..none() });
+    // M1 of a Haas stops the spindle and the coolant
+    counted("X1. Y1.\n", "M1\nM3\nM8\nX1. Y1.\n", Equivalences { stops: 1, ..none() });
     counted("X1. Y1.\n", "G4 P1.\nX1. Y1.\n", Equivalences { dwells: 1, ..none() });
     let (head, tail) = program.rsplit_once("Z2.\n").unwrap();
     let longer = format!("{head}Z2.\nX5. Y5.\n{tail}");

@@ -136,12 +136,13 @@ fn nothing_stands_inside_a_cut() {
     assert_eq!(inside("G0 Z25.\nZ-1.\nG1 "), "PV001 1");
     assert_eq!(inside("G0 X10.\nX20.\nG1 "), "PV001 1, PV001 1");
     assert_eq!(inside("G4 P1.\n"), "PV001 1, PV010 1");
-    assert_eq!(inside("M1\n"), "PV001 1, PV019 1");
+    // M1 of a Haas stops the spindle and the coolant
+    assert_eq!(inside("M1\n"), "PV001 1, PV019 1, PV011 2, PV024 2");
     let between = |what: &str| after("haas.pf", &cuts, &[("Y30.\n", &format!("{what}Y30.\n"))]);
     assert_eq!(between(""), "identical");
     assert_eq!(between("G0 X30.\nX40.\nG1 "), "PV001 1");
     assert_eq!(between("G4 P1.\n"), "PV010 1");
-    assert_eq!(between("M1\n"), "PV019 1");
+    assert_eq!(between("M1\nM3\nM8\n"), "PV019 1");
     let arc = one(
         r#"{"rapid":[20,0,25]},{"line":[20,0,-1]},{"arc":{"to":[-20,0],"center":[0,0],"direction":"ccw"}},{"rapid":[-20,0,25]}"#,
     );
@@ -236,11 +237,13 @@ fn nothing_waits_in_a_hole() {
         (&bore, "Y9.5\n", "N110 Z5.\n"),
         (&back, "N100 Z-20.\n", "N160 Z5.\n"),
     ] {
-        for (what, code, one) in [("M1\n", "PV019 1", "stop"), ("G4 P1.\n", "PV010 1", "dwell")] {
-            assert_eq!(after("haas.pf", job, &[(low, &format!("{low}{what}"))]), code, "{low}");
-            let counted = format!("equivalent: 1 {one} added by the form");
-            assert_eq!(after("haas.pf", job, &[(out, &format!("{out}{what}"))]), counted, "{out}");
+        for (what, code) in [("M1\nM3\nM8\n", "PV019 1"), ("G4 P1.\n", "PV010 1")] {
+            // M3 also turns the spindle of an oriented tool
+            let found = after("haas.pf", job, &[(low, &format!("{low}{what}"))]);
+            assert!(found.contains(code), "{low}: {found}");
         }
+        let counted = "equivalent: 1 dwell added by the form";
+        assert_eq!(after("haas.pf", job, &[(out, &format!("{out}G4 P1.\n"))]), counted, "{out}");
     }
     for stop in ["M0\nS1000 M3\nM8\n", "M1\n"] {
         assert_eq!(after("linuxcnc.pf", &thru, &[("G0 Z-5.\n", &format!("G0 Z-5.\n{stop}"))]), "PV019 1");

@@ -42,7 +42,9 @@ impl Program<'_> {
         let moves = |axis: usize| self.at[axis] != to[axis] || self.unknown & 1 << axis != 0;
         if (0..8).filter(is_known).any(moves) {
             let (at, frames) = (self.passage.rapids.len(), self.frames());
-            self.passage.measured.rapid(at, &frames, unknown & heights == 0);
+            // the tool length is of no effect on a turn of the part
+            let goes = (0..8).filter(|axis| !(3..6).contains(axis)).filter(is_known).any(moves);
+            self.passage.measured.rapid(at, &frames, goes && unknown & heights == 0);
         }
         (self.at, self.unknown, self.placed) = (to, unknown, placed);
         if placed != 0 {

@@ -144,12 +144,12 @@ pub(super) fn differs(
 }
 
 /// The frames without the frame of the last cut at the start, and without the frame of the next cut at the end.
-fn inner<'a, T>(
-    frames: &'a [(usize, T)],
+fn inner<T>(
+    frames: &[(usize, T)],
     [before, next]: [Option<T>; 2],
     all: bool,
     is: impl Fn(&T, &T) -> bool,
-) -> &'a [(usize, T)] {
+) -> &[(usize, T)] {
     let is_end = |end: &Option<T>, frame: &T| !all && end.as_ref().is_some_and(|end| is(end, frame));
     let frames = match frames {
         [(_, first), rest @ ..] if is_end(&before, first) => rest,

@@ -126,7 +126,7 @@ fn fixtures(between: &str) -> String {
 
 /// The codes of the differences; empty if the program is proven.
 fn codes(job: &str, between: &str) -> Vec<&'static str> {
-    match haas().verify(Job::json(job), &fixtures(between)).unwrap() {
+    match haas().verify(Job::json(job), fixtures(between)).unwrap() {
         Verdict::Different(findings) => findings.iter().map(|finding| finding.code.name()).collect(),
         Verdict::Identical | Verdict::Equivalent(_) => Vec::new(),
         other => panic!("{other}\n{between}"),

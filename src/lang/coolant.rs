@@ -79,6 +79,11 @@ impl Coolant {
         Coolant { kinds, first: if self.first & kinds == 0 { lowest } else { self.first } }
     }
 
+    /// Whether the same kinds are on, in any order.
+    pub fn is_same(self, other: Coolant) -> bool {
+        self.kinds == other.kinds
+    }
+
     /// Whether this kind is on. If the kind is `OFF`: whether no kind of coolant is on.
     pub fn holds(self, kind: Coolant) -> bool {
         if kind == Coolant::OFF { self == Coolant::OFF } else { self.kinds & kind.kinds == kind.kinds }

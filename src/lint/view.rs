@@ -2,7 +2,7 @@
 
 use crate::compile::LetterTable;
 use crate::control::{Code, Control, Meaning, Traits};
-use crate::lang::{CommandId, Machine, SequenceId, UnitChoice, VarId, VarSet};
+use crate::lang::{CommandId, Each, Machine, SequenceId, UnitChoice, VarId, VarSet};
 use crate::sema::{Checked, Form, Line, Sequence, Settings, Step, Word, before_remark, each_formula, line_counts};
 use crate::span::Span;
 use crate::syntax::{self, Piece, SequenceNode, Statement};
@@ -288,6 +288,12 @@ impl<'a> View<'a> {
 }
 
 impl<'a> Body<'a> {
+    /// Calls `take` for each list (`@for`), also for a list inside a list: the kind of its items, its steps and its
+    /// location.
+    pub fn each_list(&self, take: &mut dyn FnMut(Each, &'a [Step], Span)) {
+        each_list(self.steps.unwrap_or_default(), take);
+    }
+
     /// Maximum number of lines that the body prints. Of each condition, only one branch is counted.
     pub fn most_lines(&self) -> usize {
         self.steps.map_or(self.lines.len(), |steps| line_counts(steps).1)
@@ -358,4 +364,17 @@ impl<'a> Body<'a> {
 pub fn serves(sequence: &Sequence) -> SequenceId {
     let kind = sequence.custom_kind().and_then(CycleKind::parse);
     kind.and_then(CycleKind::sequence).unwrap_or(sequence.id)
+}
+
+fn each_list<'a>(steps: &'a [Step], take: &mut dyn FnMut(Each, &'a [Step], Span)) {
+    for step in steps {
+        match step {
+            Step::For(each, inner, span) => {
+                take(*each, inner, *span);
+                each_list(inner, take);
+            }
+            Step::If(arms) => arms.iter().for_each(|arm| each_list(&arm.steps, take)),
+            Step::Lines(_) | Step::Set(..) => {}
+        }
+    }
 }

@@ -102,8 +102,9 @@ impl State {
             // the meaning of lengths without a decimal point depends on a setting
             && (block.whole & AXES == 0 || control.rules().is_nist())
             && (block.whole & bit(b'F') == 0 || !self.scales_feed(block));
-        let kept = if self.drive.feed == self.drive.given_feed { self.drive.feed } else { f64::NAN };
-        let feed = if block.given & bit(b'F') != 0 { block.peek(b'F') } else { kept };
+        // after a change of the units, a turn of the part may have another feed
+        let active = if self.drive.feed == self.drive.given_feed { self.drive.feed } else { f64::NAN };
+        let feed = if block.given & bit(b'F') != 0 { block.peek(b'F') } else { active };
         if !is_usual || feed.is_nan() || feed <= 0.0 {
             return false;
         }

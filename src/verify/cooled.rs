@@ -97,12 +97,6 @@ pub fn differs([wanted, is]: [&State; 2]) -> Option<String> {
     (!agrees).then(|| format!("the coolant is {}, but {} in the job", name(is), name(wanted)))
 }
 
-/// Whether the same kinds are on.
-pub fn is_same(a: Option<Coolant>, b: Option<Coolant>) -> bool {
-    let kinds = |coolant: Coolant| coolant.each().map(Coolant::name);
-    a.is_some() == b.is_some() && a.into_iter().flat_map(kinds).eq(b.into_iter().flat_map(kinds))
-}
-
 /// The kinds by their names, for messages.
 pub fn name(coolant: Coolant) -> String {
     let names: Vec<_> = coolant.each().map(|kind| if kind == Coolant::FLOOD { "flood" } else { kind.name() }).collect();

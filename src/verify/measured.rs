@@ -54,6 +54,11 @@ impl Measured {
         }
     }
 
+    /// Whether there are no rapids.
+    pub fn is_empty(&self) -> bool {
+        self.across.is_empty()
+    }
+
     pub fn clear(&mut self) {
         self.across.clear();
         self.levels.clear();
@@ -119,9 +124,9 @@ pub(super) enum Other {
     Level([Option<Level>; 2]),
 }
 
-/// The first frame of the rapids in which two programs differ: the frame in the old and in the new program. `same_rapids`: both programs have the same
-/// rapids, so that each of them must have the same frame. Otherwise a program may have more or fewer rapids in the frames of the cuts
-/// before and after them.
+/// The first frame of the rapids in which two programs differ: the frame in the old and in the new program.
+/// `same_rapids`: both programs have the same rapids, so that each of them must have the same frame. Otherwise a program
+/// may have more or fewer rapids in the frames of the cuts before and after them.
 pub(super) fn differs(
     old: &Between<'_>,
     new: &Between<'_>,
@@ -129,18 +134,18 @@ pub(super) fn differs(
     across: impl Fn(&Across, &Across) -> bool,
     level: impl Fn(&Level, &Level) -> bool,
 ) -> Option<Other> {
-    let [a, b] = [old, new].map(|side| {
+    let levels = [old, new].map(|side| {
         let ends = [side.before, side.next].map(|frames| frames.map(|frames| frames.level));
         inner(&side.measured.levels, ends, same_rapids, &level)
     });
-    if let Some(pair) = first(a, b, same_rapids, &level) {
+    if let Some(pair) = first(levels, same_rapids, &level) {
         return Some(Other::Level(pair));
     }
-    let [a, b] = [old, new].map(|side| {
+    let across_of = [old, new].map(|side| {
         let ends = [side.before, side.next].map(|frames| frames.map(|frames| frames.across));
         inner(&side.measured.across, ends, same_rapids, &across)
     });
-    first(a, b, same_rapids, &across).map(Other::Across)
+    first(across_of, same_rapids, &across).map(Other::Across)
 }
 
 /// The frames without the frame of the last cut at the start, and without the frame of the next cut at the end.
@@ -163,8 +168,7 @@ fn inner<T>(
 
 /// The first pair of different frames.
 fn first<T: Copy>(
-    old: &[(usize, T)],
-    new: &[(usize, T)],
+    [old, new]: [&[(usize, T)]; 2],
     by_rapid: bool,
     is: impl Fn(&T, &T) -> bool,
 ) -> Option<[Option<T>; 2]> {

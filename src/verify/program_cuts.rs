@@ -214,7 +214,11 @@ fn state(before: &State, now: &State, names: Names, program: &Program<'_>) -> Op
     if before.rotation != now.rotation {
         return Some("the spindle direction is different".to_owned());
     }
-    if !cooled::is_same(before.coolant, now.coolant) {
+    let is_cooled_alike = match (before.coolant, now.coolant) {
+        (Some(a), Some(b)) => a.is_same(b),
+        (a, b) => a.is_none() && b.is_none(),
+    };
+    if !is_cooled_alike {
         let text = |coolant: Option<Coolant>| coolant.map_or_else(|| "unknown".to_owned(), cooled::name);
         return Some(format!("the coolant is {}, but {} in the old program", text(now.coolant), text(before.coolant)));
     }

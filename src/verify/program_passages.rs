@@ -61,7 +61,8 @@ fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
     }
     (!same(&before.at, &now.at, ALL, tolerance)).then(|| {
         let [now, before] = both_shown(&now.at, &before.at);
-        let by_length = [old, new].iter().any(|program| program.frames().level.length == Some(0.0));
+        let is_given = |program: &&Program<'_>| program.frames().is_some_and(|frames| frames.level.length == Some(0.0));
+        let by_length = [old, new].iter().any(is_given);
         let with = if by_length { ", with the length of G43.1," } else { "" };
         format!("the zero of the program{with} is shifted to {now}, but to {before} in the old program")
     })
@@ -76,13 +77,16 @@ pub(super) fn frames_of_rapids(
     names: Names,
     tolerance: f64,
 ) -> Option<String> {
+    if [old, new].iter().all(|program| program.passage.measured.is_empty()) {
+        return None;
+    }
     let (a, b) = (&old.passage.rapids, &new.passage.rapids);
     let alike = |(a, b): (&Rapid, &Rapid)| a.unknown == b.unknown && same(&a.to, &b.to, ALL & !a.unknown, tolerance);
     let same_rapids = a.len() == b.len() && a.iter().zip(b).all(alike);
     let [left, right] = [(old, before[0]), (new, before[1])].map(|(program, before)| Between {
         measured: &program.passage.measured,
         before,
-        next: next.then(|| program.frames()),
+        next: program.frames().filter(|_| next).copied(),
     });
     let across =
         |frame: &Across| Across { work: names.work(frame.work), diameter: names.register(frame.diameter), ..*frame };

@@ -66,6 +66,7 @@ pub fn compare_motions(
         let expectation = Expectation { tools: false, units_due: false, ..Expectation::default() };
         let mut program = Program::new(input, settings, &expectation);
         program.want(units);
+        program.measure_rapids();
         program
     });
     b.share_tool_names(&a);
@@ -150,7 +151,7 @@ impl Pair<'_> {
         if message.is_some() {
             return Ok(message);
         }
-        self.before = [&self.a, &self.b].map(|program| Some(program.frames()));
+        self.before = [&self.a, &self.b].map(|program| program.frames().copied());
         if folds {
             return self.hole(cut, found);
         }

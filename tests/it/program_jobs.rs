@@ -101,6 +101,17 @@ fn a_length_that_is_off_stays_off() {
     }
 }
 
+/// However many cuts a tool makes without its length, the warning is there once.
+#[test]
+fn a_length_that_is_off_is_reported_once() {
+    let cuts = "X1.\nX2.\n".repeat(500);
+    for codes in ["G49 Z1.", "G43 H0 Z1.", "Z1."] {
+        let (_, warnings) =
+            printed(&format!("{}G1 Z-.1 F5.\n{cuts}M30\n", HEAD.replace("G43 H1 Z1. M8", codes))).unwrap();
+        assert_eq!(warnings.len(), 1, "{codes}: {warnings:?}");
+    }
+}
+
 /// G53 moves straight at rapid. No control has an arc to a machine position.
 #[test]
 fn an_arc_in_machine_coordinates_is_refused() {

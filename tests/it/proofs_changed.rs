@@ -143,6 +143,7 @@ fn nothing_stands_inside_a_cut() {
     assert_eq!(between("G0 X30.\nX40.\nG1 "), "PV001 1");
     assert_eq!(between("G4 P1.\n"), "PV010 1");
     assert_eq!(between("M1\nM3\nM8\n"), "PV019 1");
+    assert_eq!(between("M1\n"), "PV019 1, PV011 1, PV024 1");
     let arc = one(
         r#"{"rapid":[20,0,25]},{"line":[20,0,-1]},{"arc":{"to":[-20,0],"center":[0,0],"direction":"ccw"}},{"rapid":[-20,0,25]}"#,
     );
@@ -232,18 +233,18 @@ fn nothing_waits_in_a_hole() {
     let thru = hole(r#""kind":"thru","webs":[3,6,10]"#);
     let bore = hole(r#""kind":"bore","depth":10,"orient":90,"offset":0.5"#);
     let back = hole(r#""kind":"back","depth":10,"rapto":20,"orient":90,"offset":0.5"#);
-    for (job, low, out) in [
-        (&thru, "N90 G0 Z-5.\n", "N110 G0 Z5.\n"),
-        (&bore, "Y9.5\n", "N110 Z5.\n"),
-        (&back, "N100 Z-20.\n", "N160 Z5.\n"),
+    // M1 of a Haas stops the spindle and the coolant, and an oriented spindle is no longer at its angle after it
+    const STOP: &str = "equivalent: 1 stop added by the form";
+    let made = |job: &str, at: &str, what: &str| after("haas.pf", job, &[(at, &format!("{at}{what}"))]);
+    for (job, low, out, stops) in [
+        (&thru, "N90 G0 Z-5.\n", "N110 G0 Z5.\n", ["PV011 1, PV019 1, PV011 1, PV024 1", "PV019 1", STOP, STOP]),
+        (&bore, "Y9.5\n", "N110 Z5.\n", ["PV011 1, PV019 1", "PV011 1, PV019 1", "PV011 1", "PV011 1"]),
+        (&back, "N100 Z-20.\n", "N160 Z5.\n", ["PV019 1, PV011 1, PV024 1", "PV019 1, PV011 1", "PV011 1", "PV011 1"]),
     ] {
-        for (what, code) in [("M1\nM3\nM8\n", "PV019 1"), ("G4 P1.\n", "PV010 1")] {
-            // M3 also turns the spindle of an oriented tool
-            let found = after("haas.pf", job, &[(low, &format!("{low}{what}"))]);
-            assert!(found.contains(code), "{low}: {found}");
-        }
-        let counted = "equivalent: 1 dwell added by the form";
-        assert_eq!(after("haas.pf", job, &[(out, &format!("{out}G4 P1.\n"))]), counted, "{out}");
+        let stop = ["M1\n", "M1\nM3\nM8\n"];
+        assert_eq!([low, out].map(|at| stop.map(|what| made(job, at, what))).concat(), stops, "{low}");
+        assert_eq!(made(job, low, "G4 P1.\n"), "PV010 1", "{low}");
+        assert_eq!(made(job, out, "G4 P1.\n"), "equivalent: 1 dwell added by the form", "{out}");
     }
     for stop in ["M0\nS1000 M3\nM8\n", "M1\n"] {
         assert_eq!(after("linuxcnc.pf", &thru, &[("G0 Z-5.\n", &format!("G0 Z-5.\n{stop}"))]), "PV019 1");

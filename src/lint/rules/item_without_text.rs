@@ -1,29 +1,18 @@
 //! PF718: a comment in a list is left out for items that do not have its text, so these items are missing from the list.
 
 use crate::diag::{Code, Diag};
-use crate::lint::view::{Body, View};
+use crate::lint::view::View;
 use crate::sema::{Line, Step, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {
-        lists(body.steps.unwrap_or_default(), *body, diags);
-    }
-}
-
-fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
-    for step in steps {
-        match step {
-            Step::For(each, inner, _) => {
-                let own = inner.iter().filter_map(|step| match step {
-                    Step::Lines(lines) => Some(&body.lines[lines.clone()]),
-                    _ => None,
-                });
-                own.flatten().for_each(|line| comment(line, each.name(), diags));
-                lists(inner, body, diags);
-            }
-            Step::If(arms) => arms.iter().for_each(|arm| lists(&arm.steps, body, diags)),
-            Step::Lines(_) | Step::Set(..) => {}
-        }
+        body.each_list(&mut |each, steps, _| {
+            let own = steps.iter().filter_map(|step| match step {
+                Step::Lines(lines) => Some(&body.lines[lines.clone()]),
+                _ => None,
+            });
+            own.flatten().for_each(|line| comment(line, each.name(), diags));
+        });
     }
 }
 

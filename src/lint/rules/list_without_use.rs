@@ -6,33 +6,22 @@ use crate::sema::{Step, WordKind};
 
 pub fn check(view: &View, diags: &mut Vec<Diag>) {
     for body in &view.bodies {
-        lists(body.steps.unwrap_or_default(), *body, diags);
-    }
-}
-
-fn lists(steps: &[Step], body: Body, diags: &mut Vec<Diag>) {
-    for step in steps {
-        match step {
-            Step::For(each, inner, span) => {
-                let each = each.name();
-                if inner.is_empty() {
-                    diags.push(
-                        Diag::new(Code::PF711, format!("@for {each} has no lines"))
-                            .at(*span, "nothing prints")
-                            .help(format!("write the lines for each {each} above its @end, or remove @for and @end")),
-                    );
-                } else if !says_anything(inner, body) {
-                    diags.push(
-                        Diag::new(Code::PF711, format!("the lines of @for {each} print the same for each {each}"))
-                            .at(*span, "no line of the list changes")
-                            .help("print a variable of the item, as `(T[tool] D[toold])`, or remove the list"),
-                    );
-                }
-                lists(inner, body, diags);
+        body.each_list(&mut |each, steps, span| {
+            let each = each.name();
+            if steps.is_empty() {
+                diags.push(
+                    Diag::new(Code::PF711, format!("@for {each} has no lines"))
+                        .at(span, "nothing prints")
+                        .help(format!("write the lines for each {each} above its @end, or remove @for and @end")),
+                );
+            } else if !says_anything(steps, *body) {
+                diags.push(
+                    Diag::new(Code::PF711, format!("the lines of @for {each} print the same for each {each}"))
+                        .at(span, "no line of the list changes")
+                        .help("print a variable of the item, as `(T[tool] D[toold])`, or remove the list"),
+                );
             }
-            Step::If(arms) => arms.iter().for_each(|arm| lists(&arm.steps, body, diags)),
-            Step::Lines(_) | Step::Set(..) => {}
-        }
+        });
     }
 }
 

@@ -219,11 +219,13 @@ impl Run<'_> {
             }
             Some(0.0) => {
                 one(&mut self.survey.registers, |r| &mut r.length, 0.0, line, "length offsets, H")?;
-                let message = "a tool cuts without a length offset, which G49 or register 0 has turned off: the job's \
-                               tool has register 0";
-                let help = "if the machine has tool lengths, turn the tool's own offset on in this program (G43 H1); if \
-                            it has none, remove G49 or H0, and the form prints the tool's own offset";
-                self.warnings.push(warning(line, message, help));
+                if !std::mem::replace(&mut self.told, true) {
+                    let message = "a tool cuts without a length offset, which G49 or register 0 has turned off: the \
+                                   job's tool has register 0";
+                    let help = "if the machine has tool lengths, turn the tool's own offset on in this program (G43 \
+                                H1); if it has none, remove G49 or H0, and the form prints the tool's own offset";
+                    self.warnings.push(warning(line, message, help));
+                }
             }
             None if !std::mem::replace(&mut self.told, true) => {
                 let message = "a tool cuts without a length offset, but the form turns the offset of the tool on";

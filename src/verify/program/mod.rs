@@ -19,6 +19,7 @@ use super::cooled;
 use super::cut::{Cut, Place, Rapid, Shared, Spin, State, place};
 use super::expectation::{Expectation, taps_ahead};
 use super::finding::Finding;
+use super::measured::Frames;
 use super::passage::{Frame, Passage};
 use super::recent_lines::Recent;
 use super::scale::Scale;
@@ -47,6 +48,8 @@ pub(super) struct Program<'a> {
     /// machine.
     is_relengthened: bool,
     state: Shared,
+    /// The active frames, if the frames of rapids are compared.
+    frames: Option<Frames>,
     spin: Spin,
     /// Whether M29 was run, and no axis has moved since.
     is_rigid_ahead: bool,
@@ -108,6 +111,7 @@ impl<'a> Program<'a> {
             placed: 0,
             is_relengthened: false,
             state: state.into(),
+            frames: None,
             spin: Spin::Turns(Rotation::Stop),
             is_rigid_ahead: false,
             mode: FeedMode::PerMinute,
@@ -384,6 +388,9 @@ impl<'a> Program<'a> {
             }
             Action::LeftOutWord(word) => self.passage.words.push(word.clone()),
             _ => {}
+        }
+        if !matches!(item.action, Action::Rapid { .. } | Action::Feed { .. } | Action::Arc(_) | Action::Hole(_)) {
+            self.reframe();
         }
         if let Some(is_on) = self.beam_is_on() {
             self.passage.is_off = !is_on;

@@ -38,13 +38,16 @@ impl Program<'_> {
                 leg.lengths.push(length);
             }
         }
-        let is_known = |axis: &usize| unknown & 1 << axis == 0;
-        let moves = |axis: usize| self.at[axis] != to[axis] || self.unknown & 1 << axis != 0;
-        if (0..8).filter(is_known).any(moves) {
-            let (at, frames) = (self.passage.rapids.len(), self.frames());
-            // the tool length is of no effect on a turn of the part
-            let goes = (0..8).filter(|axis| !(3..6).contains(axis)).filter(is_known).any(moves);
-            self.passage.measured.rapid(at, &frames, goes && unknown & heights == 0);
+        if let Some(frames) = &self.frames {
+            let moves = |axis: &usize| {
+                unknown & 1 << axis == 0 && (self.at[*axis] != to[*axis] || self.unknown & 1 << axis != 0)
+            };
+            // the tool length has no effect on a turn of the part
+            let goes = [0, 1, 2, 6, 7].iter().any(moves);
+            if goes || [3, 4, 5].iter().any(moves) {
+                let at = self.passage.rapids.len();
+                self.passage.measured.rapid(at, frames, goes && unknown & heights == 0);
+            }
         }
         (self.at, self.unknown, self.placed) = (to, unknown, placed);
         if placed != 0 {

@@ -32,8 +32,24 @@ impl Program<'_> {
         }
     }
 
-    /// The frames in which the program measures its positions now.
-    pub fn frames(&self) -> Frames {
+    /// Compares the frames of the rapids from now on.
+    pub fn measure_rapids(&mut self) {
+        self.frames = Some(self.active_frames());
+    }
+
+    /// The frames in which the program measures its positions now. `None`: the frames of rapids are not compared.
+    pub fn frames(&self) -> Option<&Frames> {
+        self.frames.as_ref()
+    }
+
+    /// Updates the frames after an action that is no motion.
+    pub(super) fn reframe(&mut self) {
+        if self.frames.is_some() {
+            self.measure_rapids();
+        }
+    }
+
+    fn active_frames(&self) -> Frames {
         let Zero { mut at, angle, .. } = self.zero();
         let height = std::mem::take(&mut at[DEPTH]);
         let State { tool, work, length, side, diameter, .. } = *self.state;

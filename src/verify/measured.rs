@@ -114,8 +114,8 @@ fn work(work: Option<f64>) -> String {
 /// The rapids of one program between two cuts, with the frames of these cuts. Without a cut, the frames are `None`.
 pub(super) struct Between<'a> {
     pub measured: &'a Measured,
-    pub before: Option<Frames>,
-    pub next: Option<Frames>,
+    pub before: Option<&'a Frames>,
+    pub next: Option<&'a Frames>,
 }
 
 /// A frame of a rapid that is not a frame of the other program.

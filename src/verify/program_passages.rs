@@ -72,7 +72,7 @@ fn frames(old: &Program<'_>, new: &Program<'_>, tolerance: f64) -> Option<String
 /// `before`: the frames at the last cut of both programs. `next`: whether both programs have reached a next cut.
 pub(super) fn frames_of_rapids(
     [old, new]: [&Program<'_>; 2],
-    before: [Option<Frames>; 2],
+    before: [Option<&Frames>; 2],
     next: bool,
     names: Names,
     tolerance: f64,
@@ -86,7 +86,7 @@ pub(super) fn frames_of_rapids(
     let [left, right] = [(old, before[0]), (new, before[1])].map(|(program, before)| Between {
         measured: &program.passage.measured,
         before,
-        next: program.frames().filter(|_| next).copied(),
+        next: program.frames().filter(|_| next).map(|frames| &**frames),
     });
     let across =
         |frame: &Across| Across { work: names.work(frame.work), diameter: names.register(frame.diameter), ..*frame };

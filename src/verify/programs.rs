@@ -2,6 +2,7 @@
 //! equal.
 
 use std::io::{Read, Seek};
+use std::rc::Rc;
 
 use super::cut::{Cut, State, number, shown};
 use super::expectation::Expectation;
@@ -72,7 +73,7 @@ pub fn compare_motions(
     b.share_tool_names(&a);
     let names = Names::of(a.control(), b.control());
     let ways = [RapidPath::default(), RapidPath::default()];
-    let mut pair = Pair { a, b, names, tolerance, ways, before: [None; 2], motions: Motions::default() };
+    let mut pair = Pair { a, b, names, tolerance, ways, before: [None, None], motions: Motions::default() };
     pair.compare()?;
     Ok(Motions { has_slash: pair.a.has_slash() || pair.b.has_slash(), ..pair.motions })
 }
@@ -88,7 +89,7 @@ struct Pair<'a> {
     /// The rapids of both programs since the last cut.
     ways: [RapidPath; 2],
     /// The frames of both programs at the last cut.
-    before: [Option<Frames>; 2],
+    before: [Option<Rc<Frames>>; 2],
     motions: Motions,
 }
 
@@ -151,7 +152,7 @@ impl Pair<'_> {
         if message.is_some() {
             return Ok(message);
         }
-        self.before = [&self.a, &self.b].map(|program| program.frames().copied());
+        self.before = [&self.a, &self.b].map(|program| program.frames().cloned());
         if folds {
             return self.hole(cut, found);
         }
@@ -177,7 +178,13 @@ impl Pair<'_> {
 
     /// Compares the frames of the rapids since the last cut. `next`: whether the programs have reached a next cut.
     fn frames(&self, next: bool) -> Option<String> {
-        frames_of_rapids([&self.a, &self.b], self.before, next, self.names, self.tolerance)
+        frames_of_rapids(
+            [&self.a, &self.b],
+            self.before.each_ref().map(Option::as_deref),
+            next,
+            self.names,
+            self.tolerance,
+        )
     }
 
     /// Compares what both programs do after the last cut. The end of a program stops spindle and coolant anyway, so

@@ -11,6 +11,7 @@ mod tools;
 mod zero;
 
 use std::io::{Read, Seek};
+use std::rc::Rc;
 
 use beam::Switched;
 pub(super) use doubt::Doubt;
@@ -49,7 +50,7 @@ pub(super) struct Program<'a> {
     is_relengthened: bool,
     state: Shared,
     /// The active frames, if the frames of rapids are compared.
-    frames: Option<Frames>,
+    frames: Option<Rc<Frames>>,
     spin: Spin,
     /// Whether M29 was run, and no axis has moved since.
     is_rigid_ahead: bool,

@@ -1,5 +1,7 @@
 //! The zero from which a program measures its positions: the work offset, with the shifts of G52 and G92.
 
+use std::rc::Rc;
+
 use super::{Program, State};
 use crate::diag::Code;
 use crate::nc::Action;
@@ -34,11 +36,11 @@ impl Program<'_> {
 
     /// Compares the frames of the rapids from now on.
     pub fn measure_rapids(&mut self) {
-        self.frames = Some(self.active_frames());
+        self.frames = Some(Rc::new(self.active_frames()));
     }
 
     /// The frames in which the program measures its positions now. `None`: the frames of rapids are not compared.
-    pub fn frames(&self) -> Option<&Frames> {
+    pub fn frames(&self) -> Option<&Rc<Frames>> {
         self.frames.as_ref()
     }
 

@@ -131,12 +131,6 @@ impl Simulator<'_> {
         (0..6).filter(is_named).map(|axis| 1 << axis).sum()
     }
 
-    /// The code of the last block that changes the pallet.
-    pub fn pallet_code(&self) -> Option<Code> {
-        let change = self.block.m().find(|(_, row)| row.meaning == Meaning::Pallet);
-        change.map(|(number, _)| Code::m(number))
-    }
-
     /// Whether the last block adds a second length offset to the tool length.
     pub fn adds_length(&self) -> bool {
         self.block.g_meaning(Group::Length) == Some(Meaning::LengthAdd)

@@ -29,7 +29,12 @@ impl State {
             match row.meaning {
                 Meaning::SpindleOff if !self.control.is_linuxcnc() => self.turn_spindle(Rotation::Stop, out),
                 Meaning::CoolantOff if !self.control.is_linuxcnc() => out.push(Action::Coolant(Cooling::Off)),
-                Meaning::StopProgram | Meaning::Pallet => out.push(Action::Stop(StopKind::Program)),
+                Meaning::StopProgram => out.push(Action::Stop(StopKind::Program)),
+                // the program stops, and the change of the pallet is left out
+                Meaning::Pallet => {
+                    out.push(Action::Stop(StopKind::Program));
+                    out.push(Action::LeftOut(row.code, row.meaning));
+                }
                 Meaning::StopOptional => out.push(Action::Stop(StopKind::Optional)),
                 Meaning::End => {
                     out.push(Action::End);

@@ -241,11 +241,6 @@ impl<'t> Search<'t> {
         if self.head.is_some() && computes(run.text()) {
             self.never.get_or_insert(format!("line {line} computes values from the blocks before"));
         }
-        if self.head.is_some()
-            && let Some(code) = run.pallet_code()
-        {
-            self.codes.push((line, code.to_string()));
-        }
         self.turned |= run.named_rotary();
         let [units, feed_mode] = run.says_modes();
         self.said.units |= units;

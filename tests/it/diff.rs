@@ -351,6 +351,8 @@ fn codes_that_are_not_simulated_have_words() {
         ("linuxcnc", ["G64 P.01", "G64 P1"]),
         ("fanuc", ["G5.1 Q1", "G5.1 Q0"]),
         ("haas", ["G187 P1", "G187 P3"]),
+        // both stop the program, and M60 changes the pallet as well
+        ("fanuc", ["M0", "M60"]),
     ] {
         let settings = RunSettings::new(control(name));
         let counted = |codes: [&str; 2]| {

@@ -145,7 +145,9 @@ pub mod internals {
         };
     }
     pub mod number {
-        pub use crate::number::{LetterFormat, Point, Sign, decimal, quantise, short_decimal, write_number};
+        pub use crate::number::{
+            Digits, Lead, LetterFormat, Point, Printing, Sign, decimal, quantise, short_decimal, write_number,
+        };
     }
     pub mod picture {
         pub use crate::picture::{Kind, Picture, Register, Sheet, View, draw, svg, svg_over};

@@ -115,6 +115,11 @@ impl Lead {
         self.bytes |= u32::from(byte) << (8 * self.length);
         self.length += 1;
     }
+
+    /// Appends the text without a number.
+    pub fn write(self, out: &mut Vec<u8>) {
+        out.extend_from_slice(&self.bytes.to_le_bytes()[..self.length as usize]);
+    }
 }
 
 /// Maximum number of digits for the fast method: they fit into one register.
@@ -190,7 +195,7 @@ fn write_any(
     } else if format.sign == Sign::Always && units > 0 {
         text.push(b'+');
     }
-    out.extend_from_slice(&lead.bytes.to_le_bytes()[..lead.length as usize]);
+    lead.write(out);
     out.extend_from_slice(&text.bytes[text.at..end]);
     Ok(())
 }

@@ -61,7 +61,7 @@ pub fn run(args: &SimulateArgs, colour: bool) -> Result<Ending, String> {
             } else if args.format == MotionFormat::Json {
                 json_line(item, simulator.state(), unknown, &mut text);
             } else {
-                text::line(item, &simulator, shown, &mut text);
+                text::line(item, &simulator, &shown, &mut text);
             }
         }
         let new = simulator.take_warnings();

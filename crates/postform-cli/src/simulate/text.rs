@@ -1,7 +1,7 @@
 //! Actions as lines of text.
 
-use postform::internals::nc::{Action, Item, RunSettings, Simulator, plane_name, stop_name, turn_name};
-use postform::internals::number::quantise;
+use postform::internals::nc::{Action, Item, RunSettings, Simulator, Turn, plane_name, stop_name, turn_name};
+use postform::internals::number::{Digits, Lead, LetterFormat, Point, Printing, Sign, quantise};
 use postform::internals::source::text_of;
 use postform::internals::terminal::escaped;
 
@@ -14,20 +14,30 @@ pub struct Shown {
     pub across: Option<f64>,
     /// Axes, in the order of a position.
     axes: &'static Axes,
+    numbers: Printing,
 }
 
 /// Axes of a machine.
 #[derive(Debug)]
 struct Axes {
-    /// The letters of the axes in the text, in the order of a position.
-    letters: [&'static [u8]; 6],
+    /// The letters of the axes, in the order of a position.
+    letters: &'static [u8; 6],
     /// Number of leading axes that are always shown; the others are shown only if they are not 0.
     always: usize,
 }
 
-const USUAL: Axes = Axes { letters: [b"X", b" Y", b" Z", b" A", b" B", b" C"], always: 3 };
+const USUAL: Axes = Axes { letters: b"XYZABC", always: 3 };
 /// X Y of the lower guide, U V of the upper guide.
-const WIRE: Axes = Axes { letters: [b"X", b" Y", b" U", b" V", b" A", b" B"], always: 4 };
+const WIRE: Axes = Axes { letters: b"XYUVAB", always: 4 };
+
+/// Numbers in the text: up to five decimals, and a point only before a fraction.
+const NUMBERS: LetterFormat = LetterFormat {
+    sign: Sign::Minus,
+    int: Digits { count: 13, fixed: false },
+    point: Point::BeforeFraction,
+    dec: Digits { count: DECIMALS, fixed: false },
+};
+const DECIMALS: u8 = 5;
 
 impl Shown {
     /// The display for a program with these run settings.
@@ -38,198 +48,167 @@ impl Shown {
             unknown: settings.places_unknown,
             across,
             axes: if settings.control.is_wire() { &WIRE } else { &USUAL },
+            numbers: Printing::new(NUMBERS),
         }
     }
 }
 
-/// A line that is written from its end to its beginning, because digits are produced in this order. No text is copied
-/// twice.
-struct Backwards {
-    bytes: [u8; 320],
-    at: usize,
+/// The text of one action, which is appended to the output.
+struct Line<'a> {
+    out: &'a mut Vec<u8>,
+    shown: &'a Shown,
 }
 
-impl Backwards {
-    fn new() -> Backwards {
-        Backwards { bytes: [0; 320], at: 320 }
-    }
-
-    #[inline]
-    fn byte(&mut self, byte: u8) {
-        self.at -= 1;
-        self.bytes[self.at] = byte;
-    }
-
-    #[inline]
+impl Line<'_> {
     fn text(&mut self, text: &[u8]) {
-        self.at -= text.len();
-        self.bytes[self.at..][..text.len()].copy_from_slice(text);
+        self.out.extend_from_slice(text);
     }
 
-    #[inline]
-    fn whole(&mut self, mut value: u64) {
-        loop {
-            self.byte(b'0' + (value % 10) as u8);
-            value /= 10;
-            if value == 0 {
-                return;
-            }
+    /// The line number, which ends at the sixth column or further to the right, and the name of the action. The name
+    /// of an action with values is followed by blanks up to the column of the values.
+    fn head(&mut self, line: u64, what: &str, has_values: bool) {
+        let mut digits = [b' '; 20];
+        let (mut rest, mut at) = (line, digits.len());
+        while rest > 0 || at == digits.len() {
+            at -= 1;
+            digits[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
         }
-    }
-
-    /// A word: its letter, and a number with up to five decimals.
-    #[inline]
-    fn word(&mut self, letter: &[u8], value: f64) {
-        match quantise(value, 5) {
-            Some(units) => {
-                let size = units.unsigned_abs();
-                let mut part = (size % 100_000) as u32;
-                if part > 0 {
-                    let mut decimals = 5;
-                    while part.is_multiple_of(10) {
-                        part /= 10;
-                        decimals -= 1;
-                    }
-                    for _ in 0..decimals {
-                        self.byte(b'0' + (part % 10) as u8);
-                        part /= 10;
-                    }
-                    self.byte(b'.');
-                }
-                self.whole(size / 100_000);
-                if units < 0 {
-                    self.byte(b'-');
-                }
-            }
-            None => self.text(format!("{value:e}").as_bytes()),
-        }
-        self.text(letter);
-    }
-
-    fn position(&mut self, to: &[f64; 6], unknown: u8, across: Option<f64>, axes: &Axes) {
-        for axis in (axes.always..6).rev() {
-            if to[axis] != 0.0 {
-                self.word(axes.letters[axis], to[axis]);
-            }
-        }
-        for (axis, letter) in axes.letters[..axes.always].iter().copied().enumerate().rev() {
-            match (axis, across) {
-                (1, Some(_)) => {}
-                _ if unknown & 1 << axis != 0 => {
-                    self.byte(b'?');
-                    self.text(letter);
-                }
-                (0, Some(times)) => self.word(letter, to[0] * times),
-                _ => self.word(letter, to[axis]),
-            }
-        }
-    }
-
-    /// The axes at a machine position. The axes are written before the position, because the line is written backwards.
-    fn in_machine(&mut self, bits: u8, axes: &Axes) {
-        self.text(b" in machine coordinates)");
-        let named = (0..6).rev().filter(|axis| bits & 1 << axis != 0);
-        named.for_each(|axis| self.text(axes.letters[axis].trim_ascii_start()));
-        self.text(b"  (");
-    }
-
-    /// The line number and the name of the action, before the rest.
-    fn head(&mut self, line: u64, what: &[u8]) {
-        // the column is padded only if text follows
-        if self.at < self.bytes.len() - 1 {
+        self.text(&digits[at.min(digits.len() - 6)..]);
+        self.text(b"  ");
+        self.text(what.as_bytes());
+        if has_values {
             self.text(&b"        "[what.len()..]);
         }
-        self.text(what);
-        self.text(b"  ");
-        let before = self.at;
-        self.whole(line);
-        let width = before - self.at;
-        self.text(&b"      "[width.min(6)..]);
+    }
+
+    /// Text and a number.
+    fn number(&mut self, before: &str, value: f64) {
+        self.text(before.as_bytes());
+        self.word(Lead::default(), value);
+    }
+
+    #[inline]
+    fn word(&mut self, lead: Lead, value: f64) {
+        let units = quantise(value, DECIMALS);
+        if units.is_none_or(|units| self.shown.numbers.write(self.out, lead, units, true).is_err()) {
+            lead.write(self.out);
+            self.text(format!("{value:e}").as_bytes());
+        }
+    }
+
+    fn position(&mut self, to: &[f64; 6], machine: u8) {
+        let Shown { unknown, across, axes, .. } = *self.shown;
+        for (axis, letter) in axes.letters.iter().copied().enumerate() {
+            let is_left_out = if axis < axes.always { axis == 1 && across.is_some() } else { to[axis] == 0.0 };
+            if is_left_out {
+                continue;
+            }
+            let mut lead = Lead::default();
+            if axis > 0 {
+                lead.push(b' ');
+            }
+            lead.push(letter);
+            if unknown && machine & 1 << axis != 0 && axis < axes.always {
+                lead.write(self.out);
+                self.text(b"?");
+            } else {
+                self.word(lead, if axis == 0 { to[0] * across.unwrap_or(1.0) } else { to[axis] });
+            }
+        }
+    }
+
+    /// The axes at a machine position, unless unknown positions are shown as `?`.
+    fn in_machine(&mut self, bits: u8) {
+        if bits != 0 && !self.shown.unknown {
+            self.text(b"  (");
+            let letters = self.shown.axes.letters;
+            self.out.extend((0..6).filter(|axis| bits & 1 << axis != 0).map(|axis| letters[axis]));
+            self.text(b" in machine coordinates)");
+        }
+    }
+
+    fn arc(&mut self, turn: &Turn) {
+        let Shown { across, axes, .. } = *self.shown;
+        self.position(&turn.to, turn.machine);
+        self.number(" F", turn.feed);
+        self.number("  centre X", turn.center[0] * across.unwrap_or(1.0));
+        if across.is_none() {
+            self.number(" Y", turn.center[1]);
+        }
+        if axes.always == 3 {
+            self.number(" Z", turn.center[2]);
+        }
+        self.text(b" in ");
+        self.text(plane_name(turn.plane).as_bytes());
+        if turn.turns > 0 {
+            self.number(", whole turns before: ", f64::from(turn.turns));
+        }
     }
 }
 
-/// One action as a line of text.
-pub fn line(item: &Item, run: &Simulator<'_>, Shown { unknown, across, axes }: Shown, out: &mut Vec<u8>) {
-    let hidden = |machine: u8| if unknown { machine } else { 0 };
-    let mut text = Backwards::new();
-    text.byte(b'\n');
-    let what = match &item.action {
+/// The name of an action in the text. `None`: the text does not show actions of this kind.
+fn name_of(action: &Action) -> Option<&'static str> {
+    Some(match action {
+        Action::Rapid { .. } => "rapid",
+        Action::Feed { .. } => "feed",
+        Action::Arc(turn) => turn_name(turn.direction),
+        Action::Dwell(_) => "dwell",
+        Action::Spindle(..) => "spindle",
+        Action::Orient(_) => "orient",
+        Action::Tool(_) => "tool",
+        Action::Work(_) => "work",
+        Action::Stop(_) => "stop",
+        Action::Coolant(_) => "coolant",
+        Action::Units(_) => "units",
+        Action::End => "end",
+        Action::Comment(..) => "comment",
+        _ => return None,
+    })
+}
+
+/// Appends one action as a line of text.
+pub fn line(item: &Item, run: &Simulator<'_>, shown: &Shown, out: &mut Vec<u8>) {
+    let Some(what) = name_of(&item.action) else { return };
+    let mut text = Line { out, shown };
+    text.head(item.line, what, !matches!(item.action, Action::End));
+    match &item.action {
         Action::Rapid { to, machine, .. } => {
-            if *machine != 0 && !unknown {
-                text.in_machine(*machine, axes);
-            }
-            text.position(to, hidden(*machine), across, axes);
-            "rapid"
+            text.position(to, *machine);
+            text.in_machine(*machine);
         }
         Action::Feed { to, feed, lead, machine, home } => {
-            if *home != 0 && !unknown {
-                text.in_machine(*home, axes);
-            }
+            text.position(to, *machine);
             match lead {
-                Some(lead) => text.word(b" lead ", *lead),
-                None => text.word(b" F", *feed),
+                Some(lead) => text.number(" lead ", *lead),
+                None => text.number(" F", *feed),
             }
-            text.position(to, hidden(*machine), across, axes);
-            "feed"
+            text.in_machine(*home);
         }
-        Action::Arc(turn) => {
-            if turn.turns > 0 {
-                text.word(b", whole turns before: ", f64::from(turn.turns));
-            }
-            text.text(plane_name(turn.plane).as_bytes());
-            text.text(b" in ");
-            if axes.always == 3 {
-                text.word(b" Z", turn.center[2]);
-            }
-            if across.is_none() {
-                text.word(b" Y", turn.center[1]);
-            }
-            text.word(b"  centre X", turn.center[0] * across.unwrap_or(1.0));
-            text.word(b" F", turn.feed);
-            text.position(&turn.to, hidden(turn.machine), across, axes);
-            turn_name(turn.direction)
-        }
+        Action::Arc(turn) => text.arc(turn),
         Action::Dwell(seconds) => {
+            text.number("", *seconds);
             text.text(b" s");
-            text.word(b"", *seconds);
-            "dwell"
         }
         Action::Spindle(rotation, speed) => {
-            text.word(b" S", *speed);
             text.text(rotation.name().as_bytes());
-            "spindle"
+            text.number(" S", *speed);
         }
-        Action::Orient(angle) => number_line(&mut text, angle.unwrap_or(0.0), "orient"),
+        Action::Orient(angle) => text.number("", angle.unwrap_or(0.0)),
         Action::Tool(tool) => match run.state().tool_name(*tool) {
-            Some(name) => name_line(&mut text, &escaped(&name), "tool"),
-            None => number_line(&mut text, *tool, "tool"),
+            Some(name) => text.text(escaped(&name).as_bytes()),
+            None => text.number("", *tool),
         },
-        Action::Work(value) => number_line(&mut text, *value, "work"),
-        Action::Stop(kind) => name_line(&mut text, stop_name(*kind), "stop"),
-        Action::Coolant(kind) => name_line(&mut text, kind.name(), "coolant"),
-        Action::Units(units) => name_line(&mut text, units.name(), "units"),
-        Action::End => "end",
+        Action::Work(value) => text.number("", *value),
+        Action::Stop(kind) => text.text(stop_name(*kind).as_bytes()),
+        Action::Coolant(kind) => text.text(kind.name().as_bytes()),
+        Action::Units(units) => text.text(units.name().as_bytes()),
         Action::Comment(start, end) => {
-            text.byte(b' ');
-            text.head(item.line, b"comment");
+            text.text(b" ");
             let comment = text_of(run.text().get(*start..*end).unwrap_or_default());
-            out.extend_from_slice(&text.bytes[text.at..text.bytes.len() - 1]);
-            out.extend_from_slice(escaped(comment.trim()).as_bytes());
-            out.push(b'\n');
-            return;
+            text.text(escaped(comment.trim()).as_bytes());
         }
-        _ => return,
-    };
-    text.head(item.line, what.as_bytes());
-    out.extend_from_slice(&text.bytes[text.at..]);
-}
-
-fn number_line(text: &mut Backwards, value: f64, what: &'static str) -> &'static str {
-    text.word(b"", value);
-    what
-}
-
-fn name_line(text: &mut Backwards, name: &str, what: &'static str) -> &'static str {
-    text.text(name.as_bytes());
-    what
+        _ => {}
+    }
+    text.text(b"\n");
 }
